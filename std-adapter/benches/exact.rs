@@ -1,5 +1,5 @@
-//! What exact signs cost, a pair: where most pairs can be culled, where floating point decides nothing, and with the widest
-//! numbers.
+//! Measures the cost of exact signs for a pair: on pairs that can mostly be culled, on pairs that floating point cannot decide,
+//! and on numbers of all sizes.
 
 mod pairs;
 
@@ -10,7 +10,7 @@ use selvedge_core::verification::exact::{UNKNOWN, control_value_signs, is_never_
 use selvedge_core::{PrimitivePair, Scalar};
 use std::hint::black_box;
 
-/// How many pairs of `pairs` the tests cull, measured by the pair.
+/// Measures tests by the pair, over all of `pairs`.
 fn measure<S: Scalar>(criterion: &mut Criterion, set: &str, pairs: &[PrimitivePair<S>]) {
     let mut group = criterion.benchmark_group(format!("{set}/{}", S::NAME));
     group.throughput(Throughput::Elements(COUNT as u64));

@@ -1,7 +1,7 @@
-//! Every batched test and every filter tier, on tiles that stay in the first cache and on pairs gathered from a mesh of a
-//! million vertices. `cargo bench -p selvedge-benches --bench filters`; a word behind it selects, such as `gathered/f32`.
+//! Measures every batched test and every filter tier, on tiles that stay in the first cache and on pairs gathered from a mesh of
+//! a million vertices. Run `cargo bench -p selvedge-benches --bench filters`; a word behind it selects, such as `gathered/f32`.
 //!
-//! The time that criterion prints per element is the time per pair.
+//! Criterion's time per element is the time per pair.
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
@@ -12,8 +12,8 @@ use selvedge_core::{Motion, PrimitivePair, Scalar, filter};
 use std::hint::black_box;
 use std::time::Duration;
 
-/// Two wavy sheets of `side`² vertices each, one above the other, that move through one another here and there; and for each
-/// square a vertex of the one against a triangle of the other.
+/// Two wavy sheets of `side`² vertices each, one above the other, which pass through one another in places. For each square, a
+/// vertex of one is paired with a triangle of the other.
 struct Sheets<S> {
     rows: Vec<VertexRow<S>>,
     indices: Vec<[u32; 4]>,
@@ -49,7 +49,7 @@ impl<S: Scalar> Sheets<S> {
     }
 }
 
-/// Edges of about one hundredth; the sheets are half as far apart.
+/// A vertex of a sheet with edges of about one hundredth; the sheets are half as far apart.
 fn vertex<S: Scalar>(sheet: u8, i: f64, j: f64) -> VertexRow<S> {
     let sheet = f64::from(sheet);
     let height = 0.005 * sheet + 0.01 * (0.7 * i + 0.3 * sheet).sin();
@@ -74,7 +74,7 @@ fn levels() -> Vec<(&'static str, Level)> {
     levels
 }
 
-/// Where the pairs come from.
+/// The source of the pairs.
 #[derive(Clone, Copy, PartialEq)]
 enum Place {
     /// Tiles, or a list of pairs, that stay in the first cache.

@@ -55,7 +55,7 @@ fn scenes(meshes: &[[PathBuf; 2]]) -> Result<Scenes, Failure> {
     let arm = ArmFrames::new(1, 120)?;
     let last = arm.step_count() - 1;
     let steps = [last / 2, 3 * last / 4, last].map(|frame| (frame, DVec3::ZERO));
-    let set = PairSet::of_steps("arm".to_owned(), &arm, &steps, SCENE_PAIRS)?;
+    let set = PairSet::from_steps("arm".to_owned(), &arm, &steps, SCENE_PAIRS)?;
     add(&mut scenes, &set);
     for [start, end] in meshes {
         let step = read_step(start, end)?;
@@ -65,7 +65,7 @@ fn scenes(meshes: &[[PathBuf; 2]]) -> Result<Scenes, Failure> {
             start: step.start,
             end: step.end,
         };
-        let set = PairSet::of_steps("mesh".to_owned(), &frames, &[(0, DVec3::ZERO)], SCENE_PAIRS)?;
+        let set = PairSet::from_steps("mesh".to_owned(), &frames, &[(0, DVec3::ZERO)], SCENE_PAIRS)?;
         add(&mut scenes, &set);
     }
     eprintln!(

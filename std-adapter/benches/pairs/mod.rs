@@ -1,4 +1,4 @@
-//! Pairs to measure with: the same ones on every machine.
+//! Pairs to measure with, the same on every machine.
 
 #![allow(dead_code, reason = "each bench uses a part")]
 
@@ -6,7 +6,7 @@ use selvedge_core::filter::certified::non_coplanarity;
 use selvedge_core::verification::exact::{UNKNOWN, is_never_coplanar};
 use selvedge_core::{Motion, PairKind, PrimitivePair, Scalar};
 
-/// How many pairs a set has: enough that branches are not learnt by heart, few enough to stay in cache.
+/// The number of pairs in a set: too many for the processor to learn their branches, few enough for the cache.
 pub(crate) const COUNT: usize = 1024;
 
 /// Uniform numbers by `SplitMix64`.
@@ -31,7 +31,7 @@ impl Random {
     }
 }
 
-/// Of each point its position at the start and at the end, rounded.
+/// A pair from the start and the end of each point, rounded.
 fn vertex_face<S: Scalar>(points: [[[f64; 3]; 2]; 4]) -> PrimitivePair<S> {
     let rounded = |position: [f64; 3]| position.map(S::from_f64).into();
     PrimitivePair {
@@ -47,7 +47,7 @@ fn plus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|axis| a[axis] + b[axis])
 }
 
-/// Features of a centimetre, somewhere in a cube of two metres, that move by up to a centimetre.
+/// Features of a centimetre in a cube of two metres, which move by up to a centimetre.
 pub(crate) fn cloth<S: Scalar>() -> Vec<PrimitivePair<S>> {
     let mut random = Random(1);
     let mut pair = || {
@@ -65,8 +65,8 @@ pub(crate) fn nearly_coplanar<S: Scalar>() -> Vec<PrimitivePair<S>> {
     pairs.filter(is_undecided).take(COUNT).collect()
 }
 
-/// The vertex lies a few units in the last place above the plane of the face: too little for floating point, but all four
-/// control values have one sign, so that all four have to be computed.
+/// The vertex lies a few units in the last place above the plane of the face. That is too little for floating point, but all four
+/// control values have one sign, so that all four must be computed.
 pub(crate) fn barely_above<S: Scalar>() -> Vec<PrimitivePair<S>> {
     let mut random = Random(3);
     let height = 4.0 * S::UNIT_ROUNDOFF.to_f64();
@@ -80,7 +80,7 @@ fn near_a_plane<S: Scalar>(random: &mut Random, height: f64) -> PrimitivePair<S>
     let mut positions = [[[0.0; 3]; 2]; 4];
     for end in 0..2 {
         for (point, position) in positions.iter_mut().enumerate() {
-            // The grid of `S`, so that its rounding to `S` does not lift a point from the plane by a slope.
+            // Coordinates are on the grid of `S`, so that rounding to `S` does not lift a point from the plane by a slope.
             let [x, y, _] = random.position(1.0).map(|x| S::from_f64(x).to_f64());
             let above = if point == 0 { height } else { 0.0 };
             position[end] = [x, y, x_slope * x + y_slope * y + base + above];
@@ -93,7 +93,7 @@ fn is_undecided<S: Scalar>(pair: &PrimitivePair<S>) -> bool {
     !non_coplanarity(pair).is_culled()
 }
 
-/// Coordinates of every size there is: each exponent as likely as the others.
+/// Coordinates of all sizes: each exponent is as likely as the others.
 pub(crate) fn all_sizes<S: Scalar>() -> Vec<PrimitivePair<S>> {
     let mut random = Random(4);
     let largest = (1 << (S::EXPONENT_BITS - 1)) - 1;

@@ -65,8 +65,12 @@ pub use world::{Animation, Body, BodyMotion, Cloth, Keyframe, KeyframeMotion, Ma
 /// The scene of the paper's sleeve on a bending arm, as text for [`Scene::parse`].
 pub const ARM_SLEEVE: &str = include_str!("../scenes/arm-sleeve.toml");
 
-/// The scene of a skinned figure that walks in a shirt, as text. Its files `walker.glb` and `walker-shirt.ply` lie beside it.
-pub const WALKER: &str = include_str!("../scenes/walker.toml");
+/// The files of a scene in which a skinned figure walks in a shirt, by name. The scene file refers to the other two.
+pub const WALKER: [(&str, &[u8]); 3] = [
+    ("walker.toml", include_bytes!("../scenes/walker.toml")),
+    ("walker.glb", include_bytes!("../scenes/walker.glb")),
+    ("walker-shirt.ply", include_bytes!("../scenes/walker-shirt.ply")),
+];
 
 /// Runs the readme's examples as tests.
 #[cfg(doctest)]

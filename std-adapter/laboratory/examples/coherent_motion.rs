@@ -1,12 +1,12 @@
-//! What the detector's mode for coherent motion saves: both ways over the steps of a simulated scene, in turn, in one process, on one
-//! thread.
+//! Measures what the detector's mode for coherent motion saves. Both modes run in turn over the steps of a simulated scene, in
+//! one process, on one thread.
 //!
 //! ```sh
 //! cargo run --release -p selvedge-laboratory --example coherent_motion -- SCENE.toml FIRST STEPS [SEPARATION in metres]...
 //! ```
 //!
-//! The scene is simulated for FIRST steps; the next STEPS are asked about, for each separation, in several passes: of each step the fastest
-//! counts, so that an interruption is not taken for a slow step. Contacts must be the same, times included.
+//! The scene is simulated for FIRST steps. The next STEPS are measured for each separation, in several passes. The fastest run of
+//! each step counts, so that an interruption does not. Contacts must be the same, times included.
 
 use selvedge::core::elementary::Limits;
 use selvedge::glam::DVec3;
@@ -16,7 +16,7 @@ use std::error::Error;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// How often all steps are asked about.
+/// The number of passes over all steps.
 const PASSES: usize = 5;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -87,7 +87,7 @@ fn compare(topology: &Arc<Topology>, frames: &[Vec<DVec3>], separation: f64) -> 
     Ok(())
 }
 
-/// Of all steps.
+/// Counts of all steps.
 struct Counts {
     found: u64,
     followed: u64,
@@ -96,7 +96,8 @@ struct Counts {
     joined: u64,
 }
 
-/// Both ways over all steps; of each but the first, which makes everything, the milliseconds if they are fewer.
+/// Runs both modes over all steps. Keeps the milliseconds of each step if they are fewer than before, except for the first step,
+/// which allocates everything.
 fn pass(
     topology: &Arc<Topology>,
     frames: &[Vec<DVec3>],

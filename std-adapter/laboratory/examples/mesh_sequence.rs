@@ -1,13 +1,13 @@
-//! The contacts of a mesh sequence, step by step, as an engine would ask for them.
+//! Finds the contacts of a mesh sequence, step by step, as an engine would.
 //!
 //! ```sh
 //! cargo run --release -p selvedge-laboratory --example mesh_sequence -- frame-0.ply frame-1.ply frame-2.ply …
 //! cargo run --release -p selvedge-laboratory --example mesh_sequence      # a sleeve on a bending arm
 //! ```
 //!
-//! Meshes are OBJ or PLY files of equal topology. The detector is made once; each step takes two slices of positions and fills
-//! the same list of contacts. Beside the earliest contact, at which the whole mesh would have to be stopped, stands what truncation comes
-//! to: how many vertices are held back, and which share of all their motion together is kept.
+//! Meshes are OBJ or PLY files of equal topology. The detector is made once. Each step takes two slices of positions and fills
+//! the same list of contacts. The table shows the earliest contact, at which the whole mesh would have to stop, beside the result
+//! of truncation: the number of vertices held back, and the share of all their motion that is kept.
 
 use selvedge::Topology;
 use selvedge::glam::DVec3;
@@ -55,7 +55,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// How far all vertices go, together.
+/// The sum of all vertices' paths.
 fn motion(start: &[DVec3], end: &[DVec3]) -> f64 {
     start.iter().zip(end).map(|(from, to)| from.distance(*to)).sum()
 }

@@ -1,8 +1,8 @@
-//! Hard cases of the literature by name, with exact answers: degenerate pairs, Erleben's shapes rebuilt from their geometry, each
-//! at several sizes and places.
+//! Hard cases of the literature by name, with exact answers: degenerate pairs, and Erleben's shapes rebuilt from their geometry.
+//! Each case stands at several sizes and places.
 //!
-//! The file `data/hard-cases.csv` is part of the program. Its answers were found by exact rational arithmetic on the very
-//! numbers that it holds, which the project's tests repeat.
+//! The file `data/hard-cases.csv` is part of the program. Its answers come from exact rational arithmetic on the very numbers
+//! that it holds. The project's tests repeat that computation.
 
 use selvedge_core::glam::DVec3;
 use selvedge_core::{Motion, PrimitivePair};
@@ -11,38 +11,38 @@ use std::sync::OnceLock;
 /// A primitive pair with its exact answer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HardCase {
-    /// What it is.
+    /// The case's name.
     pub name: String,
-    /// Its size, and where it is; units are metres. `far` is 1e7 from the origin along each axis.
+    /// Its size and place, in metres. `far` is 1e7 from the origin along each axis.
     pub placement: String,
     /// The pair.
     pub pair: PrimitivePair<f64>,
     /// Whether and when the pair first touches.
-    pub contact: Contact,
+    pub contact: ExactContact,
 }
 
 /// The exact answer.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Contact {
+pub enum ExactContact {
     /// The pair does not touch at any time in [0, 1].
     Never,
     /// It touches.
     First {
-        /// For readers: a ratio of small numbers, or the beginning of a decimal.
+        /// The time for readers: a ratio of small numbers, or the beginning of a decimal.
         exact: String,
-        /// The time is not before this.
+        /// A lower bound of the time.
         from: f64,
-        /// Nor after this: the next number, or the same.
+        /// An upper bound: the next number, or the same.
         to: f64,
     },
-    /// A coordinate is NaN or infinite: nothing may be excluded.
+    /// A coordinate is NaN or infinite: a method must exclude nothing.
     Undefined,
 }
 
-/// All cases, in the order of the file.
+/// Returns all cases, in the order of the file.
 ///
 /// # Panics
-/// If the file, which is part of the program, is not well-formed: a test reads it.
+/// If the file, which is part of the program, is not well-formed. A test reads it.
 #[must_use]
 pub fn hard_cases() -> &'static [HardCase] {
     static CASES: OnceLock<Vec<HardCase>> = OnceLock::new();
@@ -54,7 +54,7 @@ pub fn hard_cases() -> &'static [HardCase] {
     })
 }
 
-/// name, placement, kind, first, from, to, and 24 coordinates.
+/// Reads a row: name, placement, kind, first, from, to, and 24 coordinates.
 fn case(row: &csv::StringRecord) -> Option<HardCase> {
     let fields: Vec<&str> = row.iter().collect();
     let [name, placement, kind, first, from, to, coordinates @ ..] = fields.as_slice() else {
@@ -73,9 +73,9 @@ fn case(row: &csv::StringRecord) -> Option<HardCase> {
             motions: [0, 1, 2, 3].map(|point| Motion::new(start[point], end[point])),
         },
         contact: match *first {
-            "never" => Contact::Never,
-            "undefined" => Contact::Undefined,
-            exact => Contact::First {
+            "never" => ExactContact::Never,
+            "undefined" => ExactContact::Undefined,
+            exact => ExactContact::First {
                 exact: exact.to_owned(),
                 from: from.parse().ok()?,
                 to: to.parse().ok()?,
@@ -86,7 +86,7 @@ fn case(row: &csv::StringRecord) -> Option<HardCase> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Contact, hard_cases};
+    use super::{ExactContact, hard_cases};
     use std::collections::HashSet;
 
     #[test]
@@ -98,7 +98,7 @@ mod tests {
             .map(|case| (&case.name, &case.placement, case.pair.kind))
             .collect();
         assert_eq!(names.len(), cases.len());
-        for contact in [Contact::Never, Contact::Undefined] {
+        for contact in [ExactContact::Never, ExactContact::Undefined] {
             assert!(cases.iter().any(|case| case.contact == contact));
         }
     }

@@ -1,19 +1,19 @@
-//! The laboratory: measures Selvedge and compares it with the methods published before it.
+//! Measures Selvedge and compares it with the methods published before it.
 //!
-//! **Nothing here is a promise.** Some of these methods are known to miss contacts, and stand here to show it. What is certified or
-//! exact is in [`selvedge_core`] and [`selvedge`]; an engine links those and has no need of this crate.
+//! **Nothing here is a promise.** Some of these methods are known to miss contacts, and are here to show it. The certified and
+//! exact methods are in [`selvedge_core`] and [`selvedge`]; an engine links those and does not need this crate.
 //!
 //! | module | what it is |
 //! |---|---|
 //! | [`baselines`] | published filters and elementary tests that may miss contacts |
-//! | [`methods`] | the one table: every published method, and ours, by name, as a choice of stages |
-//! | [`pipeline`] | **start here**: a method on one step after another, counted and timed |
-//! | [`broad_phase`] | that of the published methods: pairs of triangles whose swept boxes overlap |
+//! | [`methods`] | the table of methods: every published one, and ours, by name, as a choice of stages |
+//! | [`pipeline`] | **start here**: runs a method on one step after another, with counts and times |
+//! | [`broad_phase`] | the broad phase of the published methods: pairs of triangles whose swept boxes overlap |
 //! | [`queries`] | primitive-pair queries of the public continuous collision detection benchmark |
-//! | [`scene`] | built-in motions: a sleeve on a bending arm; a figure that walks in a shirt |
-//! | [`study`] | experiments: methods compared, cost against size, benchmark queries, accuracy against time; data only |
+//! | [`scene`] | a built-in motion: a sleeve on a bending arm |
+//! | [`study`] | experiments: methods compared, cost against size, benchmark queries, accuracy against time; they return data |
 //! | [`hard_cases`] | hard cases of the literature by name, with exact answers |
-//! | [`report`] | what studies and simulations found, as tables, CSV, JSON, plots, pictures, pages and glTF |
+//! | [`report`] | results of studies and simulations as tables, CSV, JSON, plots, pictures, pages and glTF |
 
 pub mod baselines;
 pub mod broad_phase;

@@ -8,7 +8,7 @@ use selvedge_laboratory::methods::Preset;
 use selvedge_laboratory::pipeline::Pipeline;
 use selvedge_laboratory::scene::ArmScene;
 
-/// Allocations in each step, on the thread that calls.
+/// Counts allocations in each step, on the calling thread.
 fn allocations(pipeline: &mut Pipeline<f64>, frames: &[Vec<DVec3>]) -> Vec<u64> {
     let mut step = |start: &[DVec3], end: &[DVec3]| {
         allocation_counter::measure(|| {
@@ -43,7 +43,7 @@ fn a_sleeve_in_waves_allocates_in_its_first_step_only() {
     }
 }
 
-/// The same for an engine's questions, with buffers of its own.
+/// The same for the detector's questions, with the caller's buffers.
 #[test]
 fn a_detector_allocates_in_its_first_step_only() {
     let mesh = sleeve(1).expect("a refinement in range");
@@ -71,8 +71,8 @@ fn a_detector_allocates_in_its_first_step_only() {
     assert_eq!(counted[1..], vec![0; frames.len() - 2]);
 }
 
-/// From where folds begin to meet to the end of the bend, again and again. When the broad phase builds its groups anew, a group's
-/// list may have to grow once more: seldom, and not for ever.
+/// Bends the arm again and again, from where folds begin to meet. When the broad phase builds its tree again, a list may have to
+/// grow once more, but seldom.
 #[test]
 fn the_arm_bent_again_and_again_hardly_allocates_after_the_first_time() {
     let scene = ArmScene::new(1).expect("a refinement in range");

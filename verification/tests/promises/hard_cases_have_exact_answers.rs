@@ -4,7 +4,7 @@
 use selvedge_core::Scalar;
 use selvedge_core::elementary::advance::time_of_impact;
 use selvedge_core::elementary::{ContactVerdict as Verdict, Impact, Limits, contact};
-use selvedge_laboratory::hard_cases::{Contact, HardCase, hard_cases};
+use selvedge_laboratory::hard_cases::{ExactContact, HardCase, hard_cases};
 use selvedge_laboratory::methods::QueryMethod;
 use selvedge_verification::generator::{Format, PairCase};
 use selvedge_verification::hard_cases::table;
@@ -46,9 +46,9 @@ fn answers_read_from_the_file_are_those_of_the_oracle() {
     for case in hard_cases() {
         let pair = pair(case);
         match case.contact {
-            Contact::Undefined => assert!(!pair.is_finite()),
-            Contact::Never => assert!(collides(&pair.question()).is_none(), "{}", case.name),
-            Contact::First { from, to, .. } => {
+            ExactContact::Undefined => assert!(!pair.is_finite()),
+            ExactContact::Never => assert!(collides(&pair.question()).is_none(), "{}", case.name),
+            ExactContact::First { from, to, .. } => {
                 let time = collides(&pair.question()).expect("a contact");
                 assert!(time.cmp_f64(from).is_ge() && time.cmp_f64(to).is_le(), "{}", case.name);
                 assert!(to == from || to == from.next_up());
@@ -128,7 +128,7 @@ fn nudges_cull_no_collision<S: Format>(name: &str, pair: &PairCase<S>) -> usize 
 fn a_nudge_by_one_unit_in_the_last_place_never_turns_a_kept_collision_into_a_cull() {
     let mut culled = 0;
     for case in hard_cases() {
-        if matches!(case.contact, Contact::First { .. }) {
+        if matches!(case.contact, ExactContact::First { .. }) {
             culled += nudges_cull_no_collision(&case.name, &pair(case));
             culled += nudges_cull_no_collision(&case.name, &to_f32(&pair(case)));
         }
@@ -142,7 +142,7 @@ fn a_nudge_by_one_unit_in_the_last_place_never_turns_a_kept_collision_into_a_cul
 fn cases_that_are_clearly_apart_are_excluded() {
     let mut excluded = 0;
     for case in hard_cases() {
-        let is_clear = matches!(case.contact, Contact::Never) && ["1 m", "10 km"].contains(&case.placement.as_str());
+        let is_clear = matches!(case.contact, ExactContact::Never) && ["1 m", "10 km"].contains(&case.placement.as_str());
         if is_clear && !case.name.contains("2^-1074") {
             let kept = QueryMethod::Selvedge.keeps(case.pair);
             assert!(!kept, "{} ({}) is kept", case.name, case.placement);

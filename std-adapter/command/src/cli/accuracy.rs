@@ -10,16 +10,17 @@ use serde_json::{Map, Value};
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Measures what accuracy costs in time: every non-coplanarity filter on the same pairs, and every elementary test.
+/// Measures what accuracy costs in time, for filters and elementary tests
 ///
-/// Filters: from the paper's plain filter, which culls a colliding pair now and then, to exact arithmetic: how much of what exact
-/// arithmetic culls each one culls, what it culls without proof, and how long a pair takes on each instruction set. The
-/// pairs are candidates of the built-in arm scene, the same far from the origin, random pairs that are nearly coplanar, and
-/// those of your own step between two meshes (OBJ or PLY) if you name it; in f32 and in f64.
+/// Filters range from the paper's plain filter, which culls a colliding pair now and then, to exact arithmetic. For each, the
+/// table shows how much it culls of what exact arithmetic culls, what it culls without proof, and the time of a pair on each
+/// instruction set. The pairs are candidates of the built-in arm scene, the same far from the origin, and random pairs that are
+/// nearly coplanar. If you name two meshes (OBJ or PLY), those of your step are measured as well. All sets are measured in f32
+/// and in f64.
 ///
-/// Elementary tests: the certified time of impact at tolerances from 1e-2 to 1e-12, with its error bounds and without, the exact
-/// verdict, and the plain cubic, Tight-Inclusion and additive tests, on such pairs and on the built-in hard cases: time per pair
-/// against missed contacts, false alarms and the error of the time.
+/// Elementary tests are the certified time of impact at tolerances from 1e-2 to 1e-12, with its error bounds and without, the
+/// exact verdict, and the plain cubic, Tight-Inclusion, additive and Bernstein sign tests. They run on such pairs and on the
+/// built-in hard cases. The table shows time per pair, missed contacts, false alarms and the error of the time.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -28,10 +29,10 @@ Examples:
   selvedge accuracy --pairs 5000 --repeat 1 --json
   selvedge accuracy --only elementary --elementary-svg elementary.svg
 
-Times are only as quiet as the machine. In each format, a filter is compared
-with exact arithmetic on the coordinates that it is given, rounded to it.")]
+Other load on the machine disturbs the times. Exact arithmetic works on the
+coordinates that a filter gets, rounded to its format.")]
 pub(crate) struct Accuracy {
-    /// The mesh at the start of a step to take pairs from as well
+    /// A mesh at the start of a step, whose pairs are measured as well
     #[arg(requires = "end")]
     start: Option<PathBuf>,
     /// The mesh at the end of that step
@@ -39,40 +40,40 @@ pub(crate) struct Accuracy {
     /// Measure only the filters, or only the elementary tests
     #[arg(long, value_enum)]
     only: Option<Part>,
-    /// How many pairs to take of each set; of a larger set, evenly spaced runs. About 50,000 of them are timed
+    /// Take this many pairs of each set at most, in evenly spaced runs. About 50,000 of them are timed
     #[arg(long, value_name = "N", default_value_t = 200_000, value_parser = clap::value_parser!(u32).range(1..))]
     pairs: u32,
-    /// How often each timed pair goes through each filter; the fastest counts
+    /// Run each timed pair this often through each filter; the fastest run counts
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..))]
     repeat: u32,
-    /// Where random pairs begin
+    /// The seed of random pairs
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Cull only pairs that stay farther apart than this, in the positions' unit
+    /// Cull only pairs that stay farther apart than this, in the unit of the positions
     #[arg(long, value_name = "LENGTH", default_value_t = 0.0, value_parser = separation)]
     separation: f64,
-    /// How many seconds one elementary test may take on one set; what is slower is asked about fewer pairs, some at least
+    /// Limit each elementary test to this many seconds on one set; slower tests run on fewer pairs
     #[arg(long, value_name = "SECONDS", default_value = "0.4", value_parser = budget)]
     budget: Duration,
     /// Print one JSON document instead of tables, or write it to a file
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = "-")]
     json: Option<PathBuf>,
-    /// Write a plot of accuracy against time to this file
+    /// Write a plot of the filters' accuracy against time to this file
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-    /// Write a plot of the elementary tests to this file: the error of the time of impact against time
+    /// Write a plot of the elementary tests' errors against time to this file
     #[arg(long, value_name = "FILE")]
     elementary_svg: Option<PathBuf>,
 }
 
-/// What is measured.
+/// A part of the measurement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Part {
     Filters,
     Elementary,
 }
 
-/// A length that both formats know.
+/// Parses a length that both formats can hold.
 fn separation(text: &str) -> Result<f64, String> {
     let length: f64 = text.parse().map_err(|_| "it is not a number")?;
     if (0.0..=f64::from(f32::MAX)).contains(&length) {
@@ -82,7 +83,7 @@ fn separation(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A time that a clock can measure.
+/// Parses a duration.
 fn budget(text: &str) -> Result<Duration, String> {
     let seconds: f64 = text.parse().map_err(|_| "it is not a number")?;
     Duration::try_from_secs_f64(seconds).map_err(|_| "it must be a number of seconds, zero or more".to_owned())
@@ -104,7 +105,7 @@ impl Accuracy {
             (&self.elementary_svg, Part::Elementary, "--elementary-svg"),
         ] {
             if file.is_some() && !self.measures(part) {
-                return Err(format!("{option} needs what --only leaves out").into());
+                return Err(format!("{option} needs the part that --only leaves out").into());
             }
         }
         let mesh = self.mesh()?;
@@ -171,7 +172,7 @@ impl Accuracy {
     }
 }
 
-/// The filters' document, with that of the elementary tests in it.
+/// Returns the filters' document, which contains that of the elementary tests.
 fn document(filters: Option<&FilterAccuracy>, elementary: Option<&ElementaryAccuracy>) -> Value {
     let mut document = filters.map_or_else(|| Value::Object(Map::new()), json::accuracy);
     if let Some(elementary) = elementary {

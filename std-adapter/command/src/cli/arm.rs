@@ -8,20 +8,20 @@ use selvedge_files::mesh;
 use selvedge_laboratory::scene::ArmScene;
 use std::path::PathBuf;
 
-/// Writes frames of the built-in arm scene as mesh files, to try the other commands on.
+/// Writes frames of the built-in arm scene as mesh files, to try the other commands on
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Example:
   selvedge arm --frames 55,56 --output frames
   selvedge cull frames/arm-55.ply frames/arm-56.ply")]
 pub(crate) struct Arm {
-    /// The frames to write, from 0, the arm straight, to 60, fully bent; with commas between
+    /// Write these frames, from 0 (the arm straight) to 60 (fully bent), separated by commas
     #[arg(long, value_name = "N,…", value_delimiter = ',', default_value = "55,56", value_parser = clap::value_parser!(u32).range(0..=ArmScene::STEPS as i64))]
     frames: Vec<u32>,
     /// Multiply the sleeve's 1,345 triangles by this
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = refinement_parser())]
     refinement: u32,
-    /// The kind of file
+    /// Write this kind of file
     #[arg(long, value_enum, default_value_t = Format::Ply)]
     format: Format,
     /// Write to this folder
@@ -33,7 +33,7 @@ pub(crate) struct Arm {
 enum Format {
     /// Binary PLY
     Ply,
-    /// Text, exact all the same
+    /// Text, without loss of precision
     Obj,
 }
 

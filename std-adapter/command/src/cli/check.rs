@@ -6,19 +6,20 @@ use super::output::{self, OutputFiles};
 use super::progress::Progress;
 use selvedge::{CollisionDetector, Topology};
 use selvedge_files::mesh;
-use selvedge_laboratory::report::{Tangle, intersections_csv, intersections_json, tangle_ply, tangles, tangles_json};
+use selvedge_laboratory::report::{MeshCheck, coloured_ply, intersecting_triangles, mesh_checks, mesh_checks_json};
+use selvedge_laboratory::report::{intersections_csv, intersections_json};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// Tells whether meshes pass through themselves, exactly.
+/// Finds out exactly whether meshes pass through themselves
 ///
-/// Reads meshes (OBJ or PLY), one after the other, and looks at each as it stands: which edges pass through faces or touch them, and which
-/// neighbours are folded flat onto each other. Edges and points of no triangle, of ropes and particles, are looked at as well: lines `l` and `p`
-/// of an OBJ file, the element `edge` of a PLY file, and all vertices of one without faces. Frames of a sequence, with the same triangles, share their hierarchies. Primitives with a
-/// common vertex meet there, which is no intersection.
+/// Reads meshes (OBJ or PLY) and checks each at rest: which edges pass through faces or touch them, and which neighbours are
+/// folded flat onto each other. Ropes and particles are checked as well: lines `l` and `p` of an OBJ file, the element `edge` of
+/// a PLY file, and all vertices of a PLY file without faces. Frames of a sequence, with the same triangles, share their
+/// hierarchies, which is faster. Features that share a vertex do not intersect there.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -31,21 +32,21 @@ The list has mesh,kind,i0,i1,i2,i3,i4: the two vertices of the edge and the thre
 the face, numbered from 0 in the order of the file. A loose edge is a face that
 names its second vertex twice, a point one that names it three times.
 
-Exit status: 0 all are free, 3 there are intersections, 1 the input is at fault,
-2 the command line is at fault.")]
+Exit status: 0 all meshes are free, 3 there are intersections, 1 the input is at
+fault, 2 the command line is at fault.")]
 pub(crate) struct Check {
-    /// The meshes, or the frames of a sequence in their order
+    /// The meshes, or the frames of a sequence in order
     #[arg(required = true, value_name = "MESH")]
     meshes: Vec<PathBuf>,
     #[command(flatten)]
     threads: Threads,
-    /// End at the first intersection of each mesh: tells whether there is any
+    /// Stop at the first intersection of each mesh; report only whether there is one
     #[arg(long, conflicts_with_all = ["list", "ply"])]
     any: bool,
-    /// Write all intersections to this file, as its name ends: .csv or .json
+    /// Write all intersections to this file, as .csv or .json
     #[arg(long, value_name = "OUT.csv")]
     list: Option<PathBuf>,
-    /// Write each mesh that intersects itself to this folder, with what meets in red
+    /// Write each mesh that intersects itself to this folder, with the place in red
     #[arg(long, value_name = "FOLDER")]
     ply: Option<PathBuf>,
     /// Print one JSON document instead of a table
@@ -53,10 +54,10 @@ pub(crate) struct Check {
     json: bool,
 }
 
-/// There are intersections.
+/// The exit status if there are intersections.
 const TANGLED: u8 = 3;
 
-/// How a list is written.
+/// The format of a list.
 #[derive(Clone, Copy)]
 enum ListFormat {
     Csv,
@@ -68,7 +69,7 @@ impl ListFormat {
         match path.extension().and_then(|extension| extension.to_str()) {
             Some(extension) if extension.eq_ignore_ascii_case("csv") => Ok(Self::Csv),
             Some(extension) if extension.eq_ignore_ascii_case("json") => Ok(Self::Json),
-            _ => Err(format!("{}: a list is written as .csv or .json; name it so", path.display()).into()),
+            _ => Err(format!("{}: the name of the list must end in .csv or .json", path.display()).into()),
         }
     }
 }
@@ -89,8 +90,8 @@ impl Check {
             })?;
         }
         files.publish()?;
-        output::answer(self.json, || tangles_json(&found), || tangles(&found))?;
-        let are_free = found.iter().all(|tangle| tangle.is_free);
+        output::answer(self.json, || mesh_checks_json(&found), || mesh_checks(&found))?;
+        let are_free = found.iter().all(|check| check.is_free);
         Ok(if are_free {
             ExitCode::SUCCESS
         } else {
@@ -98,8 +99,8 @@ impl Check {
         })
     }
 
-    /// Looks at one mesh after the other.
-    fn look(&self, coloured: &[PathBuf], files: &mut OutputFiles) -> Result<Vec<Tangle>, Failure> {
+    /// Checks one mesh after the other.
+    fn look(&self, coloured: &[PathBuf], files: &mut OutputFiles) -> Result<Vec<MeshCheck>, Failure> {
         let progress = Progress::steps("checking", self.meshes.len() as u64);
         let mut before: Option<(Arc<Topology>, CollisionDetector<f64>)> = None;
         let mut found = Vec::with_capacity(self.meshes.len());
@@ -119,17 +120,18 @@ impl Check {
             let name = path.display().to_string();
             let begin = Instant::now();
             if self.any {
-                let is_tangled = detector.has_intersections(&mesh.positions)?;
+                let is_free = !detector.has_intersections(&mesh.positions)?;
                 let seconds = begin.elapsed().as_secs_f64();
-                found.push(Tangle::of_any(name, &topology, is_tangled, seconds));
+                found.push(MeshCheck::from_verdict(name, &topology, is_free, seconds));
             } else {
                 detector.intersections(&mesh.positions, &mut intersections)?;
                 let seconds = begin.elapsed().as_secs_f64();
-                found.push(Tangle::new(name, &topology, &intersections, seconds));
+                found.push(MeshCheck::from_intersections(name, &topology, &intersections, seconds));
             }
             if let Some(path) = coloured.get(index).filter(|_| !intersections.is_empty()) {
+                let red = intersecting_triangles(&topology, &intersections);
                 files.add(path.clone(), |out| {
-                    tangle_ply(&mesh.positions, &topology, &intersections, out)
+                    coloured_ply(&mesh.positions, topology.triangles(), &red, out)
                 })?;
             }
             before = Some((topology, detector));
@@ -138,7 +140,8 @@ impl Check {
         Ok(found)
     }
 
-    /// The files with colours, one for each mesh, if they are wanted; refuses what could not be written, before long work.
+    /// Returns the names of the coloured files, one for each mesh, if they are wanted. Refuses files that could not be written,
+    /// before long work.
     fn coloured_files(&self) -> Result<Vec<PathBuf>, Failure> {
         let Some(folder) = &self.ply else {
             return Ok(Vec::new());
@@ -150,7 +153,7 @@ impl Check {
             let file = folder.join(format!("{stem}-intersections.ply"));
             if let Some(other) = meshes.insert(file.clone(), path) {
                 return Err(format!(
-                    "{} and {} would both be written to {}: check them one after the other, into two folders",
+                    "{} and {} would both be written to {}; check them separately, with two folders",
                     other.display(),
                     path.display(),
                     file.display()
@@ -164,7 +167,7 @@ impl Check {
     }
 }
 
-/// Whether it is another frame of the mesh.
+/// Returns whether it is another frame of the mesh.
 fn is_frame_of(topology: &Topology, frame: &Topology) -> bool {
     topology.vertex_count() == frame.vertex_count() && topology.triangles() == frame.triangles()
 }

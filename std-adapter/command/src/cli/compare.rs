@@ -9,19 +9,17 @@ use clap::CommandFactory;
 use clap::error::ErrorKind;
 use selvedge_cloth::{Scene, Simulation};
 use selvedge_laboratory::methods::Preset;
-use selvedge_laboratory::report::{FigurePairs, comparison_csv, comparison_html, comparison_markdown, figure_3, json, tables};
+use selvedge_laboratory::report::{comparison_csv, comparison_html, comparison_markdown, figure_3, json, tables};
 use selvedge_laboratory::scene::ArmScene;
-use selvedge_laboratory::study::{
-    self, ArmFrames, Comparison, Frames, SimulatedSteps, StepCandidates, TwoFrames, busiest_step, step_candidates,
-};
+use selvedge_laboratory::study::{self, ArmFrames, Comparison, Frames, SimulatedSteps, TwoFrames, busiest_step, step_candidates};
 use std::path::{Path, PathBuf};
 
-/// How the comparison is run and printed.
+/// How the comparison runs and is printed.
 #[derive(Debug, clap::Args)]
 pub(super) struct Run {
     #[command(flatten)]
     pub(super) threads: Threads,
-    /// How often each method runs each step; the fastest counts
+    /// Run each step this often with each method; the fastest run counts
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..))]
     rounds: u32,
     /// Print one JSON document instead of tables
@@ -29,10 +27,10 @@ pub(super) struct Run {
     pub(super) json: bool,
 }
 
-/// How finely the arm scene is cut, in time and in space.
+/// Resolution of the arm scene, in time and in space.
 #[derive(Debug, clap::Args)]
 struct Arm {
-    /// Bend the arm in this many steps; of a scene file, compare on this many steps, evenly spread
+    /// Bend the arm in this many steps; with a scene file, compare on this many evenly spread steps
     #[arg(long, value_name = "N", default_value_t = ArmScene::STEPS as u32, value_parser = clap::value_parser!(u32).range(1..))]
     steps: u32,
     /// Multiply the sleeve's 1,345 triangles by this
@@ -46,10 +44,11 @@ impl Arm {
     }
 }
 
-/// Runs every method on the same steps: the paper's Table 1.
+/// Runs every method on the same steps: the paper's Table 1
 ///
-/// Takes the built-in arm scene, a scene file (TOML), which is simulated first, or the step between two meshes of equal
-/// topology (OBJ or PLY). All methods share one broad phase and run each step in turn, so that their times compare.
+/// The steps are those of the built-in arm scene, of a scene file (TOML), which is simulated first, or one step between two
+/// meshes of equal topology (OBJ or PLY). All methods share one broad phase and run each step in turn, so that their times
+/// compare.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -58,13 +57,13 @@ Examples:
   selvedge compare --pipelines lv_2014,selvedge --refinement 100 --threads 0
   selvedge compare frame-92.ply frame-93.ply --csv table.csv")]
 pub(crate) struct Compare {
-    /// The mesh at the start of the step, or a scene file; without it, the arm scene
+    /// The mesh at the start of the step, or a scene file. The default is the arm scene
     #[arg(conflicts_with = "refinement")]
     start: Option<PathBuf>,
     /// The mesh at the end of the step
     #[arg(conflicts_with = "steps")]
     end: Option<PathBuf>,
-    /// The methods to run, with commas between; all of them if left out
+    /// Run these methods, separated by commas. The default is all of them
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = preset_parser())]
     pipelines: Vec<Preset>,
     #[command(flatten)]
@@ -88,7 +87,7 @@ impl Compare {
         }
     }
 
-    /// The steps of a scene.
+    /// Simulates a scene and collects its steps.
     fn simulated(&self, path: &Path) -> Result<SimulatedSteps, Failure> {
         if path.extension().is_none_or(|extension| extension != "toml") {
             let message = format!(
@@ -131,7 +130,7 @@ impl Compare {
         self.run.print(&comparison)
     }
 
-    /// Each method once, in the order asked for.
+    /// Returns each method once, in the order of the command line.
     fn presets(&self) -> Vec<Preset> {
         let mut presets = Vec::new();
         for &preset in &self.pipelines {
@@ -170,8 +169,8 @@ fn read_frames(start: &Path, end: &Path) -> Result<TwoFrames, Failure> {
     })
 }
 
-/// Everything that a run leaves in its folder: the table as CSV, page and Markdown, and the paper's Figure 3, on the step in which
-/// ours has the most candidates left.
+/// Adds the files of a report: the table as CSV, page and Markdown, and the paper's Figure 3 on the step in which our method
+/// leaves the most candidates.
 pub(super) fn add_report(
     files: &mut OutputFiles,
     folder: &Path,
@@ -189,15 +188,6 @@ pub(super) fn add_report(
     let ours = step_candidates(frames, step, Preset::Selvedge, threads)?;
     let (mut start, mut positions) = (Vec::new(), Vec::new());
     frames.step(step, &mut start, &mut positions);
-    let [basic, ours] = [&basic, &ours].map(panel);
-    let figure = figure_3(frames.topology(), &positions, &basic, &ours)?;
+    let figure = figure_3(frames.topology(), &positions, [&basic, &ours])?;
     files.add_bytes(folder.join("figure-3.png"), &figure)
-}
-
-fn panel(candidates: &StepCandidates) -> FigurePairs<'_> {
-    FigurePairs {
-        name: candidates.preset.to_string(),
-        vertex_face: &candidates.vertex_face,
-        edge_edge: &candidates.edge_edge,
-    }
 }

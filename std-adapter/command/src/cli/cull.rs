@@ -16,10 +16,10 @@ use selvedge_laboratory::pipeline::{Contact, Pipeline, StepReport};
 use selvedge_laboratory::report::{StepQuestion, StepSummary, contacts_csv, json, pairs_csv, tables};
 use std::path::{Path, PathBuf};
 
-/// Finds the pairs of a mesh that may collide during one time step.
+/// Finds the pairs of a mesh that may collide during one time step
 ///
-/// Reads the mesh at the start and at the end of the step (OBJ or PLY, the same vertices and triangles in the same
-/// order; vertices move on straight lines), runs one method, and prints what each stage left over.
+/// Reads the mesh at the start and at the end of the step (OBJ or PLY, the same vertices and triangles in the same order).
+/// Vertices move on straight lines. Runs one method and prints the pairs after each stage.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -36,34 +36,34 @@ pub(crate) struct Cull {
     start: PathBuf,
     /// The mesh at the end of the step
     end: PathBuf,
-    /// The method: author and year, or ours
+    /// Run this method: an author and year, or ours
     #[arg(long, value_name = "NAME", default_value_t = Preset::Selvedge, value_parser = preset_parser())]
     pipeline: Preset,
     #[command(flatten)]
     threads: Threads,
     #[command(flatten)]
     simd: Simd,
-    /// The format to compute in
+    /// Compute in this format
     #[arg(long, value_enum, default_value_t = ScalarChoice::F64)]
     scalar: ScalarChoice,
     /// Write the contacts, with their times, to this file
     #[arg(long, value_name = "OUT.csv")]
     pairs: Option<PathBuf>,
-    /// Write the pairs that reach the elementary test to this file; with --candidates-only or --swept-boxes, those of the
+    /// Write the pairs that reach the elementary test to this file. With --candidates-only or --swept-boxes, write those of the
     /// broad phase
     #[arg(long, value_name = "OUT.csv")]
     candidates: Option<PathBuf>,
-    /// End after the broad phase: the pairs that moving boxes leave (pipeline selvedge only)
+    /// Stop after the broad phase, with the pairs that moving boxes leave (pipeline selvedge only)
     #[arg(long, conflicts_with_all = ["earliest", "pairs"])]
     candidates_only: bool,
-    /// Take the pairs whose swept boxes overlap, which are more: those that other systems count. All stages after the
-    /// broad phase then start from these, as from pairs of a caller's own (pipelines selvedge and selvedge_exact only)
+    /// Start from the pairs whose swept boxes overlap, which other systems count. They are more than those of moving boxes
+    /// (pipelines selvedge and selvedge_exact only)
     #[arg(long, conflicts_with = "earliest")]
     swept_boxes: bool,
-    /// Find the earliest contact and no other (pipeline selvedge only)
+    /// Find only the earliest contact (pipeline selvedge only)
     #[arg(long, conflicts_with = "candidates")]
     earliest: bool,
-    /// Run the step so often and tell the fastest run's times (the first builds the hierarchy and makes the buffers)
+    /// Run the step this often and print the fastest run's times. The first run builds the hierarchy and allocates buffers
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     repeat: u32,
     /// Print one JSON document instead of a table
@@ -90,16 +90,10 @@ impl Cull {
             return Err("--pairs and --candidates name the same file".into());
         }
 
-        if let Some(question) = self.question() {
-            let is_exact = self.pipeline == Preset::SelvedgeExact;
-            if !(self.pipeline == Preset::Selvedge || is_exact && question == Question::Swept) {
-                return Err(format!(
-                    "only the pipeline {} answers {}, not {}",
-                    Preset::Selvedge,
-                    question.option(),
-                    self.pipeline
-                )
-                .into());
+        if let Some((question, option)) = self.question() {
+            let is_exact = self.pipeline == Preset::SelvedgeExact && self.swept_boxes;
+            if !(self.pipeline == Preset::Selvedge || is_exact) {
+                return Err(format!("only the pipeline selvedge supports {option}, not {}", self.pipeline).into());
             }
             return self.ask::<S>(question, step.topology, &start, &end);
         }
@@ -113,12 +107,12 @@ impl Cull {
                 fastest.meet(pipeline.step(&start, &end)?);
             }
         }
-        let summary = StepSummary::new(self.pipeline, &pipeline);
+        let summary = StepSummary::from_pipeline(self.pipeline, &pipeline);
         let candidates = [PairKind::VertexFace, PairKind::EdgeEdge].map(|kind| pipeline.candidates(kind));
         self.tell(summary, &fastest, pipeline.topology(), pipeline.contacts(), candidates)
     }
 
-    /// Writes the files that were asked for, and prints what the fastest run counted.
+    /// Writes the requested files, and prints the counts of the fastest run.
     fn tell<S: Scalar>(
         &self,
         mut summary: StepSummary,
@@ -141,7 +135,7 @@ impl Cull {
     }
 }
 
-/// The fastest of several runs of a step, and how long the first one took.
+/// The fastest of several runs of a step, and the time of the first one.
 #[derive(Default)]
 struct Fastest {
     report: StepReport,
@@ -157,39 +151,21 @@ impl Fastest {
     }
 }
 
-/// What a detector is asked instead of all contacts from the moving boxes on.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Question {
-    Candidates,
-    Earliest,
-    /// All contacts of the pairs whose swept boxes overlap.
-    Swept,
-}
-
-impl Question {
-    const fn option(self) -> &'static str {
-        match self {
-            Self::Candidates => "--candidates-only",
-            Self::Earliest => "--earliest",
-            Self::Swept => "--swept-boxes",
-        }
-    }
-}
-
 impl Cull {
-    fn question(&self) -> Option<Question> {
+    /// Returns the question that only a detector answers, and its option.
+    fn question(&self) -> Option<(StepQuestion, &'static str)> {
         match (self.candidates_only, self.earliest, self.swept_boxes) {
-            (true, ..) => Some(Question::Candidates),
-            (_, true, _) => Some(Question::Earliest),
-            (_, _, true) => Some(Question::Swept),
+            (true, ..) => Some((StepQuestion::Candidates, "--candidates-only")),
+            (_, true, _) => Some((StepQuestion::Earliest, "--earliest")),
+            (_, _, true) => Some((StepQuestion::Contacts, "--swept-boxes")),
             _ => None,
         }
     }
 
-    /// One of the questions that pipelines do not answer.
+    /// Answers a question that pipelines do not.
     fn ask<S: Scalar>(
         &self,
-        question: Question,
+        question: StepQuestion,
         topology: Topology,
         start: &[S::Vector],
         end: &[S::Vector],
@@ -212,19 +188,19 @@ impl Cull {
         {
             let _progress = Progress::spinner("culling");
             for _ in 0..self.repeat {
-                if question == Question::Earliest {
+                if question == StepQuestion::Earliest {
                     contacts = detector.earliest(start, end)?.into_iter().collect();
                 } else {
                     detector.candidates(start, end, boxes, &mut vertex_face, &mut edge_edge)?;
                 }
-                let mut report = StepReport::of_detector(detector.statistics());
+                let mut report = StepReport::from_detector(detector.statistics());
                 match question {
-                    Question::Earliest => {}
-                    Question::Candidates => report.stages.clear(),
-                    Question::Swept => {
+                    StepQuestion::Earliest => {}
+                    StepQuestion::Candidates => report.stages.clear(),
+                    StepQuestion::Contacts => {
                         let pairs = (&vertex_face, &edge_edge);
                         detector.contacts_of(start, end, pairs.0, pairs.1, &mut contacts)?;
-                        report = StepReport::of_detector_after(detector.statistics(), report.seconds);
+                        report = StepReport::from_given_pairs(detector.statistics(), report.seconds);
                     }
                 }
                 fastest.meet(&report);
@@ -232,19 +208,14 @@ impl Cull {
         }
         let times = contacts.iter().map(|contact| contact.time.to_f64());
         let earliest = times.min_by(f64::total_cmp);
-        let question = match question {
-            Question::Candidates => StepQuestion::Candidates,
-            Question::Earliest => StepQuestion::Earliest,
-            Question::Swept => StepQuestion::Contacts,
-        };
-        let mut summary = StepSummary::of_detector(question, &detector, StepReport::default(), earliest);
+        let mut summary = StepSummary::from_detector(question, &detector, StepReport::default(), earliest);
         summary.preset = self.pipeline;
         let candidates = [&*vertex_face, &*edge_edge];
         self.tell(summary, &fastest, detector.topology(), &contacts, candidates)
     }
 }
 
-/// Positions in the format `S`.
+/// Converts positions to the format `S`.
 fn positions<S: Scalar>(positions: &[DVec3], file: &Path) -> Result<Vec<S::Vector>, Failure> {
     let mut rounded = 0_usize;
     let converted = positions.iter().enumerate().map(|(vertex, position)| {

@@ -7,10 +7,10 @@ use super::progress::Progress;
 use selvedge_laboratory::report::{json, tables};
 use selvedge_laboratory::study::ask_hard_cases;
 
-/// Asks every method about hard cases by name: degenerate pairs, grazes, the shapes of the literature.
+/// Runs every method on hard cases by name: degenerate pairs, grazes, shapes of the literature
 ///
-/// Each stands at several sizes, from a micrometre to ten kilometres, near the origin, 10,000 km from it, and turned so that
-/// coordinates are rounded. The exact answer is printed beside, and every wrong one is marked, ours and others'.
+/// Each case stands at several sizes, from a micrometre to ten kilometres: near the origin, 10,000 km from it, and turned so that
+/// coordinates are rounded. The table shows the exact answer and marks every wrong one, ours included.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -18,13 +18,13 @@ Examples:
   selvedge hard-cases spike
   selvedge hard-cases --scalar f32 --json
 
-Sizes and times are exact: 1 um is 2^-20, 10 km 2^13 times the shape. In f32 only cases
-are asked whose coordinates it holds exactly.")]
+Sizes are exact: 1 um is 2^-20 times the shape, 10 km is 2^13 times. With f32, only
+cases run whose coordinates f32 holds exactly.")]
 pub(crate) struct HardCases {
     /// Only cases whose name contains this
     #[arg(value_name = "NAME", default_value = "", hide_default_value = true)]
     name: String,
-    /// The format to compute in
+    /// Compute in this format
     #[arg(long, value_enum, default_value_t = ScalarChoice::F64)]
     scalar: ScalarChoice,
     /// Print one JSON document instead of a table
@@ -35,7 +35,7 @@ pub(crate) struct HardCases {
 impl HardCases {
     pub(crate) fn run(&self) -> Result<(), Failure> {
         let (scalar, results) = {
-            let progress = Progress::bar("asking");
+            let progress = Progress::bar("running methods");
             let mut progress = |share| progress.set(share);
             match self.scalar {
                 ScalarChoice::F64 => ("f64", ask_hard_cases::<f64>(&self.name, &mut progress)),

@@ -1,4 +1,4 @@
-//! `selvedge` without a subcommand: the arm sleeve in motion, and every method on its steps.
+//! `selvedge` without a subcommand: simulates the arm sleeve and runs every method on its steps.
 
 use super::Failure;
 use super::compare::{Run, add_report};

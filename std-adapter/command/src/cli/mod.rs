@@ -1,4 +1,4 @@
-//! The `selvedge` command: reads arguments and files, runs a study, prints and writes what it found.
+//! The `selvedge` command. It reads arguments and files, runs a study, and prints and writes the results.
 
 mod accuracy;
 mod arm;
@@ -18,13 +18,13 @@ mod walker;
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
-/// What went wrong with the input, in words for the user.
+/// An error in the input, in words for the user.
 pub(crate) type Failure = Box<dyn std::error::Error + Send + Sync>;
 
-/// Finds which vertex–face and edge–edge pairs of a deforming triangle mesh can collide during a time step.
+/// Finds the vertex–face and edge–edge pairs of a deforming triangle mesh that can collide during a time step
 ///
-/// Without a subcommand: simulates a sleeve on a bending arm, runs every published method on steps of it, prints the
-/// comparison, and writes it to a folder with a report to look at.
+/// Without a subcommand, simulates a sleeve on a bending arm and runs every published method on its steps. Prints the comparison,
+/// and writes it to a folder with a report to look at.
 #[derive(Debug, Parser)]
 #[command(name = "selvedge", version, max_term_width = 80, args_conflicts_with_subcommands = true, after_help = EXAMPLES)]
 struct Cli {
@@ -38,14 +38,14 @@ const EXAMPLES: &str = "\
 Examples:
   selvedge                                  a sleeve in motion, all methods on it
   selvedge cull a.ply b.ply                 pairs that may collide from a to b
-  selvedge cull a.ply b.ply --pairs c.csv   … and the contacts, one a line
+  selvedge cull a.ply b.ply --pairs c.csv   … and the contacts, one per line
   selvedge check frames/*.ply               does a mesh pass through itself?
   selvedge compare a.obj b.obj --json       all methods on your own mesh
   selvedge arm --frames 55,56               two meshes to try these on
-  selvedge simulate scene.toml              cloth, as a scene file describes it
+  selvedge simulate scene.toml              cloth of a scene file
 
 Exit status: 0 done, 1 the input is at fault, 2 the command line is at fault,
-3 `check` has found intersections.";
+3 `check` found intersections.";
 
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -61,7 +61,7 @@ enum Command {
     Walker(walker::Walker),
 }
 
-/// Runs the command line. Errors go to standard error, as does everything else that is not the answer.
+/// Runs the command line. Only results go to standard output; errors and notes go to standard error.
 pub(crate) fn main() -> ExitCode {
     let cli = Cli::parse();
     let result = match &cli.command {

@@ -4,13 +4,13 @@ use clap::builder::{PossibleValuesParser, RangedI64ValueParser, TypedValueParser
 use selvedge::simd::{Level, available_levels, best_level};
 use selvedge_laboratory::methods::Preset;
 
-/// More threads than any machine has cores; each needs buffers of its own.
+/// No machine has more cores; each thread needs buffers of its own.
 const MAX_THREADS: i64 = 1024;
 
-/// A sleeve of 13 million triangles: what a large machine's memory takes.
+/// A sleeve of 13 million triangles, which fits into a large machine's memory.
 const MAX_REFINEMENT: i64 = 10_000;
 
-/// The format that positions are computed in.
+/// The format of positions in the computation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum ScalarChoice {
     /// 32-bit floating point; positions are rounded.
@@ -22,13 +22,13 @@ pub(crate) enum ScalarChoice {
 /// `--simd`.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct Simd {
-    /// The instruction set to compute with; the machine's widest unless given. Changes no result, only the time
+    /// Compute with this instruction set instead of the machine's widest. Only the time changes
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(available_levels().into_iter().map(|(name, _)| name)))]
     simd: Option<String>,
 }
 
 impl Simd {
-    /// The one named, which the machine has, or its best.
+    /// Returns the instruction set of that name, or the machine's best.
     pub(crate) fn level(&self) -> Level {
         let named = self.simd.as_ref().and_then(|wanted| {
             let mut levels = available_levels().into_iter();
@@ -41,7 +41,7 @@ impl Simd {
 /// `--threads`.
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub(crate) struct Threads {
-    /// How many threads to use; 0 for one on each core
+    /// Use this many threads; 0 means one for each core
     #[arg(
         long,
         value_name = "N",
@@ -52,7 +52,7 @@ pub(crate) struct Threads {
 }
 
 impl Threads {
-    /// At least one.
+    /// Returns the number of threads, at least one.
     pub(crate) fn get(self) -> usize {
         match self.threads {
             0 => std::thread::available_parallelism().map_or(1, usize::from),
@@ -61,12 +61,12 @@ impl Threads {
     }
 }
 
-/// A method by its name; lists the known ones when it is not one of them.
+/// Parses a method's name. The error lists the known ones.
 pub(crate) fn preset_parser() -> impl TypedValueParser<Value = Preset> {
     PossibleValuesParser::new(Preset::ALL.map(Preset::name)).try_map(|name| name.parse::<Preset>())
 }
 
-/// How many times the sleeve's 1,345 triangles.
+/// Parses a multiple of the sleeve's 1,345 triangles.
 pub(crate) fn refinement_parser() -> RangedI64ValueParser<u32> {
     clap::value_parser!(u32).range(1..=MAX_REFINEMENT)
 }

@@ -1,4 +1,4 @@
-//! Where the answer goes: standard output and files, in one piece or not at all.
+//! Writes results to standard output and files, completely or not at all.
 
 use super::Failure;
 use super::progress::Progress;
@@ -9,7 +9,7 @@ use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
-/// Prints the answer. A reader that has seen enough (`| head`) is no error.
+/// Prints a result. A reader that closes the pipe early (`| head`) causes no error.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
@@ -23,7 +23,7 @@ pub(crate) fn print_json(value: &serde_json::Value) -> Result<(), Failure> {
     print(&format!("{value:#}\n"))
 }
 
-/// Prints the answer as the one or the other.
+/// Prints a result as JSON or as text.
 pub(crate) fn answer(
     as_json: bool,
     json: impl FnOnce() -> serde_json::Value,
@@ -32,7 +32,7 @@ pub(crate) fn answer(
     if as_json { print_json(&json()) } else { print(&text()) }
 }
 
-/// Reads the two meshes of a step, and says what had to be done to them.
+/// Reads the two meshes of a step, and reports repairs.
 pub(crate) fn read_step(start: &Path, end: &Path) -> Result<MeshStep, Failure> {
     let step = {
         let _progress = Progress::spinner("reading");
@@ -42,7 +42,7 @@ pub(crate) fn read_step(start: &Path, end: &Path) -> Result<MeshStep, Failure> {
     Ok(step)
 }
 
-/// Says something on standard error; nobody there to hear it is no error.
+/// Writes a message to standard error. A closed standard error causes no error.
 pub(crate) fn say(message: fmt::Arguments<'_>) {
     let _ = writeln!(io::stderr().lock(), "{message}");
 }
@@ -55,14 +55,14 @@ pub(crate) fn coordinates_were(count: usize) -> String {
     }
 }
 
-/// Files that appear together, complete, once all of them could be written; until then nothing is visible.
+/// Files that appear together once all of them are complete. Until then none is visible.
 #[derive(Debug, Default)]
 pub(crate) struct OutputFiles {
     complete: Vec<(NamedTempFile, PathBuf)>,
 }
 
 impl OutputFiles {
-    /// Refuses a path that cannot be written, before long work and not after it.
+    /// Refuses a path that cannot be written, before long work.
     pub(crate) fn check(path: &Path) -> Result<(), Failure> {
         if path.is_dir() {
             return Err(unwritable(path, "it is a folder"));
@@ -70,7 +70,7 @@ impl OutputFiles {
         temporary(path).map(drop)
     }
 
-    /// Makes `folder` if it is not there, and refuses one that cannot be written to.
+    /// Creates `folder` if it does not exist, and refuses one that cannot be written to.
     pub(crate) fn check_folder(folder: &Path) -> Result<(), Failure> {
         std::fs::create_dir_all(folder).map_err(|error| unwritable(folder, error))?;
         Self::check(&folder.join("file"))
@@ -91,17 +91,17 @@ impl OutputFiles {
         Ok(())
     }
 
-    /// Writes a file that is all there, not yet under its name.
+    /// Writes the bytes of a file, not yet under its name.
     pub(crate) fn add_bytes(&mut self, path: PathBuf, bytes: &[u8]) -> Result<(), Failure> {
         self.add(path, |out| out.write_all(bytes))
     }
 
-    /// Gives all files their names, replacing older ones, and says so.
+    /// Gives all files their names, replaces older ones, and reports each.
     pub(crate) fn publish(self) -> Result<(), Failure> {
         self.publish_and(|path| say(format_args!("wrote {}", path.display())))
     }
 
-    /// Gives all files their names, replacing older ones.
+    /// Gives all files their names, and replaces older ones.
     pub(crate) fn publish_quietly(self) -> Result<(), Failure> {
         self.publish_and(|_| {})
     }
@@ -118,7 +118,7 @@ impl OutputFiles {
 fn temporary(path: &Path) -> Result<NamedTempFile, Failure> {
     temporary_file::beside(path).map_err(|error| match error.kind() {
         ErrorKind::NotFound => unwritable(path, "there is no such folder"),
-        // Without the temporary file's own name, which tells the user nothing.
+        // Without the temporary file's own name, which would not help the user.
         kind => unwritable(path, io::Error::from(kind)),
     })
 }

@@ -1,4 +1,4 @@
-//! A progress bar on standard error, when that is a terminal and the work lasts longer than a second.
+//! Shows a progress bar on standard error, if that is a terminal and the work takes longer than a second.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::{IsTerminal, stderr};
@@ -12,25 +12,25 @@ const DELAY: Duration = Duration::from_secs(1);
 const INTERVAL: Duration = Duration::from_millis(100);
 const LENGTH: u64 = 1000;
 
-/// Shown from a thread of its own, so that it also moves while one long call runs. Gone when dropped.
+/// A thread of its own shows it, so that it also moves during one long call. It disappears when dropped.
 pub(crate) struct Progress {
     done: Arc<AtomicU64>,
     thread: Option<(Sender<()>, JoinHandle<()>)>,
 }
 
 impl Progress {
-    /// Work whose share done is told by [`set`](Self::set).
+    /// Work whose share is reported by [`set`](Self::set).
     pub(crate) fn bar(message: &'static str) -> Self {
         Self::start(message, LENGTH, "{msg} {wide_bar} {percent} %, {eta} left")
     }
 
-    /// Work in so many steps; [`set_steps`](Self::set_steps) tells how many are done.
+    /// Work in this many steps, reported by [`set_steps`](Self::set_steps).
     pub(crate) fn steps(message: &'static str, steps: u64) -> Self {
         let template = "{msg} {wide_bar} {percent} %, step {pos}, {per_sec}, {eta} left";
         Self::start(message, steps, template)
     }
 
-    /// Work that ends when nothing is left of so many; [`set_steps`](Self::set_steps) tells how many are.
+    /// Work that ends when nothing remains of this many, reported by [`set_steps`](Self::set_steps).
     pub(crate) fn shrinking(message: &'static str, most: u64) -> Self {
         Self::start(message, most, "{msg} {pos}, {elapsed}")
     }
@@ -55,7 +55,7 @@ impl Progress {
                     .with_message(message)
                     .with_elapsed(DELAY)
                     .with_position(done.load(Ordering::Relaxed));
-                // What was done before the bar appeared must not count as done at once.
+                // Work done before the bar appeared must not count as done at once.
                 bar.reset_eta();
                 loop {
                     bar.set_position(done.load(Ordering::Relaxed));
@@ -75,12 +75,12 @@ impl Progress {
         }
     }
 
-    /// So many steps are done.
+    /// Reports the number of steps that are done.
     pub(crate) fn set_steps(&self, steps: u64) {
         self.done.store(steps, Ordering::Relaxed);
     }
 
-    /// `share` of the work is done, from 0 to 1.
+    /// Reports the share of the work that is done, from 0 to 1.
     pub(crate) fn set(&self, share: f64) {
         self.done.store((share * LENGTH as f64) as u64, Ordering::Relaxed);
     }

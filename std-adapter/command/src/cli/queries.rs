@@ -12,11 +12,11 @@ use selvedge_laboratory::report::{json, tables};
 use selvedge_laboratory::study::{QueryResult, measure_queries};
 use std::path::PathBuf;
 
-/// Asks single pairs whose answer may be known: what each method says, and how long it takes.
+/// Runs methods on single pairs with known answers, and measures them
 ///
-/// Reads queries in the CSV format of the public benchmark of continuous collision detection: 8 rows a query (four
-/// points at the start of the step, then at its end), each with numerator and denominator of x, y and z, and the truth
-/// as 0 or 1 if it is known. Files of both kinds may be given together; results are joined by kind.
+/// Reads queries in the CSV format of the public benchmark of continuous collision detection. A query has 8 rows: four points at
+/// the start of the step, then at its end. Each row has numerator and denominator of x, y and z, and the truth as 0 or 1 if it is
+/// known. Files of both kinds may be given together; results are joined by kind.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -24,19 +24,19 @@ Examples:
   selvedge queries */*/*.csv --method selvedge,cubic --scalar f32
   selvedge queries pairs.csv --kind edge-edge --json
 
-A query's time is that of calling the method on it again and again for 2 µs,
-over the number of calls, in the fastest of three runs.")]
+A query's time is the mean of calls that take 2 µs together, in the fastest of
+three runs.")]
 pub(crate) struct Queries {
     /// Files of queries
     #[arg(required = true, value_name = "FILE.csv")]
     files: Vec<PathBuf>,
-    /// The methods to ask, with commas between, or `all`
+    /// Run these methods, separated by commas, or `all`
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', default_value = "all", value_parser = method, help = method_help())]
     method: Vec<MethodChoice>,
-    /// The format to compute in
+    /// Compute in this format
     #[arg(long, value_enum, default_value_t = ScalarChoice::F64)]
     scalar: ScalarChoice,
-    /// The kind of pairs in all files; without it, the folder's or the file's name tells
+    /// The kind of pairs in all files. By default the name of the folder or the file decides
     #[arg(long, value_name = "KIND", value_parser = kind_parser())]
     kind: Option<PairKind>,
     /// Print one JSON document instead of tables
@@ -59,7 +59,7 @@ fn method(name: &str) -> Result<MethodChoice, UnknownMethod> {
 
 fn method_help() -> String {
     let names = QueryMethod::ALL.map(QueryMethod::name).join(", ");
-    format!("The methods to ask, with commas between: {names}; or all")
+    format!("Run these methods, separated by commas: {names}; or all")
 }
 
 fn kind_parser() -> impl clap::builder::TypedValueParser<Value = PairKind> {
@@ -128,7 +128,7 @@ impl Queries {
         }
         let methods = self.methods();
         let count: usize = by_kind.iter().map(|(_, queries)| queries.len()).sum();
-        let progress = Progress::bar("asking");
+        let progress = Progress::bar("running methods");
         let mut results = Vec::new();
         let mut done = 0;
         for &method in &methods {
@@ -143,7 +143,7 @@ impl Queries {
         Ok(results)
     }
 
-    /// Each method once, in the order asked for.
+    /// Returns each method once, in the order of the command line.
     fn methods(&self) -> Vec<QueryMethod> {
         let mut methods = Vec::new();
         let asked = self.method.iter().flat_map(|choice| match choice {

@@ -10,25 +10,24 @@ use selvedge_laboratory::scene::ArmScene;
 use selvedge_laboratory::study::{ArmFrames, ScalingPoint, measure_size};
 use std::path::PathBuf;
 
-/// When in the bend the measured step starts: the inner side of the elbow has folded onto itself.
+/// The place of the measured step in the bend, where the inner side of the elbow has folded onto itself.
 const TIME: f64 = 0.9;
-/// Runs of the step, the fastest of which counts.
+/// The number of runs of the step, of which the fastest counts.
 const ROUNDS: usize = 5;
 
-/// Measures what a step costs as the mesh grows.
+/// Measures the cost of a step as the mesh grows
 ///
-/// Runs one late step of the arm scene, when the sleeve has folded, at several refinements, and sets its time against
-/// n log n.
+/// Runs one late step of the arm scene, after the sleeve has folded, at several refinements, and compares its time with n log n.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   selvedge scaling
   selvedge scaling --sizes 1,10,100 --pipeline lv_2014 --output out")]
 pub(crate) struct Scaling {
-    /// What to multiply the sleeve's 1,345 triangles by, with commas between
+    /// Multiply the sleeve's 1,345 triangles by these, separated by commas
     #[arg(long, value_name = "N,…", value_delimiter = ',', default_value = "1,10,100,1000", value_parser = refinement_parser())]
     sizes: Vec<u32>,
-    /// The method: author and year, or ours
+    /// Run this method: an author and year, or ours
     #[arg(long, value_name = "NAME", default_value_t = Preset::Selvedge, value_parser = preset_parser())]
     pipeline: Preset,
     #[command(flatten)]

@@ -7,19 +7,19 @@ use super::progress::Progress;
 use selvedge::Mesh;
 use selvedge_cloth::{CheckpointError, Scene, SceneError, SetupError, Simulation};
 use selvedge_files::mesh;
-use selvedge_laboratory::report::{
-    Recording, SimulationRecorder, Subject, costs_of_added_effects, gltf, json, page, side_by_side, start_sentences, still,
-    tables, tangled_start_html, tangled_start_json,
-};
+use selvedge_laboratory::report::{Recording, SimulationRecorder, Subject, costs_of_added_effects};
+use selvedge_laboratory::report::{coloured_ply, crossing_triangles, start_sentences, tangled_start_json};
+use selvedge_laboratory::report::{gltf, json, page, side_by_side, still, tables};
 use selvedge_laboratory::study::{EffectCost, effects_one_by_one};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Simulates the cloth of a scene file, and pays only for the effects that the scene calls for.
+/// Simulates the cloth of a scene file
 ///
-/// Writes a report that works offline: the animation, energy and stretch, candidate pairs over time, the time of each effect. A
-/// run that was interrupted goes on from its last checkpoint with --resume, to the same bits.
+/// Only the effects that the scene names cost time. Writes a report that works offline: the animation, energy and stretch,
+/// candidate pairs over time, and the time of each effect. An interrupted run resumes from its last checkpoint with --resume, to
+/// the same bits.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -37,22 +37,22 @@ pub(crate) struct Simulate {
     /// Write to this folder
     #[arg(long, value_name = "DIR", default_value = "selvedge-out")]
     output: PathBuf,
-    /// Write the frames as well
+    /// Write the frames as well, in this format
     #[arg(long, value_enum)]
     frames: Option<Frames>,
-    /// Run the scene also without effects, with the first one, with the first two, and so on, and report what a step costs
+    /// Run the scene also without effects, with the first one, with the first two, and so on, and report the cost of a step
     #[arg(long)]
     effects_one_by_one: bool,
-    /// Go on from the last checkpoint in the output folder
+    /// Resume from the last checkpoint in the output folder
     #[arg(long)]
     resume: bool,
-    /// Write a still picture (PNG) of the last frame to this file, in the folder of the others unless it names one
+    /// Write a still picture (PNG) of the last frame to this file, in the output folder unless it names another
     #[arg(long, value_name = "FILE")]
     picture: Option<PathBuf>,
-    /// Of the frame nearest to this time instead
+    /// Show the frame nearest to this time instead
     #[arg(long, value_name = "SECONDS", requires = "picture", value_parser = time)]
     at: Option<f64>,
-    /// Run this scene as well, in the same way, and write a page that shows both side by side
+    /// Run this scene as well, and write a page that compares both
     #[arg(long, value_name = "SCENE", conflicts_with_all = ["frames", "effects_one_by_one", "resume", "picture"])]
     against: Option<PathBuf>,
     #[command(flatten)]
@@ -66,13 +66,13 @@ pub(crate) struct Simulate {
 enum Frames {
     /// Binary PLY, one file for each frame
     Ply,
-    /// Text, exact all the same, one file for each frame
+    /// Text, without loss of precision, one file for each frame
     Obj,
-    /// One animated file, which Blender opens
+    /// One animated file, for Blender and other viewers
     Gltf,
 }
 
-/// A time in seconds.
+/// Parses a time in seconds.
 fn time(text: &str) -> Result<f64, String> {
     let seconds = text
         .parse()
@@ -81,13 +81,13 @@ fn time(text: &str) -> Result<f64, String> {
     seconds.ok_or_else(|| "a time in seconds, zero or more, is needed".to_owned())
 }
 
-/// The two parts of a checkpoint file: the simulation's state, and what was recorded.
+/// Returns the two parts of a checkpoint file: the simulation's state, and the recording.
 fn split(saved: &[u8]) -> Option<(&[u8], &[u8])> {
     let (&length, rest) = saved.split_first_chunk()?;
     rest.split_at_checked(usize::try_from(u64::from_le_bytes(length)).ok()?)
 }
 
-/// Runs a simulation up to step `steps`, and shows it to `then` after each step, with the seconds that the step took.
+/// Runs a simulation up to step `steps`. Calls `then` after each step with the seconds that the step took.
 pub(super) fn run_steps(
     simulation: &mut Simulation,
     steps: u64,
@@ -103,7 +103,7 @@ pub(super) fn run_steps(
     Ok(())
 }
 
-/// What each effect of a scene costs.
+/// Measures the cost of each effect of a scene.
 pub(super) fn effect_costs(
     read: impl Fn() -> Result<Scene, SceneError>,
     steps: u64,
@@ -113,16 +113,16 @@ pub(super) fn effect_costs(
     effects_one_by_one(read, steps, threads, &mut |share| progress.set(share))
 }
 
-/// A scene that was run, as far as it went.
+/// A run of a scene, complete or up to an error.
 struct Run {
-    /// All that the scene asks for.
+    /// The number of steps in the scene.
     steps: u64,
     simulation: Simulation,
     recording: Recording,
     result: Result<(), Failure>,
 }
 
-/// Between two checkpoints, at least; the first is written as soon as it can be.
+/// The least time between two checkpoints. The first one is written as early as possible.
 const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(5);
 
 impl Simulate {
@@ -133,7 +133,7 @@ impl Simulate {
         }
     }
 
-    /// Both scenes one after the other in one process, so that their times can be compared. Nothing is written of them but reports.
+    /// Runs both scenes one after the other in one process, so that their times compare. Writes only reports.
     fn run_both(&self, other: &Path) -> Result<(), Failure> {
         let run = |path| self.record(path, |_, _| Ok(0.0), |_, _, _, _| Ok(()));
         let [first, second] = [run(&self.scene)?, run(other)?];
@@ -156,7 +156,7 @@ impl Simulate {
         first.result.and(second.result).and(printed)
     }
 
-    /// Sets a scene up, and untangles it if it is to be. If it starts tangled, or still is then, the places are written and told.
+    /// Sets a scene up, and untangles it if the scene says so. If it is tangled in the end, the places are written and printed.
     fn set_up(&self, scene: Scene) -> Result<Simulation, Failure> {
         let name = scene.name.clone();
         let mut untangling = None;
@@ -167,8 +167,10 @@ impl Simulate {
         drop(untangling);
         if let Err(SetupError::Tangled(tangled)) = &made {
             let mut files = OutputFiles::default();
-            let page = self.file("tangled.html");
-            files.add_bytes(page, tangled_start_html(&name, tangled).as_bytes())?;
+            let (mesh, red) = (&tangled.mesh, crossing_triangles(tangled));
+            files.add(self.file("tangled.ply"), |out| {
+                coloured_ply(&mesh.positions, &mesh.triangles, &red, out)
+            })?;
             files.publish()?;
             if self.json {
                 output::print_json(&tangled_start_json(&name, tangled))?;
@@ -177,8 +179,8 @@ impl Simulate {
         Ok(made?)
     }
 
-    /// Runs a scene as far as it goes, and records it. `begin` takes it to where it starts, and says how many seconds it had taken by then; `after` is
-    /// shown each step, the number of the frame if it is one, and the seconds so far.
+    /// Runs a scene as far as possible, and records it. `begin` prepares the start, and returns the seconds of earlier runs.
+    /// `after` is called each step with the number of the frame, if it is one, and the seconds so far.
     fn record(
         &self,
         path: &Path,
@@ -212,7 +214,7 @@ impl Simulate {
             recorder.remark(sentence);
         }
         if let Err(failure) = &result {
-            // Where it was blocked, or could not go on.
+            // The frame in which it was blocked, or could not continue.
             recorder.frame(&simulation)?;
             recorder.remark(failure.to_string());
         }
@@ -274,7 +276,7 @@ impl Simulate {
             files.add_bytes(self.output.join(picture), &still::png(&recording, frame, still::STILL_SIZE)?)?;
         }
         files.publish()?;
-        // What has been simulated is written and told all the same.
+        // Results up to the error are written and printed in any case.
         let printed = if self.json {
             let mut document = json::simulation(&simulation, &recording);
             if self.effects_one_by_one {
@@ -292,7 +294,7 @@ impl Simulate {
         result.and(printed)
     }
 
-    /// One file with both, so that they are always of the same step.
+    /// One file holds both parts, so that they belong to the same step.
     fn write_checkpoint(&self, state: &[u8], recorded: &[u8]) -> Result<(), Failure> {
         let mut files = OutputFiles::default();
         files.add(self.file("checkpoint"), |out| {
@@ -308,11 +310,11 @@ impl Simulate {
         let read = std::fs::read(&path);
         read.map_err(|error| {
             let path = path.display();
-            format!("{path}: cannot be read: {error}; was there a checkpoint yet?").into()
+            format!("{path}: cannot be read: {error}; there may be no checkpoint yet").into()
         })
     }
 
-    /// The output file with this extension, called as the scene's.
+    /// Returns the output file with this extension, named after the scene's.
     fn file(&self, extension: &str) -> PathBuf {
         let stem = self.scene.file_stem().unwrap_or_default();
         self.output.join(Path::new(stem).with_extension(extension))

@@ -4,7 +4,7 @@ use crate::support::{ABOVE, Workplace, keys, moved_by};
 use selvedge_files::mesh;
 use serde_json::{Value, json};
 
-/// What a run prints that finds intersections.
+/// Returns the output of a run that finds intersections.
 #[track_caller]
 fn tangled(place: &Workplace, arguments: &[&str]) -> String {
     let output = place.run(arguments);
@@ -58,7 +58,7 @@ fn json_has_counts_of_each_mesh_in_order() {
     assert_eq!(counts[1], [&json!("through.obj"), &json!(2), &json!(false)]);
     assert_eq!(counts[2], [&json!("on.obj"), &json!(2), &json!(false)]);
 
-    // Whether there is any is all that was asked.
+    // With --any, only the verdict is known.
     let document: Value = serde_json::from_str(&tangled(&place, &["check", "--json", "--any", "on.obj"])).unwrap();
     assert!(document["meshes"][0]["edge_face"].is_null() && document["are_free"] == false);
 }
@@ -151,7 +151,7 @@ fn what_cannot_be_read_or_written_is_refused_with_its_name() {
     refused(
         1,
         &["on.obj", "--list", "list.txt"],
-        "list.txt: a list is written as .csv or .json",
+        "list.txt: the name of the list must end in .csv or .json",
     );
     refused(1, &["on.obj", "--list", "nowhere/list.csv"], "nowhere");
     refused(2, &["on.obj", "--any", "--list", "list.csv"], "cannot be used with");
@@ -160,7 +160,7 @@ fn what_cannot_be_read_or_written_is_refused_with_its_name() {
     refused(1, &["on.obj", "again/on.obj", "--ply", "out"], "would both be written");
 }
 
-/// A rope through a triangle, and a cloud of points of which two are at one place.
+/// A rope through a triangle, and a cloud of points, two of which coincide.
 #[test]
 fn ropes_and_clouds_of_points_are_looked_at() {
     let place = Workplace::new();

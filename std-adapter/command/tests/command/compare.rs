@@ -119,12 +119,12 @@ fn a_scene_is_simulated_and_compared_on_steps_of_its_own() {
     assert_eq!((&document["steps"], &document["triangles"]), (&4.into(), &128.into()));
     let name = "a </script> sheet, 4 of its 20 simulated steps";
     assert_eq!(document["scene"], name);
-    // More steps than the scene has: all of them.
+    // With more steps than the scene has, all of them are compared.
     let document = place.json(&["compare", "sheet.toml", "--json", "--steps", "99"]);
     assert_eq!(document["steps"], 20);
     for row in document["rows"].as_array().unwrap() {
         assert_eq!(row["missed"], 0.0, "{row}");
-        // What the simulation has certified no method may find.
+        // No method may find a contact where the simulation has certified that there is none.
         assert_eq!(row["vertex_face"]["contacts"], 0.0, "{row}");
     }
 }

@@ -1,4 +1,4 @@
-//! The `selvedge` command as its users meet it: the real program, real files, exit status and all.
+//! Tests the `selvedge` command as its users run it: the real program, real files, and the exit status.
 
 mod accuracy;
 mod bad_input;

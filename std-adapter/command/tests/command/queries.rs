@@ -24,7 +24,7 @@ fn method<'a>(document: &'a Value, method: &str, kind: &str) -> &'a Value {
 #[test]
 fn json_counts_answers_against_the_truth() {
     let place = Workplace::new();
-    // A hit, a miss, a hit that is called none, and a miss that is called a hit.
+    // A hit, a miss, a hit whose truth says miss, and a miss whose truth says hit.
     let text = [fall(-1, ",1"), fall(1, ",0"), fall(-1, ",0"), fall(1, ",1")].concat();
     place.write("fall-vf.csv", text);
     let document = place.json(&["queries", "fall-vf.csv", "--method", "selvedge", "--json"]);

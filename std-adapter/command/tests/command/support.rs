@@ -1,4 +1,4 @@
-//! A folder to work in, and the program.
+//! A folder for a test, and the program.
 
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -63,7 +63,7 @@ thickness = "5 mm"
 thickness = "5 mm"
 "#;
 
-/// A folder of its own for each test, and the program run in it.
+/// A folder of its own for each test, in which the program runs.
 pub(crate) struct Workplace {
     folder: TempDir,
 }
@@ -97,7 +97,7 @@ impl Workplace {
         fs::read_to_string(self.path(name)).unwrap()
     }
 
-    /// Every file and folder, by its path from here.
+    /// Returns every file and folder, by its path from here.
     pub(crate) fn listing(&self) -> Vec<String> {
         fn visit(folder: &Path, root: &Path, found: &mut Vec<String>) {
             for entry in fs::read_dir(folder).unwrap() {
@@ -125,7 +125,7 @@ impl Workplace {
         self.command(arguments).output().unwrap()
     }
 
-    /// What a run that must succeed prints on standard output.
+    /// Returns the standard output of a run that must succeed.
     #[track_caller]
     pub(crate) fn stdout(&self, arguments: &[&str]) -> String {
         let output = self.run(arguments);
@@ -133,14 +133,14 @@ impl Workplace {
         String::from_utf8(output.stdout).unwrap()
     }
 
-    /// The one document that a run with `--json` prints.
+    /// Returns the document that a run with `--json` prints.
     #[track_caller]
     pub(crate) fn json(&self, arguments: &[&str]) -> Value {
         serde_json::from_str(&self.stdout(arguments)).unwrap()
     }
 
-    /// The error message, without the notes before it, of a run that must be refused with `status`, print nothing and
-    /// leave no file behind.
+    /// Returns the error message, without earlier notes, of a run that must fail with `status`, print nothing and leave no file
+    /// behind.
     #[track_caller]
     pub(crate) fn refusal(&self, status: i32, arguments: &[&str]) -> String {
         let before = self.listing();
@@ -155,7 +155,7 @@ impl Workplace {
     }
 }
 
-/// A run that several tests look at, since it takes seconds: what it printed, its notes, and what it wrote.
+/// A run that several tests share, since it takes seconds: its output, its notes, and its files.
 pub(crate) struct Run {
     pub(crate) text: String,
     pub(crate) notes: String,

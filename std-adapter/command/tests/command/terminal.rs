@@ -1,4 +1,4 @@
-//! How the output behaves where it ends up.
+//! Tests the output in terminals and pipes.
 
 use crate::support::{Run, Workplace};
 use std::process::Stdio;

@@ -5,7 +5,7 @@ use crate::support::Workplace;
 #[test]
 fn the_scene_that_it_writes_runs_and_stays_free_of_intersections() {
     let place = Workplace::new();
-    place.stdout(&["walker", "--pitch", "0.03", "--output", "walker"]);
+    place.stdout(&["walker", "--output", "walker"]);
     let scene = place.read("walker/walker.toml");
     place.write(
         "walker/walker.toml",
@@ -20,13 +20,4 @@ fn the_scene_that_it_writes_runs_and_stays_free_of_intersections() {
         ),
         (&10.into(), &0.into(), &0.into())
     );
-}
-
-#[test]
-fn edges_of_any_other_length_are_refused() {
-    let place = Workplace::new();
-    for pitch in ["0", "0.1", "nan", "long"] {
-        let message = place.refusal(2, &["walker", "--pitch", pitch]);
-        assert!(message.contains("--pitch"), "{message}");
-    }
 }

@@ -1,16 +1,16 @@
-//! Additive continuous collision detection (Li, Kaufman, Jiang: Codimensional Incremental Potential Contact, 2021). **Not
-//! certified**: rounding is ignored. A baseline.
+//! Additive continuous collision detection (Li, Kaufman, Jiang: Codimensional Incremental Potential Contact, 2021), as a
+//! baseline. **Not certified**: it ignores rounding.
 //!
-//! No point of one set comes nearer to the other faster than the two sets' largest speeds together, the motion that they have
-//! in common taken out. So the distance, less the separation, divided by that speed is a time that can be skipped; it is
-//! skipped nine tenths at a time, again and again, until a tenth of the first gap is left.
+//! No point of one set approaches the other faster than the sum of the two sets' largest speeds, without their common motion. The
+//! distance less the separation, divided by that speed, is therefore a time that can be skipped. The method skips nine tenths of
+//! it, again and again, until a tenth of the first gap is left.
 //!
-//! * The tolerance is that tenth: a pair whose gap shrinks to a tenth and grows again is a false alarm, and there are many.
-//! * Distances are computed in plain floating point, without an error bound: at the scale of rounding a time may be too late.
-//! * The number of rounds is in inverse proportion to the first gap. The original does not limit it; here it is
-//!   [`ROUNDS`], after which the time reached is returned.
+//! * The tolerance is that tenth. A pair whose gap shrinks to a tenth and grows again is a false alarm, and there are many.
+//! * Distances are computed in plain floating point, without an error bound. At the scale of rounding a time may be too late.
+//! * The number of rounds is inversely proportional to the first gap. The original does not limit it. Here [`ROUNDS`] is the
+//!   limit, and the time reached is returned.
 //!
-//! Written from the description. Positions are computed anew from the time in each round, not added up.
+//! Written from the description. Each round computes positions from the time, instead of adding steps up.
 
 use selvedge_core::elementary::{Impact, Reason};
 use selvedge_core::verification::advance::closest::closest;
@@ -22,8 +22,8 @@ use selvedge_core::{PairKind, PrimitivePair, Scalar};
 /// The largest number of rounds.
 pub const ROUNDS: u32 = 100_000;
 
-/// From when on the pair may be within a tenth of its first gap beyond `separation` (in units of length). May be wrong by
-/// rounding: see the module.
+/// Returns the time from which the pair may be within a tenth of its first gap beyond `separation`, in units of length. Rounding
+/// can make it wrong: see the module.
 ///
 /// NaN and infinite coordinates exclude nothing.
 ///
@@ -80,7 +80,7 @@ fn advance<S: Scalar, const N: usize>(
     possible(time, Reason::OutOfRounds)
 }
 
-/// The largest speed of a point of the first set and that of one of the second, together, without their mean motion.
+/// The sum of the largest speeds of a point of each set, without their mean motion.
 #[inline(always)]
 fn approach_speed<S: Scalar>(points: &PairPoints<S>, first_set: usize) -> S {
     let ([a0, b0, c0, d0], [a1, b1, c1, d1]) = (points.start, points.end);

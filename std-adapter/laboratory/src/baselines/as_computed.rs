@@ -1,7 +1,8 @@
-//! The signs of the control values as computed. **Not certified**: rounding makes it cull a colliding pair now and then.
+//! Decides by the signs of the control values as computed. **Not certified**: rounding makes it cull a colliding pair now and
+//! then.
 //!
-//! The certified filters ([`Filter`]) compute the same values, and ask in addition whether they exceed a bound of their rounding
-//! error. What that costs, and what it is there for, is seen by comparison with this.
+//! The certified filters ([`Filter`]) compute the same values, and also require that they exceed a bound of their rounding error.
+//! The comparison with this baseline shows what that costs and what it prevents.
 
 use selvedge_core::batch::VolumeTest;
 use selvedge_core::filter::{Filter, Tier};
@@ -11,7 +12,7 @@ use selvedge_core::verification::of_kind;
 use selvedge_core::verification::points::PairShape;
 use selvedge_core::{PrimitivePair, Scalar, Verdict};
 
-/// Culls pairs whose control values have one strict sign as computed, and exceed a separation if there is one. For batches:
+/// Culls pairs whose control values have one strict sign as computed, and exceed the separation if there is one. For batches, see
 /// [`ByVolume`](selvedge_core::batch::ByVolume).
 ///
 /// ```
@@ -30,20 +31,21 @@ pub struct AsComputed<S> {
 }
 
 impl<S: Scalar> AsComputed<S> {
-    /// For pairs that never touch: separation zero.
+    /// A filter for pairs that never touch: the separation is zero.
     #[must_use]
     pub const fn new() -> Self {
         Self { separation: S::ZERO }
     }
 
-    /// The same for pairs that must stay farther apart than `separation`, which [`Filter::with_separation`] judges.
+    /// The same filter for pairs that must stay farther apart than `separation`. Accepts what [`Filter::with_separation`]
+    /// accepts.
     #[must_use]
     pub fn with_separation(self, separation: S) -> Option<Self> {
         let separation = Filter::new(Tier::Permanent).with_separation(separation)?.separation();
         Some(Self { separation })
     }
 
-    /// Culls `pair`, or keeps it. May be wrong either way.
+    /// Culls `pair`, or keeps it. Either answer may be wrong.
     #[inline]
     pub fn verdict(&self, pair: &PrimitivePair<S>) -> Verdict {
         Verdict::culled_if(of_kind!(pair.kind, P => self.on::<P, S>(&pair.into()).culled))

@@ -1,25 +1,25 @@
 //! Bernstein sign classification (Tang, Tong, Wang, Manocha: Fast and exact continuous collision detection with Bernstein sign
-//! classification, 2014), in plain floating point. **Not certified: it misses contacts.** A baseline.
+//! classification, 2014), in plain floating point, as a baseline. **Not certified: it misses contacts.**
 //!
-//! Whether there is contact, not when, from signs of polynomials in Bernstein form; roots are not computed.
+//! The method decides whether there is contact, not when. It uses signs of polynomials in Bernstein form and computes no roots.
 //!
 //! * The volume K is a cubic. Between its extremes it has one root where its signs at both ends differ, and none otherwise.
-//! * With eᵢ the pair's corners in order around the triangle or parallelogram, and n its normal, the origin is inside at the
-//!   root where all **inside functions** gᵢ = (eᵢ × eᵢ₊₁)·n are not negative: quartics, whose control values follow from those of the
-//!   two quadratics in the product. One strict sign of a function's five control values is its sign at the root. A function that is
-//!   negative throughout excludes contact, though the pair is coplanar.
-//! * Otherwise the function is reduced modulo the cubic, which does not change its value at the cubic's root: c²·g = q·K + r with c
-//!   the leading coefficient of K and r of degree two. The sign of r at the root follows from the order of r's roots and that root,
-//!   and this from the signs of K at r's roots.
+//! * Let eᵢ be the pair's corners in order around the triangle or parallelogram, and n its normal. The origin is inside at the
+//!   root if no **inside function** gᵢ = (eᵢ × eᵢ₊₁)·n is negative there. These are quartics; their control values follow from
+//!   those of the two quadratics in the product. If all five control values have one strict sign, that is the sign at the root. A
+//!   function that is negative throughout excludes contact, even if the pair is coplanar.
+//! * Otherwise the function is reduced modulo the cubic, which keeps its value at the cubic's root: c²·g = q·K + r, where c is
+//!   the leading coefficient of K and r has degree two. The sign of r at the root follows from the order of that root and the
+//!   roots of r. That order follows from the signs of K at the roots of r.
 //!
-//! In exact arithmetic that is a decision. The paper reaches it by expansions where floating point is in doubt; here rounding is
-//! ignored, to show what the classification costs alone and how often it then errs. The reduction is what suffers: where K is nearly
-//! of lower degree, c²·g and q·K nearly cancel. [`exact::touches`](selvedge_core::verification::exact::touches) decides exactly, by the same idea with
-//! quadratics in place of quartics.
+//! In exact arithmetic that is a decision. The paper uses expansions where floating point is in doubt. Here rounding is ignored,
+//! to show what the classification costs alone and how often it then errs. The reduction suffers most: where K is nearly of lower
+//! degree, c²·g and q·K nearly cancel. [`exact::touches`](selvedge_core::verification::exact::touches) decides exactly, by the
+//! same idea with quadratics in place of quartics.
 //!
-//! Where K is zero throughout there is no root to speak of, and the pair is said to touch unless an inside function is
-//! negative throughout; the inside functions are zero where the normal is. So degenerate pairs are false alarms rather
-//! than misses. Written from the paper's description.
+//! Where K is zero throughout there is no root. The pair then counts as touching unless an inside function is negative
+//! throughout. The inside functions are zero where the normal is, so degenerate pairs are false alarms rather than misses.
+//! Written from the paper's description.
 
 use super::cubic::Cubic;
 use selvedge_core::PairKind;
@@ -29,7 +29,7 @@ use selvedge_core::verification::of_kind;
 use selvedge_core::verification::points::{PairPoints, PairShape};
 use selvedge_core::verification::vector::Vector;
 
-/// Whether the pair touches at some time in [0, 1]. May be wrong by rounding, either way: see the module.
+/// Returns whether the pair touches at some time in [0, 1]. Rounding can make either answer wrong: see the module.
 ///
 /// NaN and infinite coordinates exclude nothing.
 ///
@@ -90,11 +90,11 @@ fn corners<S: Scalar, P: PairShape>(points: &PairPoints<S>) -> [Linear<S>; 4] {
     [[a0, a1], [b0, b1], [c0, c1], [d0, d1]]
 }
 
-/// Whether the polygon with these corners, in order around it, contains the origin at the cubic's only root.
+/// Returns whether the polygon with these corners, in order around it, contains the origin at the cubic's only root.
 #[inline(always)]
 fn contains_origin_at_root<S: Scalar, const N: usize>(corners: [Linear<S>; N], cubic: &Cubic<S>) -> bool {
     let next = || corners.iter().cycle().skip(1);
-    // Twice the area, or four times for a parallelogram, pointing to where the corners go round to the left.
+    // Twice the area for a triangle, four times for a parallelogram. It points to where the corners run anticlockwise.
     let zero = Vector::new(S::ZERO, S::ZERO, S::ZERO);
     let mut normal = [zero; 3];
     for (corner, next) in corners.iter().zip(next()) {
@@ -131,7 +131,7 @@ fn dot<S: Scalar>([m0, m1, m2]: &[Vector<S>; 3], [n0, n1, n2]: &[Vector<S>; 3]) 
 }
 
 impl<S: Scalar> Cubic<S> {
-    /// Whether the signs at the ends are not one strict sign.
+    /// Returns whether the signs at the ends are not one strict sign.
     #[inline(always)]
     fn may_have_a_root(&self) -> bool {
         let [start, .., end] = self.k;
@@ -139,7 +139,7 @@ impl<S: Scalar> Cubic<S> {
     }
 }
 
-/// Whether a quartic is negative at the only root of a cubic in [0, 1]. Both by control values.
+/// Returns whether a quartic is negative at the only root of a cubic in [0, 1]. Both are given by control values.
 #[inline(always)]
 fn is_negative_at_root<S: Scalar>(quartic: &[S; 5], cubic: &[S; 4]) -> bool {
     if quartic.iter().all(|&value| value < S::ZERO) {
@@ -161,7 +161,7 @@ fn is_negative_by_reduction<S: Scalar>(quartic: &[S; 5], cubic: &[S; 4]) -> bool
     let volume = coefficients_of_cubic(cubic);
     let [r0, r1, r2] = remainder(coefficients_of_quartic(quartic), volume);
     let at = |[c0, c1, c2, c3]: [S; 4], t: S| c0 + t * (c1 + t * (c2 + t * c3));
-    // Where the remainder changes sign before the root, it has the other sign there than at the start.
+    // Where the remainder changes sign before the root, its sign there is opposite to that at the start.
     let mut is_negative = [r0, r1, r2]
         .into_iter()
         .find(|&value| value != S::ZERO)
@@ -181,7 +181,7 @@ fn is_negative_by_reduction<S: Scalar>(quartic: &[S; 5], cubic: &[S; 4]) -> bool
     is_negative
 }
 
-/// The coefficients of 1, t, t² …, of size one at most.
+/// The coefficients of 1, t, t² …, scaled to at most one.
 #[inline(always)]
 fn coefficients_of_cubic<S: Scalar>(&[k0, k1, k2, k3]: &[S; 4]) -> [S; 4] {
     let three = S::small(3);
@@ -193,7 +193,7 @@ fn coefficients_of_cubic<S: Scalar>(&[k0, k1, k2, k3]: &[S; 4]) -> [S; 4] {
     ])
 }
 
-/// The coefficients of 1, t, t² …, of size one at most.
+/// The coefficients of 1, t, t² …, scaled to at most one.
 #[inline(always)]
 fn coefficients_of_quartic<S: Scalar>(&[b0, b1, b2, b3, b4]: &[S; 5]) -> [S; 5] {
     let (four, six) = (S::small(4), S::small(6));
@@ -219,12 +219,12 @@ fn normalised<S: Scalar, const N: usize>(mut coefficients: [S; N]) -> [S; N] {
     coefficients
 }
 
-/// The quartic modulo the polynomial of degree three or less, times a positive number.
+/// The quartic modulo a polynomial of degree three or less, times a positive number.
 #[inline(always)]
 fn remainder<S: Scalar>(g: [S; 5], [c0, c1, c2, c3]: [S; 4]) -> [S; 3] {
     let [g0, g1, g2, g3, g4] = g;
     if c3 != S::ZERO {
-        // c3·g − g4·t·K, of degree three, then the same once more: times c3².
+        // c3·g − g4·t·K has degree three. The same once more gives degree two, times c3².
         let [h0, h1, h2, h3] = normalised([c3 * g0, c3 * g1 - g4 * c0, c3 * g2 - g4 * c1, c3 * g3 - g4 * c2]);
         return [c3 * h0 - h3 * c0, c3 * h1 - h3 * c1, c3 * h2 - h3 * c2];
     }

@@ -1,11 +1,11 @@
-//! The plain cubic test of Provot 1997. **Not certified: it misses contacts.** A baseline.
+//! The plain cubic test of Provot 1997, as a baseline. **Not certified: it misses contacts.**
 //!
-//! The four points are coplanar at the roots of a cubic; at each root in [0, 1], earliest first, the vertex is tested for
-//! lying in the triangle (barycentric coordinates in [0, 1]) or the two lines' nearest points for lying on both edges.
-//! Everything is computed in plain floating point without a tolerance, so the answer is wrong now and then either way:
-//! * pairs that are coplanar throughout (the cubic is zero) are called free of contact, as are parallel edges;
-//! * a double root (a graze) may be lost to rounding;
-//! * a contact at the border of the triangle or at the end of an edge may fall outside by rounding.
+//! The four points are coplanar at the roots of a cubic. At each root in [0, 1], earliest first, the test asks whether the vertex
+//! lies in the triangle (barycentric coordinates in [0, 1]), or whether the two lines' nearest points lie on both edges.
+//! Everything is computed in plain floating point without a tolerance, so the answer is sometimes wrong either way:
+//! * Pairs that are coplanar throughout (the cubic is zero) count as free of contact, and so do parallel edges.
+//! * Rounding may lose a double root (a graze).
+//! * Rounding may move a contact at the border of the triangle or at the end of an edge outside.
 //!
 //! `selvedge queries --method cubic` shows how often.
 
@@ -13,7 +13,8 @@ use selvedge_core::verification::coplanarity::MovingTetrahedron;
 use selvedge_core::verification::vector::Vector;
 use selvedge_core::{Motion, PairKind, PrimitivePair, Scalar};
 
-/// The earliest time in [0, 1] at which the vertex is found in the triangle, or the edges are found to cross. May be wrong: see the module.
+/// Returns the earliest time in [0, 1] at which the vertex is in the triangle, or the edges cross. It may be wrong: see the
+/// module.
 ///
 /// ```
 /// use selvedge_core::{glam::DVec3, Motion, PrimitivePair};
@@ -61,7 +62,7 @@ fn at<S: Scalar>(motion: Motion<S>, time: S) -> Vector<S> {
     start.scaled(S::ONE - time) + end.scaled(time)
 }
 
-/// The earliest root of the pair's cubic in [0, 1] at which `accept` agrees with where the four points are.
+/// Returns the earliest root of the pair's cubic in [0, 1] at which `accept` agrees with the positions of the four points.
 #[inline(always)]
 fn first_root<S: Scalar>(pair: &PrimitivePair<S>, accept: impl Fn([Vector<S>; 4]) -> bool) -> Option<S> {
     let cubic = Cubic::new(pair.into());
@@ -128,8 +129,8 @@ impl<S: Scalar> Cubic<S> {
         if first < second { [first, second] } else { [second, first] }
     }
 
-    /// The root on a monotone piece, by regula falsi (the Illinois rule) until steps are a rounding error of [0, 1]; `None`
-    /// without a change of sign.
+    /// Returns the root on a monotone piece, by regula falsi (the Illinois rule), to a rounding error of [0, 1]. `None` without a
+    /// change of sign.
     #[inline(always)]
     fn root_between(&self, mut from: S, mut to: S) -> Option<S> {
         let (mut low, mut high) = (self.at(from), self.at(to));
@@ -149,7 +150,7 @@ impl<S: Scalar> Cubic<S> {
         let half = S::from_f64(0.5);
         let mut root = from;
         let mut last_moved_from = None;
-        // About ten rounds on a cubic; the cap only bounds the work.
+        // About ten rounds suffice for a cubic; the limit only bounds the work.
         for _ in 0..64 {
             let guess = from + (to - from) * (low / (low - high));
             if (guess - root).abs() <= S::UNIT_ROUNDOFF {

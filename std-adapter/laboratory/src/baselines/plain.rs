@@ -1,9 +1,8 @@
 //! The paper's non-coplanarity filter as printed. **Not certified**: rounding can make it cull a colliding pair.
 //!
-//! Kept as the baseline that the presets `tang_2010` and `lv_2014` reproduce (Lv, He, Mi, equations 1 to 14; the
-//! same filter as Tang, Manocha, Tong 2010). The plane's normal in the middle of the step comes from the velocities,
-//! n̂ = (n₀ + n₁ − (v_b − v_a)×(v_c − v_a)) / 2, and the signs of A, B, 2C + F and 2D + E are taken as computed.
-//! Prefer [`certified`](selvedge_core::filter::certified).
+//! The presets `tang_2010` and `lv_2014` reproduce this baseline (Lv, He, Mi, equations 1 to 14; the same filter as Tang,
+//! Manocha, Tong 2010). The plane's normal in the middle of the step comes from the velocities, n̂ = (n₀ + n₁ − (v_b − v_a)×(v_c
+//! − v_a)) / 2. The signs of A, B, 2C + F and 2D + E count as computed. Prefer [`certified`](selvedge_core::filter::certified).
 
 use selvedge_core::batch::PointsTest;
 use selvedge_core::verification::coplanarity::ControlValues;
@@ -14,7 +13,7 @@ use selvedge_core::{PrimitivePair, Scalar, Verdict};
 
 /// Culls `pair` if A, B, 2C + F and 2D + E, as computed, all have the same strict sign.
 ///
-/// One deviation from the paper: where a value, or the sum of their magnitudes, overflows, the pair is kept.
+/// One deviation from the paper: if a value, or the sum of their magnitudes, overflows, the pair is kept.
 #[inline(always)]
 pub fn non_coplanarity<S: Scalar>(pair: &PrimitivePair<S>) -> Verdict {
     Verdict::culled_if(of_kind!(pair.kind, P => has_one_sign::<P, S>(&pair.into())))
@@ -51,7 +50,7 @@ pub fn has_one_sign<P: PairShape, L: Lanes>(points: &PairPoints<L>) -> L::Mask {
     let (e, f) = (p0.dot(n1), p1.dot(n0)); // (3)
     let (c, d) = (two * c + f, two * d + e);
 
-    // A sum is not finite if a term is not. (Nor is it where only the sum overflows.)
+    // A sum is not finite if a term is not. It may overflow by itself, too.
     let sum = (a.abs() + b.abs()) + (c.abs() + d.abs());
     let finite = constant(L::Scalar::INFINITY).greater(sum);
     ControlValues([a, c, d, b]).one_sign_beyond([constant(L::Scalar::ZERO); 4]) & finite

@@ -1,26 +1,27 @@
-//! Bisection of the cube of time and the two parameters, after Tight-Inclusion (Wang, Ferguson, Schneider, Jiang, Attene, Panozzo:
-//! A Large-scale Benchmark and an Inclusion-based Algorithm for Continuous Collision Detection, 2021). It never misses, but
-//! gives **no useful bound of its work**. A baseline.
+//! Bisection of the cube of time and two parameters, after Tight-Inclusion (Wang, Ferguson, Schneider, Jiang, Attene, Panozzo: A
+//! Large-scale Benchmark and an Inclusion-based Algorithm for Continuous Collision Detection, 2021), as a baseline. It never
+//! misses, but has **no useful bound of its work**.
 //!
-//! F(t, u, v) is the difference of the point of one set at parameter u (or the vertex) and that of the other at v (or the face's
-//! at u, v). It is linear in each variable, so that its values on a box lie in the box of its values at the corners: where that
-//! does not contain the origin, up to the error of evaluation, there is no contact. Otherwise the box is halved, until
-//! F's values on it span less than the tolerance on each axis.
+//! F(t, u, v) is the difference of two points: one set's at parameter u (or the vertex), and the other's at v (or the face's at
+//! u, v). It is linear in each variable, so its values on a box lie in the box of its values at the corners. If that box does not
+//! contain the origin, up to the error of evaluation, there is no contact. Otherwise the search halves the box, until F's values
+//! on it span less than the tolerance on each axis.
 //!
-//! * Where contact lasts, or comes close to it (sliding, resting, parallel edges), the number of boxes grows as the
-//!   inverse square of the tolerance. After [`CHECKS`] boxes the search ends, with the earliest time not excluded: no
-//!   miss, but it may be far too early.
-//! * Contact means that F is within the tolerance *on each axis*; the separation counts so as well.
+//! * Where contact lasts or nearly happens (sliding, resting, parallel edges), the number of boxes grows as the inverse square of
+//!   the tolerance. After [`CHECKS`] boxes the search ends with the earliest time not excluded. That is no miss, but may be far
+//!   too early.
+//! * Contact means that F is within the tolerance *on each axis*. The separation counts in the same way.
 //!
-//! Written from the description. Differences from the original: the search is depth-first, earlier half first, and cuts off
-//! what is later than the best time found, so that it needs no memory beyond a short stack; the error bound is that of
-//! the evaluation here, linear in the coordinates.
+//! Written from the description. It differs from the original in two ways. The search is depth-first, earlier half first, and
+//! cuts off what is later than the best time found, so that a short stack suffices. The error bound is that of the evaluation
+//! here, linear in the coordinates.
 //!
 //! # Rounding
 //! F is evaluated from positions: those at t (1 − t, two products, a sum), weighted (1 − u − v, a product, two sums), and a
-//! difference: a monomial passes through at most 9 roundings, and the magnitudes add up to at most 4m for coordinates up to
-//! m on that axis (|1 − u − v| + u + v ≤ 3). Hence 36εm, and ε = 2u in any direction of rounding; the bound 80u·max(1, m) covers
-//! that and what is of second order. The 1 covers underflow. (The published code has min(1, m), which does not bound the error of large coordinates.)
+//! difference. A monomial passes through at most 9 roundings. The magnitudes add up to at most 4m for coordinates up to m on that
+//! axis (|1 − u − v| + u + v ≤ 3). The error is thus 36εm to first order, and ε = 2u in any direction of rounding. The bound
+//! 80u·max(1, m) covers that and the second order; the 1 covers underflow. (The published code has min(1, m), which does not
+//! bound the error of large coordinates.)
 
 use arrayvec::ArrayVec;
 use selvedge_core::PairKind;
@@ -31,13 +32,13 @@ use selvedge_core::verification::of_kind;
 use selvedge_core::verification::points::{PairPoints, PairShape};
 use selvedge_core::verification::vector::Vector;
 
-/// After so many boxes the search ends.
+/// The largest number of boxes that a search tests.
 pub const CHECKS: u32 = 1_000_000;
 
-/// Open boxes at any time: one for each halving that led to the present one, at most 52 along each of three axes.
+/// The largest number of open boxes: one for each halving that led to the present one, at most 52 along each of three axes.
 const OPEN: usize = 160;
 
-/// From when on the pair may be within the separation, on each axis. See the module for what is not promised.
+/// Returns the time from which the pair may be within the separation, on each axis. See the module for what is not promised.
 ///
 /// NaN, infinite and very large coordinates exclude nothing.
 ///
@@ -119,7 +120,7 @@ fn search<S: Scalar, P: PairShape>(points: &PairPoints<S>, limits: &Limits<S>) -
         };
         match halves {
             Some([earlier, later]) if open.len() + 2 <= OPEN => {
-                // The last in is the first out.
+                // The last box pushed is the first popped.
                 open.push(later);
                 open.push(earlier);
             }
@@ -165,7 +166,7 @@ fn at<S: Scalar>(points: &PairPoints<S>, time: S) -> [Vector<S>; 4] {
     positions
 }
 
-/// F at the time of the positions.
+/// Evaluates F at the time of the positions.
 #[inline(always)]
 fn difference<S: Scalar, P: PairShape>(positions: [Vector<S>; 4], u: S, v: S) -> Vector<S> {
     let [a, b, c, d] = positions;
@@ -175,7 +176,7 @@ fn difference<S: Scalar, P: PairShape>(positions: [Vector<S>; 4], u: S, v: S) ->
     }
 }
 
-/// The two halves of `cell` along the variable in which F changes most; `None` if all are as short as precision allows.
+/// Returns the two halves of `cell` along the variable in which F changes most, or `None` if precision allows no shorter box.
 #[inline(always)]
 fn halves<S: Scalar, P: PairShape>(points: &PairPoints<S>, cell: &Cell<S>) -> Option<[Cell<S>; 2]> {
     let ([t, u, v], [dt, du, dv]) = (cell.low, cell.size);
@@ -196,7 +197,7 @@ fn halves<S: Scalar, P: PairShape>(points: &PairPoints<S>, cell: &Cell<S>) -> Op
         by_u = change(corner(u, v + dv), corner(u + du, v + dv)).larger(by_u);
         by_v = change(corner(u + du, v), corner(u + du, v + dv)).larger(by_v);
     }
-    // A half must be a number of the format: not below its precision at 1.
+    // A half must be representable: not below the format's precision at 1.
     let shortest = S::small(4) * S::UNIT_ROUNDOFF;
     let mut best: Option<(usize, S)> = None;
     for (variable, change) in [by_t, by_u, by_v].into_iter().enumerate() {

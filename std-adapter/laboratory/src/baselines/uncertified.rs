@@ -1,9 +1,9 @@
-//! The certified time of impact without its error bounds. **Not certified: it misses contacts.** A baseline.
+//! The certified time of impact without its error bounds, as a baseline. **Not certified: it misses contacts.**
 //!
-//! Core's own source runs on numbers whose unit roundoff is said to be zero: every bar that a computed value must exceed to prove
-//! something is zero (but for η, which covers underflow), and a direction is never set upright where its error would tilt it; nothing
-//! else differs. So the difference in time, in misses and in
-//! times that are too late is what certification costs, and what it is for. `selvedge accuracy` shows it.
+//! Core's own source runs on numbers whose unit roundoff is declared to be zero. Every threshold that a computed value must
+//! exceed to prove something is then zero, except for η, which covers underflow. A direction is never corrected where its error
+//! would tilt it. Nothing else differs. The difference in time, in misses and in late times is what certification costs and what
+//! it prevents; `selvedge accuracy` shows it.
 
 use selvedge_core::elementary::advance::time_of_impact_of_points;
 use selvedge_core::elementary::{Impact, Limits};
@@ -14,7 +14,7 @@ use selvedge_core::verification::vector::Vector;
 use selvedge_core::{PrimitivePair, Scalar};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// From when on the pair is found within the separation, as computed. **May be too late, or miss a contact.**
+/// Returns the time from which the pair is within the separation, as computed. **It may be too late, or miss a contact.**
 ///
 /// ```
 /// use selvedge_core::elementary::Limits;
@@ -45,7 +45,7 @@ pub fn time_of_impact<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>) ->
     }
 }
 
-/// A number that is said never to be rounded.
+/// A number that is declared free of rounding.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 struct Unbounded<S>(S);
 
@@ -76,18 +76,23 @@ impl<S: Scalar> Neg for Unbounded<S> {
     }
 }
 
+macro_rules! constants {
+    ($($name:ident),+) => {
+        $(const $name: Self = Self(S::$name);)+
+    };
+}
+
 impl<S: Scalar> Rounding for Unbounded<S> {
     const UNIT_ROUNDOFF: Self = Self(S::ZERO);
-    const UNDERFLOW: Self = Self(S::UNDERFLOW);
-    const LARGEST_EDGE: Self = Self(S::LARGEST_EDGE);
-    const LARGEST_EXTENT: Self = Self(S::LARGEST_EXTENT);
-    const EXTENT_UNDERFLOW: Self = Self(S::EXTENT_UNDERFLOW);
-    const SAFE_SQUARE: Self = Self(S::SAFE_SQUARE);
-    const LENGTH_UNDERFLOW: Self = Self(S::LENGTH_UNDERFLOW);
-    const ZERO: Self = Self(S::ZERO);
-    const ONE: Self = Self(S::ONE);
-    const HALF: Self = Self(S::HALF);
-    const INFINITY: Self = Self(S::INFINITY);
+    constants!(
+        UNDERFLOW,
+        LARGEST_EDGE,
+        LARGEST_EXTENT,
+        EXTENT_UNDERFLOW,
+        SAFE_SQUARE,
+        LENGTH_UNDERFLOW
+    );
+    constants!(ZERO, ONE, HALF, INFINITY);
 
     #[inline(always)]
     fn small(count: u8) -> Self {
@@ -95,9 +100,29 @@ impl<S: Scalar> Rounding for Unbounded<S> {
     }
 }
 
+macro_rules! forward {
+    ($(fn $name:ident(self $(, $other:ident)?) -> $result:ty => $wrap:expr;)+) => {
+        $(
+            #[inline(always)]
+            fn $name(self $(, $other: Self)?) -> $result {
+                $wrap(self.0.$name($($other.0)?))
+            }
+        )+
+    };
+}
+
 impl<S: Scalar> Lanes for Unbounded<S> {
     type Scalar = Self;
     type Mask = bool;
+
+    forward! {
+        fn sqrt(self) -> Self => Self;
+        fn abs(self) -> Self => Self;
+        fn larger(self, other) -> Self => Self;
+        fn smaller(self, other) -> Self => Self;
+        fn greater(self, other) -> bool => bool::from;
+        fn at_most(self, other) -> bool => bool::from;
+    }
 
     #[inline(always)]
     fn splat(self, value: Self) -> Self {
@@ -107,36 +132,6 @@ impl<S: Scalar> Lanes for Unbounded<S> {
     #[inline(always)]
     fn any(mask: bool) -> bool {
         mask
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        Self(self.0.sqrt())
-    }
-
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Self(self.0.abs())
-    }
-
-    #[inline(always)]
-    fn larger(self, other: Self) -> Self {
-        Self(self.0.larger(other.0))
-    }
-
-    #[inline(always)]
-    fn smaller(self, other: Self) -> Self {
-        Self(self.0.smaller(other.0))
-    }
-
-    #[inline(always)]
-    fn greater(self, other: Self) -> bool {
-        self.0.greater(other.0)
-    }
-
-    #[inline(always)]
-    fn at_most(self, other: Self) -> bool {
-        self.0.at_most(other.0)
     }
 
     #[inline(always)]

@@ -7,14 +7,13 @@ use selvedge_core::filter::certified;
 use selvedge_core::{PrimitivePair, Scalar};
 
 table! {
-    /// One culling test on primitive pairs. See [`selvedge_core::boxes`] and [`selvedge_core::filter`].
+    /// A culling test on primitive pairs. See [`selvedge_core::boxes`] and [`selvedge_core::filter`].
     pub enum CullingTest of Stage {
-        /// Swept axis-aligned boxes of the two primitives, made on the fly. Exact.
+        /// Swept axis-aligned boxes of the two primitives, made for each pair. Exact.
         SweptBoxes = "swept_boxes": Stage::Boxes,
-        /// The same test with boxes that are kept for every vertex, edge and face and refitted each step: each is made once,
-        /// not once for every pair. Exact.
+        /// The same test with stored boxes. They are made once for every vertex, edge and face, and refitted each step. Exact.
         StoredSweptBoxes = "stored_swept_boxes": Stage::Boxes,
-        /// Swept 18-DOPs, kept for every vertex, edge and face and refitted each step. Exact.
+        /// Swept 18-DOPs, stored for every vertex, edge and face and refitted each step. Exact.
         StoredDop18 = "dop_18": Stage::Boxes,
         /// VF: the vertex's path against the face's swept box; EE: swept boxes. Certified.
         SegmentBox = "segment_box": Stage::Boxes,
@@ -22,7 +21,7 @@ table! {
         RelativeBoxes = "relative_boxes": Stage::RelativeBoxes,
         /// [`RelativeBoxes`](Self::RelativeBoxes) with the six diagonals as well. Exact.
         RelativeBoxesNine = "relative_boxes_nine": Stage::RelativeBoxes,
-        /// The three-axis subspace filter of Tang, Li, Wang 2010 as reconstructed: the same computation as
+        /// The three-axis subspace filter of Tang, Li, Wang 2010 as reconstructed. It is the computation of
         /// [`RelativeBoxes`](Self::RelativeBoxes), counted as a filter.
         SubspaceThree = "subspace_three": Stage::Subspace,
         /// The subspace filter of Tang, Li, Wang 2011 as reconstructed: nine fixed directions.
@@ -35,7 +34,7 @@ table! {
 }
 
 table! {
-    /// Where in the data flow a count is taken, and whether boxes are compared there.
+    /// A place in the data flow where pairs are counted, and whether boxes are compared there.
     pub enum Stage of bool {
         /// Candidate triangle pairs.
         BroadPhase = "broad-phase": false,
@@ -63,7 +62,7 @@ impl Stage {
 }
 
 impl CullingTest {
-    /// The stage that this test is a choice for.
+    /// The stage of this test.
     #[must_use]
     pub const fn stage(self) -> Stage {
         self.row()
@@ -75,14 +74,14 @@ impl CullingTest {
         !matches!(self, Self::PlainNonCoplanarity)
     }
 
-    /// Whether it culls the pair. Volumes that a pipeline stores are made from the pair.
+    /// Returns whether the test culls the pair. Volumes that a pipeline stores are made from the pair.
     #[inline(always)]
     #[must_use]
     pub fn culls<S: Scalar>(self, pair: &PrimitivePair<S>) -> bool {
         self.run(Ask(pair))
     }
 
-    /// Does `with` what it does, with whether a pair is culled.
+    /// Hands the test to `with`: whether a pair is culled.
     #[inline(always)]
     pub(crate) fn run<S: Scalar, W: WithTest<S, bool>>(self, with: W) -> W::Outcome {
         match self {
@@ -92,12 +91,12 @@ impl CullingTest {
             Self::RelativeBoxes | Self::SubspaceThree => with.with(|pair| boxes::relative::three_axes(pair).is_culled()),
             Self::RelativeBoxesNine | Self::SubspaceNine => with.with(|pair| nine_directions::separated(pair).is_culled()),
             Self::PlainNonCoplanarity => MeasuredFilter::Paper.run(S::ZERO, with),
-            // Core's function for one pair without a separation: quicker than its filter, with the same verdicts.
+            // Core's function for one pair without a separation is faster than its filter, with the same verdicts.
             Self::CertifiedNonCoplanarity => with.with(|pair| certified::non_coplanarity(pair).is_culled()),
         }
     }
 
-    /// The same side by side; not for [`StoredDop18`](Self::StoredDop18), which is no test of lanes and culls nothing here.
+    /// Hands the test to `with`, on lanes. Not for [`StoredDop18`](Self::StoredDop18), which has no lanes and culls nothing here.
     #[inline(always)]
     pub(crate) fn run_lanes<S: Scalar>(self, with: impl WithLanes<S>) {
         match self {

@@ -4,23 +4,26 @@ use selvedge_core::elementary::{ContactVerdict, Limits, advance, contact::settle
 use selvedge_core::{PrimitivePair, Scalar};
 use std::fmt;
 
-/// Decides whether, and when, a pair first touches; with its tolerance in units of length where it is asked with several.
+/// A test that decides whether, and when, a pair first touches. Variants with several tolerances carry theirs, in units of
+/// length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ElementaryTest {
-    /// [`selvedge_core::elementary::advance`], with the default tolerance: certified; a contact's time is not after the exact
-    /// one, and a pair that comes within the tolerance, or too close to tell, may count as a contact.
+    /// [`selvedge_core::elementary::advance`] with the default tolerance. Certified: a contact's time is not after the exact one.
+    /// A pair within the tolerance, or too close for rounding to decide, may count as a contact.
     TimeOfImpact,
-    /// The same, and then [`selvedge_core::elementary::contact()`]: a contact is one exactly, and its time certified as before.
+    /// The same, then [`selvedge_core::elementary::contact()`]: exactly the pairs that touch are contacts, and their times are
+    /// certified.
     Exact,
     /// [`TimeOfImpact`](Self::TimeOfImpact) with this tolerance.
     Certified(f64),
-    /// The same without its error bounds. **Not certified.**
+    /// The same without error bounds. **Not certified.**
     Uncertified(f64),
     /// [`tight_inclusion`], the bisection of Wang et al. 2021. It never misses.
     TightInclusion(f64),
     /// [`additive`](crate::baselines::additive), Li et al. 2021. **Not certified.**
     Additive,
-    /// [`bernstein_sign`], Tang et al. 2014 without exact arithmetic, which tells no times. **Not certified**: it misses contacts.
+    /// [`bernstein_sign`], Tang et al. 2014 without exact arithmetic, which returns no times. **Not certified**: it misses
+    /// contacts.
     BernsteinSign,
     /// [`cubic`], Provot's test. **Not certified**: it misses contacts.
     Cubic,
@@ -42,7 +45,7 @@ impl ElementaryTest {
         }
     }
 
-    /// The tolerance, in units of length; `None` for that of the format, and for tests that know none.
+    /// The tolerance, in units of length; `None` for the format's default, and for tests without one.
     #[must_use]
     pub const fn tolerance(self) -> Option<f64> {
         match self {
@@ -51,7 +54,7 @@ impl ElementaryTest {
         }
     }
 
-    /// Whether it never misses a contact, and never says a time that is too late, rounding included.
+    /// Whether it never misses a contact and never returns a time that is too late, rounding included.
     #[must_use]
     pub const fn is_certified(self) -> bool {
         match self {
@@ -60,14 +63,14 @@ impl ElementaryTest {
         }
     }
 
-    /// From when on contact is not excluded, NaN if the test does not say; `None` if it is.
+    /// Returns the time from which contact is not excluded, NaN if the test has no times, and `None` if there is no contact.
     #[inline(always)]
     #[must_use]
     pub fn time<S: Scalar>(self, pair: &PrimitivePair<S>) -> Option<S> {
         self.run(Ask(pair))
     }
 
-    /// Does `with` what it does, with the [time](Self::time) of a pair.
+    /// Hands the test to `with`: the [time](Self::time) of a pair.
     #[inline(always)]
     pub(crate) fn run<S: Scalar, W: WithTest<S, Option<S>>>(self, with: W) -> W::Outcome {
         let limits = match self.tolerance() {

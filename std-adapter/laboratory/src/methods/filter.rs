@@ -35,8 +35,8 @@ impl MeasuredFilter {
         self.tier().is_some()
     }
 
-    /// Does `with` what it does, with whether a pair is culled: one that stays farther apart than `separation`, which
-    /// [`Paper`](Self::Paper) does not know.
+    /// Hands the filter to `with`: whether it culls a pair that stays farther apart than `separation`. [`Paper`](Self::Paper)
+    /// ignores the separation.
     #[inline(always)]
     pub(crate) fn run<S: Scalar, W: WithTest<S, bool>>(self, separation: S, with: W) -> W::Outcome {
         match self.tier() {
@@ -52,7 +52,7 @@ impl MeasuredFilter {
         }
     }
 
-    /// The same side by side.
+    /// Hands the filter to `with`, on lanes.
     #[inline(always)]
     pub(crate) fn run_lanes<S: Scalar>(self, separation: S, with: impl WithLanes<S>) {
         match self.tier() {
@@ -63,13 +63,13 @@ impl MeasuredFilter {
     }
 }
 
-/// Without the separation if it is none.
+/// Without the separation if it is not a valid one.
 fn as_computed<S: Scalar>(separation: S) -> AsComputed<S> {
     let filter = AsComputed::new();
     filter.with_separation(separation).unwrap_or(filter)
 }
 
-/// The same.
+/// Without the separation if it is not a valid one.
 fn tier_of<S: Scalar>(tier: Tier, separation: S) -> Filter<S> {
     let filter = Filter::new(tier);
     filter.with_separation(separation).unwrap_or(filter)

@@ -4,42 +4,41 @@ use super::table::table;
 use super::{CullingTest, ElementaryTest};
 use std::str::FromStr;
 
-/// Where a method's primitive pairs come from, and what keeps the same one from being tested twice.
+/// The source of a method's primitive pairs, and how it avoids testing a pair twice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Source {
     /// Candidate triangle pairs, distributed.
     TrianglePairs(Redundancy),
     /// Hierarchies of moving boxes over vertices, edges and faces, which find each primitive pair once
-    /// ([`MovingBroadPhase`](selvedge::broad_phase::MovingBroadPhase)); then the certified stages of [`CollisionDetector`](selvedge::CollisionDetector), whatever
-    /// the tests, and exact verdicts for [`ElementaryTest::Exact`].
+    /// ([`MovingBroadPhase`](selvedge::broad_phase::MovingBroadPhase)). Then come the certified stages of
+    /// [`CollisionDetector`](selvedge::CollisionDetector), whatever the tests, and exact verdicts for [`ElementaryTest::Exact`].
     MovingBoxes,
 }
 
-/// How a method keeps the same primitive pair from being tested twice, where it distributes triangle pairs.
+/// How a method that distributes triangle pairs avoids testing a primitive pair twice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Redundancy {
-    /// Not at all: each candidate triangle pair is distributed in full, duplicates included.
+    /// It does not: each candidate triangle pair is distributed in full, duplicates included.
     Kept,
-    /// Two hash sets, of vertex–face and of edge–edge pairs already distributed in this step.
+    /// Two hash sets hold the vertex–face and edge–edge pairs already distributed in this step.
     HashSets,
-    /// Each vertex and each edge is represented by one triangle (Curtis et al. 2008), assigned by
-    /// the paper's greedy rule.
+    /// One triangle represents each vertex and each edge (Curtis et al. 2008), by the paper's greedy rule.
     RepresentativeTriangles,
 }
 
 /// A method as a choice for each stage after the broad phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stages {
-    /// Where primitive pairs come from.
+    /// The source of primitive pairs.
     pub source: Source,
     /// The culling tests, in order; at most one for each [`Stage`](super::Stage).
     pub tests: &'static [CullingTest],
-    /// The test of what survives.
+    /// The test of the surviving pairs.
     pub elementary: ElementaryTest,
 }
 
 impl Stages {
-    /// Whether nothing that touches is missed, rounding included.
+    /// Whether the method misses nothing that touches, rounding included.
     #[must_use]
     pub fn is_certified(&self) -> bool {
         self.tests.iter().all(|test| test.is_certified()) && self.elementary.is_certified()
@@ -47,7 +46,7 @@ impl Stages {
 }
 
 table! {
-    /// A method by its name: author and year, or `selvedge`. In the order of the paper's references, ours last.
+    /// A method by its name: author and year, or `selvedge`. In the order of the paper's references; ours come last.
     pub enum Preset of Stages {
         /// Every primitive pair of every candidate triangle pair, duplicates included.
         Naive = "naive": published(Redundancy::Kept, &[]),
@@ -70,7 +69,7 @@ table! {
         Lv2014 = "lv_2014": published(REPRESENTATIVES, &[CullingTest::SegmentBox, CullingTest::PlainNonCoplanarity]),
         /// Ours.
         Selvedge = "selvedge": ours(ElementaryTest::TimeOfImpact),
-        /// Ours, with the exact verdict: no pair is called a contact that is none.
+        /// Ours, with the exact verdict: exactly the pairs that touch are contacts.
         SelvedgeExact = "selvedge_exact": ours(ElementaryTest::Exact),
     }
 }
@@ -100,7 +99,7 @@ impl Preset {
         self.row()
     }
 
-    /// Whether the original could not be read, and the preset claims no reproduction of it.
+    /// Whether the original could not be read, so that the preset claims no reproduction of it.
     #[must_use]
     pub const fn is_reconstructed(self) -> bool {
         matches!(self, Self::TangC2010 | Self::TangC2011)
@@ -113,7 +112,7 @@ impl Preset {
     }
 }
 
-/// A name that no preset has.
+/// A name that is not a preset's.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("there is no pipeline `{0}`; choose one of {list}", list = Preset::ALL.map(Preset::name).join(", "))]
 pub struct UnknownPreset(pub String);

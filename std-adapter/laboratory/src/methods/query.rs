@@ -7,11 +7,11 @@ use std::str::FromStr;
 /// A test of one primitive pair: stages alone, or ours as a whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum QueryMethod {
-    /// All stages of [`Preset::Selvedge`] from its culling tests on: they, then the certified time of impact.
+    /// All stages of [`Preset::Selvedge`] from its culling tests on, with the certified time of impact.
     Selvedge,
     /// A culling test alone.
     Culling(CullingTest),
-    /// An elementary test alone; of [`ElementaryTest::Exact`] only whether there is contact, not when:
+    /// An elementary test alone. For [`ElementaryTest::Exact`] only the verdict, without a time:
     /// [`elementary::contact`](mod@elementary::contact).
     Elementary(ElementaryTest),
 }
@@ -35,7 +35,7 @@ impl QueryMethod {
         Self::Elementary(ElementaryTest::Additive),
     ];
 
-    /// Their own default tolerance.
+    /// The default tolerance of its authors.
     const TIGHT_INCLUSION: f64 = 1e-6;
 
     /// The name on the command line and in reports.
@@ -58,13 +58,13 @@ impl QueryMethod {
         }
     }
 
-    /// Asks it about one pair: false if it culls the pair, or finds that it does not touch.
+    /// Returns false if the method culls the pair, or finds that it does not touch.
     #[must_use]
     pub fn keeps<S: Scalar>(self, pair: PrimitivePair<S>) -> bool {
         self.run(Ask(&pair))
     }
 
-    /// Does `with` what it does, with whether a pair is kept.
+    /// Hands the method to `with`: whether it keeps a pair.
     pub(crate) fn run<S: Scalar, W: WithTest<S, bool>>(self, with: W) -> W::Outcome {
         match self {
             Self::Selvedge => {
@@ -80,7 +80,7 @@ impl QueryMethod {
 
 const SELVEDGE: Stages = Preset::Selvedge.stages();
 
-/// With whether a stage keeps a pair.
+/// Inverts a culling test: whether it keeps a pair.
 struct Kept<W>(W);
 
 impl<S: Scalar, W: WithTest<S, bool>> WithTest<S, bool> for Kept<W> {
@@ -107,7 +107,7 @@ impl fmt::Display for QueryMethod {
     }
 }
 
-/// A name that no method has.
+/// A name that is not a method's.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("there is no method `{0}`; choose from {list}", list = QueryMethod::ALL.map(QueryMethod::name).join(", "))]
 pub struct UnknownMethod(String);

@@ -1,6 +1,6 @@
-//! What every list of the table has.
+//! The common part of all lists of methods.
 
-/// An enum whose variants are rows: a name on the command line and in reports, and what it stands for.
+/// Declares an enum whose variants are rows: a name on the command line and in reports, and a value.
 macro_rules! table {
     (
         $(#[$enum_doc:meta])*
@@ -15,7 +15,7 @@ macro_rules! table {
         }
 
         impl $table {
-            /// Every row, in its order.
+            /// Every row, in order.
             pub const ALL: [Self; [$($name),+].len()] = [$(Self::$variant),+];
 
             /// The name on the command line and in reports.

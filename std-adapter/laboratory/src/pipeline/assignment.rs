@@ -1,17 +1,16 @@
-//! Which triangle represents which vertices and edges, decided once per mesh.
+//! Assigns each vertex and each edge to the triangle that represents it, once per mesh.
 
 use selvedge::Topology;
 use selvedge_core::{FeatureEdge, FeatureTriangle, Features};
 
-/// The triangles of a mesh as distribution sees them: vertices and edges in lists, those that the triangle represents
-/// first.
+/// The triangles of a mesh as distribution sees them: lists of vertices and edges, represented ones first.
 #[derive(Clone, Debug)]
 pub struct FeatureAssignment {
     triangles: Vec<FeatureTriangle<u32>>,
 }
 
 impl FeatureAssignment {
-    /// The paper's greedy rule: triangle by triangle, each takes the vertices and edges that no earlier one has taken.
+    /// Assigns by the paper's greedy rule: triangle by triangle, each takes the vertices and edges that no earlier one has taken.
     /// Every vertex with a triangle, and every edge, ends up with exactly one representative.
     ///
     /// ```
@@ -38,8 +37,7 @@ impl FeatureAssignment {
         Self::assign(topology, &mut take)
     }
 
-    /// Every triangle represents all its vertices and edges: for methods that remove duplicates otherwise, or not at
-    /// all.
+    /// Lets every triangle represent all its vertices and edges, for methods that remove duplicates otherwise, or not at all.
     #[must_use]
     pub fn every_feature(topology: &Topology) -> Self {
         Self::assign(topology, &mut |_| true)
@@ -83,7 +81,7 @@ enum Taken {
     Edge(u32),
 }
 
-/// The same three items, with those that `take` wants in front, and how many these are.
+/// Returns the same three items with those that `take` wants first, and the number of these.
 fn first_taken(items: [u32; 3], mut take: impl FnMut(usize) -> bool) -> ([u32; 3], u8) {
     let taken = [take(0), take(1), take(2)];
     let mut order = [0, 1, 2];

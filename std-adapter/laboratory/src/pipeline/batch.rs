@@ -1,12 +1,12 @@
-//! The stages after the broad phase, on one batch of candidate triangle pairs that stays in the cache.
+//! Runs the stages after the broad phase on one batch of candidate triangle pairs that stays in the cache.
 
-use super::Distributed;
 use super::assignment::FeatureAssignment;
 use super::pairs::MovingMesh;
 use super::stored::{BoundingVolume, Stored};
 use crate::baselines::nine_directions::Dop18;
 use crate::methods::{CullingTest, Stages, WithLanes, WithTest};
 use arrayvec::ArrayVec;
+use rustc_hash::FxHashSet;
 use selvedge::Contact;
 use selvedge::PairCounts;
 use selvedge::PairKind;
@@ -16,7 +16,7 @@ use selvedge_core::distribution::distribute;
 use selvedge_core::{PrimitivePair, Scalar};
 use std::time::Instant;
 
-/// What every batch of a step reads.
+/// The input that all batches of a step share.
 #[derive(Clone, Copy)]
 pub(super) struct StepInput<'a, S: Scalar> {
     pub(super) level: Level,
@@ -27,23 +27,30 @@ pub(super) struct StepInput<'a, S: Scalar> {
 }
 
 /// Survivors and seconds of one stage.
-pub(super) type Tally = (PairCounts, f64);
+pub(super) type StageCounts = (PairCounts, f64);
 
-/// Primitive pairs on their way through the stages. Each stage drops pairs in place; their order never changes.
+/// The primitive pairs distributed so far in this step, for [`Redundancy::HashSets`](crate::methods::Redundancy::HashSets).
+#[derive(Debug, Default)]
+pub(super) struct Distributed {
+    pub(super) vertex_face: FxHashSet<[u32; 2]>,
+    pub(super) edge_edge: FxHashSet<[u32; 2]>,
+}
+
+/// Primitive pairs on their way through the stages. Each stage drops pairs in place and keeps their order.
 #[derive(Clone, Debug)]
 pub(super) struct Batch<S> {
     pub(super) vertex_face: Vec<[u32; 2]>,
     pub(super) edge_edge: Vec<[u32; 2]>,
     pub(super) contacts: Vec<Contact<S>>,
-    /// The vertices of each pair, and what a batched test says of them.
+    /// The vertices of each pair, and the masks that a batched test returns for them.
     indices: Vec<[u32; 4]>,
     masks: Vec<Mask>,
-    /// Distribution, each culling test, the elementary test.
-    pub(super) tallies: ArrayVec<Tally, 8>,
+    /// Counts of distribution, of each culling test, and of the elementary test.
+    pub(super) tallies: ArrayVec<StageCounts, 8>,
 }
 
 impl<S: Scalar> Batch<S> {
-    /// Room for the primitive pairs of so many candidate triangle pairs, so that no step has to make more.
+    /// Makes room for the primitive pairs of this many candidate triangle pairs, so that no step has to grow it.
     pub(super) fn with_capacity(triangle_pairs: usize) -> Self {
         Self {
             vertex_face: Vec::with_capacity(6 * triangle_pairs),
@@ -78,7 +85,7 @@ impl<S: Scalar> Batch<S> {
         self.tallies.push((self.counts(), begin.elapsed().as_secs_f64()));
     }
 
-    /// Drops the pairs that were distributed before, and notes the others. Belongs to distribution, and is counted there.
+    /// Drops the pairs that were distributed before, and records the others. It counts as part of distribution.
     pub(super) fn keep_new(&mut self, distributed: &mut Distributed) {
         let begin = Instant::now();
         keep_where(&mut self.vertex_face, |pair| distributed.vertex_face.insert(pair));
@@ -92,7 +99,7 @@ impl<S: Scalar> Batch<S> {
         }
     }
 
-    /// The culling tests in their order.
+    /// Runs the culling tests in order.
     pub(super) fn cull(&mut self, step: &StepInput<'_, S>) {
         for &test in step.stages.tests {
             let begin = Instant::now();
@@ -141,13 +148,13 @@ impl<S: Scalar> Batch<S> {
         keep_where(&mut self.edge_edge, |pair| stored.edge_edge_overlap(pair));
     }
 
-    /// The elementary test of what is left: fills `contacts`, vertex–face first.
+    /// Runs the elementary test on the remaining pairs and fills `contacts`, vertex–face first.
     pub(super) fn find_contacts(&mut self, step: &StepInput<'_, S>) {
         step.stages.elementary.run(AtWork { batch: self, step });
     }
 }
 
-/// A stage at work.
+/// A stage on a batch.
 struct AtWork<'a, S: Scalar> {
     batch: &'a mut Batch<S>,
     step: &'a StepInput<'a, S>,
@@ -184,7 +191,7 @@ impl<S: Scalar> WithTest<S, Option<S>> for AtWork<'_, S> {
     }
 }
 
-/// Like `Vec::retain`, without a branch on the outcome: what survives is hard to predict.
+/// Like `Vec::retain`, without a branch on the outcome, which is hard to predict.
 fn keep_where(pairs: &mut Vec<[u32; 2]>, mut keep: impl FnMut([u32; 2]) -> bool) {
     let mut kept = 0;
     for read in 0..pairs.len() {

@@ -1,4 +1,4 @@
-//! From two frames of a mesh to the primitive pairs that may collide, and those that do.
+//! Takes two frames of a mesh to the primitive pairs that may collide, and to those that do.
 //!
 //! ```text
 //! triangles, positions at the start and at the end of the step
@@ -15,10 +15,10 @@
 //! contacts
 //! ```
 //!
-//! A published method is a [`Preset`]: a choice of stages ([`Stages`]), never another loop. All of them run the
-//! same code, on the same broad phase, so their times compare; every test goes sixteen pairs at a time
-//! ([`selvedge_core::batch`]). The presets `selvedge` and `selvedge_exact` alone have no triangle pairs
-//! ([`Source::MovingBoxes`]): they are [`CollisionDetector`], counted as the others are.
+//! A published method is a [`Preset`]: a choice of stages ([`Stages`]), never another loop. All of them run the same code on the
+//! same broad phase, so that their times compare. Every test runs on sixteen pairs at a time ([`selvedge_core::batch`]). Only the
+//! presets `selvedge` and `selvedge_exact` have no triangle pairs ([`Source::MovingBoxes`]): they run [`CollisionDetector`], with
+//! the same counts.
 //!
 //! ```
 //! use selvedge::{glam::DVec3, Topology};
@@ -59,9 +59,8 @@ use crate::broad_phase::{BroadPhase, SweptBox};
 #[cfg(doc)]
 use crate::methods::Preset;
 use crate::methods::{CullingTest, ElementaryTest, Redundancy, Source, Stage, Stages};
-use batch::{Batch, StepInput};
+use batch::{Batch, Distributed, StepInput};
 use pairs::MovingMesh;
-use rustc_hash::FxHashSet;
 use selvedge::PairCounts;
 use selvedge::PairKind;
 use selvedge::Topology;
@@ -77,34 +76,34 @@ use std::sync::Arc;
 use std::time::Instant;
 use stored::Stored;
 
-/// Candidate triangle pairs in a batch. Their primitive pairs take at most a quarter of a megabyte, so that a batch
-/// goes through all stages in a core's own cache; smaller batches gain nothing and pay for the clock more often.
+/// Candidate triangle pairs in a batch. Their primitive pairs take at most a quarter of a megabyte, so that a batch stays in a
+/// core's own cache through all stages. Smaller batches gain nothing and read the clock more often.
 const BATCH: usize = 2048;
 
-/// A method, set up for one mesh; [`step`](Self::step) runs it on one time step after another.
+/// A method, set up for one mesh. [`step`](Self::step) runs it on one time step after another.
 ///
-/// Contacts and counts are the same, in the same order, for any number of threads. Buffers grow with some room to spare and
-/// never shrink: after the first step nothing is allocated unless some part of the mesh has more pairs than ever. (With
-/// several threads rayon may still allocate for its queues.)
+/// Contacts and counts are the same, in the same order, for any number of threads. Buffers grow with some room to spare and never
+/// shrink. After the first step nothing is allocated unless some part of the mesh has more pairs than ever. With several threads,
+/// rayon may still allocate for its queues.
 #[derive(Debug)]
 pub struct Pipeline<S: Scalar> {
     topology: Arc<Topology>,
     stages: Stages,
     route: Route<S>,
-    /// Those of the route with triangle pairs; a detector has its own.
+    /// Threads for methods with triangle pairs; a detector has its own.
     threads: Workers,
     buffers: Buffers<S>,
     report: StepReport,
 }
 
-/// Where primitive pairs come from.
+/// The source of primitive pairs.
 #[derive(Debug)]
 enum Route<S: Scalar> {
     TrianglePairs(Redundancy, FeatureAssignment),
     MovingBoxes(Box<CollisionDetector<S>>),
 }
 
-/// What is filled anew in each step.
+/// Buffers that each step fills again.
 #[derive(Debug)]
 struct Buffers<S: Scalar> {
     keep_candidates: bool,
@@ -121,17 +120,10 @@ struct Buffers<S: Scalar> {
     contacts: Vec<Contact<S>>,
 }
 
-/// The primitive pairs distributed so far in this step, for [`Redundancy::HashSets`].
-#[derive(Debug, Default)]
-struct Distributed {
-    vertex_face: FxHashSet<[u32; 2]>,
-    edge_edge: FxHashSet<[u32; 2]>,
-}
-
 impl<S: Scalar> Pipeline<S> {
-    /// Prepares `stages` for a mesh, on `threads` threads (0: one for each core).
+    /// Prepares `stages` for a mesh, on `threads` threads. 0 means one for each core.
     ///
-    /// With one thread everything runs on the calling thread, and no pool is made.
+    /// With one thread everything runs on the calling thread, without a pool.
     ///
     /// # Errors
     /// If the operating system refuses the threads.
@@ -158,7 +150,7 @@ impl<S: Scalar> Pipeline<S> {
                 Route::TrianglePairs(redundancy, assignment)
             }
         };
-        // A few batches for each thread, so that an unlucky one does not keep the others waiting.
+        // A few batches for each thread keep the threads busy when batches differ in cost.
         let batches = match (&route, own_threads.count()) {
             (Route::MovingBoxes(_), _) => 0,
             (_, 1) => 1,
@@ -170,7 +162,7 @@ impl<S: Scalar> Pipeline<S> {
                 level: best_level(),
                 rows: Vec::new(),
                 swept: Vec::new(),
-                broad_phase: BroadPhase::new(),
+                broad_phase: BroadPhase::default(),
                 triangle_pairs: Vec::new(),
                 boxes: Stored::new(),
                 dops: Stored::new(),
@@ -187,12 +179,13 @@ impl<S: Scalar> Pipeline<S> {
         })
     }
 
-    /// Whether the pairs that reach the elementary test are kept for [`candidates`](Self::candidates). Off at first.
+    /// Sets whether the pairs that reach the elementary test are kept for [`candidates`](Self::candidates). Off by default.
     pub const fn keep_candidates(&mut self, keep: bool) {
         self.buffers.keep_candidates = keep;
     }
 
-    /// Forces the instruction set of the batched kernels; the best that the machine has is the default. Changes no result.
+    /// Forces the instruction set of the batched kernels. The default is the best that the machine has. The results do not
+    /// change.
     pub const fn set_level(&mut self, level: Level) {
         self.buffers.level = level;
         if let Route::MovingBoxes(detector) = &mut self.route {
@@ -225,14 +218,14 @@ impl<S: Scalar> Pipeline<S> {
             }
             Route::MovingBoxes(detector) => {
                 buffers.ask(detector, start, end)?;
-                *report = StepReport::of_detector(detector.statistics());
+                *report = StepReport::from_detector(detector.statistics());
             }
         }
         Ok(report)
     }
 
-    /// The contacts of the last step: batch by batch in the order of candidate triangle pairs; without them vertex–face first,
-    /// in the order of the hierarchies.
+    /// Returns the contacts of the last step. They come batch by batch in the order of candidate triangle pairs. Without triangle
+    /// pairs, vertex–face contacts come first, in the order of the hierarchies.
     #[must_use]
     pub fn contacts(&self) -> &[Contact<S>] {
         &self.buffers.contacts
@@ -244,7 +237,7 @@ impl<S: Scalar> Pipeline<S> {
         &self.buffers.candidates[kind as usize]
     }
 
-    /// What the last step counted and how long it took.
+    /// Returns the counts and times of the last step.
     #[must_use]
     pub const fn report(&self) -> &StepReport {
         &self.report
@@ -256,7 +249,7 @@ impl<S: Scalar> Pipeline<S> {
         &self.topology
     }
 
-    /// How many threads a step uses.
+    /// Returns the number of threads that a step uses.
     #[must_use]
     pub fn threads(&self) -> usize {
         match &self.route {
@@ -266,7 +259,7 @@ impl<S: Scalar> Pipeline<S> {
     }
 }
 
-/// What makes primitive pairs of triangle pairs.
+/// The parts that turn triangle pairs into primitive pairs.
 #[derive(Clone, Copy)]
 struct Distributor<'a> {
     topology: &'a Topology,
@@ -275,7 +268,7 @@ struct Distributor<'a> {
 }
 
 impl<S: Scalar> Buffers<S> {
-    /// Our own detector's contacts, and its candidates if they are kept.
+    /// Runs our own detector, and keeps its candidates if they are wanted.
     fn ask(&mut self, detector: &mut CollisionDetector<S>, start: &[S::Vector], end: &[S::Vector]) -> Result<(), StepError> {
         let [vertex_face, edge_edge] = &mut self.candidates;
         if self.keep_candidates {
@@ -305,8 +298,7 @@ impl<S: Scalar> Buffers<S> {
         };
         self.boxes.refit_vertices_and_faces(mesh);
         swept::map_boxes(&mut self.swept, self.boxes.faces());
-        self.broad_phase.update(&self.swept);
-        self.broad_phase.candidate_triangle_pairs(&mut self.triangle_pairs);
+        self.broad_phase.overlapping_pairs(&self.swept, &mut self.triangle_pairs);
         report.broad_phase_seconds = begin.elapsed().as_secs_f64();
         report.triangle_pairs = self.triangle_pairs.len() as u64;
 
@@ -340,7 +332,7 @@ impl<S: Scalar> Buffers<S> {
             topology,
             rows: &self.rows,
         };
-        // What only some methods keep is refitted in the stage that uses it.
+        // Volumes that only some methods store are refitted in the stage that uses them.
         for (test, report) in stages.tests.iter().zip(&mut report.stages[1..]) {
             let begin = Instant::now();
             match test {
@@ -372,7 +364,7 @@ impl<S: Scalar> Buffers<S> {
                 batch.find_contacts(&step);
             };
             if redundancy == Redundancy::HashSets {
-                // The sets are asked in order, by one thread: whichever pair comes first stays.
+                // One thread updates the sets in order, so that the first of equal pairs stays.
                 parallel::for_each(batches, distribute);
                 batches.iter_mut().for_each(|batch| batch.keep_new(&mut self.distributed));
                 parallel::for_each(batches, |_, batch| finish(batch));

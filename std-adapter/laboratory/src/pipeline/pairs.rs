@@ -1,10 +1,10 @@
-//! Primitive pairs by the numbers of their features, and the points that belong to them.
+//! Primitive pairs by the numbers of their features, with the points that belong to them.
 
 use selvedge::Topology;
 use selvedge_core::batch::VertexRow;
 use selvedge_core::{PairKind, PrimitivePair, Scalar};
 
-/// The mesh with the motion of each vertex in one row: where the stages gather a pair's points from.
+/// The mesh with the motion of each vertex in one row, from which stages gather a pair's points.
 #[derive(Clone, Copy)]
 pub(super) struct MovingMesh<'a, S: Scalar> {
     pub(super) topology: &'a Topology,

@@ -1,4 +1,4 @@
-//! What a step counted and how long its stages took.
+//! Counts and times of a step and its stages.
 
 use crate::methods::Stage;
 use arrayvec::ArrayVec;
@@ -8,9 +8,9 @@ use selvedge::StepStatistics;
 /// One stage after the broad phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StageReport {
-    /// Which stage.
+    /// The stage.
     pub stage: Stage,
-    /// The pairs that it passed on; for the elementary test, the contacts.
+    /// The pairs that it passes on; for the elementary test, the contacts.
     pub survivors: PairCounts,
     /// Seconds, summed over threads.
     pub seconds: f64,
@@ -19,7 +19,7 @@ pub struct StageReport {
 /// One step.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StepReport {
-    /// Candidate triangle pairs: their swept boxes overlap. Zero for a method that has none.
+    /// Candidate triangle pairs: their swept boxes overlap. Zero for a method without them.
     pub triangle_pairs: u64,
     /// The primitive pairs that the broad phase finds itself, for a method without triangle pairs.
     pub broad_phase_pairs: Option<PairCounts>,
@@ -27,77 +27,78 @@ pub struct StepReport {
     pub broad_phase_seconds: f64,
     /// The stages after it, in order, up to the elementary test.
     pub stages: ArrayVec<StageReport, 8>,
-    /// Seconds of the whole step by the clock on the wall.
+    /// Wall-clock seconds of the whole step.
     pub seconds: f64,
 }
 
 impl StepReport {
-    /// What our own detector counted, as the stages of a method.
+    /// Converts the counts of our own detector to the stages of a method.
     #[must_use]
-    pub fn of_detector(tally: &StepStatistics) -> Self {
+    pub fn from_detector(counts: &StepStatistics) -> Self {
         let stage = |stage, survivors, seconds| StageReport {
             stage,
             survivors,
             seconds,
         };
         let stages = [
-            stage(Stage::NonCoplanarity, tally.filtered, tally.filter_seconds),
-            stage(Stage::Elementary, tally.contacts, tally.elementary_seconds),
+            stage(Stage::NonCoplanarity, counts.filtered, counts.filter_seconds),
+            stage(Stage::Elementary, counts.contacts, counts.elementary_seconds),
         ];
         Self {
             triangle_pairs: 0,
-            broad_phase_pairs: Some(tally.candidates),
-            broad_phase_seconds: tally.broad_phase_seconds,
+            broad_phase_pairs: Some(counts.candidates),
+            broad_phase_seconds: counts.broad_phase_seconds,
             stages: stages.into_iter().collect(),
-            seconds: tally.seconds,
+            seconds: counts.seconds,
         }
     }
 
-    /// The same of a caller's pairs that a broad phase has found in so many seconds.
+    /// Converts the counts for a caller's pairs, which a broad phase has found in this many seconds.
     #[must_use]
-    pub fn of_detector_after(tally: &StepStatistics, broad_phase_seconds: f64) -> Self {
-        let mut report = Self::of_detector(tally);
+    pub fn from_given_pairs(counts: &StepStatistics, broad_phase_seconds: f64) -> Self {
+        let mut report = Self::from_detector(counts);
         let boxes = StageReport {
             stage: Stage::RelativeBoxes,
-            survivors: tally.candidates,
-            seconds: tally.broad_phase_seconds,
+            survivors: counts.candidates,
+            seconds: counts.broad_phase_seconds,
         };
         report.stages.insert(0, boxes);
         Self {
-            broad_phase_pairs: Some(tally.given),
+            broad_phase_pairs: Some(counts.given),
             broad_phase_seconds,
-            seconds: broad_phase_seconds + tally.seconds,
+            seconds: broad_phase_seconds + counts.seconds,
             ..report
         }
     }
 
-    /// What a stage passed on, if the method has that stage.
+    /// Returns the pairs that a stage passed on, if the method has that stage.
     #[must_use]
     pub fn survivors(&self, stage: Stage) -> Option<PairCounts> {
         let report = self.stages.iter().find(|report| report.stage == stage)?;
         Some(report.survivors)
     }
 
-    /// The pairs that reach the elementary test.
+    /// Returns the pairs that reach the elementary test.
     #[must_use]
     pub fn candidates(&self) -> PairCounts {
         self.last_survivors(|stage| stage != Stage::Elementary)
     }
 
-    /// The pairs after the last box test; where there is none, as distributed, or as the broad phase finds them.
+    /// Returns the pairs after the last box test. Without one, these are the pairs as distributed, or as the broad phase finds
+    /// them.
     #[must_use]
     pub fn after_boxes(&self) -> PairCounts {
         let survivors = self.last_survivors(|stage| stage == Stage::Distribution || stage.is_box_test());
         self.broad_phase_pairs.unwrap_or(survivors)
     }
 
-    /// The contacts found.
+    /// Returns the contacts found.
     #[must_use]
     pub fn contacts(&self) -> PairCounts {
         self.survivors(Stage::Elementary).unwrap_or_default()
     }
 
-    /// Adds the counts and times of another step of the same method (of any, to a report that is still empty).
+    /// Adds the counts and times of another step of the same method. An empty report takes those of any method.
     pub fn add(&mut self, other: &Self) {
         if self.stages.is_empty() {
             self.stages.clone_from(&other.stages);

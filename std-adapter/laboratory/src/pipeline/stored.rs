@@ -1,4 +1,4 @@
-//! A bounding volume for every vertex, edge and face, refitted each step.
+//! Stores a bounding volume for every vertex, edge and face, refitted each step.
 
 use super::pairs::MovingMesh;
 use crate::baselines::nine_directions::Dop18;
@@ -6,7 +6,7 @@ use selvedge::parallel::fill;
 use selvedge_core::boxes::Aabb;
 use selvedge_core::{Motion, Scalar};
 
-/// A volume that holds what moves during the step.
+/// A volume that holds a feature throughout the step.
 pub(super) trait BoundingVolume<S: Scalar>: Copy + Send + Sync {
     fn swept(motion: &Motion<S>) -> Self;
     fn merged(&self, other: &Self) -> Self;
@@ -80,7 +80,7 @@ impl<V> Stored<V> {
         });
     }
 
-    /// After [`refit_vertices_and_faces`](Self::refit_vertices_and_faces).
+    /// Refits edges, after [`refit_vertices_and_faces`](Self::refit_vertices_and_faces).
     pub(super) fn refit_edges<S: Scalar>(&mut self, mesh: MovingMesh<'_, S>)
     where
         V: BoundingVolume<S>,

@@ -1,10 +1,10 @@
-//! The broad phase's boxes: `f32` whatever the positions are.
+//! The broad phase's boxes, in `f32` whatever the format of the positions.
 //!
-//! Boxes must overlap whenever the exact ones do. A coordinate x becomes fl₃₂(fl(x − m)), m a middle of the mesh. Both
-//! roundings are monotone: x ≤ y implies that x's image is at most y's. Two boxes overlap if each one's lower bound is at
-//! most the other's upper bound, on each axis; so boxes that overlap still do after the mapping, **without rounding
-//! outwards**. Some pairs that were narrowly apart may be added; the primitive box tests see the exact positions. Taking m
-//! off first keeps `f32` precise for a mesh that is far from the origin.
+//! Boxes must overlap whenever the exact ones do. A coordinate x becomes fl₃₂(fl(x − m)), where m is a middle of the mesh. Both
+//! roundings are monotone: x ≤ y implies that x's image is at most y's. Two boxes overlap if each one's lower bound is at most
+//! the other's upper bound, on each axis. Boxes that overlap therefore still do after the mapping, **without rounding outwards**.
+//! Some pairs that were narrowly apart may be added; the primitive box tests see the exact positions. Subtracting m first keeps
+//! `f32` precise for a mesh far from the origin.
 
 use crate::broad_phase::SweptBox;
 use selvedge::parallel;

@@ -1,9 +1,8 @@
-//! Which colour each cloth has, so that several can be told apart: in pictures, in glTF files, and on the page, whose style sheet has the
-//! same four.
+//! The colours that distinguish cloths in pictures, glTF files and on the page, whose style sheet has the same four.
 
 use super::recording::{Part, PartKind};
 
-/// Of the page's light theme, as linear light; a fifth cloth has the first one again.
+/// Colours of the page's light theme, as linear light. A fifth cloth has the first one again.
 pub(super) const CLOTHS: [[f64; 3]; 4] = [
     [0.046_1, 0.183, 0.467],
     [0.114, 0.330, 0.157],
@@ -11,8 +10,8 @@ pub(super) const CLOTHS: [[f64; 3]; 4] = [
     [0.259, 0.125, 0.442],
 ];
 
-/// Of each part: the number of its colour if it is a cloth; `None` for a body.
-pub(super) fn of_cloths(parts: &[Part]) -> Vec<Option<usize>> {
+/// Returns for each part the number of its colour, or `None` for a body.
+pub(super) fn cloth_colours(parts: &[Part]) -> Vec<Option<usize>> {
     let mut next = (0..CLOTHS.len()).cycle();
     let own = |part: &Part| match part.kind() {
         PartKind::Cloth => next.next(),

@@ -1,4 +1,4 @@
-//! Tables for other programs.
+//! Writes tables for other programs.
 
 use super::distributed;
 use super::paper::paper_row;
@@ -11,7 +11,7 @@ use selvedge::Topology;
 use selvedge_core::Scalar;
 use std::io::{self, Write};
 
-/// Stages with a column of seconds of their own, in the order of the data flow.
+/// Stages with a column of seconds, in the order of the data flow.
 const STAGES: [(Stage, &str); 6] = [
     (Stage::Distribution, "distribution_seconds"),
     (Stage::Boxes, "boxes_seconds"),
@@ -21,8 +21,8 @@ const STAGES: [(Stage, &str); 6] = [
     (Stage::Elementary, "elementary_seconds"),
 ];
 
-/// Writes a comparison, one row a method: counts are means per step, times are seconds per step. The paper's own
-/// numbers stand in the last three columns of the methods that are in its Table 1; what a method lacks is empty.
+/// Writes a comparison, one row for each method. Counts are means per step, times are seconds per step. The last three columns
+/// have the paper's own numbers for the methods in its Table 1. Empty fields stand for what a method lacks.
 ///
 /// # Errors
 /// Those of `out`.
@@ -80,9 +80,9 @@ fn comparison_record(row: &ComparisonRow) -> Vec<String> {
     record
 }
 
-/// Writes contacts as `kind,i0,i1,i2,i3,time`: vertex–face first, each kind in the order given. For VF i0 is the
-/// vertex and i1 to i3 are the face's; for EE i0, i1 and i2, i3 are the two edges. Vertices count from 0 as in the
-/// mesh's file, times are in [0, 1] of the step.
+/// Writes contacts as `kind,i0,i1,i2,i3,time`: vertex–face first, each kind in the order given. For VF, i0 is the vertex and i1
+/// to i3 are the face's. For EE, i0, i1 and i2, i3 are the two edges. Vertices count from 0 as in the mesh's file; times are in
+/// [0, 1] of the step.
 ///
 /// # Errors
 /// Those of `out`.
@@ -92,7 +92,7 @@ pub fn contacts_csv<S: Scalar>(topology: &Topology, contacts: &[Contact<S>], out
     for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
         for contact in contacts.iter().filter(|contact| contact.kind == kind) {
             let vertices = topology.vertices_of(kind, contact.pair);
-            // As text in its own precision: the shortest that reads back.
+            // The shortest text that reads back in the format's own precision.
             writer.serialize((kind.name(), vertices, contact.time.to_string()))?;
         }
     }

@@ -1,5 +1,5 @@
-//! What `--json` prints: names are lower case with underscores, values lower case with hyphens, times are seconds
-//! unless the name says nanoseconds.
+//! Builds what `--json` prints. Names are lower case with underscores, values lower case with hyphens; times are seconds unless
+//! the name says nanoseconds.
 
 use super::distributed;
 use super::findings::findings;
@@ -7,8 +7,8 @@ use super::n_log_n_ratios;
 use super::paper::paper_row;
 use super::recording::{EDGES_99, LONGEST_EDGE, Measure, MeasureKind, Recording};
 use super::step::{StepQuestion, StepSummary};
-use super::tangled_start::untangled_json;
-use crate::hard_cases::Contact;
+use super::tangles::untangled_json;
+use crate::hard_cases::ExactContact;
 use crate::methods::QueryMethod;
 use crate::methods::{Preset, Stage};
 use crate::pipeline::StepReport;
@@ -20,11 +20,11 @@ use selvedge::PairCounts;
 use selvedge_cloth::{TangledStart, TornEdge};
 use serde_json::{Value, json};
 
-/// One step: `selvedge cull`.
+/// One step, for `selvedge cull`.
 #[must_use]
 pub fn step(summary: &StepSummary) -> Value {
     let contacts = summary.report.contacts();
-    // Null is what was not asked.
+    // Fields that were not requested are null.
     let has_all = summary.question == StepQuestion::Contacts;
     let contacts = (summary.question != StepQuestion::Candidates).then(|| {
         json!({
@@ -77,7 +77,7 @@ fn broad_phase(triangle_pairs: impl Into<Value>, seconds: f64) -> Value {
     })
 }
 
-/// Every method on the same steps: `selvedge compare`.
+/// Every method on the same steps, for `selvedge compare`.
 #[must_use]
 pub fn comparison(comparison: &Comparison) -> Value {
     json!({
@@ -134,7 +134,7 @@ fn comparison_stages(row: &ComparisonRow) -> Vec<Value> {
     [first].into_iter().chain(later).collect()
 }
 
-/// What each method said of queries: `selvedge queries`.
+/// Each method's answers to queries, for `selvedge queries`.
 #[must_use]
 pub fn queries(scalar: &str, results: &[QueryResult]) -> Value {
     let methods = results.iter().map(|result| {
@@ -159,7 +159,7 @@ pub fn queries(scalar: &str, results: &[QueryResult]) -> Value {
     json!({"scalar": scalar, "methods": methods.collect::<Vec<_>>()})
 }
 
-/// What a step costs with the first of the effects, with the first two, and so on.
+/// The cost of a step with no effect, with the first one, with the first two, and so on.
 #[must_use]
 pub fn effects_one_by_one(costs: &[crate::study::EffectCost]) -> Value {
     let costs = costs
@@ -168,10 +168,10 @@ pub fn effects_one_by_one(costs: &[crate::study::EffectCost]) -> Value {
     costs.collect()
 }
 
-/// A simulation and what was recorded of it: `selvedge simulate`.
+/// A simulation and its recording, for `selvedge simulate`.
 ///
-/// Energies are in J, those of weight from the scene's origin; stretch is a length over that at rest; both after the steps that end at
-/// `seconds`.
+/// Energies are in J; gravitational energy counts from the scene's origin. Stretch is relative to the length at rest. Both lists
+/// belong to the times in `seconds`.
 #[must_use]
 pub fn simulation(simulation: &selvedge_cloth::Simulation, recording: &Recording) -> Value {
     let seconds = recording.wall_seconds.unwrap_or(f64::NAN);
@@ -223,12 +223,12 @@ pub fn simulation(simulation: &selvedge_cloth::Simulation, recording: &Recording
         "untangled": simulation.untangled().map(untangled_json),
         "tolerated": (simulation.tangled_start() == TangledStart::Tolerate)
             .then(|| json!({"crossings_at_end": simulation.crossings().len(), "pairs_at_end": simulation.tolerated_pairs()})),
-        // Certified for cloth with whatever the scene's contact effects name; nobody looks if there are none.
+        // Contact effects certify every state. Without them nothing is known, hence null.
         "intersections_at_end": simulation.is_certified().then_some(0),
     })
 }
 
-/// When measures were taken, in seconds.
+/// The times of measurements, in seconds.
 fn measured_seconds(recording: &Recording) -> Vec<f64> {
     let steps = recording.measured_steps.iter();
     steps.map(|&step| recording.end_of(step)).collect()
@@ -259,7 +259,7 @@ fn energy(recording: &Recording) -> Value {
     energy
 }
 
-/// Cost against size: `selvedge scaling`.
+/// Cost against size, for `selvedge scaling`.
 #[must_use]
 pub fn scaling(preset: Preset, threads: usize, points: &[ScalingPoint]) -> Value {
     let ratios = n_log_n_ratios(points);
@@ -286,7 +286,7 @@ pub fn scaling(preset: Preset, threads: usize, points: &[ScalingPoint]) -> Value
     })
 }
 
-/// What accuracy costs in time: `selvedge accuracy`. One row for each set, format, filter and backend.
+/// Filters and their times, for `selvedge accuracy`: one row for each set, format, filter and instruction set.
 #[must_use]
 pub fn accuracy(accuracy: &Accuracy) -> Value {
     let options = accuracy.options;
@@ -307,7 +307,7 @@ pub fn accuracy(accuracy: &Accuracy) -> Value {
     })
 }
 
-/// A set of pairs: how many of each kind, and what else was counted.
+/// A set of pairs: the number of each kind, and further counts.
 fn pairs_of(name: &str, scalar: &str, pairs: [usize; 2], more: &[(&str, usize)]) -> Value {
     let [vertex_face, edge_edge] = pairs;
     let mut set = json!({
@@ -347,7 +347,7 @@ fn accuracy_rows(set: &AccuracySet) -> Vec<Value> {
     rows
 }
 
-/// Every elementary test, its time and what it gets wrong: a part of `selvedge accuracy`.
+/// Elementary tests, their times and errors: a part of `selvedge accuracy`.
 #[must_use]
 pub fn elementary(accuracy: &ElementaryAccuracy) -> Value {
     let sets = accuracy.sets.iter().map(|set| {
@@ -382,15 +382,15 @@ pub fn elementary(accuracy: &ElementaryAccuracy) -> Value {
     })
 }
 
-/// What every method said of the hard cases: `selvedge hard-cases`.
+/// Every method's answers to the hard cases, for `selvedge hard-cases`.
 #[must_use]
 pub fn hard_cases(scalar: &str, results: &[HardResult]) -> Value {
     let cases = results.iter().map(|result| {
         let case = result.case;
         let (first, enclosure) = match &case.contact {
-            Contact::Never => ("never", None),
-            Contact::Undefined => ("undefined", None),
-            Contact::First { exact, from, to } => (exact.as_str(), Some([*from, *to])),
+            ExactContact::Never => ("never", None),
+            ExactContact::Undefined => ("undefined", None),
+            ExactContact::First { exact, from, to } => (exact.as_str(), Some([*from, *to])),
         };
         let answers = QueryMethod::ALL.into_iter().zip(result.answers);
         let answers = answers.map(|(method, answer)| {

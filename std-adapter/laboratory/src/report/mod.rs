@@ -1,8 +1,8 @@
-//! What studies and simulations found, as tables, CSV, JSON, plots, pictures, a page that works offline, and animated glTF.
-//! Everything is returned as text or bytes, or written to what the caller hands over; nothing here opens a file. The same data
-//! gives the same bytes, on every machine.
+//! Turns results of studies and simulations into tables, CSV, JSON, plots, pictures, a page that works offline, and animated
+//! glTF. Functions return text or bytes, or write to what the caller passes; none opens a file. The same data gives the same
+//! bytes on every machine.
 //!
-//! A simulation is handed over as a [`Recording`], which a [`Recorder`] makes.
+//! A [`Recorder`] turns a simulation into a [`Recording`], which reports read.
 
 mod colours;
 mod comparison;
@@ -20,21 +20,20 @@ pub mod side_by_side;
 mod step;
 pub mod still;
 pub mod tables;
-mod tangled_start;
 mod tangles;
 
 pub use self::csv::{comparison_csv, contacts_csv, pairs_csv};
 pub use comparison::{comparison_html, comparison_markdown};
-pub use figure::{FIGURE_SIZE, FigureError, FigurePairs, figure_3};
+pub use figure::{FIGURE_SIZE, figure_3};
 pub use findings::{Finding, findings};
 pub use paper::{PaperRow, paper_row};
 pub use plot::{accuracy_svg, elementary_svg, scaling_svg};
-pub use recording::{About, Added, Frame, FrameError, Knob, Measure, MeasureKind, Part, PartKind};
+pub use recording::{About, Added, FrameError, Knob, Measure, MeasureKind, Part, PartKind, RecordedFrame};
 pub use recording::{Recorder, Recording, Series, SeriesKind};
 pub use recording::{SimulationRecorder, Subject, costs_of_added_effects};
 pub use step::{StepQuestion, StepSummary};
-pub use tangled_start::{start_sentences, tangled_start_html, tangled_start_json};
-pub use tangles::{Tangle, intersections_csv, intersections_json, tangle_ply, tangles, tangles_json};
+pub use tangles::{MeshCheck, intersections_csv, intersections_json, mesh_checks, mesh_checks_json};
+pub use tangles::{coloured_ply, crossing_triangles, intersecting_triangles, start_sentences, tangled_start_json};
 
 use crate::methods::Stage;
 use crate::study::{ComparisonRow, MeanCounts, ScalingPoint};
@@ -51,22 +50,22 @@ fn mesh_size(vertices: usize, edges: usize, triangles: usize) -> String {
     format!("{vertices} vertices, {edges} edges, {triangles} triangles")
 }
 
-/// An effect as people call it, who write no underscores.
+/// An effect's name in ordinary spelling, without underscores.
 fn label(name: &str) -> String {
     name.replace("self_collision", "self-collision").replace('_', " ")
 }
 
-/// A value with its unit, as it is printed: `15 µN·m` for `15 uN m`.
+/// A value with its unit in print: `15 µN·m` for `15 uN m`.
 fn printed(value: &str) -> String {
     value.replace("uN", "µN").replace("N m", "N·m").replace("m2", "m²")
 }
 
-/// Without control characters, which XML and HTML have no way to write and a file's name may hold.
+/// Replaces control characters, which XML and HTML cannot hold and a file's name may contain.
 fn printable(text: &str) -> String {
     text.replace(|c: char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}'), "\u{fffd}")
 }
 
-/// Each size's time for a step over n log n, as a multiple of the first size's: 1 throughout for a cost of n log n.
+/// Each size's time for a step divided by n log n, relative to the first size's. A cost of n log n gives 1 throughout.
 fn n_log_n_ratios(points: &[ScalingPoint]) -> Vec<f64> {
     let cost = |point: &ScalingPoint| {
         let n = point.triangles as f64;

@@ -1,6 +1,6 @@
-//! Numbers, shares and times as people read them. What is not a number, or not there, is a [dash](ABSENT).
+//! Formats numbers, shares and times for readers. A [dash](ABSENT) stands for a value that is missing or not finite.
 
-/// What stands for nothing.
+/// The sign for a missing value.
 pub(super) const ABSENT: &str = "–";
 
 /// A whole number with a comma between thousands: `1,345`.
@@ -34,44 +34,25 @@ pub(super) fn ordinal(number: u64) -> String {
     format!("{}{ending}", grouped(number))
 }
 
-/// A mean count: whole from 100 up, with one decimal below unless it is whole anyway.
-pub(super) fn mean(number: f64) -> String {
-    finite(number, |number| {
-        if number >= 99.95 || number.fract() == 0.0 {
-            whole(number)
-        } else {
-            format!("{number:.1}")
-        }
-    })
-}
-
-/// A number, zero or more, with three figures or so: `34.2`, `1,345`.
-pub(super) fn figures(number: f64) -> String {
-    finite(number, |number| match number {
-        n if n >= 99.95 => whole(n),
-        n if n >= 9.995 => format!("{n:.1}"),
-        n => format!("{n:.2}"),
-    })
-}
-
-/// Any number with three figures or so, however small, and no zeros at the end: `0.00123`.
+/// Any number with three significant digits, or all digits before the point, and no zeros at the end: `0.00123`, `1,345`.
 pub(super) fn few(number: f64) -> String {
-    finite(number, |number| match number.abs() {
-        0.0 => "0".to_owned(),
-        size if size >= 99.95 => format!("{}{}", if number < 0.0 { "−" } else { "" }, whole(size)),
-        size if size < 1e-4 => format!("{number:.2e}"),
-        size => {
-            let decimals = (2 - size.log10().floor() as i32).clamp(0, 6) as usize;
-            let text = format!("{number:.decimals$}");
-            match text.contains('.') {
-                true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-                false => text,
+    finite(number, |number| {
+        let size = number.abs();
+        let text = match size {
+            0.0 => "0".to_owned(),
+            size if size >= 99.95 => whole(size),
+            size if size < 1e-4 => format!("{size:.2e}"),
+            size => {
+                let decimals = (2 - size.log10().floor() as i32).clamp(0, 6) as usize;
+                let text = format!("{size:.decimals$}");
+                text.trim_end_matches('0').trim_end_matches('.').to_owned()
             }
-        }
+        };
+        if number < 0.0 { format!("−{text}") } else { text }
     })
 }
 
-/// How large a number is, in one figure: `3e-9`.
+/// The magnitude of a number, with one digit: `3e-9`.
 pub(super) fn magnitude(number: f64) -> String {
     match number {
         0.0 => "0".to_owned(),
@@ -86,12 +67,12 @@ pub(super) fn percent(part: usize, whole: usize, decimals: usize) -> String {
     })
 }
 
-/// A share as a percentage with three figures or so, however small.
+/// A share as a percentage with three significant digits.
 pub(super) fn share(share: f64) -> String {
     finite(share, |share| format!("{}\u{a0}%", few(100.0 * share)))
 }
 
-/// A time in the unit that fits it, with three figures: `12.3 ms`.
+/// A time in a suitable unit, with three digits: `12.3 ms`.
 pub(super) fn time(seconds: f64) -> String {
     finite(seconds, |seconds| {
         let (number, unit) = in_unit(seconds);
@@ -104,7 +85,7 @@ pub(super) fn time(seconds: f64) -> String {
     })
 }
 
-/// A time at which something happens in a simulation: `0.225 s`.
+/// A time in a simulation: `0.225 s`.
 pub(super) fn moment(seconds: f64) -> String {
     finite(seconds, |seconds| format!("{} s", few(seconds)))
 }
@@ -123,17 +104,6 @@ pub(super) fn round_time(seconds: f64) -> String {
     }
 }
 
-/// A time in milliseconds, without the unit, with three figures from a millisecond on.
-pub(super) fn milliseconds(seconds: f64) -> String {
-    let digits = match seconds {
-        s if s >= 0.1 => 0,
-        s if s >= 0.01 => 1,
-        s if s >= 0.001 => 2,
-        _ => 3,
-    };
-    format!("{:.digits$}", seconds * 1e3)
-}
-
 fn in_unit(seconds: f64) -> (f64, &'static str) {
     match seconds {
         s if s >= 0.9995 => (s, "s"),
@@ -147,7 +117,7 @@ fn whole(number: f64) -> String {
     grouped(number.round() as u64)
 }
 
-/// A dash for what is not a finite number.
+/// Formats a finite number, or returns a dash.
 pub(super) fn finite(number: f64, text: impl FnOnce(f64) -> String) -> String {
     if number.is_finite() { text(number) } else { ABSENT.to_owned() }
 }
@@ -174,14 +144,6 @@ mod tests {
     }
 
     #[test]
-    fn means_keep_a_decimal_where_it_says_something() {
-        assert_eq!(
-            [0.0, 31.0, 31.25, 99.96, 1122.4, f64::NAN].map(mean),
-            ["0", "31", "31.2", "100", "1,122", "–"]
-        );
-    }
-
-    #[test]
     fn a_share_of_nothing_is_a_dash() {
         assert_eq!(percent(2, 3, 1), "66.7\u{a0}%");
         assert_eq!(percent(0, 0, 1), "–");
@@ -191,12 +153,8 @@ mod tests {
     #[test]
     fn numbers_and_times_have_three_figures() {
         assert_eq!(
-            [3.456, 34.22, 345.6, 12_345.0, f64::INFINITY].map(figures),
-            ["3.46", "34.2", "346", "12,345", "–"]
-        );
-        assert_eq!(
-            [0.0, 1.5, -0.001_234, 1.2e-7, -1234.5].map(few),
-            ["0", "1.5", "-0.00123", "1.20e-7", "−1,235"]
+            [0.0, 1.5, 34.22, 99.96, 1122.4, -0.001_234, 1.2e-7, -1234.5, f64::INFINITY].map(few),
+            ["0", "1.5", "34.2", "100", "1,122", "−0.00123", "1.20e-7", "−1,235", "–"]
         );
         assert_eq!(
             [2e-9, 4.56e-5, 0.0123, 0.9999, 120.0, f64::NAN].map(time),

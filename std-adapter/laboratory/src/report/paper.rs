@@ -6,7 +6,7 @@ use crate::methods::Preset;
 /// One row of the paper's Table 1, measured on its authors' mesh (693 vertices, 1,345 triangles) and machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PaperRow {
-    /// What the paper calls the method.
+    /// The paper's name of the method.
     pub label: &'static str,
     /// *Qty. of candidate VF primitive pair*.
     pub vertex_face: u32,
@@ -16,10 +16,10 @@ pub struct PaperRow {
     pub frames_per_second: f64,
 }
 
-/// The paper's row for a method, if it has one.
+/// Returns the paper's row for a method, if it has one.
 ///
-/// The paper does not say which of the works of 2010 and 2011 by two authors named Tang its row *2011 Tang* stands for;
-/// here it is beside [`Preset::Tang2010`], whose filter is the one that the paper builds on.
+/// The paper does not say which work of 2010 and 2011 by two authors named Tang its row *2011 Tang* stands for. Here it is beside
+/// [`Preset::Tang2010`], whose filter the paper builds on.
 #[must_use]
 pub const fn paper_row(preset: Preset) -> Option<PaperRow> {
     let (label, vertex_face, edge_edge, frames_per_second) = match preset {
@@ -37,7 +37,7 @@ pub const fn paper_row(preset: Preset) -> Option<PaperRow> {
     })
 }
 
-/// A method's pairs and frame rate as printed, or nothing for each.
+/// A method's pairs and frame rate as printed, or empty texts.
 pub(super) fn printed(preset: Preset) -> [String; 3] {
     paper_row(preset).map_or_else(Default::default, |paper| {
         let frames_per_second = format!("{:.2}", paper.frames_per_second);

@@ -1,4 +1,4 @@
-//! One step of one method, with what a reader needs to know about it.
+//! Summarises one step of one method for reports.
 
 use crate::methods::Preset;
 use crate::pipeline::{Pipeline, StepReport};
@@ -6,22 +6,22 @@ use selvedge::CollisionDetector;
 use selvedge::Topology;
 use selvedge_core::Scalar;
 
-/// What was asked of a step.
+/// The question that a step answers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum StepQuestion {
     /// All contacts.
     #[default]
     Contacts,
-    /// The pairs that the broad phase leaves, and nothing after it.
+    /// The pairs that the broad phase leaves.
     Candidates,
     /// The earliest contact alone.
     Earliest,
 }
 
-/// The last step of a [`Pipeline`] or a [`CollisionDetector`], ready to be reported.
+/// The last step of a [`Pipeline`] or a [`CollisionDetector`], ready for a report.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepSummary {
-    /// What was asked.
+    /// The question.
     pub question: StepQuestion,
     /// The method.
     pub preset: Preset,
@@ -35,18 +35,19 @@ pub struct StepSummary {
     pub edges: usize,
     /// The mesh's triangles.
     pub triangles: usize,
-    /// What the step counted.
+    /// Counts and times of the step.
     pub report: StepReport,
     /// The earliest contact, in [0, 1] of the step.
     pub earliest: Option<f64>,
-    /// Seconds of the first run of the step, which builds hierarchies and makes buffers; the report's may be a later run's.
+    /// Seconds of the first run of the step, which builds hierarchies and allocates buffers. The report may belong to a later
+    /// run.
     pub first_run_seconds: f64,
 }
 
 impl StepSummary {
-    /// The last step of `pipeline`, which runs `preset`.
+    /// Summarises the last step of `pipeline`, which runs `preset`.
     #[must_use]
-    pub fn new<S: Scalar>(preset: Preset, pipeline: &Pipeline<S>) -> Self {
+    pub fn from_pipeline<S: Scalar>(preset: Preset, pipeline: &Pipeline<S>) -> Self {
         let topology: &Topology = pipeline.topology();
         let times = pipeline.contacts().iter().map(|contact| contact.time.to_f64());
         Self {
@@ -54,13 +55,13 @@ impl StepSummary {
             first_run_seconds: pipeline.report().seconds,
             report: pipeline.report().clone(),
             preset,
-            ..Self::of_mesh::<S>(topology, pipeline.threads())
+            ..Self::empty::<S>(topology, pipeline.threads())
         }
     }
 
-    /// A step of `detector` with what it counted, and the time of its earliest contact.
+    /// Summarises a step of `detector` with its counts and the time of its earliest contact.
     #[must_use]
-    pub fn of_detector<S: Scalar>(
+    pub fn from_detector<S: Scalar>(
         question: StepQuestion,
         detector: &CollisionDetector<S>,
         report: StepReport,
@@ -71,11 +72,11 @@ impl StepSummary {
             first_run_seconds: report.seconds,
             report,
             earliest,
-            ..Self::of_mesh::<S>(detector.topology(), detector.threads())
+            ..Self::empty::<S>(detector.topology(), detector.threads())
         }
     }
 
-    fn of_mesh<S: Scalar>(topology: &Topology, threads: usize) -> Self {
+    fn empty<S: Scalar>(topology: &Topology, threads: usize) -> Self {
         Self {
             question: StepQuestion::Contacts,
             preset: Preset::Selvedge,

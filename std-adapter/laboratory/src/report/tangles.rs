@@ -1,30 +1,34 @@
-//! Where meshes at rest pass through themselves: a list, and a mesh with the place in red.
+//! Reports where surfaces pass through each other, in meshes at rest and in scenes at their start: a list, and a mesh with the
+//! place in red.
 
-use super::{number, tables};
+use super::number::{counted, few, grouped, time};
+use super::tables;
 use ::csv::Writer;
 use selvedge::glam::DVec3;
 use selvedge::{Intersection, Topology};
+use selvedge_cloth::{Crossing, Simulation, Tangled, Untangled};
 use serde_json::{Value, json};
+use std::collections::HashSet;
 use std::io::{self, Write};
 
-/// What was found in one mesh.
+/// The check of one mesh.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Tangle {
-    /// What the mesh is called: its file.
+pub struct MeshCheck {
+    /// The mesh's name: its file.
     pub name: String,
     /// Its vertices.
     pub vertices: usize,
-    /// Its triangles; loose edges and points are none.
+    /// Its triangles, without loose edges and points.
     pub triangles: usize,
     /// Whether it is free of intersections.
     pub is_free: bool,
-    /// What meets, and the vertices of both; `None` if nobody asked.
+    /// The intersections with the vertices of both features; `None` if the check ended at the first one.
     pub intersections: Option<Vec<(Intersection, Vec<u32>)>>,
-    /// How long it took to look.
+    /// Duration of the check.
     pub seconds: f64,
 }
 
-/// As other programs name them.
+/// Names of the kinds of intersections, as in lists.
 const KINDS: [&str; 3] = ["edge-face", "vertex-face", "edge-edge"];
 
 fn kind(intersection: &Intersection) -> usize {
@@ -35,34 +39,34 @@ fn kind(intersection: &Intersection) -> usize {
     }
 }
 
-impl Tangle {
-    /// Of a mesh of that name, of which all was asked.
+impl MeshCheck {
+    /// A check that found these intersections, all of the mesh's.
     #[must_use]
-    pub fn new(name: String, topology: &Topology, intersections: &[Intersection], seconds: f64) -> Self {
+    pub fn from_intersections(name: String, topology: &Topology, intersections: &[Intersection], seconds: f64) -> Self {
         let with_corners = |own: &Intersection| (*own, corners(topology, own));
         Self {
             intersections: Some(intersections.iter().map(with_corners).collect()),
-            ..Self::of_any(name, topology, !intersections.is_empty(), seconds)
+            ..Self::from_verdict(name, topology, intersections.is_empty(), seconds)
         }
     }
 
-    /// Of a mesh of that name, of which it is known alone whether there is any.
+    /// A check that found only whether the mesh is free of intersections.
     #[must_use]
-    pub fn of_any(name: String, topology: &Topology, is_tangled: bool, seconds: f64) -> Self {
-        // These are faces as well, after the triangles.
+    pub fn from_verdict(name: String, topology: &Topology, is_free: bool, seconds: f64) -> Self {
+        // The topology counts loose edges and points as faces, after the triangles.
         let statistics = topology.statistics();
         let loose = statistics.loose_edges + statistics.points;
         Self {
             name,
             vertices: topology.vertex_count(),
             triangles: topology.triangles().len() - loose,
-            is_free: !is_tangled,
+            is_free,
             intersections: None,
             seconds,
         }
     }
 
-    /// How many of each kind, in the order of `KINDS`.
+    /// The number of each kind, in the order of `KINDS`.
     fn counts(&self) -> [Option<usize>; 3] {
         let list = self.intersections.as_ref();
         let count = |wanted| list.map(|list| list.iter().filter(|(own, _)| kind(own) == wanted).count());
@@ -83,22 +87,24 @@ fn corners(topology: &Topology, intersection: &Intersection) -> Vec<u32> {
     }
 }
 
-/// A mesh a line, and how many have intersections.
+/// A table with a row for each mesh, and the verdict on all of them.
 #[must_use]
-pub fn tangles(found: &[Tangle]) -> String {
-    let rows = found.iter().map(|tangle| {
-        let [edge_face, vertex_face, edge_edge] = match tangle.counts() {
-            counts if tangle.intersections.is_some() => counts.map(|count| number::grouped(count.unwrap_or(0))),
-            _ if tangle.is_free => [(); 3].map(|()| "0".to_owned()),
-            _ => [(); 3].map(|()| "?".to_owned()),
-        };
-        let triangles = number::grouped(tangle.triangles);
-        let time = number::time(tangle.seconds);
-        [tangle.name.clone(), triangles, edge_face, vertex_face, edge_edge, time]
+pub fn mesh_checks(checks: &[MeshCheck]) -> String {
+    let rows = checks.iter().map(|check| {
+        let unknown = if check.is_free { "0" } else { "?" };
+        let [edge_face, vertex_face, edge_edge] = check.counts().map(|count| count.map_or_else(|| unknown.to_owned(), grouped));
+        [
+            check.name.clone(),
+            grouped(check.triangles),
+            edge_face,
+            vertex_face,
+            edge_edge,
+            time(check.seconds),
+        ]
     });
     let header = ["mesh", "triangles", KINDS[0], KINDS[1], KINDS[2], "time"];
-    let tangled = found.iter().filter(|tangle| !tangle.is_free).count();
-    let verdict = match (tangled, found.len()) {
+    let tangled = checks.iter().filter(|check| !check.is_free).count();
+    let verdict = match (tangled, checks.len()) {
         (0, 1) => "free of intersections".to_owned(),
         (0, all) => format!("all {all} meshes are free of intersections"),
         (1, 1) => "intersects itself".to_owned(),
@@ -107,79 +113,68 @@ pub fn tangles(found: &[Tangle]) -> String {
     format!("{}\n{verdict}\n", tables::table(header, rows))
 }
 
-/// One document: `selvedge check --json`. Null is what was not asked.
+/// The document of `selvedge check --json`. Counts are null where the check ended at the first intersection.
 #[must_use]
-pub fn tangles_json(found: &[Tangle]) -> Value {
-    let meshes = found.iter().map(|tangle| {
-        let [edge_face, vertex_face, edge_edge] = tangle.counts();
+pub fn mesh_checks_json(checks: &[MeshCheck]) -> Value {
+    let meshes = checks.iter().map(|check| {
+        let [edge_face, vertex_face, edge_edge] = check.counts();
         json!({
-            "mesh": tangle.name,
-            "vertices": tangle.vertices,
-            "triangles": tangle.triangles,
+            "mesh": check.name,
+            "vertices": check.vertices,
+            "triangles": check.triangles,
             "edge_face": edge_face,
             "vertex_face": vertex_face,
             "edge_edge": edge_edge,
-            "is_free": tangle.is_free,
-            "seconds": tangle.seconds,
+            "is_free": check.is_free,
+            "seconds": check.seconds,
         })
     });
     json!({
         "meshes": meshes.collect::<Vec<_>>(),
-        "are_free": found.iter().all(|tangle| tangle.is_free),
+        "are_free": checks.iter().all(|check| check.is_free),
     })
 }
 
-/// Every intersection as `mesh,kind,i0,i1,i2,i3,i4`: the vertices of the edge and then of the face; of the vertex and the face, or of two
-/// edges, with i4 empty. They count from 0 as in the mesh's file.
+/// Writes every intersection as `mesh,kind,i0,i1,i2,i3,i4`: the vertices of the edge, then of the face. For a vertex and a face, or two
+/// edges, i4 is empty. Vertices count from 0 as in the mesh's file.
 ///
 /// # Errors
 /// Those of `out`.
-pub fn intersections_csv(found: &[Tangle], out: impl Write) -> io::Result<()> {
+pub fn intersections_csv(checks: &[MeshCheck], out: impl Write) -> io::Result<()> {
     let mut writer = Writer::from_writer(out);
     writer.write_record(["mesh", "kind", "i0", "i1", "i2", "i3", "i4"])?;
-    for tangle in found {
-        for (intersection, corners) in tangle.intersections.iter().flatten() {
+    for check in checks {
+        for (intersection, corners) in check.intersections.iter().flatten() {
             let corner = |k: usize| corners.get(k).map_or_else(String::new, u32::to_string);
             let kind = KINDS[kind(intersection)].to_owned();
-            let record = [tangle.name.clone(), kind].into_iter().chain((0..5).map(corner));
+            let record = [check.name.clone(), kind].into_iter().chain((0..5).map(corner));
             writer.write_record(record)?;
         }
     }
     writer.flush()
 }
 
-/// The same as one document.
+/// Every intersection of every mesh as one document.
 #[must_use]
-pub fn intersections_json(found: &[Tangle]) -> Value {
-    let of_mesh = |tangle: &Tangle| {
-        let list = tangle.intersections.iter().flatten();
+pub fn intersections_json(checks: &[MeshCheck]) -> Value {
+    let of_mesh = |check: &MeshCheck| {
+        let list = check.intersections.iter().flatten();
         let list = list.map(|(own, corners)| json!({ "kind": KINDS[kind(own)], "vertices": corners }));
-        json!({ "mesh": tangle.name, "intersections": list.collect::<Vec<_>>() })
+        json!({ "mesh": check.name, "intersections": list.collect::<Vec<_>>() })
     };
-    json!({ "meshes": found.iter().map(of_mesh).collect::<Vec<_>>() })
+    json!({ "meshes": checks.iter().map(of_mesh).collect::<Vec<_>>() })
 }
 
 const RED: [u8; 3] = [214, 39, 40];
 const GREY: [u8; 3] = [200, 200, 200];
 
-/// The mesh as binary PLY, in red what meets: faces, triangles of edges and vertices that meet something, and the vertices of all these.
+/// Writes a mesh as binary PLY, with `red` triangles and their vertices in red.
 ///
 /// # Errors
 /// Those of `out`.
-pub fn tangle_ply(
-    positions: &[DVec3],
-    topology: &Topology,
-    intersections: &[Intersection],
-    mut out: impl Write,
-) -> io::Result<()> {
-    let triangles = is_tangled(topology, intersections);
+pub fn coloured_ply(positions: &[DVec3], triangles: &[[u32; 3]], red: &[bool], mut out: impl Write) -> io::Result<()> {
     let mut vertices = vec![GREY; positions.len()];
-    for (corners, _) in topology
-        .triangles()
-        .iter()
-        .zip(&triangles)
-        .filter(|(_, is_tangled)| **is_tangled)
-    {
+    for (corners, _) in triangles.iter().zip(red).filter(|(_, is_red)| **is_red) {
         corners.iter().for_each(|&vertex| vertices[vertex as usize] = RED);
     }
     let colour = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
@@ -197,18 +192,19 @@ pub fn tangle_ply(
         }
         out.write_all(&colour)?;
     }
-    for (corners, is_tangled) in topology.triangles().iter().zip(triangles) {
+    for (corners, is_red) in triangles.iter().zip(red) {
         out.write_all(&[3])?;
         for vertex in corners {
             out.write_all(&vertex.to_le_bytes())?;
         }
-        out.write_all(if is_tangled { &RED } else { &GREY })?;
+        out.write_all(if *is_red { &RED } else { &GREY })?;
     }
     Ok(())
 }
 
-/// Of each triangle whether it, an edge or a vertex of it meets something.
-fn is_tangled(topology: &Topology, intersections: &[Intersection]) -> Vec<bool> {
+/// Returns for each triangle whether it, an edge or a vertex of it meets something.
+#[must_use]
+pub fn intersecting_triangles(topology: &Topology, intersections: &[Intersection]) -> Vec<bool> {
     let mut edges = vec![false; topology.edges().len()];
     let mut faces = vec![false; topology.triangles().len()];
     let mut vertices = vec![false; topology.vertex_count()];
@@ -226,9 +222,86 @@ fn is_tangled(topology: &Topology, intersections: &[Intersection]) -> Vec<bool> 
         }
     }
     let triangles = topology.triangles().iter().zip(topology.triangle_edges());
-    for (is_tangled, (corners, own)) in faces.iter_mut().zip(triangles) {
-        *is_tangled |= own.iter().any(|&edge| edge != Topology::NO_EDGE && edges[edge as usize]);
-        *is_tangled |= corners.iter().any(|&vertex| vertices[vertex as usize]);
+    for (is_red, (corners, own)) in faces.iter_mut().zip(triangles) {
+        *is_red |= own.iter().any(|&edge| edge != Topology::NO_EDGE && edges[edge as usize]);
+        *is_red |= corners.iter().any(|&vertex| vertices[vertex as usize]);
     }
     faces
+}
+
+/// Returns for each triangle of a scene's mesh whether an edge of it passes through a face at the start, or an edge through it.
+#[must_use]
+pub fn crossing_triangles(tangled: &Tangled) -> Vec<bool> {
+    let sorted = |mut face: [u32; 3]| {
+        face.sort_unstable();
+        face
+    };
+    let faces: HashSet<[u32; 3]> = tangled.crossings.iter().map(|crossing| sorted(crossing.face)).collect();
+    let edges: HashSet<[u32; 2]> = { tangled.crossings.iter() }
+        .map(|crossing| [crossing.edge[0].min(crossing.edge[1]), crossing.edge[0].max(crossing.edge[1])])
+        .collect();
+    let meets = |&triangle: &[u32; 3]| {
+        let [a, b, c] = sorted(triangle);
+        faces.contains(&[a, b, c]) || [[a, b], [a, c], [b, c]].iter().any(|edge| edges.contains(edge))
+    };
+    tangled.mesh.triangles.iter().map(meets).collect()
+}
+
+/// The document of `selvedge simulate --json` for a scene that starts tangled. Vertices count from 0, the cloth's first, then the bodies'.
+#[must_use]
+pub fn tangled_start_json(scene: &str, tangled: &Tangled) -> Value {
+    let crossing = |crossing: &Crossing| {
+        json!({
+            "edge": crossing.edge,
+            "face": crossing.face,
+            "point": crossing.point.to_array(),
+            "body": crossing.body.and_then(|body| tangled.body_names.get(body)),
+        })
+    };
+    json!({
+        "scene": scene,
+        "tangled_start": {
+            "message": tangled.to_string(),
+            "crossings": tangled.crossings.iter().map(crossing).collect::<Vec<_>>(),
+            "untangled": tangled.untangled.as_ref().map(untangled_json),
+        },
+    })
+}
+
+/// The result of untangling. Lengths are in metres, stretch is relative to lengths in the scene.
+pub(super) fn untangled_json(untangled: &Untangled) -> Value {
+    json!({
+        "crossings": untangled.crossings,
+        "left": untangled.left,
+        "steps": untangled.steps,
+        "edge_stretch": {"percentile_99": untangled.stretch.percentile_99, "largest": untangled.stretch.largest},
+        "farthest": untangled.farthest,
+        "seconds": untangled.seconds,
+    })
+}
+
+/// Sentences for readers about a tangled start: how it was untangled, and what is still tangled. None if the start was free.
+#[must_use]
+pub fn start_sentences(simulation: &Simulation) -> Vec<String> {
+    let left = simulation.crossings().len();
+    let left = (left > 0).then(|| format!("Edges still pass through faces at {}.", counted(left as u64, "place")));
+    simulation
+        .untangled()
+        .map(untangled_sentence)
+        .into_iter()
+        .chain(left)
+        .collect()
+}
+
+fn untangled_sentence(untangled: &Untangled) -> String {
+    format!(
+        "Untangled before the first step: edges met faces at {}, and were pulled apart in {} and {}, by {} mm at most; 99 % of the edges are \
+         then at most {:.3} times as long as in the scene, the longest {:.3}.",
+        counted(untangled.crossings as u64, "place"),
+        counted(u64::from(untangled.steps), "step"),
+        time(untangled.seconds),
+        few(1e3 * untangled.farthest),
+        untangled.stretch.percentile_99,
+        untangled.stretch.largest,
+    )
 }

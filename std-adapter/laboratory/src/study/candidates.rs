@@ -1,4 +1,4 @@
-//! Which pairs a method leaves for the elementary test in one step: what the paper's Figure 3 shows.
+//! Finds the pairs that a method leaves for the elementary test in one step, as the paper's Figure 3 shows them.
 
 use super::Frames;
 use crate::methods::Preset;
@@ -9,7 +9,7 @@ use std::error::Error;
 /// The candidate primitive pairs of one method in one step.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StepCandidates {
-    /// Which method.
+    /// The method.
     pub preset: Preset,
     /// Vertex and face of each pair, as numbered by the topology.
     pub vertex_face: Vec<[u32; 2]>,
@@ -17,7 +17,7 @@ pub struct StepCandidates {
     pub edge_edge: Vec<[u32; 2]>,
 }
 
-/// The candidates of `preset` in a step of `frames`.
+/// Returns the candidates of `preset` in a step of `frames`.
 ///
 /// # Errors
 /// If threads cannot be started or a frame is not finite.
@@ -39,7 +39,7 @@ pub fn step_candidates(
     })
 }
 
-/// The step in which `preset` leaves the most candidates; the earliest of several.
+/// Returns the step in which `preset` leaves the most candidates; the earliest of several.
 ///
 /// # Errors
 /// If threads cannot be started or a frame is not finite.

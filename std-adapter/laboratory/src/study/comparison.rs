@@ -1,4 +1,4 @@
-//! The paper's Table 1, for every method, on the same steps in one run.
+//! Runs every method on the same steps: the paper's Table 1.
 
 use super::Frames;
 use crate::methods::{Preset, Stage};
@@ -19,9 +19,9 @@ pub struct MeanCounts {
 /// One stage of one method.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeanStage {
-    /// Which stage after the broad phase.
+    /// The stage, after the broad phase.
     pub stage: Stage,
-    /// The pairs that it passed on.
+    /// The pairs that it passes on.
     pub survivors: MeanCounts,
     /// Its seconds a step, in the fastest round, summed over threads.
     pub seconds: f64,
@@ -30,23 +30,24 @@ pub struct MeanStage {
 /// One method.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ComparisonRow {
-    /// Which method.
+    /// The method.
     pub preset: Preset,
-    /// Candidate triangle pairs a step; the same for every method that has them, else zero.
+    /// Candidate triangle pairs a step: the same for every method that has them, else zero.
     pub triangle_pairs: f64,
-    /// Whether it has them; else its broad phase finds primitive pairs, those of [`after_boxes`](Self::after_boxes).
+    /// Whether it has triangle pairs. Otherwise its broad phase finds primitive pairs: those of
+    /// [`after_boxes`](Self::after_boxes).
     pub has_triangle_pairs: bool,
     /// Seconds a step of the broad phase, in the fastest round.
     pub broad_phase_seconds: f64,
-    /// Those after it, up to the elementary test.
+    /// The stages after it, up to the elementary test.
     pub stages: Vec<MeanStage>,
-    /// After the last box test (where there is none, as distributed or as the broad phase finds them).
+    /// The pairs after the last box test. Without one, these are the pairs as distributed, or as the broad phase finds them.
     pub after_boxes: MeanCounts,
-    /// What reaches the elementary test: the paper's *candidate primitive pairs*.
+    /// The pairs that reach the elementary test: the paper's *candidate primitive pairs*.
     pub candidates: MeanCounts,
     /// Contacts that the elementary test finds.
     pub contacts: MeanCounts,
-    /// Pairs that touch, by the exact verdict, and are not among them.
+    /// Pairs that touch by the exact verdict, and are not among the contacts.
     pub missed: MeanCounts,
     /// Steps a second, culling and elementary tests together, in the fastest round.
     pub frames_per_second: f64,
@@ -55,7 +56,7 @@ pub struct ComparisonRow {
 /// Every method on the same steps.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    /// What was run.
+    /// The name of the motion.
     pub name: String,
     /// The mesh's vertices.
     pub vertices: usize,
@@ -63,11 +64,11 @@ pub struct Comparison {
     pub edges: usize,
     /// The mesh's triangles.
     pub triangles: usize,
-    /// How many steps.
+    /// The number of steps.
     pub steps: usize,
     /// Threads that each method used.
     pub threads: usize,
-    /// How often each method ran each step.
+    /// The number of times that each method ran each step.
     pub rounds: usize,
     /// One row for each method.
     pub rows: Vec<ComparisonRow>,
@@ -83,10 +84,9 @@ impl Comparison {
 
 /// Runs every step of `frames` through each of `presets`.
 ///
-/// All methods run a step before any runs the next, `rounds` times, so that a change in the machine's speed
-/// meets all of them; the fastest round of each step counts. Which pairs truly touch is asked of
-/// [`Preset::SelvedgeExact`], once a step and untimed. `progress` is called after each step of each
-/// round with the share that is done.
+/// All methods run a step before any runs the next, `rounds` times, so that a change in the machine's speed meets all of them.
+/// The fastest round of each step counts. [`Preset::SelvedgeExact`] decides which pairs truly touch, once a step and untimed.
+/// `progress` is called after each step of each round with the share that is done.
 ///
 /// # Errors
 /// If threads cannot be started or a frame is not finite.
@@ -150,7 +150,7 @@ struct Method {
     missed: PairCounts,
 }
 
-/// Contacts in an order of their own, each once, the edges of a pair in ascending order.
+/// Returns contacts in a canonical order, each once, with the edges of a pair in ascending order.
 fn touching_pairs(contacts: &[Contact<f64>]) -> Vec<(PairKind, [u32; 2])> {
     let pairs = contacts.iter().map(|contact| {
         let [first, second] = contact.pair;
@@ -165,7 +165,7 @@ fn touching_pairs(contacts: &[Contact<f64>]) -> Vec<(PairKind, [u32; 2])> {
     pairs
 }
 
-/// How many of `wanted` are not among `found`; both are in order.
+/// Counts the items of `wanted` that are not in `found`; both are in order.
 fn missing(wanted: &[(PairKind, [u32; 2])], found: &[(PairKind, [u32; 2])]) -> PairCounts {
     let mut missing = PairCounts::default();
     for pair in wanted.iter().filter(|pair| found.binary_search(pair).is_err()) {

@@ -1,4 +1,5 @@
-//! What each effect of a scene costs: a simulation with the first one alone, with the first two, and so on.
+//! Measures the cost of each effect of a scene, by simulations without effects, with the first one, with the first two, and so
+//! on.
 
 use selvedge_cloth::{Scene, SceneError, Simulation};
 use std::error::Error;
@@ -7,16 +8,16 @@ use std::time::Instant;
 /// A simulation with some of a scene's effects.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EffectCost {
-    /// The last of them; `None`: no effect at all.
+    /// The effect added last; `None` without effects.
     pub added: Option<&'static str>,
-    /// How many steps were done: fewer than asked for if the simulation was blocked.
+    /// The number of steps. It is smaller than requested if the simulation was blocked.
     pub steps: u64,
-    /// Seconds a step, by the clock on the wall.
+    /// Wall-clock seconds a step.
     pub seconds: f64,
 }
 
-/// Runs the scene that `read` returns once without effects, once with the first, and so on, in the order in which they run: `steps`
-/// steps from the start each. `progress` is called with the share that is done.
+/// Runs the scene that `read` returns without effects, with the first one, with the first two, and so on, in the order in which
+/// they run. Each run takes `steps` steps from the start. Calls `progress` with the share that is done.
 ///
 /// # Errors
 /// If the scene cannot be read or set up.

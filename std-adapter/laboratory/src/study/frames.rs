@@ -3,23 +3,23 @@
 use selvedge::Topology;
 use selvedge::glam::DVec3;
 
-/// Steps of one mesh, each from one frame to another. A step need not begin where the one before ends.
+/// Steps of one mesh, each from one frame to another. A step need not begin where the last one ends.
 pub trait Frames {
-    /// What the motion is called in reports: a scene's name, or the files.
+    /// The name of the motion in reports: a scene's name, or the files.
     fn name(&self) -> String;
     /// The mesh.
     fn topology(&self) -> &Topology;
-    /// How many steps there are.
+    /// The number of steps.
     fn step_count(&self) -> usize;
-    /// Replaces `start` and `end` by the positions before and after a step, which is below
-    /// [`step_count`](Self::step_count), in the caller's length unit.
+    /// Replaces `start` and `end` by the positions before and after a step, in the caller's length unit. The step is below
+    /// [`step_count`](Self::step_count).
     fn step(&self, step: usize, start: &mut Vec<DVec3>, end: &mut Vec<DVec3>);
 }
 
 /// One step from one frame to another.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TwoFrames {
-    /// What the step is called in reports.
+    /// The name of the step in reports.
     pub name: String,
     /// The mesh.
     pub topology: Topology,

@@ -1,6 +1,6 @@
-//! What each method says of the built-in hard cases.
+//! Collects each method's answers to the built-in hard cases.
 
-use crate::hard_cases::{Contact, HardCase, hard_cases};
+use crate::hard_cases::{ExactContact, HardCase, hard_cases};
 use crate::methods::QueryMethod;
 use selvedge_core::glam::DVec3;
 use selvedge_core::{Motion, PrimitivePair, Scalar};
@@ -8,15 +8,15 @@ use selvedge_core::{Motion, PrimitivePair, Scalar};
 /// One method's answer beside the exact one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HardAnswer {
-    /// Kept, and it touches (or must be kept since it is not finite); or culled, and it does not.
+    /// The method keeps a pair that touches or is not finite, or culls one that does not touch.
     Right,
-    /// Kept, though it does not touch: allowed, since it is only looked at again.
+    /// The method keeps a pair that does not touch. That is allowed, since later tests look at it again.
     FalseAlarm,
-    /// **Wrong**: culled, though it touches or is not finite.
+    /// **Wrong**: the method culls a pair that touches or is not finite.
     Missed,
 }
 
-/// One case, and what every method said.
+/// One case with every method's answer.
 #[derive(Clone, Debug)]
 pub struct HardResult {
     /// The case.
@@ -25,10 +25,10 @@ pub struct HardResult {
     pub answers: [HardAnswer; QueryMethod::ALL.len()],
 }
 
-/// Asks every method about each of the [`hard_cases`] that has `name` in its name, in the format `S`; `progress` gets the share
+/// Runs every method on each of the [`hard_cases`] whose name contains `name`, in the format `S`. Calls `progress` with the share
 /// that is done.
 ///
-/// Cases whose coordinates `S` does not hold exactly are left out: the answer would be another.
+/// Cases whose coordinates `S` does not hold exactly are left out, since their answers would differ.
 #[must_use]
 pub fn ask_hard_cases<S: Scalar>(name: &str, progress: &mut dyn FnMut(f64)) -> Vec<HardResult> {
     let cases = hard_cases().iter().filter(|case| case.name.contains(name));
@@ -36,7 +36,7 @@ pub fn ask_hard_cases<S: Scalar>(name: &str, progress: &mut dyn FnMut(f64)) -> V
     let mut results = Vec::new();
     for (index, &case) in cases.iter().enumerate() {
         if let Some(pair) = exactly::<S>(case) {
-            let must_be_kept = case.contact != Contact::Never;
+            let must_be_kept = case.contact != ExactContact::Never;
             let answers = QueryMethod::ALL.map(|method| match (method.keeps(pair), must_be_kept) {
                 (true, true) | (false, false) => HardAnswer::Right,
                 (true, false) => HardAnswer::FalseAlarm,
@@ -75,7 +75,7 @@ mod tests {
     use super::{HardAnswer, ask_hard_cases};
     use crate::methods::QueryMethod;
 
-    /// The command shows what it is for: the plain test's failures, and none of ours.
+    /// The command demonstrates failures of the plain test, and none of ours.
     #[test]
     fn certified_methods_miss_nothing_and_the_plain_test_does() {
         let missed = |results: &[super::HardResult], wanted: bool| {
@@ -91,7 +91,7 @@ mod tests {
         let single = ask_hard_cases::<f32>(name, &mut |_| {});
         assert_eq!(missed(&double, true) + missed(&single, true), 0);
         assert!(missed(&double, false) > 5);
-        // What f32 does not hold exactly is left out.
+        // Cases that f32 does not hold exactly are left out.
         assert!(!single.is_empty() && single.len() < double.len());
     }
 }

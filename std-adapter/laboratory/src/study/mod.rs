@@ -1,4 +1,4 @@
-//! Experiments: they run pipelines and return data. Nothing here prints or writes a file; `report` does.
+//! Experiments. They run pipelines and return data; `report` prints and writes it.
 
 mod accuracy;
 mod arm;

@@ -1,10 +1,10 @@
-//! How often each test of one primitive pair is right, and how long it takes, on queries whose truth may be known.
+//! Measures how often each test of one primitive pair is right, and how long it takes, on queries whose truth may be known.
 //!
 //! # Time
-//! A test takes a few nanoseconds, reading the clock tens of them. So each query is tested again and again, as often as
-//! it takes to fill two microseconds, a hundred times the clock's own cost; a query's time is that of the whole run over
-//! its length, in the fastest of three runs, so that an interruption is not taken for a slow query. The pair is then in
-//! the cache and the processor's branches are trained on it: what is measured is the arithmetic.
+//! A test takes a few nanoseconds, reading the clock tens of them. Each query is therefore repeated until two microseconds have
+//! passed, a hundred times the clock's own cost. A query's time is that of the whole run over its length, in the fastest of three
+//! runs, so that an interruption does not count. The pair is then in the cache and the processor's branches are trained on it:
+//! the time is that of the arithmetic.
 
 use crate::methods::{QueryMethod, WithTest};
 use crate::queries::Query;
@@ -13,24 +13,24 @@ use selvedge_core::{PrimitivePair, Scalar};
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-/// What one method said of all queries of one kind.
+/// One method's answers to all queries of one kind.
 #[derive(Clone, Debug, PartialEq)]
 pub struct QueryResult {
-    /// Which method.
+    /// The method.
     pub method: QueryMethod,
-    /// Which kind of pairs.
+    /// The kind of pairs.
     pub kind: PairKind,
-    /// How many there were.
+    /// The number of queries.
     pub queries: usize,
-    /// How many the method did not cull, or found to touch.
+    /// The number of queries that the method did not cull, or found to touch.
     pub positives: usize,
     /// The comparison with the truth; `None` unless it is known for all queries.
     pub truth: Option<TruthCounts>,
-    /// Time of a query.
+    /// The time of a query.
     pub nanoseconds: Nanoseconds,
 }
 
-/// A method's answers beside the truth.
+/// A method's answers compared with the truth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TruthCounts {
     /// Queries that collide.
@@ -54,7 +54,7 @@ pub struct Nanoseconds {
     pub max: f64,
 }
 
-/// Runs `method` on each of `queries`, all of one kind, and calls `progress` after each with how many are done.
+/// Runs `method` on each of `queries`, all of one kind. Calls `progress` after each with the number that is done.
 #[must_use]
 pub fn measure_queries<S: Scalar>(
     method: QueryMethod,
@@ -104,19 +104,19 @@ impl<S: Scalar> WithTest<S, bool> for Run<'_, S> {
             queries: self.queries.len(),
             positives,
             truth,
-            nanoseconds: Nanoseconds::of(times),
+            nanoseconds: Nanoseconds::from_times(times),
         }
     }
 }
 
 impl Nanoseconds {
-    /// All zero without times.
-    fn of(mut times: Vec<f64>) -> Self {
+    /// All are zero without times.
+    fn from_times(mut times: Vec<f64>) -> Self {
         times.sort_by(f64::total_cmp);
         let Some(&max) = times.last() else {
             return Self::default();
         };
-        // Nearest rank: the smallest time that so many per cent of all do not exceed.
+        // Nearest rank: the smallest time that this percentage of all times does not exceed.
         let percentile = |percent: usize| times[(times.len() * percent).div_ceil(100).max(1) - 1];
         Self {
             mean: times.iter().sum::<f64>() / times.len() as f64,
@@ -127,9 +127,9 @@ impl Nanoseconds {
     }
 }
 
-/// Measures calls that are shorter than the clock can tell; see the module.
+/// Measures calls that are too short for the clock; see the module.
 struct StopWatch {
-    /// How often the last query was called in one run: a good guess for the next.
+    /// The repetitions of the last query: a good guess for the next.
     repeats: u32,
 }
 
@@ -138,7 +138,7 @@ impl StopWatch {
     const RUN: Duration = Duration::from_micros(2);
     const RUNS: usize = 3;
 
-    /// The answer of `call`, and how many nanoseconds it takes.
+    /// Returns the answer of `call`, and its time in nanoseconds.
     fn time(&mut self, call: impl Fn() -> bool) -> (bool, f64) {
         let run = |repeats: u32| {
             let begin = Instant::now();
@@ -223,8 +223,8 @@ mod tests {
             p99: 198.0,
             max: 200.0,
         };
-        assert_eq!(Nanoseconds::of(times), expected);
-        let one = Nanoseconds::of(vec![7.0]);
+        assert_eq!(Nanoseconds::from_times(times), expected);
+        let one = Nanoseconds::from_times(vec![7.0]);
         assert_eq!((one.median, one.p99, one.max), (7.0, 7.0, 7.0));
     }
 

@@ -1,4 +1,4 @@
-//! Cost against size: the same scene at several refinements.
+//! Measures cost against size: the same scene at several refinements.
 
 use super::Frames;
 use crate::methods::Preset;
@@ -10,9 +10,9 @@ use std::error::Error;
 pub struct ScalingPoint {
     /// The mesh's triangles.
     pub triangles: usize,
-    /// Seconds that setting up the pipeline took: feature assignment.
+    /// Seconds of setting up the pipeline, with feature assignment.
     pub setup_seconds: f64,
-    /// Seconds of the first step, which builds the hierarchy and makes the buffers.
+    /// Seconds of the first step, which builds the hierarchy and allocates the buffers.
     pub first_step_seconds: f64,
     /// The fastest later run of the same step: counts, and time by stage.
     pub step: StepReport,

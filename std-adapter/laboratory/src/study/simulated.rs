@@ -1,14 +1,14 @@
-//! Steps of a simulation.
+//! Collects steps of a simulation.
 
 use super::Frames;
 use selvedge::glam::DVec3;
 use selvedge::{Mesh, Topology, TopologyError};
 use selvedge_cloth::{Scene, Simulation};
 
-/// Some of a simulation's steps, evenly spread over it: its cloths alone, without bodies. Cloth that tears is taken to be whole: without the
-/// copies of its vertices.
+/// Some of a simulation's steps, evenly spread over it. They contain its cloths without bodies. Cloth that tears counts as whole,
+/// without the copies of its vertices.
 ///
-/// They are collected while the simulation runs, which shows each of its states to [`observe`](Self::observe):
+/// They are collected while the simulation runs. [`observe`](Self::observe) sees each of its states:
 ///
 /// ```
 /// use selvedge_cloth::{Scene, Simulation};
@@ -38,16 +38,16 @@ use selvedge_cloth::{Scene, Simulation};
 pub struct SimulatedSteps {
     scene: String,
     topology: Topology,
-    /// Of the scene.
+    /// The number of the scene's steps.
     all: u64,
-    /// How many of them are chosen.
+    /// The number of chosen steps.
     count: u64,
-    /// The chosen ones so far, before and after; the last may still lack its end.
+    /// The chosen steps so far, before and after. The last may still lack its end.
     steps: Vec<[Vec<DVec3>; 2]>,
 }
 
 impl SimulatedSteps {
-    /// None yet. Of the scene's steps `count` will be kept, or all if it has fewer.
+    /// Prepares to keep `count` of the scene's steps, or all if it has fewer.
     ///
     /// # Errors
     /// If the cloths together have too many triangles.
@@ -65,12 +65,12 @@ impl SimulatedSteps {
 
     /// The state after the chosen step `index`.
     fn end(&self, index: usize) -> u64 {
-        // In 128 bits: both may be large.
+        // In 128 bits, since both may be large.
         let end = (index as u128 + 1) * u128::from(self.all) / u128::from(self.count.max(1));
         end as u64
     }
 
-    /// Looks at a state: the start first, then the state after each step.
+    /// Observes a state: the start first, then the state after each step.
     pub fn observe(&mut self, simulation: &Simulation) {
         let done = simulation.steps_done();
         let as_made = |cloth| {

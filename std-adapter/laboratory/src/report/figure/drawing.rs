@@ -1,7 +1,7 @@
-//! The mesh and its marks, from back to front.
+//! Draws the mesh and its marks, from back to front.
 
 use super::view::{Seen, View};
-use super::{FigureError, FigurePairs};
+use crate::study::StepCandidates;
 use selvedge::Topology;
 use selvedge::glam::{DVec3, Vec3};
 use tiny_skia::{FillRule, Paint, Path, PathBuilder, Pixmap, Stroke, Transform};
@@ -15,18 +15,18 @@ pub(super) const BLUE: Colour = [0, 78, 200];
 pub(super) const YELLOW: Colour = [255, 214, 10];
 /// Edges of edge–edge pairs.
 pub(super) const GREEN: Colour = [0, 150, 60];
-/// Around a close-up.
+/// The frame around a close-up.
 pub(super) const FRAME: Colour = [60, 66, 74];
 const CLOTH: Colour = [196, 204, 214];
 const OUTLINE: Colour = [90, 100, 112];
 
-/// How much of what lies behind a face shows through it.
+/// The opacity of faces. The rest of what lies behind shows through.
 const CLOTH_OPACITY: f32 = 0.5;
 const MARK_OPACITY: f32 = 0.8;
-/// Outlines of faces whose edges are shorter than this, in pixels, would only make all cloth grey.
+/// Faces whose edges are shorter than this, in pixels, have no outlines, which would make all cloth grey.
 const LEAST_OUTLINED: f32 = 4.0;
 
-/// Which primitives have a candidate pair.
+/// The primitives with a candidate pair.
 pub(super) struct Marks {
     vertices: Vec<bool>,
     faces: Vec<bool>,
@@ -34,34 +34,23 @@ pub(super) struct Marks {
 }
 
 impl Marks {
-    pub(super) fn new(topology: &Topology, pairs: &FigurePairs<'_>) -> Result<Self, FigureError> {
+    pub(super) fn new(topology: &Topology, candidates: &StepCandidates) -> Self {
         let mut marks = Self {
             vertices: vec![false; topology.vertex_count()],
             faces: vec![false; topology.triangles().len()],
             edges: vec![false; topology.edges().len()],
         };
-        let mark = |marks: &mut [bool], feature, index: u32| {
-            let count = marks.len();
-            let mark = marks.get_mut(index as usize).ok_or_else(|| FigureError::OutOfRange {
-                name: pairs.name.clone(),
-                feature,
-                index,
-                count,
-            })?;
-            *mark = true;
-            Ok(())
-        };
-        for &[vertex, face] in pairs.vertex_face {
-            mark(&mut marks.vertices, "vertex", vertex)?;
-            mark(&mut marks.faces, "face", face)?;
+        for &[vertex, face] in &candidates.vertex_face {
+            marks.vertices[vertex as usize] = true;
+            marks.faces[face as usize] = true;
         }
-        for &edge in pairs.edge_edge.as_flattened() {
-            mark(&mut marks.edges, "edge", edge)?;
+        for &edge in candidates.edge_edge.as_flattened() {
+            marks.edges[edge as usize] = true;
         }
-        Ok(marks)
+        marks
     }
 
-    /// The positions of all marked primitives' vertices.
+    /// Returns the positions of all marked primitives' vertices.
     pub(super) fn positions(&self, topology: &Topology, positions: &[DVec3]) -> Vec<DVec3> {
         let vertices = marked(&self.vertices).map(|vertex| vertex as u32);
         let faces = marked(&self.faces).flat_map(|face| topology.triangles()[face]);
@@ -71,13 +60,13 @@ impl Marks {
     }
 }
 
-/// The numbers of what is marked.
+/// Returns the numbers of marked items.
 fn marked(marks: &[bool]) -> impl Iterator<Item = usize> {
     let marks = marks.iter().enumerate();
     marks.filter(|&(_, &marked)| marked).map(|(index, _)| index)
 }
 
-/// What is drawn in one stroke, with its depth.
+/// A feature that is drawn at once, with its depth.
 #[derive(Clone, Copy)]
 enum Shape {
     Face(usize),
@@ -113,11 +102,11 @@ impl Drawing<'_> {
     }
 }
 
-/// Faces without a mark from the furthest to the nearest, then everything with one in the same order: so that cloth never
+/// Returns faces without a mark from the furthest to the nearest, then everything with one in the same order, so that cloth never
 /// hides a mark.
 ///
-/// A face is as deep as its middle. Edges and vertices lie on faces, so edges come half an edge's length nearer and
-/// vertices a whole one: otherwise the faces and edges beside them whose middles are nearer would cover them.
+/// A face is as deep as its middle. Edges and vertices lie on faces, so edges come half an edge's length nearer, and vertices a
+/// whole one. Otherwise neighbouring faces and edges with nearer middles would cover them.
 fn shapes(topology: &Topology, seen: &[Seen], marks: &Marks, edge_length: f32) -> Vec<Shape> {
     fn mean<const N: usize>(seen: &[Seen], vertices: [u32; N]) -> f32 {
         vertices.iter().map(|&v| seen[v as usize].depth).sum::<f32>() / N as f32
@@ -199,7 +188,7 @@ impl Pen {
         }
     }
 
-    /// Whether a line around these points is outside the picture. Drawing it would do no harm but take time.
+    /// Returns whether a line around these points is outside the picture, so that drawing it would only take time.
     fn misses(&self, picture: &Pixmap, points: &[Seen]) -> bool {
         let (width, height) = (picture.width() as f32, picture.height() as f32);
         let all = |outside: &dyn Fn(&Seen) -> bool| points.iter().all(outside);

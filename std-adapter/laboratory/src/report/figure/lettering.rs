@@ -1,4 +1,4 @@
-//! Text in a picture of pixels.
+//! Draws text into pixels.
 
 use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_width};
 use tiny_skia::{Pixmap, PremultipliedColorU8};
@@ -19,14 +19,14 @@ impl Size {
     }
 }
 
-/// How wide a text is, in pixels.
+/// Returns the width of a text, in pixels.
 pub(super) fn width(text: &str, size: Size) -> u32 {
     (get_raster_width(FontWeight::Regular, size.raster()) * text.chars().count()) as u32
 }
 
 /// Writes a line of text in black on white, its top left corner at (`left`, `top`).
 ///
-/// The font has the characters of ASCII; others become question marks. What does not fit into the picture is cut off.
+/// The font has the characters of ASCII; others become question marks. Text that does not fit into the picture is cut off.
 pub(super) fn write(picture: &mut Pixmap, left: u32, top: u32, text: &str, size: Size) {
     let (picture_width, picture_height) = (picture.width() as usize, picture.height() as usize);
     let letters = text.chars().filter_map(|letter| {
@@ -47,7 +47,7 @@ pub(super) fn write(picture: &mut Pixmap, left: u32, top: u32, text: &str, size:
     }
 }
 
-/// Puts black ink over a part of an opaque pixel.
+/// Puts black ink over part of an opaque pixel.
 fn darken(pixel: &mut PremultipliedColorU8, coverage: u8) {
     let rest = 255 - u16::from(coverage);
     let channel = |value: u8| (u16::from(value) * rest / 255) as u8;

@@ -1,10 +1,10 @@
-//! Where things are in the picture, captions and legend.
+//! Places the parts of the picture, captions and the legend.
 
-use super::FigurePairs;
 use super::drawing::{Drawing, FRAME, GREEN, YELLOW, draw_dot, fill, stroke};
 use super::lettering::{Size, width, write};
 use super::view::{Room, Seen, View};
 use crate::report::number::grouped;
+use crate::study::StepCandidates;
 use tiny_skia::{Color, PathBuilder, Pixmap, PixmapPaint, Rect, Transform};
 
 /// Width of a panel.
@@ -34,7 +34,7 @@ const LEGEND_TOP: u32 = 948;
 const LEGEND_MIDDLE: f32 = LEGEND_TOP as f32 + 13.0;
 const SWATCH: f32 = 26.0;
 
-/// The part of the mesh that a close-up shows, and a frame around that part in the overview.
+/// Draws the part of the mesh that a close-up shows, and a frame around that part in the overview.
 pub(super) fn draw_close_up(picture: &mut Pixmap, left: f32, mesh: &Drawing<'_>, overview: &View, close_up: &View) {
     let (width, height) = (CLOSE_UP.width as u32, CLOSE_UP.height as u32);
     let mut part = Pixmap::new(width, height).expect("the size is not zero");
@@ -49,35 +49,20 @@ pub(super) fn draw_close_up(picture: &mut Pixmap, left: f32, mesh: &Drawing<'_>,
     }
 }
 
-/// The method's name, and below it how many pairs there are.
-pub(super) fn write_caption(picture: &mut Pixmap, left: f32, pairs: &FigurePairs<'_>) {
-    let counts = format!(
-        "{} VF, {} EE",
-        grouped(pairs.vertex_face.len()),
-        grouped(pairs.edge_edge.len())
-    );
-    for (top, text) in [(NAME_TOP, &*pairs.name), (COUNTS_TOP, &*counts)] {
-        let text = shortened(text);
-        let room = WIDTH - width(&text, Size::Large) as f32;
-        write(picture, (left + 0.5 * room) as u32, top, &text, Size::Large);
+/// Writes the method's name, and below it the number of pairs.
+pub(super) fn write_caption(picture: &mut Pixmap, left: f32, candidates: &StepCandidates) {
+    let [vertex_face, edge_edge] = [&candidates.vertex_face, &candidates.edge_edge].map(|pairs| grouped(pairs.len()));
+    let counts = format!("{vertex_face} VF, {edge_edge} EE");
+    for (top, text) in [(NAME_TOP, candidates.preset.name()), (COUNTS_TOP, &*counts)] {
+        let room = WIDTH - width(text, Size::Large) as f32;
+        write(picture, (left + 0.5 * room) as u32, top, text, Size::Large);
     }
 }
 
-/// As much of a text as fits under a panel.
-fn shortened(text: &str) -> String {
-    let fits = (WIDTH - 20.0) as u32 / width("m", Size::Large);
-    if text.chars().count() as u32 <= fits {
-        text.to_owned()
-    } else {
-        let start: String = text.chars().take(fits as usize - 3).collect();
-        start + "..."
-    }
-}
-
-/// Draws an example of a mark from this far left.
+/// Draws an example of a mark at this distance from the left.
 type Swatch = fn(&mut Pixmap, f32);
 
-/// What the colours mean.
+/// Writes the meaning of the colours.
 pub(super) fn write_legend(picture: &mut Pixmap) {
     let entries: [(Swatch, &str); 3] = [
         (draw_vertex_swatch, "vertex of a VF pair"),

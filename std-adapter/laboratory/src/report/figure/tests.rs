@@ -1,6 +1,7 @@
 use super::drawing::{BLUE, FRAME, GREEN};
 use super::view::Room;
 use super::*;
+use crate::methods::Preset;
 use crate::scene::ArmScene;
 use proptest::prelude::*;
 use tiny_skia::PremultipliedColorU8;
@@ -34,11 +35,11 @@ fn marks(picture: &Pixmap, panel: u32) -> [bool; 3] {
     ]
 }
 
-fn pairs<'a>(vertex_face: &'a [[u32; 2]], edge_edge: &'a [[u32; 2]]) -> FigurePairs<'a> {
-    FigurePairs {
-        name: "method".to_owned(),
-        vertex_face,
-        edge_edge,
+fn candidates(vertex_face: &[[u32; 2]], edge_edge: &[[u32; 2]]) -> StepCandidates {
+    StepCandidates {
+        preset: Preset::Basic,
+        vertex_face: vertex_face.to_vec(),
+        edge_edge: edge_edge.to_vec(),
     }
 }
 
@@ -52,15 +53,15 @@ fn each_kind_of_pair_has_its_colours_in_its_panel_and_no_other() {
     let (topology, positions) = arm();
     let (vertex_face, edge_edge) = ([[300, 700], [320, 650]], [[900, 1000], [910, 1011]]);
     let cases = [
-        (pairs(&[], &[]), [false, false, false]),
-        (pairs(&vertex_face, &[]), [true, true, false]),
-        (pairs(&[], &edge_edge), [false, false, true]),
-        (pairs(&vertex_face, &edge_edge), [true, true, true]),
+        (candidates(&[], &[]), [false, false, false]),
+        (candidates(&vertex_face, &[]), [true, true, false]),
+        (candidates(&[], &edge_edge), [false, false, true]),
+        (candidates(&vertex_face, &edge_edge), [true, true, true]),
     ];
     // Each in each panel, beside two others.
     for (place, (left, in_left)) in cases.iter().enumerate() {
         for (right, in_right) in [&cases[(place + 1) % 4], &cases[(place + 2) % 4]] {
-            let picture = decoded(&figure_3(&topology, &positions, left, right).unwrap());
+            let picture = decoded(&figure_3(&topology, &positions, [left, right]).unwrap());
             assert_eq!([picture.width(), picture.height()], FIGURE_SIZE);
             assert_eq!([marks(&picture, 0), marks(&picture, 1)], [*in_left, *in_right]);
         }
@@ -68,77 +69,21 @@ fn each_kind_of_pair_has_its_colours_in_its_panel_and_no_other() {
 }
 
 #[test]
-fn a_vertex_enclosed_by_cloth_is_still_seen() {
-    // A tetrahedron around vertex 4.
-    let topology = Topology::new(5, vec![[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]]).unwrap();
-    let corners = [DVec3::new(1.0, 1.0, 1.0), DVec3::new(1.0, -1.0, -1.0)];
-    let corners = corners
-        .into_iter()
-        .chain([DVec3::new(-1.0, 1.0, -1.0), DVec3::new(-1.0, -1.0, 1.0)]);
-    let positions: Vec<DVec3> = corners.chain([DVec3::ZERO]).collect();
-    let marked = pairs(&[[4, 0]], &[]);
-    let picture = decoded(&figure_3(&topology, &positions, &marked, &pairs(&[], &[])).unwrap());
-    assert_eq!(marks(&picture, 0), [true, true, false]);
-}
-
-#[test]
 fn a_small_part_with_the_right_panels_marks_is_shown_close_up_in_both() {
     let (topology, positions) = arm();
-    let draw = |right: &FigurePairs<'_>| {
+    let draw = |right: &StepCandidates| {
         let everything: Vec<[u32; 2]> = (0..topology.triangles().len() as u32).map(|face| [face / 2, face]).collect();
-        let picture = decoded(&figure_3(&topology, &positions, &pairs(&everything, &[]), right).unwrap());
+        let picture = decoded(&figure_3(&topology, &positions, [&candidates(&everything, &[]), right]).unwrap());
         [0, 1].map(|panel| count(&picture, panel, |pixel| pixel == FRAME) > 0)
     };
     let corner = topology.triangles()[700][0];
-    assert_eq!(draw(&pairs(&[[corner, 700]], &[])), [true, true]);
-    assert_eq!(draw(&pairs(&[], &[])), [false, false]);
-    assert_eq!(draw(&pairs(&[[0, 0], [692, 1344]], &[])), [false, false], "from end to end");
-}
-
-#[test]
-fn captions_take_any_name() {
-    let topology = Topology::new(3, vec![[0, 1, 2]]).unwrap();
-    let named = |name: &str| FigurePairs {
-        name: name.to_owned(),
-        vertex_face: &[],
-        edge_edge: &[],
-    };
-    let draw = |name: &str| figure_3(&topology, &[DVec3::X, DVec3::Y, DVec3::Z], &named(name), &named("")).unwrap();
-    assert_ne!(draw("basic"), draw("selvedge"));
-    assert_eq!(draw("größe"), draw("gr??e"));
-    let long = decoded(&draw(&"m".repeat(500)));
-    let under_the_right_panel = (MESH_ROWS..930).flat_map(|y| (810..1100).map(move |x| (x, y)));
-    let right_half_is_free = under_the_right_panel
-        .filter_map(|(x, y)| long.pixel(x, y))
-        .all(|pixel| pixel.red() == 255);
-    assert!(right_half_is_free);
-}
-
-#[test]
-fn what_cannot_be_drawn_is_refused_with_its_reason() {
-    let topology = Topology::new(3, vec![[0, 1, 2]]).unwrap();
-    let positions = [DVec3::X, DVec3::Y, DVec3::Z];
-    let none = pairs(&[], &[]);
-    let message =
-        |positions: &[DVec3], right: &FigurePairs<'_>| figure_3(&topology, positions, &none, right).unwrap_err().to_string();
+    assert_eq!(draw(&candidates(&[[corner, 700]], &[])), [true, true]);
+    assert_eq!(draw(&candidates(&[], &[])), [false, false]);
     assert_eq!(
-        message(&positions[..2], &none),
-        "there are 2 positions to draw, but the mesh has 3 vertices"
+        draw(&candidates(&[[0, 0], [692, 1344]], &[])),
+        [false, false],
+        "from end to end"
     );
-    assert_eq!(
-        message(&[DVec3::X, DVec3::NAN, DVec3::Z], &none),
-        "vertex 1 cannot be drawn: a coordinate is not a finite number"
-    );
-    for (vertex_face, edge_edge, expected) in [
-        (&[[3, 0]][..], &[][..], "vertex 3, but the mesh has 3"),
-        (&[[0, 1]], &[], "face 1, but the mesh has 1"),
-        (&[], &[[0, 3]], "edge 3, but the mesh has 3"),
-    ] {
-        assert_eq!(
-            message(&positions, &pairs(vertex_face, edge_edge)),
-            format!("a pair of `method` names {expected}, numbered from 0")
-        );
-    }
 }
 
 #[test]
@@ -202,9 +147,9 @@ proptest! {
     #[test]
     fn degenerate_meshes_are_drawn_the_same_each_time(positions in positions()) {
         let topology = soup();
-        let (left, right) = (pairs(&[[5, 3], [0, 2]], &[[0, 4]]), pairs(&[[5, 3]], &[]));
-        let picture = figure_3(&topology, &positions, &left, &right).unwrap();
+        let (left, right) = (candidates(&[[5, 3], [0, 2]], &[[0, 4]]), candidates(&[[5, 3]], &[]));
+        let picture = figure_3(&topology, &positions, [&left, &right]).unwrap();
         prop_assert_eq!(marks(&decoded(&picture), 0)[0], true);
-        prop_assert_eq!(picture, figure_3(&topology, &positions, &left, &right).unwrap());
+        prop_assert_eq!(picture, figure_3(&topology, &positions, [&left, &right]).unwrap());
     }
 }

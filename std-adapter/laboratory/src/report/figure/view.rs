@@ -1,4 +1,4 @@
-//! From where the mesh is seen.
+//! Chooses the view of the mesh.
 
 use selvedge::Topology;
 use selvedge::glam::{DVec2, DVec3};
@@ -7,16 +7,16 @@ use selvedge::glam::{DVec2, DVec3};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View {
     centre: DVec3,
-    /// One over half the mesh's longest side, in two factors: for a tiny mesh their product would overflow.
+    /// Half the mesh's longest side.
     half_side: f64,
     right: DVec3,
     up: DVec3,
     towards_eye: DVec3,
     /// The middle of the mesh as seen, in units of `half_side`.
     middle: DVec2,
-    /// Pixels to a unit of `half_side`.
+    /// Pixels in a unit of `half_side`.
     pixels: f64,
-    /// Where `middle` goes, in pixels.
+    /// The place of `middle`, in pixels.
     target: DVec2,
 }
 
@@ -40,7 +40,7 @@ pub(super) struct Room {
     pub(super) height: f32,
 }
 
-/// A close-up is at least this much larger than the overview, or there is none.
+/// A close-up is at least this much larger than the overview; otherwise there is none.
 const LEAST_MAGNIFICATION: f64 = 1.3;
 const LARGEST_MAGNIFICATION: f64 = 5.0;
 
@@ -57,13 +57,13 @@ impl Room {
 impl View {
     /// Looks at `positions` (finite) from the side to which they bend.
     ///
-    /// The line between the mesh's [ends](find_ends) is level in the picture; the vertex furthest from that line is
-    /// where the mesh bends, and the viewer stands on the other side, more than halfway round from the plane's normal.
+    /// The line between the mesh's [ends](find_ends) is level in the picture. The mesh bends at the vertex furthest from that
+    /// line. The viewer stands on the other side, more than halfway round from the plane's normal.
     pub(super) fn new(topology: &Topology, positions: &[DVec3], room: Room) -> Self {
         let (low, high) = positions
             .iter()
             .fold((DVec3::MAX, DVec3::MIN), |(low, high), &p| (low.min(p), high.max(p)));
-        // Halves, because the whole may overflow.
+        // Sums halves, because the whole may overflow.
         let centre = 0.5 * low + 0.5 * high;
         let half_side = (0.5 * high - 0.5 * low).max_element();
         let mut view = Self {
@@ -83,7 +83,7 @@ impl View {
         view
     }
 
-    /// The same view elsewhere in the picture.
+    /// Returns the same view elsewhere in the picture.
     pub(super) fn moved(mut self, right: f32, down: f32) -> Self {
         self.target += DVec2::new(right.into(), down.into());
         self
@@ -99,7 +99,7 @@ impl View {
         }
     }
 
-    /// Every coordinate from −1 to 1.
+    /// Maps every coordinate to −1 to 1.
     fn normalised(&self, position: DVec3) -> DVec3 {
         (position - self.centre) / self.half_side
     }
@@ -132,13 +132,13 @@ impl View {
         self.up = self.towards_eye.cross(right);
     }
 
-    /// The same view of a part of the mesh, in another room, if that is worth while.
+    /// Returns a view of a part of the mesh in another room, if it would be enough larger.
     pub(super) fn close_up(&self, part: &[DVec3], room: Room) -> Option<Self> {
         if part.is_empty() {
             return None;
         }
         let (low, high) = self.bounds(part);
-        // A quarter of its size more on every side.
+        // A quarter of its size is added on every side.
         let pixels = fitting(1.5 * (high - low), room).min(LARGEST_MAGNIFICATION * self.pixels);
         (pixels >= LEAST_MAGNIFICATION * self.pixels).then_some(Self {
             middle: 0.5 * (low + high),
@@ -148,7 +148,7 @@ impl View {
         })
     }
 
-    /// What a close-up that fills a room shows, as a rectangle of this view.
+    /// Returns the rectangle of this view that a close-up of a room shows.
     pub(super) fn frame_of(&self, close_up: &Self, room: Room) -> Room {
         let size = room.size() * (self.pixels / close_up.pixels);
         let middle = self.pixels * (close_up.middle - self.middle);
@@ -160,15 +160,15 @@ impl View {
         }
     }
 
-    /// The rectangle around `positions` as seen.
+    /// Returns the rectangle around `positions` as seen.
     fn bounds(&self, positions: &[DVec3]) -> (DVec2, DVec2) {
         let points = positions.iter().map(|&position| self.flat(self.normalised(position)));
         points.fold((DVec2::MAX, DVec2::MIN), |(low, high), p| (low.min(p), high.max(p)))
     }
 }
 
-/// Two vertices that are far apart along the edges of the first triangle's component, however the mesh is folded: from
-/// anywhere to the vertex most edges away, and from there again.
+/// Finds two vertices that are far apart along the edges of the first triangle's component, however the mesh is folded. The
+/// search goes from any vertex to the one most edges away, and from there again.
 fn find_ends(topology: &Topology) -> [usize; 2] {
     let mut neighbours = vec![Vec::new(); topology.vertex_count()];
     for &[a, b] in topology.edges() {
@@ -194,7 +194,7 @@ fn find_ends(topology: &Topology) -> [usize; 2] {
     [one_end, last_reached(one_end)]
 }
 
-/// The pixels to a unit with which a rectangle fits into a room. What has no size is taken to have a little.
+/// Returns the number of pixels in a unit with which a rectangle fits into a room. A side without length counts as a short one.
 fn fitting(size: DVec2, room: Room) -> f64 {
     (room.size() / size.max(DVec2::splat(1e-3))).min_element()
 }

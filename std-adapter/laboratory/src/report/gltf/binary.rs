@@ -1,10 +1,13 @@
-//! The binary half of a glTF file, and how the JSON half refers to it.
+//! Writes the binary half of a glTF file, and the JSON that refers to it.
 
-use super::TooLarge;
 use serde_json::{Value, json};
 
+/// A file that the format, which numbers bytes by a `u32`, cannot hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("an animation of {0} bytes does not fit into a glTF file, which holds 4 GiB; record fewer frames")]
+pub struct TooLarge(pub u64);
+
 /// Numbers of the format.
-const UNSIGNED_SHORT: u32 = 5123;
 const UNSIGNED_INT: u32 = 5125;
 const FLOAT: u32 = 5126;
 const ARRAY_BUFFER: u32 = 34962;
@@ -19,7 +22,7 @@ pub(super) struct Binary {
 }
 
 impl Binary {
-    /// Adds what triangles name; returns its accessor, as all others do.
+    /// Adds the vertices of triangles. Returns the accessor, as all such functions do.
     pub(super) fn add_indices(&mut self, triangles: &[[u32; 3]]) -> usize {
         let bytes = triangles.iter().flatten().flat_map(|index| index.to_le_bytes());
         let view = self.add_view(bytes, Some(ELEMENT_ARRAY_BUFFER));
@@ -42,29 +45,14 @@ impl Binary {
         self.add_accessor(view, FLOAT, "VEC3", vectors.len(), bounds)
     }
 
-    /// Adds four small numbers for each vertex.
-    pub(super) fn add_joints(&mut self, joints: impl ExactSizeIterator<Item = [u16; 4]>) -> usize {
-        let count = joints.len();
-        let bytes = joints.flatten().flat_map(u16::to_le_bytes);
-        let view = self.add_view(bytes, Some(ARRAY_BUFFER));
-        self.add_accessor(view, UNSIGNED_SHORT, "VEC4", count, json!({}))
-    }
-
-    /// Adds four numbers for each vertex.
-    pub(super) fn add_weights(&mut self, weights: impl ExactSizeIterator<Item = [f32; 4]>) -> usize {
-        let count = weights.len();
-        let view = self.add_view(weights.flatten().flat_map(f32::to_le_bytes), Some(ARRAY_BUFFER));
-        self.add_accessor(view, FLOAT, "VEC4", count, json!({}))
-    }
-
-    /// Adds what an animation or a skin needs of several numbers each: of the type `kind`.
+    /// Adds vectors of the type `kind`, as an animation needs them.
     pub(super) fn add_items<const N: usize>(&mut self, kind: &str, items: &[[f32; N]]) -> usize {
         let bytes = items.iter().flatten().flat_map(|number| number.to_le_bytes());
         let view = self.add_view(bytes, None);
         self.add_accessor(view, FLOAT, kind, items.len(), json!({}))
     }
 
-    /// Adds numbers that an animation needs, not empty.
+    /// Adds numbers for an animation; there must be some.
     pub(super) fn add_numbers(&mut self, numbers: &[f32]) -> usize {
         let least = numbers.iter().copied().fold(f32::INFINITY, f32::min);
         let most = numbers.iter().copied().fold(f32::NEG_INFINITY, f32::max);
@@ -74,7 +62,7 @@ impl Binary {
         self.add_accessor(view, FLOAT, "SCALAR", numbers.len(), bounds)
     }
 
-    /// Every number takes four bytes, or four take eight, so that every view begins at a multiple of four.
+    /// Every number takes four bytes, so that every view begins at a multiple of four.
     fn add_view(&mut self, bytes: impl Iterator<Item = u8>, target: Option<u32>) -> usize {
         let begin = self.bytes.len();
         self.bytes.extend(bytes);
@@ -99,7 +87,7 @@ impl Binary {
         self.accessors.len() - 1
     }
 
-    /// The file: header, JSON, binary.
+    /// Returns the file: header, JSON, binary.
     pub(super) fn into_file(self, mut document: Value) -> Result<Vec<u8>, TooLarge> {
         if !self.bytes.is_empty() {
             document["buffers"] = json!([{"byteLength": self.bytes.len()}]);
@@ -119,7 +107,7 @@ impl Binary {
         file.extend(2_u32.to_le_bytes());
         file.extend(whole.to_le_bytes());
         for (kind, data) in chunks {
-            // Shorter than the whole, which fits.
+            // This is shorter than the whole, which fits.
             file.extend((data.len() as u32).to_le_bytes());
             file.extend(kind);
             file.extend(data);

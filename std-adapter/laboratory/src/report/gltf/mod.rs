@@ -1,39 +1,33 @@
-//! A simulation as one animated glTF 2.0 file (`.glb`), which Blender and most viewers open.
+//! Writes a simulation as one animated glTF 2.0 file (`.glb`), which Blender and most viewers open.
 //!
-//! Each part is a mesh, with normals. Its first frame is its shape, every later frame a morph target (Blender: a shape key), and an animation
-//! of their weights leads from each frame to the next; positions in between are interpolated along straight lines. Of bodies that keep
-//! their shape nodes are animated instead, by turns and shifts; parts that never move have neither.
+//! Each part is a mesh with normals. Its first frame is its shape, and every later frame is a morph target (Blender: a shape
+//! key). An animation of their weights leads from each frame to the next, along straight lines. Bodies that keep their shape have
+//! animated nodes instead, with rotations and translations. Parts that never move have neither.
 //!
-//! Written with `serde_json` alone: what is needed of the format is a page, the types of `gltf-json` would be three more
-//! dependencies and no shorter. The tests read it back with the `gltf` crate, which validates it.
+//! The writer uses `serde_json` alone, because it needs little of the format. The tests read the file back with the `gltf` crate,
+//! which validates it.
 
 mod binary;
 mod rigid;
-mod skinned;
 #[cfg(test)]
 mod tests;
 
-use super::colours::{CLOTHS, of_cloths};
-use super::recording::{Frame, Part, PartKind, Recording};
+use super::colours::{CLOTHS, cloth_colours};
+use super::recording::{Part, PartKind, RecordedFrame, Recording};
 use binary::Binary;
+pub use binary::TooLarge;
 use rigid::{Pose, poses};
 use selvedge_cloth::vertex_normals;
 use selvedge_core::glam::{DQuat, DVec3};
 use serde_json::{Value, json};
-pub use skinned::walker;
 
-/// The format numbers bytes by a `u32`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("an animation of {0} bytes does not fit into a glTF file, which holds 4 GiB; record fewer frames")]
-pub struct TooLarge(pub u64);
-
-/// Weights take the square of the frames, and programs slow down with the number of targets.
+/// The weights take the square of the frames, and programs slow down with the number of targets.
 const MOST_FRAMES: usize = 600;
 
-/// The bytes of a `.glb` file.
+/// Returns the bytes of a `.glb` file.
 ///
-/// Times begin at 0 with the first frame. Of more than 600 frames, evenly chosen ones and the last are written. y is up in glTF:
-/// one node above all parts turns the scene's up direction there.
+/// Times begin at 0 with the first frame. Of more than 600 frames, evenly chosen ones and the last are written. The format's up
+/// direction is y: one node above all parts turns the scene's up direction there.
 ///
 /// # Errors
 /// If the file would be larger than the format allows.
@@ -42,11 +36,11 @@ pub fn binary(recording: &Recording) -> Result<Vec<u8>, TooLarge> {
     let mut binary = Binary::default();
     let (mut nodes, mut meshes) = (Vec::new(), Vec::new());
     let (mut deforming, mut rigid) = (Vec::new(), Vec::new());
-    let colours = of_cloths(&recording.parts);
+    let colours = cloth_colours(&recording.parts);
     let parts = recording.placed_parts().zip(colours);
     for ((first, part), colour) in parts.filter(|((_, part), _)| !part.triangles().is_empty()) {
         let vertices = first..first + part.vertex_count();
-        let shape = |frame: &Frame| frame.positions[vertices.clone()].to_vec();
+        let shape = |frame: &RecordedFrame| frame.positions[vertices.clone()].to_vec();
         let rest = shape(frames[0]);
         let moves = frames.iter().any(|frame| frame.positions[vertices.clone()] != rest);
         let in_frames: Vec<&[[f32; 3]]> = frames.iter().map(|frame| &frame.positions[vertices.clone()]).collect();
@@ -84,7 +78,7 @@ pub fn binary(recording: &Recording) -> Result<Vec<u8>, TooLarge> {
         "materials": materials(&recording.parts),
     });
     if root == 0 {
-        // A list of no children is not allowed.
+        // The format does not allow an empty list of children.
         document["nodes"][root].as_object_mut().map(|node| node.remove("children"));
     } else {
         document["meshes"] = meshes.into();
@@ -95,22 +89,22 @@ pub fn binary(recording: &Recording) -> Result<Vec<u8>, TooLarge> {
     binary.into_file(document)
 }
 
-/// Every so many frames and the last, at most [`MOST_FRAMES`].
-fn chosen(frames: &[Frame]) -> Vec<&Frame> {
+/// Returns evenly spaced frames and the last, at most [`MOST_FRAMES`].
+fn chosen(frames: &[RecordedFrame]) -> Vec<&RecordedFrame> {
     let stride = if frames.len() <= MOST_FRAMES {
         1
     } else {
-        // One place is for the last.
+        // One place is for the last frame.
         frames.len().div_ceil(MOST_FRAMES - 1)
     };
-    let mut chosen: Vec<&Frame> = frames.iter().step_by(stride).collect();
+    let mut chosen: Vec<&RecordedFrame> = frames.iter().step_by(stride).collect();
     if !(frames.len() - 1).is_multiple_of(stride) {
         chosen.extend(frames.last());
     }
     chosen
 }
 
-/// A part in its first frame, and a target for each later one.
+/// Writes a part in its first frame, and a target for each later one.
 fn mesh(
     binary: &mut Binary,
     part: &Part,
@@ -119,7 +113,7 @@ fn mesh(
     later: impl Iterator<Item = (u64, Vec<[f32; 3]>)>,
     up: DVec3,
 ) -> Value {
-    // What has no triangles to face anywhere faces up.
+    // A vertex without triangles gets a normal that points up.
     let mut facing = Vec::new();
     let mut normals_of = |positions: &[[f32; 3]]| -> Vec<[f32; 3]> {
         let positions: Vec<_> = positions.iter().map(|p| DVec3::from(p.map(f64::from))).collect();
@@ -145,14 +139,14 @@ fn mesh(
     let mut primitive = json!({
         "attributes": attributes,
         "indices": indices,
-        // That of bodies comes after the first cloth's.
+        // The material of bodies comes after the first cloth's.
         "material": colour.map_or(1, |colour| if colour == 0 { 0 } else { colour + 1 }),
     });
     let mut mesh = json!({"name": part.name()});
     if !targets.is_empty() {
         primitive["targets"] = targets.into();
         mesh["weights"] = weights.into();
-        // Where Blender looks for the names of shape keys.
+        // Blender reads the names of shape keys here.
         mesh["extras"] = json!({"targetNames": names});
     }
     mesh["primitives"] = json!([primitive]);
@@ -164,11 +158,12 @@ fn differences(to: &[[f32; 3]], from: &[[f32; 3]]) -> Vec<[f32; 3]> {
     pairs.map(|(a, b)| [a[0] - b[0], a[1] - b[1], a[2] - b[2]]).collect()
 }
 
-/// At the time of frame k the weight of target k − 1 is 1 and all others are 0; the first frame has no target. Rigid parts have their poses.
+/// At the time of frame k the weight of target k − 1 is 1 and all others are 0; the first frame has no target. Rigid parts have
+/// their poses.
 fn animation(
     binary: &mut Binary,
     recording: &Recording,
-    frames: &[&Frame],
+    frames: &[&RecordedFrame],
     deforming: &[usize],
     rigid: &[(usize, Vec<Pose>)],
 ) -> Value {
@@ -204,7 +199,7 @@ fn animation(
     })
 }
 
-/// How a part looks, as the page shows it.
+/// The look of a part, as on the page.
 struct Material {
     name: &'static str,
     /// Red, green, blue, as linear light.
@@ -212,14 +207,14 @@ struct Material {
     both_sides: bool,
 }
 
-/// Of cloths, as many as the recording has colours for, and after the first that of bodies.
+/// Returns the materials of cloths, as many as the recording has colours for, with that of bodies after the first.
 fn materials(parts: &[Part]) -> Vec<Value> {
     let cloth = |colour: usize| Material {
         name: ["cloth", "second cloth", "third cloth", "fourth cloth"][colour],
         colour: CLOTHS[colour].map(|light| light as f32),
         both_sides: true,
     };
-    let last = of_cloths(parts).into_iter().flatten().max().unwrap_or(0);
+    let last = cloth_colours(parts).into_iter().flatten().max().unwrap_or(0);
     let mut materials: Vec<_> = (0..=last).map(|colour| cloth(colour).json()).collect();
     materials.insert(1, BODY.json());
     materials

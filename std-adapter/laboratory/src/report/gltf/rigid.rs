@@ -1,18 +1,19 @@
-//! Parts that move without changing their shape.
+//! Finds parts that move without changing their shape.
 
 use selvedge_core::glam::{DMat3, DQuat, DVec3};
 
-/// How a part has turned and shifted since its first frame.
+/// The rotation and translation of a part since its first frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Pose {
     pub(super) rotation: DQuat,
     pub(super) translation: DVec3,
 }
 
-/// How far a vertex may be off, as a part of the largest coordinate: several roundings of f32.
+/// The allowed error of a vertex, relative to the largest coordinate: several roundings of f32.
 const TOLERANCE: f64 = 2e-6;
 
-/// The pose in each frame, if all of them are rigid motions of the first; `None` if some are not, or too small or thin to tell.
+/// Returns the pose in each frame if all of them are rigid motions of the first. `None` if some are not, or if the part is too
+/// small or thin to decide.
 pub(super) fn poses(frames: &[&[[f32; 3]]]) -> Option<Vec<Pose>> {
     let point = |frame: &[[f32; 3]], vertex: usize| DVec3::from(frame[vertex].map(f64::from));
     let first = frames.first().copied().filter(|first| !first.is_empty())?;
@@ -33,7 +34,7 @@ pub(super) fn poses(frames: &[&[[f32; 3]]]) -> Option<Vec<Pose>> {
     let mut poses = Vec::with_capacity(frames.len());
     for &frame in frames {
         let turned = DQuat::from_mat3(&(axes(frame)? * at_first)).normalize();
-        // Of the two that say the same, the one that leads there without going round.
+        // Of the two quaternions of a rotation, takes the one nearer to the last, so that the animation takes the short way.
         let rotation = if turned.dot(before) < 0.0 { -turned } else { turned };
         let translation = point(frame, a) - rotation * point(first, a);
         let size = all()

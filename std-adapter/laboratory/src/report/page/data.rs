@@ -1,28 +1,28 @@
-//! The data that the page's scripts draw from.
+//! Packs the data that the page's scripts draw from.
 //!
-//! Each block is a `<script>` element of a type that no browser runs. `recording` is JSON. The others are base64 of arrays, little
-//! endian:
+//! Each block is a `<script>` element of a type that browsers do not run. `recording` is JSON. The others are base64 of
+//! little-endian arrays:
 //!
-//! | block | type | what |
+//! | block | type | content |
 //! |---|---|---|
 //! | `triangles` | u32 | three vertices each, part after part, numbered among all |
 //! | `bounds` | f32 | for each frame its least x, y, z and its extent along x, y, z |
-//! | `positions` | u16 | for each frame and vertex x, y, z: 0 is the frame's least, 65,535 the least and the extent |
+//! | `positions` | u16 | for each frame and vertex x, y, z: 0 is the frame's least, 65,535 is the least plus the extent |
 //! | `values` | f32 | each series' values, one series after the other |
 //! | `measured` | f32 | each measure's values, one measure after the other |
 //!
-//! So a position is off by at most half a 65,535th of the frame's extent, and by the rounding of f32.
+//! A position is thus off by at most half a 65,535th of the frame's extent, and by the rounding of f32.
 
 use super::measures::Shown;
-use crate::report::colours::of_cloths;
+use crate::report::colours::cloth_colours;
 use crate::report::label;
-use crate::report::recording::{Frame, PartKind, Recording, SeriesKind};
+use crate::report::recording::{PartKind, RecordedFrame, Recording, SeriesKind};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use maud::{Markup, PreEscaped, html};
 use serde_json::{Value, json};
 
-/// What positions are quantised to.
+/// The largest quantised coordinate.
 const FINEST: f64 = u16::MAX as f64;
 
 /// All blocks.
@@ -31,7 +31,7 @@ pub(super) fn blocks(recording: &Recording) -> Markup {
         let placed = move |vertex: &u32| first as u32 + vertex;
         part.triangles().iter().flatten().map(placed)
     });
-    let bounds: Vec<Bounds> = recording.frames.iter().map(Bounds::of).collect();
+    let bounds: Vec<Bounds> = recording.frames.iter().map(Bounds::new).collect();
     let positions = recording.frames.iter().zip(&bounds);
     let positions = positions.flat_map(|(frame, bounds)| {
         let quantised = |&position| bounds.quantised(position);
@@ -58,11 +58,11 @@ pub(super) fn blocks(recording: &Recording) -> Markup {
     }
 }
 
-/// What the blocks mean.
+/// The header, which describes the blocks.
 fn header(recording: &Recording, measures: &[Shown<'_>]) -> Value {
     let parts = recording
         .placed_parts()
-        .zip(of_cloths(&recording.parts))
+        .zip(cloth_colours(&recording.parts))
         .map(|((first, part), colour)| {
             json!({
                 "name": part.name(),
@@ -106,7 +106,7 @@ fn header(recording: &Recording, measures: &[Shown<'_>]) -> Value {
     })
 }
 
-/// As text that cannot end the element that it stands in.
+/// JSON text that cannot end the element around it.
 fn inside_script(value: &Value) -> String {
     value.to_string().replace('<', "\\u003c")
 }
@@ -115,14 +115,14 @@ fn base64<const N: usize>(numbers: impl Iterator<Item = [u8; N]>) -> String {
     STANDARD.encode(numbers.flatten().collect::<Vec<u8>>())
 }
 
-/// The box of a frame.
+/// The bounding box of a frame.
 struct Bounds {
     least: [f32; 3],
     extent: [f32; 3],
 }
 
 impl Bounds {
-    fn of(frame: &Frame) -> Self {
+    fn new(frame: &RecordedFrame) -> Self {
         let (mut least, mut most) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
         for position in &frame.positions {
             for axis in 0..3 {
@@ -146,7 +146,7 @@ impl Bounds {
         [0, 1, 2].map(|axis| {
             let above = f64::from(position[axis]) - f64::from(self.least[axis]);
             let share = above / f64::from(self.extent[axis]);
-            // A conversion saturates, and takes 0/0, where there is no extent, to 0.
+            // The conversion saturates. It takes 0/0, from an extent of zero, to 0.
             (share * FINEST).round() as u16
         })
     }

@@ -1,4 +1,4 @@
-//! What is measured at frames: energy, and how much the cloth is stretched.
+//! The sections on energy and on the stretch of the cloth, which are measured at frames.
 
 use super::tables;
 use crate::report::number::{few, moment};
@@ -13,12 +13,12 @@ pub(in crate::report) struct Shown<'a> {
 }
 
 impl<'a> Shown<'a> {
-    /// All of a recording.
+    /// Returns all measures of a recording.
     pub(in crate::report) fn all(recording: &'a Recording) -> Vec<Self> {
         recording.measures.iter().map(Self::new).collect()
     }
 
-    /// Energy of weight is counted from the least there was: from anywhere else, the rest would not be seen beside it.
+    /// Gravitational energy counts from its least value, since an arbitrary origin would dwarf everything else.
     fn new(measure: &'a Measure) -> Self {
         let least = measure.values.iter().copied().fold(f64::INFINITY, f64::min);
         let floor = if measure.name == GRAVITATIONAL { least } else { 0.0 };
@@ -44,7 +44,7 @@ impl<'a> Shown<'a> {
         }
     }
 
-    /// At the start, at most, at the end.
+    /// The values at the start, at most, and at the end.
     fn row(&self) -> (&str, [String; 3]) {
         let values = &self.values;
         let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -53,7 +53,7 @@ impl<'a> Shown<'a> {
     }
 }
 
-/// Both sections, as far as there is anything to put in them.
+/// Returns both sections, as far as they have content.
 pub(super) fn sections(recording: &Recording) -> Markup {
     let shown = Shown::all(recording);
     let rows = |kind: MeasureKind| shown.iter().filter(move |one| one.kind == kind).map(Shown::row);
@@ -66,14 +66,14 @@ pub(super) fn sections(recording: &Recording) -> Markup {
                 @if has(MeasureKind::EffectEnergy) { div.chart data-kind="effect-energy" {} }
                 (tables::table(["energy, in J", "at the start", "most", "at the end"], rows(MeasureKind::Energy)))
                 p.note {
-                    "Gravitational energy is counted from its least. Lost is what there is less of than at the start: what friction, drag, contacts, strain \
-                     limits and implicit steps have taken, less the work that moving bodies and pins, and wind, have done."
+                    "Gravitational energy counts from its least value. Lost is the energy drop since the start: the losses to friction, drag, contacts, \
+                     strain limits and implicit steps, less the work of moving bodies, pins and wind."
                 }
             }
         }
         @if has(MeasureKind::Stretch) {
             section {
-                h2 { "Lengths of edges, over those at rest" }
+                h2 { "Edge lengths relative to rest" }
                 div.chart data-kind="stretch" {}
                 (stretch(recording))
             }
@@ -87,5 +87,5 @@ fn stretch(recording: &Recording) -> Markup {
         let when = moment(recording.end_of(measure.largest_step));
         (&*measure.name, [few(end), few(measure.largest), when])
     });
-    tables::table(["", "at the end", "most, of all frames", "when"], rows)
+    tables::table(["", "at the end", "largest, of all frames", "when"], rows)
 }

@@ -1,7 +1,7 @@
-//! A simulation's report: one HTML file that needs nothing else, neither network nor server.
+//! Writes a simulation's report: one HTML file that needs neither network nor server.
 //!
-//! Everything that is a number is in tables that need no script. The animation (WebGL 2) and the charts (SVG) are drawn by scripts
-//! in the page from data in the page; `data` says how it is packed.
+//! All numbers are in tables that need no script. Scripts in the page draw the animation (WebGL 2) and the charts (SVG) from data
+//! in the page; `data` describes how it is packed.
 
 mod data;
 mod measures;
@@ -11,12 +11,12 @@ mod tests;
 
 pub(super) use self::measures::Shown;
 pub(super) use self::tables::bar;
-use super::number::{counted, figures, grouped, moment, ordinal, time};
+use super::number::{counted, few, grouped, moment, ordinal, time};
 use super::recording::{LONGEST_EDGE, Measure, PartKind, Recording, Series, SeriesKind};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 const STYLE: &str = include_str!("assets/page.css");
-/// In the order in which they need each other.
+/// The scripts, each after those that it needs.
 const SCRIPTS: [(&str, &str); 4] = [
     ("data", include_str!("assets/data.js")),
     ("viewer", include_str!("assets/viewer.js")),
@@ -24,9 +24,9 @@ const SCRIPTS: [(&str, &str); 4] = [
     ("player", include_str!("assets/player.js")),
 ];
 
-/// The whole page.
+/// Returns the whole page.
 ///
-/// What is not in the recording is not on the page: a section without series has no heading.
+/// A section without data is left out.
 #[must_use]
 pub fn html(recording: &Recording) -> String {
     let about = &recording.about;
@@ -51,7 +51,7 @@ pub fn html(recording: &Recording) -> String {
             }
             @if has(|kind| kind == SeriesKind::Events) {
                 section {
-                    h2 { "What happened" }
+                    h2 { "Events" }
                     div.chart data-kind="events" {}
                     (tables::events(recording))
                 }
@@ -86,7 +86,7 @@ pub fn html(recording: &Recording) -> String {
             }
             @if !about.knobs.is_empty() {
                 section {
-                    h2 { "What trades time for accuracy" }
+                    h2 { "Settings that trade time for accuracy" }
                     (tables::knobs(["setting", "value"], &about.knobs))
                 }
             }
@@ -100,7 +100,7 @@ pub fn html(recording: &Recording) -> String {
         footer {
             p {
                 "Written by selvedge " (env!("CARGO_PKG_VERSION"))
-                ". This file is complete in itself: it loads nothing."
+                ". This file is self-contained: it loads nothing."
             }
         }
         (data::blocks(recording))
@@ -109,7 +109,7 @@ pub fn html(recording: &Recording) -> String {
     document(&about.name, &body)
 }
 
-/// A whole page of its own.
+/// A complete page around a body.
 pub(super) fn document(title: &str, body: &Markup) -> String {
     let page = html! {
         (DOCTYPE)
@@ -119,7 +119,7 @@ pub(super) fn document(title: &str, body: &Markup) -> String {
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
                 meta name="generator" content=(concat!("selvedge ", env!("CARGO_PKG_VERSION")));
-                // No request may leave the page, not even for an icon.
+                // The page makes no request, not even for an icon.
                 link rel="icon" href="data:,";
                 title { (title) " – selvedge" }
                 style { (PreEscaped(STYLE)) }
@@ -130,7 +130,7 @@ pub(super) fn document(title: &str, body: &Markup) -> String {
     page.into_string()
 }
 
-/// What was simulated, in a sentence.
+/// Describes the simulation in one sentence.
 fn summary(recording: &Recording) -> String {
     let count = |kind: PartKind| {
         let parts = recording.parts.iter().filter(move |part| part.kind() == kind);
@@ -160,17 +160,17 @@ fn summary(recording: &Recording) -> String {
     summary
 }
 
-/// Events that no simulation wants: steps that could not be made as they were.
-const TOLD: [&str; 3] = ["vertices held back", "times cut in half", "steps blocked"];
+/// Events that mean trouble: steps that could not be made as they were.
+const TROUBLE: [&str; 3] = ["vertices held back", "times cut in half", "steps blocked"];
 
-/// The numbers that are asked for first.
+/// The most important numbers.
 fn tiles(recording: &Recording) -> Markup {
     let effects = recording.series_of(|kind| kind == SeriesKind::Effect);
     let mut tiles = vec![(time(recording.duration()), "simulated".to_owned())];
     if let Some(seconds) = recording.wall_seconds {
         let steps = recording.steps as f64;
         tiles.push((time(seconds), "computed in".to_owned()));
-        tiles.push((figures(steps / seconds), "steps a second".to_owned()));
+        tiles.push((few(steps / seconds), "steps a second".to_owned()));
     }
     let step_of = |steps: &Series| format!("slowest step, the {}", ordinal(steps.largest_step));
     tiles.extend(recording.step_times().map(|steps| (time(steps.largest), step_of(steps))));
@@ -178,17 +178,17 @@ fn tiles(recording: &Recording) -> Markup {
     let longest = longest.filter(|longest| longest.largest.is_finite());
     let when = |longest: &Measure| {
         format!(
-            "longest edge over rest, at {}",
+            "longest edge relative to rest, at {}",
             moment(recording.end_of(longest.largest_step))
         )
     };
     tiles.extend(longest.map(|longest| (format!("{:.3}", longest.largest), when(longest))));
     if recording.steps > 0 {
         let events = recording.series_of(|kind| kind == SeriesKind::Events);
-        let told = events.filter(|event| TOLD.contains(&&*event.name));
-        tiles.extend(told.map(|event| (grouped(event.total as u64), event.name.clone())));
+        let trouble = events.filter(|event| TROUBLE.contains(&&*event.name));
+        tiles.extend(trouble.map(|event| (grouped(event.total as u64), event.name.clone())));
     }
-    tiles.push((grouped(effects.count()), "effects ran".to_owned()));
+    tiles.push((grouped(effects.count()), "effects".to_owned()));
     html! {
         dl.tiles {
             @for (value, name) in &tiles { div { dt { (name) } dd { (value) } } }
@@ -196,7 +196,7 @@ fn tiles(recording: &Recording) -> Markup {
     }
 }
 
-/// The canvas and its controls. They are inert until the script has taken hold of them.
+/// The canvas and its controls, which do nothing until the script starts.
 fn animation(recording: &Recording) -> Markup {
     let bodies = recording.parts.iter().any(|part| part.kind() == PartKind::Body);
     let last = recording.frames.len() - 1;
@@ -204,8 +204,8 @@ fn animation(recording: &Recording) -> Markup {
         section.animation aria-label="animation" {
             div.stage {
                 canvas #view tabindex="0" role="img" aria-label="the cloth in motion; arrow keys turn the view, plus and minus zoom" {}
-                p #no-view.fallback { "The animation needs scripts and WebGL 2, which this browser does not offer or has turned off. Everything else on this page works without." }
-                p.hint aria-hidden="true" { "drag: turn · right drag: shift · wheel: zoom" }
+                p #no-view.fallback { "The animation needs scripts and WebGL 2, which this browser does not offer or has turned off. Everything else on this page works without them." }
+                p.hint aria-hidden="true" { "drag: rotate · right drag: pan · wheel: zoom" }
             }
             div.controls {
                 button #play type="button" disabled title="play or pause (space)" { "Play" }
@@ -224,7 +224,7 @@ fn animation(recording: &Recording) -> Markup {
                 } }
                 label { input #edges type="checkbox" disabled; " edges" }
                 @if bodies { label { input #bodies type="checkbox" checked disabled; " bodies" } }
-                button #reset type="button" disabled title="the view of the beginning (Home)" { "Reset view" }
+                button #reset type="button" disabled title="the initial view (Home)" { "Reset view" }
                 span.keys { kbd { "space" } " play · " kbd { "," } " " kbd { "." } " step · " kbd { "Home" } " reset" }
             }
         }

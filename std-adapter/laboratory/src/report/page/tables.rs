@@ -1,14 +1,14 @@
-//! What the charts show, in numbers.
+//! Tables with the numbers behind the charts.
 
 use super::super::label;
-use super::super::number::{few, mean, share, signed_time, time};
+use super::super::number::{few, share, signed_time, time};
 use super::super::recording::{Knob, Recording, Series, SeriesKind};
 use maud::{Markup, html};
 
-/// What is not there: a dash in every format.
+/// A missing value, which every format shows as a dash.
 const NONE: f64 = f64::NAN;
 
-/// Pairs after each stage: each as a share of the stage before.
+/// Pairs after each stage: each as a share of the previous stage.
 pub(super) fn pairs(recording: &Recording) -> Markup {
     let mut before = NONE;
     let rows = recording.series_of(|kind| kind == SeriesKind::Pairs).map(|series| {
@@ -17,25 +17,31 @@ pub(super) fn pairs(recording: &Recording) -> Markup {
         (&*series.name, [a_step, share(of_stage_before), most, all])
     });
     table(
-        ["stage", "pairs a step", "of the stage before", "most in a step", "all steps"],
+        [
+            "stage",
+            "pairs a step",
+            "of the previous stage",
+            "most in a step",
+            "all steps",
+        ],
         rows,
     )
 }
 
-/// Counts that are no stage's.
+/// Counts of events.
 pub(super) fn events(recording: &Recording) -> Markup {
     let rows = recording.series_of(|kind| kind == SeriesKind::Events);
     let rows = rows.map(|series| (&*series.name, counts(recording, series)));
     table(["event", "a step", "most in a step", "all steps"], rows)
 }
 
-/// A step, most in a step, all steps.
+/// Values for a step, most in a step, all steps.
 fn counts(recording: &Recording, series: &Series) -> [String; 3] {
     let a_step = series.total / recording.steps as f64;
-    [few(a_step), mean(series.largest), mean(series.total)]
+    [few(a_step), few(series.largest), few(series.total)]
 }
 
-/// Effects, the stages that they share, and what is left of the time on the wall.
+/// Effects, the stages that they share, and the rest of the wall-clock time.
 pub(super) fn times(recording: &Recording) -> Markup {
     let is_time = |kind| matches!(kind, SeriesKind::Effect | SeriesKind::Stage);
     let sum: f64 = recording.series_of(is_time).map(|series| series.total).sum();
@@ -64,16 +70,16 @@ pub(super) fn times(recording: &Recording) -> Markup {
         div.scroll { table {
             (head(&["", "a step", "share", "most in a step", "all steps"]))
             (group("effects", SeriesKind::Effect))
-            (group("stages that effects share", SeriesKind::Stage))
+            (group("shared stages", SeriesKind::Stage))
             @if let Some(wall) = wall { tbody {
                 @if wall > sum { (row("everything else", wall - sum, NONE)) }
-                (row("whole step, by the clock on the wall", wall, steps.map_or(NONE, |steps| steps.largest)))
+                (row("whole step, by the wall clock", wall, steps.map_or(NONE, |steps| steps.largest)))
             } }
         } }
     }
 }
 
-/// What a step costs with the first effect, with the first two, and so on: a bar each.
+/// The cost of a step with no effect, with the first one, with the first two, and so on, with bars.
 pub(super) fn added_effects(recording: &Recording) -> Markup {
     let most = { recording.added.iter() }.fold(0.0, |most: f64, added| most.max(added.seconds));
     let mut before = NONE;
@@ -87,7 +93,7 @@ pub(super) fn added_effects(recording: &Recording) -> Markup {
         (&*added.name, cells)
     });
     html! {
-        p { "Each row is a simulation of its own, with all effects down to that row. The cloth moves otherwise without the rest, so a difference is not only the effect's own work." }
+        p { "Each row is a separate simulation, with all effects down to that row. The cloth moves differently without the others, so a difference is not only the cost of the effect itself." }
         (table(["effect added", "a step", "", "more than before"], rows))
     }
 }
@@ -111,7 +117,7 @@ pub(super) fn knobs(headings: [&str; 2], knobs: &[Knob]) -> Markup {
     html! { div.knobs { (table(headings, knobs.map(|knob| (&*knob.name, [&*knob.value])))) } }
 }
 
-/// Rows with a name each.
+/// A table whose rows begin with a name.
 pub(super) fn table<'a, const H: usize, const N: usize, C: maud::Render>(
     headings: [&str; H],
     rows: impl Iterator<Item = (&'a str, [C; N])>,
@@ -127,12 +133,12 @@ pub(super) fn table<'a, const H: usize, const N: usize, C: maud::Render>(
     }
 }
 
-/// A table's first row.
+/// A table's header.
 fn head(columns: &[&str]) -> Markup {
     html! { thead { tr { @for column in columns { th scope="col" { (column) } } } } }
 }
 
-/// A share as a bar; an empty one for what is no number.
+/// A share as a bar. A value that is not finite gives an empty bar.
 pub(in crate::report) fn bar(share: f64) -> Markup {
     let share = if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 };
     html! { span.bar aria-hidden="true" style=(format!("--share:{share:.4}")) {} }

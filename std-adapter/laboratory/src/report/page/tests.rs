@@ -7,7 +7,7 @@ use scraper::{Html, Selector};
 use selvedge_core::glam::DVec3;
 use serde_json::Value;
 
-/// A page as a browser takes it, without a single error in its markup.
+/// Parses a page as a browser does; its markup must have no error.
 fn parsed(html: &str) -> Html {
     let page = Html::parse_document(html);
     assert!(page.errors.is_empty(), "{:?}", page.errors);
@@ -93,7 +93,7 @@ proptest! {
                     let [least, extent] = [bounds[6 * k + axis], bounds[6 * k + 3 + axis]].map(f64::from);
                     let share = f64::from(positions[21 * k + 3 * vertex + axis]) / 65535.0;
                     let decoded = least + share * extent;
-                    // The extent is an f32, rounded by a 2²⁴th at most, or below all normal ones to their spacing.
+                    // The extent is an f32, rounded by a 2²⁴th at most; below all normal numbers, by their spacing.
                     let allowed = extent * (0.5 / 65535.0 + 0.5_f64.powi(23)) + 2e-45;
                     prop_assert!((decoded - f64::from(position[axis])).abs() <= allowed);
                 }
@@ -146,7 +146,7 @@ fn what_is_not_recorded_is_not_on_the_page() {
         let kinds = charts.iter().map(|chart| chart.value().attr("data-kind").unwrap().to_owned());
         (kinds.collect::<Vec<_>>(), all(&page, "table").len())
     };
-    // Of the tables, the knobs' is always there.
+    // The table of settings is always there.
     assert_eq!(sections(&[]), (vec![], 1));
     assert_eq!(sections(&EVERY_KIND[3..4]), (vec!["effect".to_owned()], 2));
     let every = ["pairs", "events", "effect", "stage", "gauge"].map(str::to_owned);
@@ -156,7 +156,7 @@ fn what_is_not_recorded_is_not_on_the_page() {
     assert!(all(&parsed(&html(&without_steps)), ".chart").is_empty());
 }
 
-/// Every place where a page can name something outside of itself.
+/// Checks every place where a page can name something outside itself.
 #[test]
 fn the_page_asks_for_nothing_from_outside() {
     let html = html(&recording(&two_frames(), &EVERY_KIND));
@@ -167,7 +167,7 @@ fn the_page_asks_for_nothing_from_outside() {
             assert!(value.starts_with("data:"), "{attribute} is {value}");
         }
     }
-    // The one name with a protocol is that of a kind of picture, which nothing fetches.
+    // The only name with a protocol is that of a namespace, which nothing fetches.
     let known = "\"http://www.w3.org/2000/svg\"";
     assert_eq!(html.matches("://").count(), html.matches(known).count());
     for word in ["fetch(", "XMLHttpRequest", "import(", "@import", "WebSocket", "url(//"] {

@@ -1,4 +1,4 @@
-//! What accuracy costs in time: the filters.
+//! Plots what accuracy costs in time, for filters.
 
 use super::axis::{LogAxis, TowardsNone};
 use super::look::Look;
@@ -20,12 +20,12 @@ const LEGEND: [(Look, &str); 4] = [
     (Look::UNSAFE, "unsafe: culls without proof"),
 ];
 
-/// Accuracy against time, as an SVG picture with its own light background: a panel for each set of pairs and format.
+/// Plots accuracy against time, as an SVG picture with its own light background: one panel for each set of pairs and format.
 ///
-/// To the right, time per pair (logarithmic, the same in all panels): sixteen pairs side by side on the best instruction
-/// set, except where the name says otherwise. Up, the share of the pairs that exact arithmetic culls which a filter culls as
-/// well: each line is ten times closer to all. Filters without a proof have no place on that axis; they stand in a strip
-/// of their own, with the number of pairs that they cull without proof.
+/// Right is time per pair, logarithmic and the same in all panels: sixteen pairs side by side on the best instruction set, unless
+/// the name says otherwise. Up is the share of pairs that the filter culls, among those that exact arithmetic culls; each line is
+/// ten times closer to all. Filters without a proof have no place on that axis. They are in a strip of their own, with the number
+/// of pairs that they cull without proof.
 #[must_use]
 pub fn accuracy_svg(accuracy: &Accuracy) -> String {
     let measured: Vec<_> = accuracy.sets.iter().map(|set| (set, measured(set))).collect();
@@ -70,7 +70,7 @@ struct Measured<'a> {
     nanoseconds: f64,
 }
 
-/// Each filter's best time, and the permanent's one by one.
+/// Each filter's best time, and the permanent's time one by one.
 fn measured(set: &AccuracySet) -> Vec<Measured<'_>> {
     let rows = set.rows.iter().flat_map(|row| {
         let is_permanent = row.filter == MeasuredFilter::Permanent;

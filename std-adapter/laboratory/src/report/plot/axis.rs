@@ -1,29 +1,29 @@
-//! Where a value stands on an axis of powers of ten.
+//! Places values on axes of powers of ten.
 
-/// From the least to the most, equal factors equally far apart.
+/// An axis on which equal factors are equally far apart.
 pub(super) struct LogAxis {
-    /// Logarithms to the base of ten.
+    /// Logarithms to base ten.
     ends: [f64; 2],
     length: f64,
 }
 
 impl LogAxis {
-    /// More powers of ten than this are not all drawn.
+    /// The largest number of powers of ten that are all drawn.
     const MOST_POWERS: f64 = 9.0;
 
-    /// Covers all values that are positive and finite, with a little room.
+    /// Makes an axis over all positive, finite values, with some room.
     pub(super) fn over(values: impl Iterator<Item = f64>, length: f64) -> Self {
         let mut ends = [f64::INFINITY, f64::NEG_INFINITY];
         for value in values.filter(|value| *value > 0.0 && value.is_finite()) {
             ends = [ends[0].min(value.log10()), ends[1].max(value.log10())];
         }
         let [low, high] = if ends[0] <= ends[1] { ends } else { [0.0, 2.0] };
-        // At least one power of ten has a name then.
+        // So at least one power of ten has a name.
         let ends = [(low - 0.12).min(low.round()), (high + 0.12).max(low.round() + 1.0)];
         Self { ends, length }
     }
 
-    /// From the axis's beginning.
+    /// Returns the distance from the axis's beginning.
     pub(super) fn place(&self, value: f64) -> f64 {
         self.place_of_power(value.log10())
     }
@@ -33,7 +33,7 @@ impl LogAxis {
         (power - low) / (high - low) * self.length
     }
 
-    /// Places of 1, 2, …, 9 times each power of ten in range, with the names of the powers of ten.
+    /// Returns places of 1, 2, …, 9 times each power of ten in range, with the names of the powers of ten.
     pub(super) fn ticks(&self, name: impl Fn(f64) -> String) -> Vec<(f64, Option<String>)> {
         let [low, high] = self.ends;
         let stride = ((high - low) / Self::MOST_POWERS).ceil() as i32;
@@ -51,11 +51,11 @@ impl LogAxis {
     }
 }
 
-/// Shares of a whole, upwards: from line to line ten times less, and above all others a line for none.
+/// An axis of shares, upwards: each line is ten times less than the last, and the top line is none.
 pub(super) struct TowardsNone {
-    /// Shares are drawn as if none were smaller than this power of ten, but for none.
+    /// Shares below this power of ten, except for none, are drawn as if they were this large.
     pub(super) smallest: i32,
-    /// Between two lines.
+    /// The distance between two lines.
     pub(super) step: f64,
 }
 
@@ -64,7 +64,7 @@ impl TowardsNone {
         self.step * (1 - self.smallest) as f64
     }
 
-    /// From the top down.
+    /// Returns the distance from the top.
     pub(super) fn place(&self, share: f64) -> f64 {
         if share > 0.0 {
             let smallest = f64::from(self.smallest);

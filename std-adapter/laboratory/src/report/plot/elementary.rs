@@ -1,4 +1,4 @@
-//! What accuracy costs in time: the elementary tests.
+//! Plots what accuracy costs in time, for elementary tests.
 
 use super::axis::{LogAxis, TowardsNone};
 use super::look::Look;
@@ -19,7 +19,7 @@ const LEGEND: [(Look, &str); 4] = [
     (Look::UNSAFE, "unsafe: misses contacts, or finds them too late"),
 ];
 
-/// Tests without proof, as reports and as the plot name them.
+/// Tests without proof: their names in reports and in the plot.
 const UNSAFE: [(&str, &str); 4] = [
     ("without_bounds", "without bounds"),
     ("additive", "additive"),
@@ -36,12 +36,12 @@ fn look(method: ElementaryTest) -> Look {
     }
 }
 
-/// Accuracy of the time of impact against time, as an SVG picture with its own light background: a panel for each set of pairs and
-/// format.
+/// Plots the accuracy of the time of impact against time, as an SVG picture with its own light background: one panel for each set
+/// of pairs and format.
 ///
-/// To the right, time per pair (logarithmic, the same in all panels). Up, how much too early a contact is found, the median, ten times
-/// less from line to line. A line joins the tolerances of one test. Tests that may miss contacts, or find them too late, have no
-/// place on that axis; they stand in a strip of their own, with what they got wrong.
+/// Right is time per pair, logarithmic and the same in all panels. Up is the median error of a contact's time, ten times less
+/// from line to line. A line joins the tolerances of one test. Tests that may miss contacts, or find them too late, have no place
+/// on that axis. They are in a strip of their own, with their errors.
 #[must_use]
 pub fn elementary_svg(accuracy: &ElementaryAccuracy) -> String {
     let rows = accuracy.sets.iter().flat_map(|set| &set.rows);
@@ -49,7 +49,7 @@ pub fn elementary_svg(accuracy: &ElementaryAccuracy) -> String {
     let plot = Plot {
         title: "What an accurate time of impact costs in time",
         explanation: "Up: contacts are found nearer to their exact time. Left: faster. One pair at a time, on one thread. \
-                      A line joins tolerances δ from 1e-2 to 1e-12. False: never touches, but is not called free.",
+                      A line joins tolerances δ from 1e-2 to 1e-12. False: pairs that never touch, but are not called free.",
         legend: &LEGEND,
         size: [WIDTH, ERRORS.height()],
         ticks: axis.ticks(|nanoseconds| round_time(nanoseconds * 1e-9)),
@@ -64,11 +64,11 @@ pub fn elementary_svg(accuracy: &ElementaryAccuracy) -> String {
 
 fn panel(set: &ElementarySet, axis: &LogAxis) -> Panel {
     let proven = set.rows.iter().filter(|row| row.method.is_certified());
-    // Nothing for a test that was not asked about a contact of known time.
+    // A test that met no contact of known time has no mark.
     let proven: Vec<_> = proven
         .filter_map(|row| Some((row, [axis.place(row.nanoseconds), ERRORS.place(row.early?)])))
         .collect();
-    // In the order of the set's rows, so from the widest tolerance of a test to the tightest.
+    // In the order of the set's rows: from the widest tolerance of a test to the tightest.
     let of_look = |wanted| proven.iter().filter(move |(row, _)| look(row.method) == wanted);
     let curves = [Look::CERTIFIED, Look::BISECTION].map(|look| Curve {
         points: of_look(look).map(|(_, at)| *at).collect(),
@@ -124,10 +124,10 @@ fn name_of_proven(row: &ElementaryRow, set: &ElementarySet) -> String {
     format!("{name}{}: {time}{alarms}", part_asked(row.asked, set))
 }
 
-/// With the worst of all tolerances.
+/// Names a test with the worst counts of all its tolerances.
 fn name_of_unsafe(name: &str, rows: &[&ElementaryRow], set: &ElementarySet) -> String {
     let Some(asked) = rows.iter().map(|row| row.asked).min() else {
-        return format!("{name}: not asked");
+        return format!("{name}: not run");
     };
     let most = |count: fn(&ElementaryRow) -> usize| {
         let counts = rows.iter().map(|row| count(row));
@@ -143,7 +143,7 @@ fn name_of_unsafe(name: &str, rows: &[&ElementaryRow], set: &ElementarySet) -> S
     )
 }
 
-/// How many pairs a test was asked about, if not all.
+/// The number of pairs that a test ran on, if not all.
 fn part_asked(asked: usize, set: &ElementarySet) -> String {
     if asked < set.vertex_face + set.edge_edge {
         format!(" ({} pairs)", grouped(asked))
@@ -152,7 +152,7 @@ fn part_asked(asked: usize, set: &ElementarySet) -> String {
     }
 }
 
-/// Lines across, and their names.
+/// Lines across, with their names.
 fn lines() -> impl Iterator<Item = (f64, String)> {
     let powers = (ERRORS.smallest..=0).rev().step_by(2);
     let named = powers.map(|power| {

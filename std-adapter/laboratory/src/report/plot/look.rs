@@ -1,12 +1,12 @@
-//! How points are marked: by colour and by shape.
+//! Marks of points, by colour and by shape.
 
-use super::picture::{PAPER_WHITE, line, px};
+use super::svg::{PAPER_WHITE, line, px};
 use maud::{Markup, html};
 
-/// What a mark looks like.
+/// The look of a mark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Look {
-    /// From Okabe and Ito's, which people who confuse colours tell apart, some darkened.
+    /// Okabe and Ito's colours, which colour-blind people can distinguish; some are darkened.
     pub(super) colour: &'static str,
     pub(super) shape: Shape,
 }
@@ -18,27 +18,27 @@ pub(super) enum Shape {
     Diamond,
     Triangle,
     Cross,
-    /// A line goes through, nothing more.
+    /// No mark, for points that only a line passes.
     None,
 }
 
 impl Look {
-    /// By rounded arithmetic and a bound.
+    /// Decides by rounded arithmetic and a bound.
     pub(super) const CERTIFIED: Self = Self::new("#0072b2", Shape::Disc);
     /// The same, one pair at a time.
     pub(super) const ONE_AT_A_TIME: Self = Self::new("#0072b2", Shape::Ring);
-    /// By exact arithmetic.
+    /// Decides by exact arithmetic.
     pub(super) const EXACT: Self = Self::new("#007a58", Shape::Diamond);
-    /// By bisection of time and parameters.
+    /// Decides by bisection of time and parameters.
     pub(super) const BISECTION: Self = Self::new("#a8508a", Shape::Triangle);
-    /// Without proof.
+    /// Decides without proof.
     pub(super) const UNSAFE: Self = Self::new("#d55e00", Shape::Cross);
 
     pub(super) const fn new(colour: &'static str, shape: Shape) -> Self {
         Self { colour, shape }
     }
 
-    /// The mark, with its middle at (`x`, `y`).
+    /// Draws the mark, with its middle at (`x`, `y`).
     pub(super) fn mark(self, [x, y]: [f64; 2]) -> Markup {
         const R: f64 = 5.0;
         let Self { colour, shape } = self;

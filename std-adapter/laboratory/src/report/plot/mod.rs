@@ -1,4 +1,4 @@
-//! Plots as SVG pictures with a light background of their own. `accuracy`, `elementary` and `scaling` say what is in them;
+//! Plots as SVG pictures with a light background of their own. `accuracy`, `elementary` and `scaling` choose the content;
 //! `picture` draws it.
 
 mod accuracy;
@@ -7,6 +7,7 @@ mod elementary;
 mod look;
 mod picture;
 mod scaling;
+mod svg;
 #[cfg(test)]
 mod texts;
 

@@ -1,40 +1,36 @@
-//! What all plots have in common: panels in two columns below a head; in each a plot, names beside it, and a strip below for what
-//! is unsafe.
+//! Draws what all plots have in common: panels in two columns below a head. Each panel has a plot, names beside it, and a strip
+//! below for unsafe methods.
 
 use super::look::Look;
-use crate::report::printable;
+use super::svg::{PAPER_WHITE, line, px, text};
 use maud::{Markup, PreEscaped, html};
 
 // Lengths in pixels, at the picture's own size.
 const MARGIN: f64 = 24.0;
 const FONT_SIZE: f64 = 14.0;
 const SMALL: f64 = 12.5;
-/// What a letter takes at most on average, in the widest of the fonts below, for each pixel of font size.
+/// The average width of a letter, at most, in the widest of the fonts below, for each pixel of font size.
 const LETTER: f64 = 0.54;
 const COLUMNS: usize = 2;
 const COLUMN_GAP: f64 = 30.0;
 const ROW_GAP: f64 = 16.0;
-/// Where the legend is, if there is one.
+/// The place of the legend, if there is one.
 const LEGEND: f64 = 92.0;
 
-/// A panel's room for the names of lines.
+/// Room in a panel for the names of lines.
 const LEFT: f64 = 72.0;
-/// Its room for the heading.
+/// Room for the heading.
 const TOP: f64 = 72.0;
-/// From a plot to the names beside it.
+/// Distance from a plot to the names beside it.
 const NAME_GAP: f64 = 24.0;
 const NAME_SPACING: f64 = 18.0;
 /// Marks nearer to each other than this touch.
 const TOUCHING: f64 = 10.0;
 const STRIP_GAP: f64 = 12.0;
-/// Below the strip: the axis, its numbers and its title.
+/// Room below the strip for the axis, its numbers and its title.
 const FOOT: f64 = 46.0;
-/// From the middle of a line of small letters down to its baseline.
+/// Distance from the middle of a line of small letters down to its baseline.
 const BASELINE: f64 = 4.5;
-
-pub(super) const PAPER_WHITE: &str = "#fdfdfc";
-pub(super) const INK: &str = "#1f2328";
-pub(super) const FAINT_INK: &str = "#656d76";
 
 const STYLE: &str = "\
 text { font: 14px system-ui, -apple-system, 'Segoe UI', 'Helvetica Neue', Arial, sans-serif; fill: #1f2328 } \
@@ -42,24 +38,24 @@ text { font: 14px system-ui, -apple-system, 'Segoe UI', 'Helvetica Neue', Arial,
 .faint { fill: #656d76 } .unsafe { fill: #d55e00 } .middle { text-anchor: middle } .end { text-anchor: end } \
 .rule { stroke: #d0d7de } .axis { stroke: #656d76 } polyline { fill: none }";
 
-/// A picture of panels that have their axes in common.
+/// A picture of panels with common axes.
 pub(super) struct Plot<'a> {
     pub(super) title: &'a str,
-    /// Above the legend; for a plot without one, what it explains is in the panel's title.
+    /// The text above the legend. A plot without a legend explains itself in the panel's title.
     pub(super) explanation: &'a str,
-    /// What marks mean.
+    /// The meaning of marks.
     pub(super) legend: &'a [(Look, &'a str)],
-    /// Of each plot.
+    /// The size of each plot.
     pub(super) size: [f64; 2],
-    /// Places from the left, and names of some of them.
+    /// Places from the left, some with names.
     pub(super) ticks: Vec<(f64, Option<String>)>,
-    /// What goes to the right.
+    /// The title of the axis to the right.
     pub(super) across: &'a str,
-    /// What goes up.
+    /// The title of the axis upwards.
     pub(super) upwards: &'a str,
     /// Lines across, from the top down, with their names.
     pub(super) lines: Vec<(f64, String)>,
-    /// Rows of the strip for what is unsafe.
+    /// Rows of the strip for unsafe methods.
     pub(super) strip_rows: usize,
 }
 
@@ -68,7 +64,7 @@ pub(super) struct Plot<'a> {
 pub(super) struct Panel {
     pub(super) title: String,
     pub(super) subtitle: String,
-    /// Instead of marks, where there are none.
+    /// A note in place of marks.
     pub(super) note: Option<&'static str>,
     pub(super) curves: Vec<Curve>,
     pub(super) marks: Vec<Mark>,
@@ -88,15 +84,15 @@ pub(super) struct Mark {
     pub(super) name: Option<String>,
 }
 
-/// What has no place on the axis upwards.
+/// A method without a place on the axis upwards.
 pub(super) struct StripRow {
-    /// From the left.
+    /// Places from the left.
     pub(super) places: Vec<f64>,
     pub(super) name: String,
 }
 
 impl Plot<'_> {
-    /// As an SVG file.
+    /// Returns the SVG file.
     pub(super) fn draw(&self, panels: &[Panel]) -> String {
         let head_height = if self.legend.is_empty() { 56.0 } else { LEGEND + 32.0 };
         let names = panels.iter().flat_map(Panel::names);
@@ -187,10 +183,10 @@ impl Plot<'_> {
         }
     }
 
-    /// Marks, and their names to the right, which never overlap.
+    /// Draws marks, with their names to the right, which never overlap.
     fn marks(&self, marks: &[Mark]) -> Markup {
-        // Names leave a crowded line downwards, near the plot's end upwards. Of several marks on a line the
-        // rightmost has the nearest name, so that leaders do not cross. Marks that touch are on a line.
+        // Names spread downwards from a crowded line, and upwards near the plot's end. The rightmost of several marks on a line
+        // has the nearest name, so that leaders do not cross. Marks that touch are on one line.
         let height = self.size[1];
         let line_of = |mark: &Mark| TOUCHING * (mark.at[1] / TOUCHING).round();
         let named = marks.iter().filter_map(|mark| Some((mark, mark.name.as_deref()?)));
@@ -213,23 +209,23 @@ impl Plot<'_> {
         }
     }
 
-    /// From a mark to its name, which stands at the height `y`.
+    /// Draws a line from a mark to its name at the height `y`.
     fn leader(&self, look: Look, mark: [f64; 2], y: f64) -> Markup {
         let end = [self.names_from() - LEFT - 5.0, y];
         html! { g stroke=(look.colour) stroke-opacity="0.45" { (line("", mark, end)) } }
     }
 
-    /// A name beside the plot.
+    /// Writes a name beside the plot.
     fn name(&self, y: f64, name: &str) -> Markup {
         text("small", [self.names_from() - LEFT, y + BASELINE], name)
     }
 
-    /// Where the names of marks begin, from the panel's left.
+    /// The left end of the names of marks, from the panel's left.
     fn names_from(&self) -> f64 {
         LEFT + self.size[0] + NAME_GAP
     }
 
-    /// From the plot's top, as the others.
+    /// The top of the strip, from the plot's top.
     fn strip_top(&self) -> f64 {
         self.size[1] + STRIP_GAP
     }
@@ -268,26 +264,12 @@ impl Curve {
     }
 }
 
-/// To a hundredth of a pixel, to keep the file short.
-pub(super) fn px(length: f64) -> f64 {
-    (100.0 * length).round() / 100.0
-}
-
-pub(super) fn line(class: &str, [x1, y1]: [f64; 2], [x2, y2]: [f64; 2]) -> Markup {
-    let class = Some(class).filter(|class| !class.is_empty());
-    html! { line class=[class] x1=(px(x1)) y1=(px(y1)) x2=(px(x2)) y2=(px(y2)) {} }
-}
-
-fn text(class: &str, [x, y]: [f64; 2], content: &str) -> Markup {
-    let class = Some(class).filter(|class| !class.is_empty());
-    html! { text class=[class] x=(px(x)) y=(px(y)) { (printable(content)) } }
-}
-
 fn width_of(text: &str, size: f64) -> f64 {
     text.chars().count() as f64 * LETTER * size
 }
 
-/// Positions in ascending order, at least `spacing` apart, near the wanted ones (also ascending), the last not beyond `end`.
+/// Returns positions in ascending order, at least `spacing` apart, near the wanted ones (also ascending), the last not beyond
+/// `end`.
 fn spread(wanted: &[f64], spacing: f64, end: f64) -> Vec<f64> {
     let mut places: Vec<f64> = Vec::with_capacity(wanted.len());
     for &place in wanted {

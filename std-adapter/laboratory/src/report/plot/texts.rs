@@ -1,13 +1,13 @@
-//! For the tests of pictures.
+//! Reads texts of pictures, for tests.
 
 use roxmltree::{Document, Node};
 
-/// All texts of an SVG document, in order.
+/// Returns all texts of an SVG document, in order.
 pub(super) fn texts(svg: &str) -> Vec<String> {
     placed_texts(svg).into_iter().map(|(_, text)| text).collect()
 }
 
-/// With the place of each, within its panel.
+/// Returns them with their places in their panels.
 pub(super) fn placed_texts(svg: &str) -> Vec<([f64; 2], String)> {
     let document = Document::parse(svg).unwrap();
     let number = |node: &Node<'_, '_>, name: &str| node.attribute(name).unwrap().parse().unwrap();

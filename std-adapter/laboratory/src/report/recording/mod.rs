@@ -1,6 +1,6 @@
-//! What a simulation leaves behind for people to look at: its animation, and figures of every step.
+//! Records a simulation for readers: its animation, and numbers of every step.
 //!
-//! A [`Recording`] knows nothing of any simulator. A [`Recorder`] makes one while the simulation runs, in bounded memory:
+//! A [`Recording`] does not depend on any simulator. A [`Recorder`] makes one while the simulation runs, in bounded memory:
 //!
 //! ```
 //! use selvedge::glam::DVec3;
@@ -49,67 +49,68 @@ pub use simulated::{SimulationRecorder, Subject, costs_of_added_effects};
 use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
 
-/// A simulation, as it is remembered for reports.
+/// A recorded simulation, for reports.
 ///
-/// Whatever did not take part is not in it: an effect without a series is in no table, no chart and no legend.
+/// It holds only what took part. An effect without a series appears in no table, chart or legend.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recording {
-    /// What was simulated.
+    /// The scene and its settings.
     pub about: About,
-    /// What moves, in the order of the vertices.
+    /// The moving parts, in the order of the vertices.
     pub parts: Vec<Part>,
-    /// The animation, at least one frame, in the order of time; the last is where the simulation ended.
-    pub frames: Vec<Frame>,
-    /// How many steps were recorded.
+    /// The animation in the order of time: at least one frame. The last is the end of the simulation.
+    pub frames: Vec<RecordedFrame>,
+    /// The number of recorded steps.
     pub steps: u64,
-    /// The number of the first recorded step; not 1 if the simulation went on from a checkpoint.
+    /// The number of the first recorded step. It is not 1 if the simulation resumed from a checkpoint.
     pub first_step: u64,
-    /// How many steps each value of a series is the mean of. The last value may be of fewer.
+    /// The number of steps whose mean each value of a series is. The last value may be of fewer.
     pub steps_per_value: u64,
-    /// Figures of every step.
+    /// Numbers of every step.
     pub series: Vec<Series>,
-    /// After which steps measures were taken, in the order of time: at all frames that were offered, thinned out evenly if there are many.
+    /// The steps after which measures were taken, in the order of time. These are all offered frames, thinned out evenly if there
+    /// are many.
     pub measured_steps: Vec<u64>,
     /// Quantities of the state.
     pub measures: Vec<Measure>,
-    /// How long the steps took by the clock on the wall, in seconds, if it is known.
+    /// The wall-clock time of the steps, in seconds, if it is known.
     pub wall_seconds: Option<f64>,
-    /// What a step costs with the first of the effects, with the first two, and so on, if that was measured.
+    /// The cost of a step with no effect, with the first one, with the first two, and so on, if it was measured.
     pub added: Vec<Added>,
-    /// What else a reader must know, a sentence each: where the simulation was blocked, that it was interrupted.
+    /// Further sentences for readers, such as that the simulation was blocked or interrupted.
     pub remarks: Vec<String>,
 }
 
-/// What was simulated.
+/// A simulated scene and its settings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct About {
     /// The scene's name.
     pub name: String,
     /// The scene file's text; empty if there is none.
     pub scene: String,
-    /// The direction that is up in the pictures, of any length: against gravity. Where it has none (zero, not finite), z is up.
+    /// The direction up in pictures, of any length, against gravity. If it is zero or not finite, z is up.
     pub up: DVec3,
     /// The time step, in seconds.
     pub time_step: f64,
-    /// What the cloth is made of.
+    /// Properties of the fabric.
     pub fabric: Vec<Knob>,
-    /// What trades time for accuracy.
+    /// Settings that trade time for accuracy.
     pub knobs: Vec<Knob>,
 }
 
-/// What a step costs with some of the effects.
+/// The cost of a step with some of the effects.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Added {
-    /// The effect that was added last; "no effect" to begin with.
+    /// The effect added last, or "no effect" at first.
     pub name: String,
-    /// Seconds a step, with all up to this one.
+    /// Seconds a step, with all effects up to this one.
     pub seconds: f64,
 }
 
-/// A setting: one that trades time for accuracy, such as the time step, a thickness or a tolerance; or a property of the fabric.
+/// A setting that trades time for accuracy, such as the time step, a thickness or a tolerance; or a property of the fabric.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Knob {
-    /// What it is called.
+    /// Its name.
     pub name: String,
     /// Its value, with its unit.
     pub value: String,
@@ -126,16 +127,16 @@ impl Knob {
     }
 }
 
-/// What a [`Part`] is, which decides on its looks.
+/// The kind of a [`Part`], which decides its look.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PartKind {
     /// Thin, seen from both sides.
     Cloth,
-    /// What the cloth meets.
+    /// An obstacle.
     Body,
 }
 
-/// A mesh that moves: the cloth, or a body.
+/// A moving mesh: a cloth or a body.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Part {
     name: String,
@@ -145,7 +146,7 @@ pub struct Part {
 }
 
 impl Part {
-    /// A mesh of `vertex_count` vertices; its triangles number them from 0.
+    /// A mesh of `vertex_count` vertices, which its triangles number from 0.
     ///
     /// # Panics
     /// If a triangle names a vertex that does not exist.
@@ -164,19 +165,19 @@ impl Part {
         }
     }
 
-    /// What it is called.
+    /// Its name.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// What it is.
+    /// Its kind.
     #[must_use]
     pub fn kind(&self) -> PartKind {
         self.kind
     }
 
-    /// How many vertices it has.
+    /// The number of its vertices.
     #[must_use]
     pub fn vertex_count(&self) -> usize {
         self.vertex_count
@@ -191,79 +192,80 @@ impl Part {
 
 /// All positions at the end of a step.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Frame {
-    /// The step, 0 for the start. Its time is this many time steps.
+pub struct RecordedFrame {
+    /// The step, 0 for the start. The time is this many time steps.
     pub step: u64,
-    /// Finite; rounded to f32, which is what pictures and glTF need.
+    /// Finite positions, rounded to f32, which suffices for pictures and glTF.
     pub positions: Vec<[f32; 3]>,
 }
 
-/// What a [`Series`] counts or measures.
+/// The kind of a [`Series`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SeriesKind {
-    /// Pairs that a stage leaves, named after the stage; in the order of the data flow.
+    /// Pairs that a stage leaves, named after the stage, in the order of the data flow.
     Pairs,
-    /// What else is counted: pairs repaired, vertices held, steps cut.
+    /// Other counts: pairs repaired, vertices held, steps cut.
     Events,
     /// Seconds of an effect.
     Effect,
     /// Seconds of a stage that several effects share.
     Stage,
-    /// Seconds of the whole step, by the clock on the wall.
+    /// Wall-clock seconds of the whole step.
     Step,
-    /// A quantity of the state, in this unit (empty for a pure number): the least distance, the largest strain.
+    /// A quantity of the state, such as the least distance or the largest strain, in this unit. The unit is empty for a pure
+    /// number.
     Gauge(&'static str),
 }
 
-/// One figure of every step.
+/// One number of every step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// What it is called: the name of the effect or the stage.
+    /// Its name: that of the effect or the stage.
     pub name: String,
-    /// What it counts or measures.
+    /// Its kind.
     pub kind: SeriesKind,
     /// Means over [`steps_per_value`](Recording::steps_per_value) steps each.
     pub values: Vec<f32>,
     /// The sum over all steps.
     pub total: f64,
-    /// The smallest of any step; infinite if there was none.
+    /// The smallest value of any step; infinite without steps.
     pub smallest: f64,
-    /// The largest of any step; negative infinity if there was none.
+    /// The largest value of any step; negative infinity without steps.
     pub largest: f64,
-    /// In which step it was the largest, first.
+    /// The first step with the largest value.
     pub largest_step: u64,
 }
 
-/// What a [`Measure`] is.
+/// The kind of a [`Measure`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MeasureKind {
     /// A kind of energy, in J.
     Energy,
-    /// The energy that an effect holds, in J, named after the effect.
+    /// The energy that an effect stores, in J, named after the effect.
     EffectEnergy,
-    /// Lengths of edges over those at rest.
+    /// Lengths of edges relative to those at rest.
     Stretch,
 }
 
-/// The length that 99 % of the edges do not exceed, over that at rest.
+/// The 99th percentile of edge lengths relative to those at rest.
 pub(super) const EDGES_99: &str = "99 % of the edges";
-/// Of the edge that is stretched most.
+/// The length of the most stretched edge relative to that at rest.
 pub(super) const LONGEST_EDGE: &str = "longest edge";
-/// Energy of weight.
+/// Gravitational energy.
 pub(super) const GRAVITATIONAL: &str = "gravitational";
 
-/// A quantity of the state, which takes too long to work out to be asked for in each step.
+/// A quantity of the state that takes too long to compute in each step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measure {
-    /// What it is called.
+    /// Its name.
     pub name: String,
-    /// What it is.
+    /// Its kind.
     pub kind: MeasureKind,
-    /// After each of the [`measured_steps`](Recording::measured_steps).
+    /// A value after each of the [`measured_steps`](Recording::measured_steps).
     pub values: Vec<f64>,
-    /// The largest that was ever measured; negative infinity if none was.
+    /// The largest value ever measured; negative infinity without measurements.
     pub largest: f64,
-    /// After which step it was the largest, first.
+    /// The first step with the largest value.
     pub largest_step: u64,
 }
 
@@ -276,14 +278,14 @@ impl Recording {
 
     /// The time of a frame, in seconds.
     #[must_use]
-    pub fn time(&self, frame: &Frame) -> f64 {
+    pub fn time(&self, frame: &RecordedFrame) -> f64 {
         self.end_of(frame.step)
     }
 
-    /// The frame that is nearest to a time, in seconds: the first of two.
+    /// Returns the frame nearest to a time, in seconds: the first of two.
     ///
     /// # Panics
-    /// If the recording has no frames, which a [`Recorder`] does not make.
+    /// If the recording has no frames. A [`Recorder`] never makes such a recording.
     #[must_use]
     pub fn frame_at(&self, seconds: f64) -> usize {
         let away = |&frame: &usize| (self.time(&self.frames[frame]) - seconds).abs();
@@ -293,7 +295,7 @@ impl Recording {
             .expect("a recording has frames")
     }
 
-    /// How long the recorded steps are together, in simulated seconds.
+    /// The simulated duration of the recorded steps, in seconds.
     #[must_use]
     pub fn duration(&self) -> f64 {
         self.steps as f64 * self.about.time_step
@@ -309,7 +311,7 @@ impl Recording {
         })
     }
 
-    /// All parts in one frame as one mesh, to be written with [`mesh::write`](selvedge_files::mesh::write()).
+    /// Returns all parts in one frame as one mesh, for [`mesh::write`](selvedge_files::mesh::write()).
     ///
     /// # Panics
     /// If there is no such frame.

@@ -1,16 +1,16 @@
 //! Records in bounded memory.
 //!
-//! Frames and what is measured at them are [thinned out](super::thinned); when values of a series are more than [`MOST_VALUES`], each two
-//! become their mean. So all stay evenly spread over a simulation whose end nobody knows.
+//! Frames and measurements are [thinned out](super::thinned). When a series has more than [`MOST_VALUES`] values, each two become
+//! their mean. All stay evenly spread over a simulation of unknown length.
 
 use super::thinned::Thinned;
-use super::{About, Frame, Measure, MeasureKind, Part, Recording, Series, SeriesKind};
+use super::{About, Measure, MeasureKind, Part, RecordedFrame, Recording, Series, SeriesKind};
 use selvedge_core::glam::DVec3;
 use selvedge_files::bytes::{Reader, put_block};
 
-/// More than a chart has pixels.
+/// This is more than a chart has pixels.
 const MOST_VALUES: usize = 2048;
-/// Bytes of positions.
+/// The limit of memory for positions, in bytes.
 const BUDGET: usize = 64 << 20;
 
 /// A frame that cannot be recorded.
@@ -21,29 +21,29 @@ pub struct FrameError {
     pub step: u64,
     /// The first such vertex.
     pub vertex: usize,
-    /// Where it is.
+    /// Its position.
     pub position: DVec3,
 }
 
 /// Makes a [`Recording`], step by step.
 #[derive(Clone, Debug)]
 pub struct Recorder {
-    /// Without frames, and measures without values.
+    /// The recording so far, without frames and without values of measures.
     recording: Recording,
     frames: Thinned<[f32; 3]>,
     /// A value of each measure.
     measured: Thinned<f64>,
-    /// What the counters read last.
+    /// The last readings of the counters.
     readings: Vec<f64>,
-    /// For each series, the sums that its values are the means of.
+    /// For each series, the sums whose means become its values.
     sums: Vec<Vec<f64>>,
 }
 
 impl Recorder {
     /// Begins a recording of `parts`, whose vertices are numbered one part after the other.
     ///
-    /// `readings` are the counters' before the first recorded step, one for each series; that of a
-    /// [gauge](SeriesKind::Gauge) is ignored.
+    /// `readings` are the counters before the first recorded step, one for each series. That of a [gauge](SeriesKind::Gauge) is
+    /// ignored.
     ///
     /// # Panics
     /// If there are not as many readings as series.
@@ -83,7 +83,7 @@ impl Recorder {
         .with_budget(BUDGET)
     }
 
-    /// Measures these quantities of the state at frames: see [`measure`](Self::measure).
+    /// Adds quantities of the state that are measured at frames: see [`measure`](Self::measure).
     #[must_use]
     pub fn with_measures(mut self, measures: &[(&str, MeasureKind)]) -> Self {
         let named = measures.iter().map(|&(name, kind)| Measure {
@@ -97,8 +97,8 @@ impl Recorder {
         self
     }
 
-    /// Keeps as many frames as have at most `bytes` of positions, 12 for each vertex, but never fewer than two. 64 MiB if this is
-    /// not called.
+    /// Keeps as many frames as fit into `bytes` of positions, 12 for each vertex, but never fewer than two. The default is 64
+    /// MiB.
     #[must_use]
     pub fn with_budget(mut self, bytes: usize) -> Self {
         let frame = size_of::<[f32; 3]>() * self.recording.vertex_count().max(1);
@@ -106,17 +106,17 @@ impl Recorder {
         self
     }
 
-    /// Whether a frame offered now would be kept, or is only remembered in case that it is the last.
+    /// Returns whether a frame offered now would be kept. Otherwise it is only remembered in case it is the last.
     #[must_use]
     pub fn wants_frame(&self) -> bool {
         self.frames.wants_next()
     }
 
-    /// Offers the state after `step` steps, 0 for the start: after more steps than all states offered before, or after as many as
-    /// the last one, which it then replaces.
+    /// Offers the state after `step` steps, 0 for the start. Steps must increase; a second state after the same step replaces the
+    /// first.
     ///
     /// # Errors
-    /// If a coordinate is not finite as an f32. Then nothing is recorded.
+    /// If a coordinate is not finite as an f32. Nothing is recorded then.
     ///
     /// # Panics
     /// If there is not one position for each vertex.
@@ -136,11 +136,11 @@ impl Recorder {
         Ok(())
     }
 
-    /// Gives a part more vertices, behind those that it has, each a copy of one before it, and the triangles that name them: cloth that has torn.
-    /// In the frames so far copies are where the vertices are that they are made of, so that they look as they did.
+    /// Adds vertices to a part behind its own, each a copy of an earlier one, and replaces its triangles, as tearing does. In
+    /// earlier frames the copies are at the places of their originals, so that these frames look unchanged.
     ///
     /// # Panics
-    /// If there is no such part, a copy is of no vertex before it, or a triangle names a vertex that does not exist.
+    /// If there is no such part, a copy is of no earlier vertex, or a triangle names a vertex that does not exist.
     pub fn split(&mut self, part: usize, copied: &[u32], triangles: Vec<[u32; 3]>) {
         let parts = &mut self.recording.parts;
         let first: usize = parts[..part].iter().map(Part::vertex_count).sum();
@@ -156,7 +156,7 @@ impl Recorder {
         parts[part] = Part::new(own.name.clone(), own.kind, own.vertex_count + copied.len(), triangles);
     }
 
-    /// Records what each measure is after `step` steps, in their order; steps as for [`frame`](Self::frame).
+    /// Records the values of all measures after `step` steps, in their order. Steps are as for [`frame`](Self::frame).
     ///
     /// # Panics
     /// If there are not as many values as measures.
@@ -171,8 +171,9 @@ impl Recorder {
         self.measured.offer(step, values.iter().copied());
     }
 
-    /// Records a step: what each series' counter reads after it, in the order of the series. The difference to the reading before
-    /// is the step's; a [gauge](SeriesKind::Gauge) and the time of a [step](SeriesKind::Step) are recorded as they are.
+    /// Records a step: the reading of each series' counter after it, in the order of the series. The step's value is the
+    /// difference to the last reading. A [gauge](SeriesKind::Gauge) and the time of a [step](SeriesKind::Step) are recorded as
+    /// they are.
     ///
     /// # Panics
     /// If there are not as many readings as series.
@@ -206,8 +207,8 @@ impl Recorder {
         recording.steps += 1;
     }
 
-    /// All that has been recorded in `seconds` by the clock on the wall, as bytes, to go on with after an interruption: see
-    /// [`restore`](Self::restore).
+    /// Returns all that has been recorded as bytes, to continue after an interruption: see [`restore`](Self::restore). `seconds`
+    /// is the wall-clock time so far.
     #[must_use]
     pub fn save(&self, seconds: f64) -> Vec<u8> {
         let recording = &self.recording;
@@ -247,8 +248,9 @@ impl Recorder {
         bytes
     }
 
-    /// Goes on with what another recorder of the same parts and series has [saved](Self::save); returns its seconds. Counters must read
-    /// what they read then. `None`, and nothing has changed, if the bytes are damaged, or of other parts or series.
+    /// Continues what another recorder of the same parts and series has [saved](Self::save), and returns its seconds. Counters
+    /// must have the readings of that time. Returns `None`, and changes nothing, if the bytes are damaged or belong to other
+    /// parts or series.
     #[must_use]
     pub fn restore(&mut self, bytes: &[u8]) -> Option<f64> {
         let mut restored = self.clone();
@@ -298,12 +300,12 @@ impl Recorder {
         (values && recording.steps_per_value > 0 && reader.0.is_empty()).then_some(seconds)
     }
 
-    /// Says something that a reader must know.
+    /// Adds a sentence for readers.
     pub fn remark(&mut self, sentence: impl Into<String>) {
         self.recording.remarks.push(sentence.into());
     }
 
-    /// Ends the recording. `wall_seconds` is how long the steps took by the clock on the wall, if it is known.
+    /// Ends the recording. `wall_seconds` is the wall-clock time of the steps, if it is known.
     ///
     /// # Panics
     /// If there was no frame.
@@ -311,7 +313,7 @@ impl Recorder {
     pub fn finish(self, wall_seconds: Option<f64>) -> Recording {
         let mut recording = self.recording;
         let frames = self.frames.finish().into_iter();
-        recording.frames = frames.map(|(step, positions)| Frame { step, positions }).collect();
+        recording.frames = frames.map(|(step, positions)| RecordedFrame { step, positions }).collect();
         for (step, values) in self.measured.finish() {
             recording.measured_steps.push(step);
             for (measure, value) in recording.measures.iter_mut().zip(values) {

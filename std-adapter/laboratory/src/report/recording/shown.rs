@@ -1,19 +1,20 @@
-//! What is shown of a cloth: its triangles, and its loose edges as [tubes](Tubes).
+//! The visible geometry of a cloth: its triangles, and its loose edges as [tubes](Tubes).
 
 use selvedge_cloth::{Cloth, Scene, Tubes};
 use selvedge_core::glam::DVec3;
 
-/// What is shown of a cloth: its vertices, if it has triangles, then the rings of its tubes, then the copies of vertices that tears have made.
+/// The visible geometry of a cloth. Its vertices are the cloth's own, if it has triangles, then the rings of its tubes, then the
+/// copies that tears have made.
 #[derive(Clone, Debug)]
 pub(super) struct Shown {
-    /// As it was made.
+    /// The number of vertices at the start.
     vertices: usize,
     has_triangles: bool,
     tubes: Option<Tubes>,
 }
 
 impl Shown {
-    /// Of one of a scene's cloths.
+    /// The geometry of one of a scene's cloths.
     pub(super) fn new(scene: &Scene, index: usize) -> Self {
         let mesh = scene.cloths[index].mesh();
         Self {
@@ -31,7 +32,7 @@ impl Shown {
         self.tubes.as_ref().map_or(0, Tubes::vertex_count)
     }
 
-    /// The place of one of the cloth's vertices, which has triangles.
+    /// The place of a cloth's vertex; the cloth has triangles.
     pub(super) fn place_of(&self, vertex: u32) -> u32 {
         let is_copy = vertex as usize >= self.vertices;
         if is_copy {
@@ -41,7 +42,7 @@ impl Shown {
         }
     }
 
-    /// How many vertices are shown, and the triangles on them, of the cloth as it was made.
+    /// The number of vertices and the triangles of the cloth at the start.
     pub(super) fn mesh(&self, cloth: &Cloth) -> (usize, Vec<[u32; 3]>) {
         let mut triangles = cloth.mesh().triangles.clone();
         self.add_tubes(&mut triangles);
@@ -54,7 +55,7 @@ impl Shown {
         triangles.extend(self.tubes.iter().flat_map(|tubes| tubes.triangles(first)));
     }
 
-    /// Adds where they are, when the cloth's vertices are at `own`.
+    /// Adds the positions, when the cloth's vertices are at `own`.
     pub(super) fn place(&self, own: &[DVec3], shown: &mut Vec<DVec3>) {
         shown.extend_from_slice(&own[..self.own_vertices()]);
         if let Some(tubes) = &self.tubes {

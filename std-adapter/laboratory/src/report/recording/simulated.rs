@@ -1,4 +1,4 @@
-//! Records a [`Simulation`]. Loose edges are recorded as the [tubes](selvedge_cloth::Tubes) as which they are [shown](super::shown).
+//! Records a [`Simulation`]. Loose edges are recorded as [tubes](selvedge_cloth::Tubes): see [shown](super::shown).
 
 use super::shown::Shown;
 use super::{About, Added, FrameError, Knob, Measure, MeasureKind, Part, PartKind, Recorder, Recording, SeriesKind};
@@ -9,16 +9,16 @@ use selvedge::Mesh;
 use selvedge_cloth::{Scene, Simulation, TangledStart};
 use selvedge_core::glam::DVec3;
 
-/// What a recording says of a scene, taken before a [`Simulation`] consumes it.
+/// The description of a scene for a recording. It is taken before a [`Simulation`] consumes the scene.
 #[derive(Clone, Debug)]
 pub struct Subject {
     about: About,
     parts: Vec<Part>,
-    /// Of the cloths, if any has loose edges.
+    /// The geometry of the cloths, if any has loose edges.
     shown: Vec<Shown>,
 }
 
-/// What a step costs with each effect added, as measured: for a [`Recording`]'s `added`.
+/// Names the measured costs of effects for a [`Recording`]'s `added`.
 #[must_use]
 pub fn costs_of_added_effects(costs: &[EffectCost]) -> Vec<Added> {
     let named = |cost: &EffectCost| Added {
@@ -29,7 +29,7 @@ pub fn costs_of_added_effects(costs: &[EffectCost]) -> Vec<Added> {
 }
 
 impl Subject {
-    /// The scene's text, its up direction, its cloths and its bodies, each a part of its own.
+    /// Takes the scene's text, its up direction, its cloths and its bodies, each as a part of its own.
     #[must_use]
     pub fn new(scene: &Scene) -> Self {
         let about = About {
@@ -65,30 +65,30 @@ impl Subject {
     }
 }
 
-/// A [`Recorder`] of a simulation: its effects, and its contacts if it looks for them, are the series; energy and stretch the measures.
+/// A [`Recorder`] of a simulation. Its series are effects, and contacts if there are any; its measures are energy and stretch.
 ///
-/// Cloth that tears gets more vertices: all frames have those that there are in the end.
+/// Tearing adds vertices to cloth; all frames have those of the end.
 #[derive(Clone, Debug)]
 pub struct SimulationRecorder {
     recorder: Recorder,
-    /// Of the measures.
+    /// The names of the measures.
     measured: Vec<&'static str>,
-    /// Of each cloth, how many vertices are copies.
+    /// The number of copied vertices of each cloth.
     copied: Vec<usize>,
-    /// Of the cloths, if any has loose edges.
+    /// The geometry of the cloths, if any has loose edges.
     shown: Vec<Shown>,
-    /// Where all that is shown is, then.
+    /// The positions of all visible vertices then.
     positions: Vec<DVec3>,
 }
 
 impl SimulationRecorder {
-    /// Begins with the state and the counters that the simulation of `subject`'s scene has now.
+    /// Begins with the present state and counters of the simulation of `subject`'s scene.
     ///
     /// # Errors
-    /// If a coordinate is no finite `f32`.
+    /// If a coordinate is not finite as an `f32`.
     ///
     /// # Panics
-    /// If the simulation is of another scene, with another number of vertices.
+    /// If the simulation has another number of vertices than the scene.
     pub fn new(subject: Subject, simulation: &Simulation) -> Result<Self, FrameError> {
         let counters = counters(simulation, 0.0);
         let series: Vec<_> = counters.iter().map(|&(name, kind, _)| (name, kind)).collect();
@@ -106,13 +106,13 @@ impl SimulationRecorder {
         Ok(recorder)
     }
 
-    /// Records what the last step counted and took: `seconds` in all, by the clock on the wall.
+    /// Records the counts and times of the last step. `seconds` is its wall-clock time.
     pub fn step(&mut self, simulation: &Simulation, seconds: f64) {
         self.follow_tears(simulation);
         self.recorder.step(&readings(simulation, seconds));
     }
 
-    /// Gives cloths the vertices that the simulation's have by now.
+    /// Gives cloths the vertices that the simulation has added.
     fn follow_tears(&mut self, simulation: &Simulation) {
         for (cloth, known) in self.copied.iter_mut().enumerate() {
             let copied = simulation.copied_vertices(cloth);
@@ -135,10 +135,10 @@ impl SimulationRecorder {
         }
     }
 
-    /// Offers the state as a frame, and measures its energy and how much the cloth is stretched.
+    /// Offers the state as a frame, and measures its energy and the stretch of the cloth.
     ///
     /// # Errors
-    /// If a coordinate is no finite `f32`.
+    /// If a coordinate is not finite as an `f32`.
     pub fn frame(&mut self, simulation: &Simulation) -> Result<(), FrameError> {
         let step = simulation.steps_done();
         self.follow_tears(simulation);
@@ -155,7 +155,7 @@ impl SimulationRecorder {
         }
         self.recorder.frame(step, positions)?;
         let now = measures(simulation);
-        // What has burst holds no pressure, and no energy of it, any more.
+        // A balloon that has burst holds no pressure and no energy.
         let value = |wanted: &&str| {
             now.iter()
                 .find(|(name, ..)| name == wanted)
@@ -166,15 +166,15 @@ impl SimulationRecorder {
         Ok(())
     }
 
-    /// All that has been recorded in `seconds` by the clock on the wall, as bytes.
+    /// Returns all that has been recorded as bytes. `seconds` is the wall-clock time so far.
     #[must_use]
     pub fn save(&self, seconds: f64) -> Vec<u8> {
         self.recorder.save(seconds)
     }
 
-    /// Goes on with what another recorder of the same simulation has [saved](Self::save) where that, `simulation`, has gone on from a checkpoint
-    /// of the same step; returns its seconds. `None`, and nothing has changed, if the bytes are damaged, or of other series or another
-    /// number of vertices.
+    /// Continues what another recorder of the same simulation has [saved](Self::save), and returns its seconds. `simulation` must
+    /// have resumed from a checkpoint of the same step. Returns `None`, and changes nothing, if the bytes are damaged, or belong
+    /// to other series or another number of vertices.
     #[must_use]
     pub fn restore(&mut self, bytes: &[u8], simulation: &Simulation) -> Option<f64> {
         let mut restored = self.clone();
@@ -184,12 +184,12 @@ impl SimulationRecorder {
         Some(seconds)
     }
 
-    /// Says something that a reader must know.
+    /// Adds a sentence for readers.
     pub fn remark(&mut self, sentence: impl Into<String>) {
         self.recorder.remark(sentence);
     }
 
-    /// Ends the recording of steps that took `seconds` by the clock on the wall.
+    /// Ends the recording. `seconds` is the wall-clock time of the steps.
     #[must_use]
     pub fn finish(self, seconds: f64) -> Recording {
         let mut recording = self.recorder.finish(Some(seconds));
@@ -200,7 +200,7 @@ impl SimulationRecorder {
     }
 }
 
-/// All that a simulation counts and measures: a series each.
+/// All counters and times of a simulation, one for each series.
 fn counters(simulation: &Simulation, seconds: f64) -> Vec<(&'static str, SeriesKind, f64)> {
     let effects = simulation.effects().iter();
     let mut counters: Vec<_> = effects
@@ -234,13 +234,13 @@ fn counters(simulation: &Simulation, seconds: f64) -> Vec<(&'static str, SeriesK
     counters
 }
 
-/// In the order of the series.
+/// The readings, in the order of the series.
 fn readings(simulation: &Simulation, seconds: f64) -> Vec<f64> {
     let counters = counters(simulation, seconds).into_iter();
     counters.map(|(_, _, reading)| reading).collect()
 }
 
-/// All that is measured of a state; kinds of energy come first.
+/// All measures of a state; kinds of energy come first.
 fn measures(simulation: &Simulation) -> Vec<(&'static str, MeasureKind, f64)> {
     let energy = simulation.energy();
     let kinds = [
@@ -261,7 +261,7 @@ fn measures(simulation: &Simulation) -> Vec<(&'static str, MeasureKind, f64)> {
     kinds.chain(effects).chain(stretch).collect()
 }
 
-/// What there is less of in all than at the start. Below zero where what moves, and wind, have put in more than was lost.
+/// The energy drop since the start. It is below zero if moving bodies and wind have added more than was lost.
 fn lost(recording: &Recording) -> Measure {
     let energies: Vec<_> = recording.measures_of(MeasureKind::Energy).collect();
     let total = |k: usize| -> f64 { energies.iter().map(|energy| energy.values[k]).sum() };

@@ -16,7 +16,7 @@ fn triangle() -> Part {
     Part::new("cloth", PartKind::Cloth, 3, vec![[0, 1, 2]])
 }
 
-/// A triangle at a height that says which step it is of.
+/// A triangle whose height is the number of its step.
 fn positions(step: u64) -> [DVec3; 3] {
     [DVec3::ZERO, DVec3::X, DVec3::Y].map(|p| p + DVec3::Z * step as f64)
 }
@@ -34,12 +34,12 @@ proptest! {
     fn frames_stay_within_the_budget_evenly_spread_and_end_at_the_end(count in 1..500_u64, budget in 2..20_usize) {
         let recording = frames_of(count, budget);
         let steps: Vec<u64> = recording.frames.iter().map(|frame| frame.step).collect();
-        // The last frame is kept on top.
+        // The last frame is kept in addition.
         prop_assert!(steps.len() <= budget + 1);
         prop_assert_eq!((steps[0], steps[steps.len() - 1]), (0, count - 1));
         let even = &steps[..steps.len() - 1];
         prop_assert!(even.windows(3).all(|s| s[1] - s[0] == s[2] - s[1]));
-        // Never so few that more would have fitted twice.
+        // Twice as many frames would not have fitted.
         prop_assert!(steps.len() as u64 >= count.min(budget as u64 / 2));
         for frame in &recording.frames {
             prop_assert_eq!(frame.positions[0], [0.0, 0.0, frame.step as f32]);
@@ -56,7 +56,7 @@ proptest! {
         let mut counter = f64::from(start);
         let mut recorder = Recorder::new(about(), vec![triangle()], &series, &[counter, f64::NAN]);
         recorder.frame(0, &positions(0)).unwrap();
-        // Whole numbers throughout, so that sums are exact.
+        // All numbers are whole, so that sums are exact.
         let value = |step: u64| (step * step % 17) as f64;
         for step in 0..steps {
             counter += value(step);
@@ -130,7 +130,7 @@ fn a_frames_mesh_numbers_vertices_across_parts() {
     assert_eq!(mesh.positions, all);
 }
 
-/// The last of two parts stays where it is behind the first, which is torn twice.
+/// The second of two parts does not move. The first tears twice.
 #[test]
 fn what_is_split_looks_in_earlier_frames_as_it_did_and_copies_of_copies_are_where_these_were() {
     let parts = vec![triangle(), Part::new("ball", PartKind::Body, 3, vec![[2, 1, 0]])];
@@ -188,10 +188,10 @@ fn a_measure_and_a_series_know_when_they_were_largest_also_after_an_interruption
         (1.7, 2, &values[..])
     );
     assert_eq!(whole.measured_steps, [0, 1, 2, 3, 4, 5]);
-    // A step's time is no counter.
+    // A step's time is not a counter.
     assert_eq!((whole.series[0].largest, whole.series[0].largest_step), (1.7, 2));
     assert!((whole.series[0].total - 6.7).abs() < 1e-12);
-    // Bytes that were cut off, or of a recorder of something else, change nothing.
+    // Truncated bytes, and those of another recorder, change nothing.
     assert!(begin().restore(&saved[..saved.len() - 1]).is_none());
     let mut other = Recorder::new(about(), vec![triangle()], &[("step", SeriesKind::Step)], &[0.0]);
     assert!(other.restore(&saved).is_none());

@@ -1,22 +1,22 @@
-//! What is offered after steps, thinned out: evenly spread over a run whose end nobody knows, in bounded memory.
+//! Thins out what is offered after steps: evenly spread over a run of unknown length, in bounded memory.
 
 use selvedge_files::bytes::Reader;
 
 /// Values after a step.
 pub(super) type AfterStep<N> = (u64, Vec<N>);
 
-/// When there are as many as may be kept, every other one is dropped, and from then on every other one is not kept. The first always is, and
-/// the last is remembered beside them.
+/// When the limit is reached, every other entry is dropped, and from then on every other one is skipped. The first is always
+/// kept, and the last is remembered in addition.
 #[derive(Clone, Debug)]
 pub(super) struct Thinned<N> {
     kept: Vec<AfterStep<N>>,
-    /// At least two.
+    /// The limit, at least two.
     most: usize,
-    /// One in this many is kept…
+    /// One in this many is kept, of those offered.
     stride: u64,
-    /// … of those offered so far.
+    /// The number offered so far.
     offered: u64,
-    /// The last one offered, if it was not kept.
+    /// The last entry offered, if it was not kept.
     skipped: Option<AfterStep<N>>,
 }
 
@@ -35,7 +35,7 @@ impl<N> Thinned<N> {
         self.most = most;
     }
 
-    /// Whether what is offered next is kept, or only remembered in case that it is the last.
+    /// Whether the next entry is kept, or only remembered in case it is the last.
     pub(super) const fn wants_next(&self) -> bool {
         self.offered.is_multiple_of(self.stride)
     }
@@ -44,7 +44,7 @@ impl<N> Thinned<N> {
         self.offered == 0
     }
 
-    /// After more steps than all before, or after as many as the last, which it then replaces.
+    /// Offers values. Steps must increase; a second offer after the same step replaces the first.
     pub(super) fn offer(&mut self, step: u64, values: impl Iterator<Item = N>) {
         let last = self.skipped.as_mut().or(self.kept.last_mut());
         if let Some((_, own)) = last.filter(|(last, _)| *last == step) {
@@ -52,7 +52,7 @@ impl<N> Thinned<N> {
             own.extend(values);
             return;
         }
-        // Its memory is used again.
+        // Reuses its memory.
         let (_, mut own) = self.skipped.take().unwrap_or_default();
         own.clear();
         own.extend(values);
@@ -78,7 +78,7 @@ impl<N> Thinned<N> {
         all.for_each(|(_, values)| change(values));
     }
 
-    /// All that is kept, and the last.
+    /// Returns all entries that are kept, and the last.
     pub(super) fn finish(mut self) -> Vec<AfterStep<N>> {
         self.kept.extend(self.skipped);
         self.kept
@@ -95,7 +95,7 @@ impl<N> Thinned<N> {
         }
     }
 
-    /// Reads what was saved, `count` values after each step. `None` if it is damaged.
+    /// Reads saved entries, with `count` values after each step. Returns `None` if they are damaged.
     pub(super) fn restore(
         &mut self,
         reader: &mut Reader<'_>,

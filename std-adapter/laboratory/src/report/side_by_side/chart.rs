@@ -1,4 +1,4 @@
-//! What was measured of both, over time, in one chart each.
+//! Charts of measures over time, one for both simulations.
 
 use crate::report::number::{few, moment};
 use crate::report::page::Shown;
@@ -19,11 +19,11 @@ struct Line {
     points: Vec<[f64; 2]>,
 }
 
-/// Energy and stretch, as far as one of the two has them.
+/// Returns charts of energy and stretch, if one of the two has them.
 pub(super) fn sections(both: [&Recording; 2], names: &[String; 2]) -> Markup {
     let charts = [
         ("Energy, in J", MeasureKind::Energy),
-        ("Lengths of edges, over those at rest", MeasureKind::Stretch),
+        ("Edge lengths relative to rest", MeasureKind::Stretch),
     ];
     html! {
         @for (title, kind) in charts {
@@ -44,7 +44,7 @@ pub(super) fn sections(both: [&Recording; 2], names: &[String; 2]) -> Markup {
     }
 }
 
-/// And what each colour stands for.
+/// Returns the lines, and the meaning of each colour.
 fn lines(both: [&Recording; 2], kind: MeasureKind) -> (Vec<Line>, Vec<String>) {
     let mut colours: Vec<String> = Vec::new();
     let mut lines = Vec::new();

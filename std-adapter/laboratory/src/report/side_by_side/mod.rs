@@ -1,6 +1,7 @@
-//! Two simulations side by side: one page that needs nothing else, not even scripts.
+//! Compares two simulations on one page, which needs no scripts.
 //!
-//! Pictures of both at the same times, seen from the same place, figures with their ratios, energy and stretch in one chart each, and where their scenes differ.
+//! The page has pictures of both at the same times from the same place, numbers with their ratios, charts of energy and stretch,
+//! and the differences of their scenes.
 
 mod chart;
 mod rows;
@@ -16,10 +17,10 @@ use base64::engine::general_purpose::STANDARD;
 use maud::{Markup, html};
 
 const PICTURE: [u32; 2] = [640, 400];
-/// At this share of the shorter simulation's duration.
+/// Times of the pictures, relative to the shorter simulation's duration.
 const TIMES: [f64; 3] = [1.0 / 3.0, 2.0 / 3.0, 1.0];
 
-/// The whole page: the first simulation to the left, and in solid lines; the second to the right, and dashed.
+/// Returns the whole page. The first simulation is on the left, and has solid lines; the second has dashed ones.
 ///
 /// # Errors
 /// If a picture cannot be written as PNG.
@@ -30,7 +31,7 @@ pub fn html(first: &Recording, second: &Recording) -> Result<String, StillError>
         header {
             p.kicker { "selvedge simulate --against" }
             h1 { (names[0]) " beside " (names[1]) }
-            p.lead { "Both were run one after the other, on the same machine." }
+            p.lead { "Both ran one after the other on the same machine." }
         }
         main {
             @for (recording, name) in both.into_iter().zip(&names) {
@@ -38,7 +39,7 @@ pub fn html(first: &Recording, second: &Recording) -> Result<String, StillError>
             }
             (pictures(both, &names)?)
             section {
-                h2 { "Figures" }
+                h2 { "Numbers" }
                 (rows::table(&names, &rows::figures(both)))
             }
             (chart::sections(both, &names))
@@ -51,12 +52,12 @@ pub fn html(first: &Recording, second: &Recording) -> Result<String, StillError>
             }
             (scenes(both, &names))
         }
-        footer { p { "Written by selvedge " (env!("CARGO_PKG_VERSION")) ". This file is complete in itself: it loads nothing." } }
+        footer { p { "Written by selvedge " (env!("CARGO_PKG_VERSION")) ". This file is self-contained: it loads nothing." } }
     };
     Ok(document(&format!("{} beside {}", names[0], names[1]), &body))
 }
 
-/// The scenes' names, told apart if they are one.
+/// The scenes' names, made different if they are equal.
 fn names([first, second]: [&Recording; 2]) -> [String; 2] {
     let [one, other] = [first, second].map(|recording| recording.about.name.clone());
     if one == other {
@@ -90,7 +91,7 @@ fn pictures(both: [&Recording; 2], names: &[String; 2]) -> Result<Markup, StillE
     })
 }
 
-/// Both scene files; lines that the other does not have are marked.
+/// Both scene files, with the lines marked that the other lacks.
 fn scenes(both: [&Recording; 2], names: &[String; 2]) -> Markup {
     let [first, second] = both.map(|recording| recording.about.scene.lines().collect::<Vec<_>>());
     let columns = [(&names[0], &first, &second), (&names[1], &second, &first)];

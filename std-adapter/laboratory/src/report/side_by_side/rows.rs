@@ -1,11 +1,11 @@
-//! Figures of both, a row each.
+//! Numbers of both simulations, one row each.
 
 use crate::report::label;
-use crate::report::number::{few, figures as three, grouped, time};
+use crate::report::number::{few, grouped, time};
 use crate::report::recording::{Knob, MeasureKind, Recording, SeriesKind};
 use maud::{Markup, html};
 
-/// A figure of both: its name, the two as text, and how many times as much the second is.
+/// A number of both: its name, two texts, and the ratio of the second to the first.
 pub(super) struct Row {
     name: String,
     pub(super) values: [Option<String>; 2],
@@ -13,7 +13,7 @@ pub(super) struct Row {
 }
 
 impl Row {
-    fn of(name: impl Into<String>, values: [Option<f64>; 2], text: impl Fn(f64) -> String) -> Self {
+    fn new(name: impl Into<String>, values: [Option<f64>; 2], text: impl Fn(f64) -> String) -> Self {
         let ratio = match values {
             [Some(first), Some(second)] if first > 0.0 && second >= 0.0 => Some(second / first),
             _ => None,
@@ -44,7 +44,7 @@ pub(super) fn table(names: &[String; 2], rows: &[Row]) -> Markup {
     }
 }
 
-/// What is compared: sizes, times, stretch, energy, events.
+/// Returns the rows: sizes, times, stretch, energy, events.
 pub(super) fn figures(both: [&Recording; 2]) -> Vec<Row> {
     let size = |recording: &Recording| recording.parts.iter().map(|part| part.triangles().len()).sum::<usize>() as f64;
     let whole = |number: f64| grouped(number as u64);
@@ -52,12 +52,12 @@ pub(super) fn figures(both: [&Recording; 2]) -> Vec<Row> {
     let each = |recording: &Recording| recording.step_times().map(|steps| steps.total / recording.steps as f64);
     let slowest = |recording: &Recording| recording.step_times().map(|steps| steps.largest);
     let mut rows = vec![
-        Row::of("triangles, bodies' included", both.map(|one| Some(size(one))), whole),
-        Row::of("time step", both.map(|one| Some(one.about.time_step)), time),
-        Row::of("steps", both.map(|one| Some(one.steps as f64)), whole),
-        Row::of("steps a second", both.map(speed), three),
-        Row::of("a step", both.map(each), time),
-        Row::of("slowest step", both.map(slowest), time),
+        Row::new("triangles, with bodies", both.map(|one| Some(size(one))), whole),
+        Row::new("time step", both.map(|one| Some(one.about.time_step)), time),
+        Row::new("steps", both.map(|one| Some(one.steps as f64)), whole),
+        Row::new("steps a second", both.map(speed), few),
+        Row::new("a step", both.map(each), time),
+        Row::new("slowest step", both.map(slowest), time),
     ];
     for name in names_of(both.map(|one| {
         one.measures
@@ -68,13 +68,13 @@ pub(super) fn figures(both: [&Recording; 2]) -> Vec<Row> {
     })) {
         let measure = |one: &Recording, pick: fn(&crate::report::Measure) -> Option<f64>| one.measure(name).and_then(pick);
         let text = |value: f64| format!("{value:.3}");
-        rows.push(Row::of(
-            format!("{name} over rest, most"),
+        rows.push(Row::new(
+            format!("{name} relative to rest, largest"),
             both.map(|one| measure(one, |m| Some(m.largest))),
             text,
         ));
-        rows.push(Row::of(
-            format!("{name} over rest, at the end"),
+        rows.push(Row::new(
+            format!("{name} relative to rest, at the end"),
             both.map(|one| measure(one, |m| m.values.last().copied())),
             text,
         ));
@@ -85,7 +85,7 @@ pub(super) fn figures(both: [&Recording; 2]) -> Vec<Row> {
             energies.find(|m| m.name == name).and_then(|m| m.values.last().copied())
         };
         let joules = |value: f64| format!("{} J", few(value));
-        rows.push(Row::of(format!("{name} energy at the end"), both.map(last), joules));
+        rows.push(Row::new(format!("{name} energy at the end"), both.map(last), joules));
     }
     for kind in [SeriesKind::Events, SeriesKind::Effect, SeriesKind::Stage] {
         let of_kind = |one: &'_ Recording| -> Vec<String> { one.series_of(|own| own == kind).map(|s| s.name.clone()).collect() };
@@ -97,15 +97,15 @@ pub(super) fn figures(both: [&Recording; 2]) -> Vec<Row> {
             };
             let a_step = |one: &Recording| total(one).map(|total| total / one.steps as f64);
             rows.push(match kind {
-                SeriesKind::Events => Row::of(name, both.map(total), whole),
-                _ => Row::of(format!("{}, a step", label(name)), both.map(a_step), time),
+                SeriesKind::Events => Row::new(name, both.map(total), whole),
+                _ => Row::new(format!("{}, a step", label(name)), both.map(a_step), time),
             });
         }
     }
     rows
 }
 
-/// Settings and properties of the fabric that are not the same, or that one of the two does not have.
+/// Returns settings and properties of the fabric that differ, or that one of the two lacks.
 pub(super) fn different_settings(both: [&Recording; 2]) -> Vec<Row> {
     let all = both.map(|one| one.about.fabric.iter().chain(&one.about.knobs).collect::<Vec<&Knob>>());
     let names = names_of([&all[0], &all[1]].map(|knobs| knobs.iter().map(|knob| &*knob.name).collect()));
@@ -118,7 +118,7 @@ pub(super) fn different_settings(both: [&Recording; 2]) -> Vec<Row> {
     rows.filter(|row| row.values[0] != row.values[1]).collect()
 }
 
-/// The first's names, then those that the second alone has.
+/// Returns the first's names, then those that only the second has.
 fn names_of([first, second]: [Vec<&str>; 2]) -> Vec<&str> {
     let mut names = first;
     for name in second {

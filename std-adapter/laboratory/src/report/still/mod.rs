@@ -1,11 +1,11 @@
-//! A frame as a still picture (PNG), without a browser: seen as the page shows it at first, with its light, shadows and floor.
+//! Draws a frame as a still picture (PNG), without a browser: the page's first view, with its light, shadows and floor.
 //!
 //! ```text
 //! frame ──▶ the scene's own axes ──▶ which triangle each sample sees, from the eye and from the sun ──▶ colours ──▶ pixels
 //! ```
 //!
-//! Drawn here: a few triangles of known make need a page of code, and the rasterisers that there are bring a library of vectors of their
-//! own. Everything is worked out in `f64` with functions that round the same everywhere, so that the same frame gives the same bytes.
+//! All arithmetic is `f64` with functions that round the same everywhere, so that the same frame gives the same bytes on every
+//! machine.
 
 mod raster;
 mod shade;
@@ -20,12 +20,12 @@ use stage::{Camera, Stage};
 use std::error::Error;
 use tiny_skia::{Pixmap, PremultipliedColorU8};
 
-/// Width and height of a still picture, in pixels, where nothing else is asked for.
+/// The default width and height of a still picture, in pixels.
 pub const STILL_SIZE: [u32; 2] = [1280, 800];
 
 /// Samples of a pixel along each side.
 const SAMPLES: usize = 2;
-/// Of the sun's view, along each side.
+/// Samples of the sun's view, along each side.
 const SHADOW: usize = 1024;
 
 /// Why there is no picture.
@@ -35,12 +35,12 @@ pub enum StillError {
     /// The recording has no such frame.
     #[error("there is no frame {frame}: the recording has {count}, from 0 on")]
     NoFrame {
-        /// The frame that was asked for.
+        /// The requested frame.
         frame: usize,
-        /// How many there are.
+        /// The number of frames.
         count: usize,
     },
-    /// The size is nothing, or too much.
+    /// A side has no pixels, or too many.
     #[error("a picture of {0} × {1} pixels cannot be drawn: each side must be from 1 to 8192")]
     Size(u32, u32),
     /// The picture could not be written as PNG.
@@ -48,8 +48,8 @@ pub enum StillError {
     Encoding(#[source] Box<dyn Error + Send + Sync>),
 }
 
-/// Draws a frame, `width` × `height` pixels, and returns the PNG file's bytes. The view is the same for all frames of a recording: all of
-/// its motion is in it.
+/// Draws a frame, `width` × `height` pixels, and returns the PNG file's bytes. The view is the same for all frames of a
+/// recording, and shows all of its motion.
 ///
 /// # Errors
 /// If there is no such frame, a side of the picture is not from 1 to 8192 pixels, or PNG cannot be written.
@@ -57,7 +57,7 @@ pub fn png(recording: &Recording, frame: usize, size: [u32; 2]) -> Result<Vec<u8
     png_among(recording, frame, size, &[recording])
 }
 
-/// The same, with all motion of several recordings in view.
+/// Draws a frame with the motion of several recordings in view.
 pub(super) fn png_among(
     recording: &Recording,
     frame: usize,
@@ -81,7 +81,7 @@ pub(super) fn png_among(
     let surface = stage.surface(recording, frame);
     let fine = size.map(|side| side as usize * SAMPLES);
     let camera = Camera::new(&stage, fine);
-    let seen = Raster::of(&surface, fine, |point| camera.see(point));
+    let seen = Raster::new(&surface, fine, |point| camera.see(point));
     let light = Light::new(&surface, SHADOW);
     let colour_at = |x: usize, y: usize| {
         let ray = camera.ray(x as f64 + 0.5, y as f64 + 0.5);

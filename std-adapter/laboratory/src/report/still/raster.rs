@@ -1,22 +1,22 @@
-//! Which triangle is nearest at each sample.
+//! Finds the nearest triangle at each sample.
 
 use super::stage::Surface;
 use selvedge_core::glam::DVec3;
 
 const NOTHING: u32 = u32::MAX;
 
-/// The nearest triangles, as seen from somewhere.
+/// The nearest triangles from a point of view.
 pub(super) struct Raster {
     width: usize,
     height: usize,
-    /// How near, and which triangle.
+    /// Nearness, and the triangle.
     samples: Vec<(f32, u32)>,
 }
 
 impl Raster {
-    /// `see` takes a point to a place in pixels, from the left and from the top, and a nearness that is linear there; `None`: it is out of
-    /// sight, and with it all triangles that have it.
-    pub(super) fn of(surface: &Surface, [width, height]: [usize; 2], see: impl Fn(DVec3) -> Option<[f64; 3]>) -> Self {
+    /// `see` takes a point to a place in pixels, from the left and from the top, and a nearness that is linear there. Triangles
+    /// with a vertex that is out of sight (`None`) are left out.
+    pub(super) fn new(surface: &Surface, [width, height]: [usize; 2], see: impl Fn(DVec3) -> Option<[f64; 3]>) -> Self {
         let mut raster = Self {
             width,
             height,
@@ -31,7 +31,7 @@ impl Raster {
         raster
     }
 
-    /// Samples whose middles are in the triangle or on its sides, where nothing before is nearer.
+    /// Fills the samples whose middles are in the triangle or on its sides, where no earlier triangle is nearer.
     fn fill(&mut self, [a, b, c]: [[f64; 3]; 3], index: u32) {
         let doubled = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
         if !(doubled != 0.0) {
@@ -39,7 +39,7 @@ impl Raster {
         }
         let range = |axis: usize, size: usize| {
             let [a, b, c] = [a[axis], b[axis], c[axis]];
-            // A conversion saturates.
+            // The conversion saturates.
             let first = (a.min(b).min(c) - 0.5).ceil() as usize;
             let last = (a.max(b).max(c) + 0.5).floor() as usize;
             first..last.min(size)
@@ -65,7 +65,7 @@ impl Raster {
         (triangle != NOTHING).then_some(triangle as usize)
     }
 
-    /// How near the nearest is; negative infinity where there is nothing, `None` outside.
+    /// The nearness of the nearest triangle: negative infinity without one, `None` outside the picture.
     pub(super) fn nearness(&self, x: isize, y: isize) -> Option<f64> {
         let [x, y] = [usize::try_from(x).ok()?, usize::try_from(y).ok()?];
         (x < self.width && y < self.height).then(|| f64::from(self.samples[y * self.width + x].0))

@@ -1,4 +1,5 @@
-//! Colours: a sun with shadows, light from the sky and from the floor, a lamp at the eye that keeps folds in the shade legible.
+//! Colours the surfaces: a sun with shadows, light from the sky and from the floor, and a lamp at the eye that keeps folds in the
+//! shade legible.
 
 use super::raster::Raster;
 use super::stage::{Ray, Stage, Surface};
@@ -7,16 +8,16 @@ use selvedge_core::glam::{DVec3, dvec3};
 
 type Colour = [f64; 3];
 
-/// Of the page's light theme, as linear light; the fronts of cloths are [`CLOTHS`].
+/// Colours of the page's light theme, as linear light. The fronts of cloths are [`CLOTHS`].
 const LINING: DVec3 = dvec3(0.658, 0.332, 0.073_5);
 const BODY: DVec3 = dvec3(0.481, 0.412, 0.358);
-/// As they are shown.
+/// Colours as displayed.
 const SKY: [Colour; 2] = [[0.933, 0.945, 0.957], [0.835, 0.863, 0.890]];
 const INK: Colour = [0.486, 0.529, 0.576];
 
-/// The sun's view reaches so far.
+/// The extent of the sun's view.
 const REACH: f64 = 1.05;
-/// How far off a surface the sun is looked for, so that coarse triangles do not shade themselves.
+/// The distance from a surface at which the sun is tested, so that coarse triangles do not shade themselves.
 const LIFT: f64 = 0.012;
 
 pub(super) struct Light {
@@ -41,7 +42,7 @@ impl Light {
             ]
         };
         Self {
-            shadow: Raster::of(surface, [size; 2], |point| Some(place(point))),
+            shadow: Raster::new(surface, [size; 2], |point| Some(place(point))),
             sun,
             across,
             along,
@@ -49,7 +50,7 @@ impl Light {
         }
     }
 
-    /// The share of sunlight that reaches a point, over a few samples around its place.
+    /// The share of sunlight at a point, over a few samples around its place.
     fn sunlight(&self, point: DVec3) -> f64 {
         let [x, y] = [self.across, self.along].map(|axis| ((point.dot(axis) + REACH) * self.scale).floor() as isize);
         let height = point.dot(self.sun);
@@ -67,7 +68,7 @@ impl Light {
         let flat = (b - a).cross(c - a);
         let faces_eye = flat.dot(ray.direction) < 0.0;
         let point = eye + ray.direction * ((a - eye).dot(flat) / ray.direction.dot(flat));
-        // Shares of the corners, as areas.
+        // Weights of the corners, as areas.
         let shares = [(b, c), (c, a), (a, b)].map(|(p, q)| (p - point).cross(q - point).dot(flat).max(0.0));
         let outward: DVec3 = vertices
             .iter()
@@ -101,7 +102,8 @@ impl Light {
         light.to_array().map(shown)
     }
 
-    /// The floor, or what is behind it: `down` is the share of the picture's height. `beside` are rays a pixel to the right and below.
+    /// The floor, or the sky behind it. `down` is the share of the picture's height. `beside` are rays one pixel to the right and
+    /// below.
     pub(super) fn on_floor(&self, stage: &Stage, ray: &Ray, beside: &[Ray; 2], eye: DVec3, down: f64) -> Colour {
         let [top, bottom] = SKY;
         let sky = [0, 1, 2].map(|k| top[k] + (bottom[k] - top[k]) * down);
@@ -130,7 +132,7 @@ impl Light {
     }
 }
 
-/// Linear light as a screen is told it.
+/// Converts linear light to a screen's value.
 fn shown(light: f64) -> f64 {
     libm::pow(light.clamp(0.0, 1.0), 1.0 / 2.2)
 }

@@ -1,32 +1,32 @@
-//! Where things are: axes with y up, the middle of all motion at zero, and its radius one; and from where they are seen.
+//! Places the scene and the camera. The y axis is up, the middle of all motion is zero, and its radius is one.
 
-use crate::report::colours::of_cloths;
+use crate::report::colours::cloth_colours;
 use crate::report::recording::Recording;
 use selvedge_cloth::vertex_normals;
 use selvedge_core::glam::{DMat3, DVec3};
 
-/// Of view, vertically: tan 0.3.
+/// The vertical field of view: tan 0.3.
 const HALF_FIELD: f64 = 0.309_336_249_609_623_25;
-/// Points of a frame that say how much there is to see.
+/// Points of a frame that determine the view.
 const LOOKED_AT: usize = 400;
-/// Frames that are looked at.
+/// Frames that determine the view.
 const FRAMES: usize = 12;
 
 /// The scene over all frames.
 pub(super) struct Stage {
     turn: DMat3,
-    /// In the recording's own length.
+    /// In the recording's own unit of length.
     middle: DVec3,
     radius: f64,
     /// Points that must be in view.
     sample: Vec<DVec3>,
-    /// Whether it is deeper than wide, and so is seen from its side.
+    /// Whether the scene is deeper than wide, so that it is seen from its side.
     is_deep: bool,
     /// The height of the floor, a little below all that moves.
     pub(super) floor: f64,
-    /// From one line of the floor's grid to the next.
+    /// The distance between lines of the floor's grid.
     pub(super) spacing: f64,
-    /// Where the scene's origin is on the floor.
+    /// The place of the scene's origin on the floor.
     pub(super) origin: [f64; 2],
 }
 
@@ -35,15 +35,15 @@ pub(super) struct Surface {
     pub(super) points: Vec<DVec3>,
     pub(super) normals: Vec<DVec3>,
     pub(super) triangles: Vec<[u32; 3]>,
-    /// Of each triangle: the number of its colour if it is of cloth.
+    /// For each triangle, the number of its colour if it belongs to a cloth.
     pub(super) cloths: Vec<Option<usize>>,
 }
 
 impl Stage {
-    /// Of all of these; what is up is said by the first.
+    /// A stage for all of these. The first decides the direction up.
     pub(super) fn new(recordings: &[&Recording]) -> Self {
         let up = recordings[0].up();
-        // The axis that is least upright lies across.
+        // The axis that is least upright becomes horizontal.
         let axes = [DVec3::X, DVec3::Y, DVec3::Z];
         let least_upright = axes.into_iter().min_by(|a, b| up.dot(*a).abs().total_cmp(&up.dot(*b).abs()));
         let across = least_upright.unwrap_or(DVec3::X).reject_from_normalized(up).normalize();
@@ -83,7 +83,7 @@ impl Stage {
         let placed = |position: &[f32; 3]| (self.turn * DVec3::from(position.map(f64::from)) - self.middle) / self.radius;
         let points: Vec<DVec3> = positions.map(placed).collect();
         let triangles = recording.mesh(frame).triangles;
-        let colours = recording.parts.iter().zip(of_cloths(&recording.parts));
+        let colours = recording.parts.iter().zip(cloth_colours(&recording.parts));
         let cloths = colours.flat_map(|(part, colour)| std::iter::repeat_n(colour, part.triangles().len()));
         let mut normals = Vec::new();
         vertex_normals(&points, &triangles, &mut normals);
@@ -103,19 +103,19 @@ fn round_spacing(rough: f64) -> f64 {
     steps.into_iter().find(|&step| step >= rough).unwrap_or(steps[3])
 }
 
-/// The eye, in front of the scene, a little above and to its side, as far away as it must be for all to be in view.
+/// The camera, in front of the scene, a little above and to its side. It is far enough away to see everything.
 pub(super) struct Camera {
     pub(super) eye: DVec3,
     right: DVec3,
     up: DVec3,
     /// Towards the eye.
     back: DVec3,
-    /// Pixels to a unit, one unit away.
+    /// Pixels in a unit, one unit away.
     scale: f64,
     middle: [f64; 2],
 }
 
-/// What is in a direction.
+/// A direction from the camera.
 pub(super) struct Ray {
     pub(super) direction: DVec3,
 }
@@ -142,7 +142,7 @@ impl Camera {
         }
     }
 
-    /// In pixels from the left and from the top, and how near, one over the depth; `None` behind the eye.
+    /// Returns a place in pixels from the left and from the top, and the nearness, one over the depth. `None` behind the camera.
     pub(super) fn see(&self, point: DVec3) -> Option<[f64; 3]> {
         let way = point - self.eye;
         let near = -1.0 / way.dot(self.back);

@@ -3,7 +3,7 @@ use crate::report::{About, Part, PartKind, Recorder};
 use selvedge_core::glam::DVec3;
 use tiny_skia::ColorU8;
 
-/// A square of cloth, 1 m, flat at the origin's height, above a larger one that is a body.
+/// A square of cloth, 1 m wide and flat, above a larger one that is a body.
 fn recording(up: DVec3, unit: f64) -> Recording {
     let about = About {
         name: "squares".to_owned(),
@@ -38,7 +38,7 @@ fn pixels(recording: &Recording, frame: usize) -> Vec<ColorU8> {
     picture.pixels().iter().map(|pixel| pixel.demultiply()).collect()
 }
 
-/// Blue is the cloth's, seen from above.
+/// Blue is the cloth's colour, seen from above.
 fn is_cloth(pixel: &ColorU8) -> bool {
     i32::from(pixel.blue()) > 40 + i32::from(pixel.red())
 }
@@ -50,7 +50,7 @@ fn what_is_nearer_hides_what_is_behind_it_and_moves_from_frame_to_frame() {
         let pixels = pixels(&recording, frame);
         let cloth: Vec<usize> = (0..pixels.len()).filter(|&k| is_cloth(&pixels[k])).collect();
         assert!((100..6000).contains(&cloth.len()), "{}", cloth.len());
-        // Around the middle of the body, which would be there without the cloth.
+        // The cloth is around the middle of the body, which would be visible without the cloth.
         cloth.iter().map(|k| k / 160).sum::<usize>() / cloth.len()
     });
     assert!(rows[1] > rows[0] + 3, "it falls: {rows:?}");
@@ -64,7 +64,7 @@ fn the_body_has_the_cloths_shadow() {
             recording.frames[0].positions[..4].fill([0.0, 0.0, 0.0]);
         }
         let pixels = pixels(&recording, 0);
-        // Of what is brown, as the body is: red is more than blue.
+        // The body is brown: red is more than blue.
         let body = pixels.iter().filter(|pixel| pixel.red() > pixel.blue().saturating_add(4));
         body.filter(|pixel| pixel.red() < 140).count()
     };

@@ -1,8 +1,8 @@
 use super::table;
-use crate::report::number::{counted, figures, finite, grouped, mean, percent};
+use crate::report::number::{counted, few, finite, grouped, percent};
 use crate::study::{Accuracy, AccuracyRow, AccuracySet};
 
-/// What accuracy costs in time: a table for each set of pairs and format.
+/// Returns a table of filters and their times for each set of pairs and format.
 #[must_use]
 pub fn accuracy(accuracy: &Accuracy) -> String {
     let options = accuracy.options;
@@ -24,14 +24,14 @@ pub fn accuracy(accuracy: &Accuracy) -> String {
 }
 
 const NOTES: &str = "\
-culls: per cent of all pairs. keeps: of 100,000 that exact arithmetic culls.
-false: pairs culled although exact arithmetic has no proof; +: per cent of all
-pairs that are coplanar at some time, but do not touch (that is checked in
-`verification/` only). Then nanoseconds a pair, gathered by index from rows of
+culls: percentage of all pairs. keeps: pairs kept, of 100,000 that exact
+arithmetic culls. false: pairs culled without proof; +: percentage of all pairs
+that are coplanar at some time, but do not touch, and are culled as well.
+The other columns are nanoseconds a pair, gathered by index from rows of
 vertices in a core's cache: one at a time, then sixteen side by side on each
-instruction set; in L1: from tiles in the first cache, on the best one.
-cost: the time on the best one over that of `uncertified`.
-! not certified: unsafe to rely on, culls colliding pairs now and then
+instruction set. in L1: from tiles in the first cache, on the best one.
+cost: the time on the best one, relative to that of `uncertified`.
+! not certified: culls colliding pairs now and then
 ";
 
 fn heading(set: &AccuracySet) -> String {
@@ -88,24 +88,24 @@ fn cells(set: &AccuracySet, row: &AccuracyRow, backends: &[&str]) -> Vec<String>
     cells.extend(backends.iter().map(|backend| time(row.time(backend))));
     cells.push(time(row.in_first_cache));
     let cost = row.best_time().and_then(|time| set.over_uncertified(time));
-    cells.push(cost.map_or_else(String::new, figures));
+    cells.push(cost.map_or_else(String::new, few));
     cells
 }
 
-/// Never 0 for a count above zero.
+/// A count above zero never reads as 0.
 fn per_100_000(part: usize, whole: usize) -> String {
     match 1e5 * part as f64 / whole as f64 {
         rate if part > 0 && rate < 0.1 => "< 0.1".to_owned(),
-        rate => mean(rate),
+        rate => few(rate),
     }
 }
 
-/// At most four letters.
+/// Returns at most five letters.
 fn nanoseconds(time: f64) -> String {
     match time {
         time if (999.5..9999.5).contains(&time) => format!("{time:.0}"),
         time if time >= 9999.5 => format!("{:.0}µs", time / 1e3),
-        time => figures(time),
+        time => few(time),
     }
 }
 
@@ -126,6 +126,6 @@ mod tests {
     #[test]
     fn times_have_three_figures() {
         let times = [0.754, 12.34, 123.4, 9999.4, 9999.6, f64::NAN];
-        assert_eq!(times.map(nanoseconds), ["0.75", "12.3", "123", "9999", "10µs", "–"]);
+        assert_eq!(times.map(nanoseconds), ["0.754", "12.3", "123", "9999", "10µs", "–"]);
     }
 }

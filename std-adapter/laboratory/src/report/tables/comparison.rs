@@ -1,12 +1,12 @@
 use super::table;
 use crate::methods::Stage;
-use crate::report::number::{counted, figures, mean, milliseconds};
+use crate::report::number::{counted, few};
 use crate::report::paper::printed;
 use crate::report::{distributed, findings, mesh_size};
 use crate::study::{Comparison, ComparisonRow, MeanCounts};
 
-/// Every method on the same steps: the paper's Table 1 with its own numbers beside ours, each stage's survivors, the
-/// time of each stage, and what the numbers say.
+/// Returns tables of every method on the same steps: the paper's Table 1 beside its own numbers, each stage's survivors and time,
+/// and the findings.
 #[must_use]
 pub fn comparison(comparison: &Comparison) -> String {
     let mut text = format!(
@@ -44,9 +44,9 @@ fn table_1(comparison: &Comparison) -> String {
         let [vertex_face, edge_edge, frames_per_second] = printed(row.preset);
         [
             name(row),
-            mean(row.candidates.vertex_face),
-            mean(row.candidates.edge_edge),
-            figures(row.frames_per_second),
+            few(row.candidates.vertex_face),
+            few(row.candidates.edge_edge),
+            few(row.frames_per_second),
             vertex_face,
             edge_edge,
             frames_per_second,
@@ -69,11 +69,11 @@ fn survivors(comparison: &Comparison, kind: fn(&MeanCounts) -> f64) -> String {
     let rows = comparison.rows.iter().map(|row| {
         [
             name(row),
-            distributed(row).map_or_else(String::new, |counts| mean(kind(&counts))),
-            mean(kind(&row.after_boxes)),
-            mean(kind(&row.candidates)),
-            mean(kind(&row.contacts)),
-            mean(kind(&row.missed)),
+            distributed(row).map_or_else(String::new, |counts| few(kind(&counts))),
+            few(kind(&row.after_boxes)),
+            few(kind(&row.candidates)),
+            few(kind(&row.contacts)),
+            few(kind(&row.missed)),
         ]
     });
     table(header, rows)
@@ -93,17 +93,17 @@ fn times(comparison: &Comparison) -> String {
     let rows = comparison.rows.iter().map(|row| {
         let of = |wanted: &[Stage]| {
             let stage = row.stages.iter().find(|stage| wanted.contains(&stage.stage));
-            stage.map_or_else(String::new, |stage| milliseconds(stage.seconds))
+            stage.map_or_else(String::new, |stage| few(1e3 * stage.seconds))
         };
         [
             name(row),
-            milliseconds(row.broad_phase_seconds),
+            few(1e3 * row.broad_phase_seconds),
             of(&[Stage::Distribution]),
             of(&[Stage::Boxes]),
             of(&[Stage::RelativeBoxes]),
             of(&[Stage::Subspace, Stage::NonCoplanarity]),
             of(&[Stage::Elementary]),
-            milliseconds(1.0 / row.frames_per_second),
+            few(1e3 * 1.0 / row.frames_per_second),
         ]
     });
     table(header, rows)
@@ -114,10 +114,10 @@ fn notes(comparison: &Comparison) -> String {
     if comparison.rows.iter().any(|row| row.preset.is_reconstructed()) {
         text += "* reconstructed: the original could not be read; no reproduction is claimed.\n";
     }
-    text += "Steps a second are culling and elementary tests; the paper's frames a second are\nof its whole simulation, on its own mesh and machine.\n";
+    text += "Steps a second count culling and elementary tests. The paper's frames a second\nare those of its whole simulation, on its own mesh and machine.\n";
     let findings = findings(comparison);
     if !findings.is_empty() {
-        text += "\nWhat the numbers say (! marks what goes against the paper or our own promise)\n\n";
+        text += "\nFindings (! marks disagreement with the paper or with our own promise)\n\n";
     }
     for finding in findings {
         let mark = if finding.as_expected { ' ' } else { '!' };
@@ -126,7 +126,7 @@ fn notes(comparison: &Comparison) -> String {
     text
 }
 
-/// A paragraph of lines of at most 80 columns, `mark` before the first.
+/// Wraps a paragraph to 80 columns, with `mark` before the first line.
 fn wrapped(text: &str, mark: char) -> String {
     let mut lines = format!("{mark} ");
     let mut column = 2;

@@ -2,7 +2,7 @@ use super::table;
 use crate::report::number::{ABSENT, grouped, magnitude, time};
 use crate::study::elementary::{ElementaryAccuracy, ElementaryRow, ElementarySet};
 
-/// What an accurate elementary test costs in time: a table for each set of pairs and format.
+/// Returns a table of elementary tests, their times and errors for each set of pairs and format.
 #[must_use]
 pub fn elementary(accuracy: &ElementaryAccuracy) -> String {
     let mut text = format!(
@@ -11,7 +11,7 @@ pub fn elementary(accuracy: &ElementaryAccuracy) -> String {
     );
     for set in &accuracy.sets {
         text += &format!(
-            "{}, {}\n{} VF and {} EE pairs; {} touch, of {} of them it is known when\n\n",
+            "{}, {}\n{} VF and {} EE pairs; {} touch, {} of them at a known time\n\n",
             set.name,
             set.scalar,
             grouped(set.vertex_face),
@@ -26,16 +26,16 @@ pub fn elementary(accuracy: &ElementaryAccuracy) -> String {
 }
 
 const NOTES: &str = "\
-δ: the tolerance, in units of length. asked: a slow test is asked about a random
-part of the pairs; its counts are of those. missed: touching pairs called free;
-late: contacts found after their exact time, which is as bad; false: pairs that
-never touch, but are not called free. early: how long before the exact time a
-contact is found, in steps: the median, and the most.
+δ: the tolerance, in units of length. pairs: a slow test runs on a random part
+of the pairs, and its counts are of those. missed: touching pairs called free.
+late: contacts found after their exact time, which is as bad. false: pairs that
+never touch, but are not called free. early: the time by which a contact is
+found too early, in steps: the median and the largest.
 ! not certified: unsafe to rely on
 ";
 
 fn body(set: &ElementarySet) -> String {
-    let header = ["test", "δ", "time", "asked", "missed", "late", "false", "early", "at most"];
+    let header = ["test", "δ", "time", "pairs", "missed", "late", "false", "early", "at most"];
     table(header, set.rows.iter().map(cells))
 }
 

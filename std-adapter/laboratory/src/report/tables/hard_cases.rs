@@ -1,9 +1,9 @@
-use crate::hard_cases::Contact;
+use crate::hard_cases::ExactContact;
 use crate::methods::QueryMethod;
 use crate::study::{HardAnswer, HardResult};
 use std::fmt::Write;
 
-/// Case by method, the exact answer beside, wrong ones marked; then how many of each.
+/// Returns a table of cases and methods beside the exact answers, with wrong answers marked and counted.
 #[must_use]
 pub fn hard_cases(scalar: &str, results: &[HardResult]) -> String {
     let letters: Vec<char> = ('A'..).take(QueryMethod::ALL.len()).collect();
@@ -19,9 +19,9 @@ pub fn hard_cases(scalar: &str, results: &[HardResult]) -> String {
             before = &case.name;
         }
         let first = match &case.contact {
-            Contact::Never => "never",
-            Contact::Undefined => "undefined",
-            Contact::First { exact, .. } => exact,
+            ExactContact::Never => "never",
+            ExactContact::Undefined => "undefined",
+            ExactContact::First { exact, .. } => exact,
         };
         let marks: String = result.answers.iter().flat_map(|answer| [' ', mark(*answer)]).collect();
         let line = format!("  {:36}{first:13.13} {marks}", case.placement);
@@ -42,8 +42,8 @@ pub fn hard_cases(scalar: &str, results: &[HardResult]) -> String {
         .expect("a string has room");
     }
     text += "\n\
-        ✗ MISSED: culled, though it touches (or is not finite, and undefined);\n\
-        + false alarm: kept, though it never touches; · right.\n\
+        ✗ MISSED: culled, although it touches or is not finite;\n\
+        + false alarm: kept, although it never touches; · right.\n\
         ! not certified: may miss collisions by rounding\n";
     text
 }

@@ -1,4 +1,4 @@
-//! Tables as text, made to be read in a terminal of 80 columns.
+//! Tables as text, for a terminal of 80 columns.
 
 mod accuracy;
 mod comparison;
@@ -20,7 +20,7 @@ pub use step::step;
 
 use comfy_table::{CellAlignment, LineStyle, Row, Table, TableStyle};
 
-/// A table with a line under its header; the first column to the left, numbers to the right.
+/// Returns a table with a line under its header. The first column is aligned left, the others right.
 pub(super) fn table<R: Into<Row>>(header: impl Into<Row>, rows: impl IntoIterator<Item = R>) -> String {
     let mut table = Table::new();
     let line = LineStyle::none().fill('─').junction('─');

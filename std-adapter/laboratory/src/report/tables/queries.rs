@@ -1,9 +1,9 @@
 use super::table;
-use crate::report::number::{figures, grouped};
+use crate::report::number::{few, grouped};
 use crate::study::QueryResult;
 use selvedge::PairKind;
 
-/// What each method said of queries, one table for each kind of pair.
+/// Returns each method's answers to queries, one table for each kind of pair.
 #[must_use]
 pub fn queries(scalar: &str, results: &[QueryResult]) -> String {
     let mut text = String::new();
@@ -38,7 +38,7 @@ pub fn queries(scalar: &str, results: &[QueryResult]) -> String {
         text += "\n";
     }
     text += "kept: not culled (cubic: found to touch); false +: kept without a collision;\n\
-             false −: a collision missed. Times are of one query, in the cache.\n";
+             false −: a collision missed. Times are for one query, in the cache.\n";
     if results.iter().any(|result| !result.method.is_certified()) {
         text += "! not certified: may miss collisions by rounding\n";
     }
@@ -54,9 +54,9 @@ fn row(result: &QueryResult) -> [String; 8] {
         grouped(result.positives),
         count(result.truth.map(|truth| truth.false_positives)),
         count(result.truth.map(|truth| truth.false_negatives)),
-        figures(time.mean),
-        figures(time.median),
-        figures(time.p99),
-        figures(time.max),
+        few(time.mean),
+        few(time.median),
+        few(time.p99),
+        few(time.max),
     ]
 }

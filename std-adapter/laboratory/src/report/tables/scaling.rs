@@ -4,7 +4,7 @@ use crate::report::n_log_n_ratios;
 use crate::report::number::{counted, grouped, time};
 use crate::study::ScalingPoint;
 
-/// Cost against size.
+/// Returns a table of cost against size.
 #[must_use]
 pub fn scaling(preset: Preset, threads: usize, points: &[ScalingPoint]) -> String {
     let header = [

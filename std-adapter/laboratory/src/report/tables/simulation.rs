@@ -1,11 +1,11 @@
 use super::table;
-use crate::report::number::{counted, few, figures, moment, ordinal, signed_time, time};
+use crate::report::number::{counted, few, moment, ordinal, signed_time, time};
 use crate::report::recording::{EDGES_99, LONGEST_EDGE, MeasureKind, Recording};
 use crate::report::start_sentences;
 use crate::study::EffectCost;
 use selvedge_cloth::Simulation;
 
-/// What a step costs with the first of the effects, with the first two, and so on.
+/// Returns the cost of a step with no effect, with the first one, with the first two, and so on.
 #[must_use]
 pub fn effects_one_by_one(costs: &[EffectCost]) -> String {
     let mut before = None;
@@ -21,7 +21,7 @@ pub fn effects_one_by_one(costs: &[EffectCost]) -> String {
     table(["effect added", "a step", "more than before"], rows)
 }
 
-/// A simulation and what was recorded of it.
+/// Returns a summary of a simulation and its recording.
 #[must_use]
 pub fn simulation(simulation: &Simulation, recording: &Recording) -> String {
     let seconds = recording.wall_seconds.unwrap_or(f64::NAN);
@@ -33,7 +33,7 @@ pub fn simulation(simulation: &Simulation, recording: &Recording) -> String {
         simulation.name(),
         counted(steps, "step"),
         time(seconds),
-        figures(steps as f64 / seconds),
+        few(steps as f64 / seconds),
         stretch.percentile_99,
         stretch.largest,
     );
@@ -69,14 +69,14 @@ pub fn simulation(simulation: &Simulation, recording: &Recording) -> String {
     if let (Some(first), Some(last)) = (times.clone().reduce(f64::min), times.reduce(f64::max)) {
         let vertices = released.len();
         text += &format!(
-            "\nattached vertices that let go: {vertices}, from {} to {}\n",
+            "\nattachments released: {vertices}, from {} to {}\n",
             moment(first),
             moment(last)
         );
     }
     if let [first, .., last] | [first @ last] = simulation.torn_edges() {
         text += &format!(
-            "\nedges that tore: {}, from {} to {}\n",
+            "\ntorn edges: {}, from {} to {}\n",
             simulation.torn_edges().len(),
             moment(first.time),
             moment(last.time)

@@ -3,7 +3,7 @@ use crate::methods::{CullingTest, ElementaryTest, Stage};
 use crate::report::number::{counted, grouped, time};
 use crate::report::{StepQuestion, StepSummary, mesh_size};
 
-/// One step: what each stage left over and how long it took.
+/// Returns the pairs after each stage of one step, and the times.
 #[must_use]
 pub fn step(summary: &StepSummary) -> String {
     let report = &summary.report;
@@ -53,7 +53,7 @@ pub fn step(summary: &StepSummary) -> String {
     )
 }
 
-/// What was asked, and what it is worth.
+/// The answer to the question.
 fn answer(summary: &StepSummary) -> String {
     let contacts = summary.report.contacts();
     match (summary.question, summary.earliest) {
@@ -75,7 +75,7 @@ fn answer(summary: &StepSummary) -> String {
     }
 }
 
-/// What the counts are worth.
+/// The guarantee behind the counts.
 fn promise(summary: &StepSummary) -> &'static str {
     let stages = summary.preset.stages();
     let tests_are_certified = stages.tests.iter().copied().all(CullingTest::is_certified);

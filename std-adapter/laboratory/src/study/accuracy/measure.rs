@@ -1,4 +1,4 @@
-//! The clock and the counts, on one set of pairs in one format.
+//! Times and counts filters on one set of pairs in one format.
 
 use super::{AccuracyRow, AccuracySet, BackendTime, BackendsDisagree, PairSet};
 use crate::methods::{MeasuredFilter, WithLanes, WithTest};
@@ -10,14 +10,14 @@ use selvedge_core::{PrimitivePair, Scalar};
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Pairs that are tested in one go. Rows of pairs that share none take 512 kB in `f64`, which stays in a core's own
-/// cache; and reading the clock, 25 ns or so, is small against the fastest filter's 2 µs.
+/// The number of pairs that are tested together. Rows of pairs that share none take 512 kB in `f64`, which stays in a core's own
+/// cache. Reading the clock, about 25 ns, is short compared with the fastest filter's 2 µs.
 const CHUNK: usize = 2048;
-/// About so many pairs of a set are timed, in evenly spaced chunks; all are counted.
+/// The approximate number of timed pairs in a set, in evenly spaced chunks. All pairs are counted.
 const TIMED: usize = 50_000;
-/// Of each timed chunk so many pairs are tested as tiles as well: 24 kB in `f64`, which stays in the first cache.
+/// The number of pairs of each timed chunk that are also tested as tiles: 24 kB in `f64`, which stays in the first cache.
 const TILED: usize = 128;
-/// So often in one go, to outlast the clock.
+/// Repetitions of these, so that reading the clock does not matter.
 const TILED_PASSES: usize = 32;
 
 /// Runs every filter on `set` in the format `S`, `repeat` times.
@@ -93,14 +93,14 @@ impl<S: Scalar> Pairs<'_, S> {
         }
     }
 
-    /// What exact arithmetic culls.
+    /// Returns the pairs that exact arithmetic culls.
     fn exact_masks(&self, separation: S) -> Vec<Mask> {
         let mut masks = vec![0; self.mask_count()];
         OneByOne(self, &mut masks).with(|pair| exact::is_never_within(pair, separation, exact::UNKNOWN));
         masks
     }
 
-    /// The first pairs, side by side.
+    /// Returns the first pairs as tiles.
     fn tiles(&self) -> Vec<Tile<S>> {
         let tiled = &self.indices[..self.indices.len().min(TILED)];
         let tiles = tiled
@@ -110,7 +110,7 @@ impl<S: Scalar> Pairs<'_, S> {
     }
 }
 
-/// Verdicts on pairs that are made from their rows one by one: into masks.
+/// Writes verdicts on pairs that are made from their rows one by one into masks.
 struct OneByOne<'a, S: Scalar>(&'a Pairs<'a, S>, &'a mut [Mask]);
 
 impl<S: Scalar> WithTest<S, bool> for OneByOne<'_, S> {
@@ -128,7 +128,7 @@ impl<S: Scalar> WithTest<S, bool> for OneByOne<'_, S> {
     }
 }
 
-/// Verdicts on pairs that are gathered sixteen at a time, or on tiles of them: into masks.
+/// Writes verdicts on pairs that are gathered sixteen at a time, or on tiles of them, into masks.
 struct SideBySide<'a, S: Scalar>(Level, &'a Pairs<'a, S>, Option<&'a [Tile<S>]>, &'a mut [Mask]);
 
 impl<S: Scalar> WithLanes<S> for SideBySide<'_, S> {
@@ -145,7 +145,7 @@ impl<S: Scalar> WithLanes<S> for SideBySide<'_, S> {
 struct Measurement<S> {
     filter: MeasuredFilter,
     separation: S,
-    /// Seconds in all, for one pair at a time and for each level.
+    /// Seconds in all, for one pair at a time and for each instruction set.
     backends: Vec<(Backend, f64)>,
     tiled_seconds: f64,
     tiled: usize,
@@ -161,7 +161,7 @@ enum Backend {
 }
 
 impl<S: Scalar> Measurement<S> {
-    /// Nothing for a filter that would repeat another's row, or does not know separations.
+    /// Returns `None` for a filter that would repeat another's row, or that ignores separations.
     fn new(filter: MeasuredFilter, separation: S) -> Option<Self> {
         let is_widest = S::FRACTION_BITS == f64::MANTISSA_DIGITS - 1;
         let is_left_out = match filter {
@@ -187,7 +187,7 @@ impl<S: Scalar> Measurement<S> {
         })
     }
 
-    /// What it culls, one pair at a time, compared with exact arithmetic.
+    /// Counts what the filter culls, one pair at a time, compared with exact arithmetic.
     fn count(&mut self, pairs: &Pairs<'_, S>, exact: &[Mask]) -> Vec<Mask> {
         let mut masks = vec![0; pairs.mask_count()];
         self.filter.run(self.separation, OneByOne(pairs, &mut masks));
@@ -199,7 +199,7 @@ impl<S: Scalar> Measurement<S> {
         masks
     }
 
-    /// The time on every backend, each of which must give the verdicts `expected`.
+    /// Times every backend. Each must give the verdicts `expected`.
     fn time(&mut self, pairs: &Pairs<'_, S>, tiles: &[Tile<S>], expected: &[Mask], repeat: u32) -> Result<(), BackendsDisagree> {
         let (filter, separation) = (self.filter, self.separation);
         let mut masks = vec![0; expected.len()];
@@ -260,7 +260,7 @@ impl Backend {
     }
 }
 
-/// The seconds of the fastest of `repeat` runs.
+/// Returns the seconds of the fastest of `repeat` runs.
 fn fastest(repeat: u32, mut run: impl FnMut()) -> f64 {
     let mut fastest = f64::INFINITY;
     for _ in 0..repeat.max(1) {

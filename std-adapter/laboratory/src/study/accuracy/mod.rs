@@ -1,22 +1,22 @@
-//! What accuracy costs in time: every non-coplanarity filter on the same pairs.
+//! Measures what accuracy costs in time, for filters: every non-coplanarity filter on the same pairs.
 //!
 //! # Pairs
 //! A [`PairSet`] is measured in `f32` and in `f64`. In either format a filter is compared with exact arithmetic **on the
-//! coordinates that it is given**: those of a scene rounded to that format, those of nearly coplanar pairs made in it. So all
-//! rows of one set and one format are about the same pairs and the same truth, while `f32` and `f64` are about the pairs
-//! that a program with positions in that format would have.
+//! coordinates that it gets**: those of a scene rounded to that format, those of nearly coplanar pairs made in it. All rows of
+//! one set and one format thus share pairs and truth, while `f32` and `f64` stand for programs with positions in that format.
 //!
 //! # Truth
-//! Exact arithmetic ([`selvedge_core::verification::exact`]) culls a pair if the four control values have one strict sign (with a
-//! separation: and exceed it). That is what every filter here computes with some rounding, so a filter that culls another
-//! pair has no proof of it: a *false cull*. //!
-//! # Time
-//! All pairs are counted, about 50,000 of a set are timed. They are gathered by index from rows of vertices, as in the pipeline, in chunks that stay in a core's own cache (2,048
-//! pairs). Each chunk goes through all filters and backends before the next one, each as often as is asked for, and the
-//! fastest run counts. Every backend's verdicts are compared, and must be the same.
+//! Exact arithmetic ([`selvedge_core::verification::exact`]) culls a pair if the four control values have one strict sign, and
+//! exceed the separation if there is one. Every filter computes that with some rounding, so a filter that culls another pair has
+//! no proof of it: a *false cull*.
 //!
-//! A second time is that of tiles in the first cache (128 pairs of each chunk, again and again), on the best instruction set
-//! alone: the arithmetic, without the gathering, and with branches that the processor has learnt.
+//! # Time
+//! All pairs are counted; about 50,000 of a set are timed. They are gathered by index from rows of vertices, as in the pipeline,
+//! in chunks of 2,048 pairs that stay in a core's own cache. Each chunk goes through all filters and backends before the next
+//! one, as often as requested, and the fastest run counts. All backends must give the same verdicts.
+//!
+//! A second time is that of tiles in the first cache (128 pairs of each chunk, repeated), on the best instruction set alone. It
+//! measures the arithmetic without gathering, and with trained branches.
 
 pub mod elementary;
 mod measure;
@@ -32,27 +32,27 @@ use selvedge::glam::DVec3;
 use std::error::Error;
 use std::time::Duration;
 
-/// How filters and elementary tests are measured.
+/// Options for measuring filters and elementary tests.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AccuracyOptions {
-    /// At most so many pairs in each set.
+    /// The largest number of pairs in each set.
     pub pairs: usize,
     /// How often each chunk goes through each filter or test; the fastest counts.
     pub repeat: u32,
-    /// Where random pairs begin.
+    /// The seed of random pairs.
     pub seed: u64,
-    /// What pairs must stay farther apart than, in the unit of the positions; rounded to the format in use. Neither
+    /// The distance that pairs must exceed to be culled, in the unit of the positions; rounded to the format in use. Neither
     /// negative nor infinite.
     pub separation: f64,
-    /// How long one elementary test may take on one set in one format, or a little more: it is asked about sixteen pairs at least. Of filters
-    /// nothing.
+    /// The approximate time limit of one elementary test on one set in one format. It always runs on sixteen pairs. Filters
+    /// ignore it.
     pub budget: Duration,
 }
 
 /// Every filter on every set.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Accuracy {
-    /// How it was measured.
+    /// The options.
     pub options: AccuracyOptions,
     /// Each set in `f32`, then in `f64`.
     pub sets: Vec<AccuracySet>,
@@ -61,7 +61,7 @@ pub struct Accuracy {
 /// Every filter on one set of pairs in one format.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AccuracySet {
-    /// What the pairs are.
+    /// The name of the set.
     pub name: String,
     /// `"f32"` or `"f64"`.
     pub scalar: &'static str,
@@ -71,19 +71,19 @@ pub struct AccuracySet {
     pub edge_edge: usize,
     /// How many pairs there were before a sample was drawn.
     pub drawn_from: usize,
-    /// How many of them were timed; all were counted.
+    /// The number of timed pairs; all were counted.
     pub timed: usize,
     /// Pairs that exact arithmetic culls.
     pub cullable: usize,
-    /// A row for each filter, in the order of [`MeasuredFilter::ALL`]. Without the paper's where a separation is asked for,
-    /// and in `f64` without the widened tier, which is the permanent there.
+    /// A row for each filter, in the order of [`MeasuredFilter::ALL`]. The paper's is missing with a separation. In `f64` the
+    /// widened tier is missing, which equals the permanent there.
     pub rows: Vec<AccuracyRow>,
 }
 
 /// One filter on one set.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AccuracyRow {
-    /// Which filter.
+    /// The filter.
     pub filter: MeasuredFilter,
     /// Pairs that it culls.
     pub culled: usize,
@@ -97,7 +97,7 @@ pub struct AccuracyRow {
     pub in_first_cache: Option<f64>,
 }
 
-/// What a pair takes on one backend.
+/// The time of a pair on one backend.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BackendTime {
     /// [`ONE_AT_A_TIME`](Self::ONE_AT_A_TIME), or the instruction set.
@@ -124,7 +124,7 @@ impl AccuracySet {
         self.rows.iter().find(|row| row.filter == filter)
     }
 
-    /// A row's time on a backend over that of [`MeasuredFilter::Uncertified`] on the same.
+    /// A row's time on a backend relative to that of [`MeasuredFilter::Uncertified`] on the same backend.
     #[must_use]
     pub fn over_uncertified(&self, time: BackendTime) -> Option<f64> {
         let uncertified = self.row(MeasuredFilter::Uncertified)?;
@@ -147,7 +147,7 @@ impl AccuracyRow {
     }
 }
 
-/// A filter does not give the same verdicts on all backends: a defect of this program or of the machine.
+/// A filter gives different verdicts on different backends: a defect of this program or of the machine.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the filter `{filter}` on {backend} does not cull the same pairs as one pair at a time")]
 pub struct BackendsDisagree {
@@ -161,20 +161,20 @@ impl BackendsDisagree {
     }
 }
 
-/// One in so many steps of the arm scene is looked at, the last one included.
+/// One in this many steps of the arm scene is measured, the last one included.
 const ARM_STRIDE: usize = 5;
-/// How far they are moved in turn for pairs far from the origin, in metres.
+/// Distances of the pairs far from the origin, in turn, in metres.
 const DISTANCES: [f64; 4] = [1e3, 1e4, 1e5, 1e6];
-/// Where to: no coordinate much smaller than the others.
+/// Their direction, without a coordinate much smaller than the others.
 const DIRECTION: DVec3 = DVec3::new(0.7, -0.6, 0.39);
-/// No more nearly coplanar pairs than this are made: they take half a kilobyte each.
+/// The largest number of nearly coplanar pairs, which take half a kilobyte each.
 const MOST_GENERATED: usize = 200_000;
 
-/// What every study of accuracy takes its pairs from.
+/// The pairs that all studies of accuracy use.
 struct ScenePairs {
-    /// Of the arm, and of the caller's mesh.
+    /// Sets of the arm, and of the caller's mesh.
     scenes: Vec<PairSet>,
-    /// Made in `f32`, and in `f64`.
+    /// Pairs made in `f32`, and in `f64`.
     near_coplanar: [PairSet; 2],
 }
 
@@ -201,10 +201,10 @@ fn scene_pairs(mesh: Option<&dyn Frames>, options: AccuracyOptions) -> Result<Sc
     let here: Vec<_> = arm_steps().map(|step| (step, DVec3::ZERO)).collect();
     let of_mesh = |mesh: &dyn Frames| {
         let steps: Vec<_> = (0..mesh.step_count()).map(|step| (step, DVec3::ZERO)).collect();
-        PairSet::of_steps(mesh.name(), mesh, &steps, pairs)
+        PairSet::from_steps(mesh.name(), mesh, &steps, pairs)
     };
     let generated = pairs.min(MOST_GENERATED);
-    let mut scenes = vec![PairSet::of_steps(arm.name(), &arm, &here, pairs)?];
+    let mut scenes = vec![PairSet::from_steps(arm.name(), &arm, &here, pairs)?];
     scenes.extend(mesh.map(of_mesh).transpose()?);
     Ok(ScenePairs {
         scenes,
@@ -215,8 +215,8 @@ fn scene_pairs(mesh: Option<&dyn Frames>, options: AccuracyOptions) -> Result<Sc
     })
 }
 
-/// Measures every filter on the candidate pairs of the arm scene, those of `mesh` (all its steps) if there is one, nearly
-/// coplanar pairs and pairs far from the origin. `progress` is told the share that is done.
+/// Measures every filter on candidate pairs of the arm scene, those of all steps of `mesh` if there is one, nearly coplanar pairs
+/// and pairs far from the origin. Calls `progress` with the share that is done.
 ///
 /// # Errors
 /// If threads cannot be started, a frame is not finite, or backends disagree.
@@ -238,7 +238,7 @@ pub fn measure_accuracy(
         .map(|(step, distance)| (step, distance * DIRECTION))
         .collect();
     let name = "Arm scene, 1 km to 1,000 km from the origin".to_owned();
-    all.scenes.push(PairSet::of_steps(name, &arm_frames()?, &far, pairs)?);
+    all.scenes.push(PairSet::from_steps(name, &arm_frames()?, &far, pairs)?);
 
     let in_each_format = all.in_each_format();
     let count = 2 * in_each_format.len();

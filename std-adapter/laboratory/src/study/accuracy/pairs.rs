@@ -7,13 +7,13 @@ use selvedge_core::batch::VertexRow;
 use selvedge_core::{Motion, Scalar};
 use std::error::Error;
 
-/// Pairs that follow one another in a sample, so that neighbours stay neighbours.
+/// The number of consecutive pairs in a sample, so that neighbours stay neighbours.
 const RUN: usize = 1024;
 
-/// Vertex–face and edge–edge pairs of moving points, to measure every filter on.
+/// Vertex–face and edge–edge pairs of moving points, on which every filter is measured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PairSet {
-    /// What the pairs are.
+    /// The name of the set.
     pub name: String,
     /// The moving points, at the start and at the end of the step.
     pub points: Vec<[DVec3; 2]>,
@@ -44,14 +44,14 @@ impl PairSet {
         ]
     }
 
-    /// The primitive pairs of some steps, as they come from broad phase and distribution, each pair once. A step is the
-    /// frame that it starts from, and how far all positions are moved.
+    /// Collects the primitive pairs of some steps, as they come from broad phase and distribution, each pair once. A step is the
+    /// frame from which it starts, and an offset of all positions.
     ///
-    /// Where there are more than `pairs`, evenly spaced runs of pairs are taken, as many of each step.
+    /// If there are more than `pairs`, evenly spaced runs of pairs are taken, as many of each step.
     ///
     /// # Errors
     /// If threads cannot be started or a frame is not finite.
-    pub fn of_steps(
+    pub fn from_steps(
         name: String,
         frames: &dyn Frames,
         steps: &[(usize, DVec3)],
@@ -90,7 +90,7 @@ impl PairSet {
         Ok(set)
     }
 
-    /// The points in the format `S`, rounded where they have to be.
+    /// Returns the points in the format `S`, rounded where necessary.
     #[must_use]
     pub fn rows<S: Scalar>(&self) -> Vec<VertexRow<S>> {
         let rounded = |point: DVec3| S::Vector::from(point.to_array().map(S::from_f64));
@@ -108,7 +108,7 @@ impl PairSet {
     }
 }
 
-/// So many items in runs that are evenly spaced; all of them if there are no more.
+/// Returns this many items in evenly spaced runs, or all of them if there are no more.
 fn sample<T>(items: &[T], wanted: usize) -> impl Iterator<Item = &T> {
     let wanted = wanted.min(items.len());
     let skipped = items.len() - wanted;
@@ -140,7 +140,7 @@ mod tests {
     #[test]
     fn steps_add_their_pairs_and_an_offset_moves_them() {
         let arm = ArmFrames::new(1, 60).unwrap();
-        let set = |steps: &[(usize, DVec3)], pairs| PairSet::of_steps("arm".to_owned(), &arm, steps, pairs).unwrap();
+        let set = |steps: &[(usize, DVec3)], pairs| PairSet::from_steps("arm".to_owned(), &arm, steps, pairs).unwrap();
         let all = usize::MAX;
         let (one, other) = (set(&[(50, DVec3::ZERO)], all), set(&[(55, DVec3::X)], all));
         let both = set(&[(50, DVec3::ZERO), (55, DVec3::X)], all);

@@ -1,4 +1,4 @@
-//! The clock and the counts, on one set of pairs in one format.
+//! Times and counts elementary tests on one set of pairs in one format.
 
 use super::{ElementaryRow, ElementarySet, ExactAnswer, METHODS, Questions};
 use crate::methods::ElementaryTest;
@@ -9,10 +9,11 @@ use std::hint::black_box;
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
-/// So many pairs go through a test between two looks at the clock, which takes as long as one pair of the fastest test.
+/// The number of pairs that a test runs on between two readings of the clock. Reading it takes as long as one pair of the fastest
+/// test.
 const CHUNK: usize = 16;
 
-/// Asks every method.
+/// Runs every method.
 pub(super) fn measure<S: Scalar>(
     questions: &Questions<S>,
     options: AccuracyOptions,
@@ -39,7 +40,7 @@ pub(super) fn measure<S: Scalar>(
     }
 }
 
-/// All pairs in chunks of neighbours, in random order, so that those that come first stand for all.
+/// Splits all pairs into chunks of neighbours, in random order, so that the first ones represent all.
 fn chunks(pairs: usize, seed: u64) -> Vec<Range<usize>> {
     let starts = (0..pairs).step_by(CHUNK);
     let mut chunks: Vec<_> = starts.map(|start| start..(start + CHUNK).min(pairs)).collect();
@@ -54,7 +55,7 @@ fn ask<S: Scalar>(
     options: AccuracyOptions,
 ) -> ElementaryRow {
     let AccuracyOptions { repeat, budget, .. } = options;
-    let mut tally = Tally::default();
+    let mut counts = AnswerCounts::default();
     let mut answers = [None; CHUNK];
     let begin = Instant::now();
     for chunk in order {
@@ -66,25 +67,25 @@ fn ask<S: Scalar>(
                 *answer = black_box(method.time(black_box(pair)));
             }
             fastest = fastest.min(begin.elapsed());
-            // What takes long is not worth repeating; an interruption by another process, some 10 ms, is.
+            // A slow chunk is not worth repeating, unless another process has interrupted it for some 10 ms.
             if fastest > budget / 8 {
                 break;
             }
         }
-        tally.seconds += fastest.as_secs_f64();
+        counts.seconds += fastest.as_secs_f64();
         for (answer, truth) in answers.iter().zip(&questions.truth[chunk.clone()]) {
-            tally.count(answer.map(S::to_f64), truth);
+            counts.count(answer.map(S::to_f64), truth);
         }
-        // Here, so that there is a time and a count however short the budget is.
+        // The check comes last, so that there is a time and a count however short the budget is.
         if begin.elapsed() > budget {
             break;
         }
     }
-    tally.row(method)
+    counts.row(method)
 }
 
 #[derive(Default)]
-struct Tally {
+struct AnswerCounts {
     asked: usize,
     touching: usize,
     seconds: f64,
@@ -95,7 +96,7 @@ struct Tally {
     early: Vec<f64>,
 }
 
-impl Tally {
+impl AnswerCounts {
     fn count(&mut self, answer: Option<f64>, truth: &ExactAnswer) {
         self.asked += 1;
         match (answer, truth) {

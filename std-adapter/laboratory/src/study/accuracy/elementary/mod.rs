@@ -1,25 +1,24 @@
-//! What accuracy costs in time, of the elementary test: every test on the same pairs, at tolerances from 1e-2 to 1e-12.
+//! Measures what accuracy costs in time, for elementary tests: every test on the same pairs, at tolerances from 1e-2 to 1e-12.
 //!
 //! # Pairs
-//! The [hard cases](crate::hard_cases), as far as a format holds them exactly; candidates of real steps and nearly coplanar pairs, as for
-//! the filters, of which those are asked whose swept boxes overlap. A test that is slow is asked about fewer of them: in
-//! random order until its [budget](AccuracyOptions::budget) is over. Its counts are of the pairs that it was asked about.
+//! The sets are the [hard cases](crate::hard_cases) that a format holds exactly, and, as for filters, candidates of real steps
+//! and nearly coplanar pairs whose swept boxes overlap. A slow test runs on fewer pairs: in random order until its
+//! [budget](AccuracyOptions::budget) is used up. Its counts are of these pairs.
 //!
 //! # Truth
-//! *Whether* a pair touches is decided exactly, in whole numbers, by [`selvedge_core::elementary::contact`](mod@contact), on
-//! the coordinates in the format at hand.
+//! *Whether* a pair touches is decided exactly, in whole numbers, by [`selvedge_core::elementary::contact`](mod@contact), on the
+//! coordinates in the given format.
 //!
-//! *When* it does first is an algebraic number. The hard cases come with it, enclosed by two neighbouring numbers: `verification/`
-//! has computed it with exact rationals. This crate has no such arithmetic, and cutting steps short so that whole numbers could
-//! decide by bisection is no way: positions within a step are not floating-point numbers. For scenes it is therefore
-//! *enclosed*, in `f64`, on the same coordinates: from below by advancing with a tolerance of zero, from above by the end of an
-//! interval in which contact is certain ([`certain_contact`]). Both are proven; `verification/` checks that the exact time is in
-//! between. Where they are no nearer to each other than [`WIDEST`] (touching without passing through, resting, sliding) the time is not
-//! known here, and such a pair counts for misses only.
+//! *When* it first touches is an algebraic number. The hard cases come with it, enclosed by two neighbouring numbers, which
+//! `verification/` has computed with exact rationals. For scenes the time is *enclosed* in `f64`, on the same coordinates. The
+//! lower bound comes from advancing with a tolerance of zero. The upper bound is the end of an interval in which contact is
+//! certain ([`certain_contact`]). Both are proven; `verification/` checks that the exact time is in between. If the bounds are
+//! farther apart than [`WIDEST`] (touching without passing through, resting, sliding), the time is unknown. Such a pair counts
+//! for misses only.
 //!
 //! # Errors
-//! A time before the exact one is early by so much. One after it is *late*, which is as bad as a miss: a step up to it
-//! goes through.
+//! A time before the exact one is early by the difference. A time after it is *late*, which is as bad as a miss: a step up to it
+//! passes through.
 
 mod measure;
 mod truth;
@@ -27,7 +26,7 @@ mod truth;
 pub use truth::{ExactAnswer, WIDEST, exact_answer};
 
 use super::{AccuracyOptions, PairSet, scene_pairs};
-use crate::hard_cases::{Contact, hard_cases};
+use crate::hard_cases::{ExactContact, hard_cases};
 use crate::methods::ElementaryTest;
 use crate::study::Frames;
 use crate::study::hard_cases::exactly;
@@ -37,10 +36,10 @@ use std::error::Error;
 #[cfg(doc)]
 use selvedge_core::elementary::{advance::certain_contact, contact};
 
-/// The tolerances that tests are asked with, in units of length.
+/// The tolerances of the tests, in units of length.
 const TOLERANCES: [f64; 7] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-9, 1e-10, 1e-12];
 
-/// Every test that is asked, at every tolerance that it is asked with.
+/// Every test at every tolerance.
 pub const METHODS: [ElementaryTest; 3 * TOLERANCES.len() + 4] = {
     let mut all = [ElementaryTest::Exact; 3 * TOLERANCES.len() + 4];
     let count = TOLERANCES.len();
@@ -61,7 +60,7 @@ pub const METHODS: [ElementaryTest; 3 * TOLERANCES.len() + 4] = {
 /// Every elementary test on every set.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ElementaryAccuracy {
-    /// How it was measured. The separation counts for nothing.
+    /// The options. The separation is ignored.
     pub options: AccuracyOptions,
     /// Each set in `f32`, then in `f64`.
     pub sets: Vec<ElementarySet>,
@@ -70,7 +69,7 @@ pub struct ElementaryAccuracy {
 /// Every elementary test on one set of pairs in one format.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ElementarySet {
-    /// What the pairs are.
+    /// The name of the set.
     pub name: String,
     /// `"f32"` or `"f64"`.
     pub scalar: &'static str,
@@ -80,7 +79,7 @@ pub struct ElementarySet {
     pub edge_edge: usize,
     /// Pairs that touch.
     pub touching: usize,
-    /// Those of which it is known when.
+    /// Touching pairs with a known time.
     pub with_time: usize,
     /// A row for each test, in the order of [`METHODS`].
     pub rows: Vec<ElementaryRow>,
@@ -89,11 +88,11 @@ pub struct ElementarySet {
 /// One test on one set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ElementaryRow {
-    /// Which test.
+    /// The test.
     pub method: ElementaryTest,
-    /// So many pairs it was asked about.
+    /// The number of pairs that it ran on.
     pub asked: usize,
-    /// So many of them touch.
+    /// The number of these that touch.
     pub touching: usize,
     /// Nanoseconds a pair, one at a time, gathered.
     pub nanoseconds: f64,
@@ -101,33 +100,33 @@ pub struct ElementaryRow {
     pub missed: usize,
     /// Contacts whose time is after the exact one.
     pub late: usize,
-    /// The most that one is late, in steps.
+    /// The largest delay, in steps.
     pub latest: f64,
-    /// Pairs that it does not call free of contact, though they are.
+    /// Pairs without contact that it does not call free of contact.
     pub false_alarms: usize,
-    /// How much too early contacts are, in steps, the median; late ones count as not at all. `None` without a contact of known time.
+    /// The median error of early contact times, in steps. Late ones count as zero. `None` without a contact of known time.
     pub early: Option<f64>,
-    /// The most that one is early.
+    /// The largest such error.
     pub earliest: f64,
 }
 
 impl ElementaryRow {
-    /// Whether some answer of it would let a step go through a contact.
+    /// Returns whether an answer would let a step pass through a contact.
     #[must_use]
     pub const fn is_wrong(&self) -> bool {
         self.missed > 0 || self.late > 0
     }
 }
 
-/// Pairs in one format, with what is true of them.
+/// Pairs in one format, with their exact answers.
 struct Questions<S: Scalar> {
     name: String,
     pairs: Vec<PrimitivePair<S>>,
     truth: Vec<ExactAnswer>,
 }
 
-/// Measures every elementary test on hard cases, on candidates of the arm scene and of `mesh` (all its steps) if there is one, and on
-/// nearly coplanar pairs. `progress` is told the share that is done.
+/// Measures every elementary test on hard cases, on candidates of the arm scene and of all steps of `mesh` if there is one, and
+/// on nearly coplanar pairs. Calls `progress` with the share that is done.
 ///
 /// # Errors
 /// If threads cannot be started or a frame is not finite.
@@ -170,12 +169,12 @@ fn of_hard_cases<S: Scalar>() -> Questions<S> {
     };
     for case in hard_cases() {
         let truth = match &case.contact {
-            Contact::Never => ExactAnswer::Never,
-            Contact::First { from, to, .. } => ExactAnswer::Touches {
+            ExactContact::Never => ExactAnswer::Never,
+            ExactContact::First { from, to, .. } => ExactAnswer::Touches {
                 first: Some([*from, *to]),
             },
-            // What is not finite has no exact answer.
-            Contact::Undefined => continue,
+            // A pair that is not finite has no exact answer.
+            ExactContact::Undefined => continue,
         };
         if let Some(pair) = exactly::<S>(case) {
             questions.pairs.push(pair);

@@ -4,7 +4,7 @@ use selvedge_core::glam::DVec3;
 use std::sync::LazyLock;
 use std::time::Duration;
 
-/// For all who look at it: seconds of exact arithmetic.
+/// Shared by the tests, since it takes seconds of exact arithmetic.
 static MEASURED: LazyLock<ElementaryAccuracy> = LazyLock::new(|| measured(2000, Duration::from_millis(50)));
 
 fn measured(pairs: usize, budget: Duration) -> ElementaryAccuracy {
@@ -71,7 +71,7 @@ fn a_finer_tolerance_gives_no_earlier_times() {
     }
 }
 
-/// A vertex that falls from 1 to −3 reaches the plane at ¼; above 0.2, 0.2 there is a triangle, above 3, 3 none.
+/// A vertex that falls from 1 to −3 reaches the plane at ¼. The triangle is below 0.2, 0.2, but not below 3, 3.
 #[test]
 fn exact_answers_are_right_and_enclose_the_time() {
     let fall = |x: f64, height: f64| {
@@ -86,7 +86,7 @@ fn exact_answers_are_right_and_enclose_the_time() {
         panic!("it touches, and passes through");
     };
     assert!((from..=to).contains(&0.25) && to - from < WIDEST);
-    // At the very end of the step, without passing through.
+    // It touches at the very end of the step, without passing through.
     let graze = exact_answer(&fall(0.2, 0.0));
     assert_eq!(graze, ExactAnswer::Touches { first: None });
 }

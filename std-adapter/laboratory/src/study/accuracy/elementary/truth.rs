@@ -3,7 +3,7 @@ use selvedge_core::elementary::advance::time_of_impact;
 use selvedge_core::elementary::{ContactVerdict, Limits, contact};
 use selvedge_core::{PrimitivePair, Scalar};
 
-/// A first contact that is enclosed less closely than this, in steps, counts as one of unknown time.
+/// The widest enclosure of a first contact, in steps, that counts as a known time.
 pub const WIDEST: f64 = 1e-10;
 
 /// Whether a pair touches, and when first.
@@ -11,16 +11,16 @@ pub const WIDEST: f64 = 1e-10;
 pub enum ExactAnswer {
     /// Not at any time in [0, 1].
     Never,
-    /// It does.
+    /// It touches.
     Touches {
-        /// The first time is no earlier than the first of these, and no later than the second; `None` if that is not known well.
+        /// Bounds of the first time; `None` if they are not close.
         first: Option<[f64; 2]>,
     },
 }
 
-/// The exact answer, and an enclosure of the first time: see the module's documentation.
+/// Returns the exact answer and an enclosure of the first time: see the module's documentation.
 ///
-/// A pair that is not finite is said to touch, at an unknown time.
+/// A pair that is not finite counts as touching at an unknown time.
 #[must_use]
 pub fn exact_answer<S: Scalar>(pair: &PrimitivePair<S>) -> ExactAnswer {
     let pair = pair.widened();
@@ -33,7 +33,7 @@ pub fn exact_answer<S: Scalar>(pair: &PrimitivePair<S>) -> ExactAnswer {
     }
 }
 
-/// An enclosure of the first time of a pair that touches.
+/// Returns an enclosure of the first time of a pair that touches.
 fn first_time(pair: &PrimitivePair<f64>) -> Option<[f64; 2]> {
     let as_tight_as_can_be = Limits {
         tolerance: 0.0,
