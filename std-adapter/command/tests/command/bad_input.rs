@@ -31,7 +31,7 @@ fn a_mesh_that_cannot_be_read_is_named_with_the_place() {
         ("nan.obj", "line 3"),
         ("far.obj", "vertex 7"),
         ("points.obj", "no triangles"),
-        ("cut.ply", "vert"),
+        ("cut.ply", "is the file complete"),
     ] {
         for frames in [[name, "end.obj"], ["start.obj", name]] {
             let arguments = [&["cull"], &frames[..], &["--pairs", "p.csv", "--candidates", "c.csv"]].concat();
