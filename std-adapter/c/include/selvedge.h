@@ -198,6 +198,10 @@ enum selvedge_status
    * A scene starts with surfaces that pass through each other. The message names the first place and the possible settings.
    */
   SELVEDGE_STATUS_TANGLED = 35,
+  /**
+   * The pairs and contacts of a call take more memory than the limit allows.
+   */
+  SELVEDGE_STATUS_TOO_MUCH_MEMORY = 36,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -706,6 +710,13 @@ selvedge_status selvedge_detector_set_pair_limit(struct selvedge_detector *detec
                                                  uint64_t limit);
 
 /**
+ * Sets the most memory that the pairs and contacts of a call may take, in bytes, at 48 bytes for a contact; 2 GiB at first. UINT64_MAX is no
+ * limit. A call that needs more fails with SELVEDGE_STATUS_TOO_MUCH_MEMORY, on any number of threads.
+ */
+selvedge_status selvedge_detector_set_memory_limit(struct selvedge_detector *detector,
+                                                   uint64_t limit);
+
+/**
  * Returns the number of threads of a step.
  *
  * The caller promises:
@@ -935,6 +946,11 @@ selvedge_status selvedge_world_set_touching(struct selvedge_world *world,
  */
 selvedge_status selvedge_world_set_pair_limit(struct selvedge_world *world,
                                               uint64_t limit);
+
+/**
+ * Sets the most memory that the contacts of a step may take, as for a detector. UINT64_MAX is no limit.
+ */
+selvedge_status selvedge_world_set_memory_limit(struct selvedge_world *world, uint64_t limit);
 
 /**
  * Removes a mesh. Its number is never used again.

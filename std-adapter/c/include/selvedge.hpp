@@ -145,6 +145,9 @@ class detector {
   /// Limits the number of candidate pairs of a call; UINT64_MAX: no limit.
   void set_pair_limit(std::uint64_t limit) { check(selvedge_detector_set_pair_limit(get(), limit)); }
 
+  /// Limits the memory of the pairs and contacts of a call, in bytes; UINT64_MAX: no limit.
+  void set_memory_limit(std::uint64_t limit) { check(selvedge_detector_set_memory_limit(get(), limit)); }
+
   /// Cancels the call of another thread and all later calls, until this is called with false. Any thread may call it at any time.
   void set_cancelled(bool cancelled) { check(selvedge_detector_set_cancelled(get(), cancelled ? 1 : 0)); }
 
@@ -383,6 +386,9 @@ class world {
 
   /// Limits the number of candidate pairs of a step; UINT64_MAX: no limit.
   void set_pair_limit(std::uint64_t limit) { check(selvedge_world_set_pair_limit(get(), limit)); }
+
+  /// Limits the memory of the contacts of a step, in bytes; UINT64_MAX: no limit.
+  void set_memory_limit(std::uint64_t limit) { check(selvedge_world_set_memory_limit(get(), limit)); }
 
   /// Cancels the call of another thread and all later calls, until this is called with false. Any thread may call it at any time.
   void set_cancelled(bool cancelled) { check(selvedge_world_set_cancelled(get(), cancelled ? 1 : 0)); }

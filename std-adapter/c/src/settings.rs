@@ -174,6 +174,17 @@ pub extern "C" fn selvedge_detector_set_pair_limit(detector: *mut Handle, limit:
     })
 }
 
+/// Sets the most memory that the pairs and contacts of a call may take, in bytes, at 48 bytes for a contact; 2 GiB at first. UINT64_MAX is no
+/// limit. A call that needs more fails with SELVEDGE_STATUS_TOO_MUCH_MEMORY, on any number of threads.
+#[unsafe(no_mangle)]
+pub extern "C" fn selvedge_detector_set_memory_limit(detector: *mut Handle, limit: u64) -> Status {
+    on(detector, |it| {
+        let limit = Some(limit).filter(|&limit| limit != u64::MAX);
+        with_either!(&mut it.finder, finder => finder.detector.set_memory_limit(limit));
+        Ok(())
+    })
+}
+
 /// Returns the number of threads of a step.
 ///
 /// # Safety

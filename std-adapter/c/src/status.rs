@@ -81,10 +81,12 @@ pub enum Status {
     BadText = 34,
     /// A scene starts with surfaces that pass through each other. The message names the first place and the possible settings.
     Tangled = 35,
+    /// The pairs and contacts of a call take more memory than the limit allows.
+    TooMuchMemory = 36,
 }
 
 impl Status {
-    const ALL: [Self; 36] = [
+    const ALL: [Self; 37] = [
         Self::Ok,
         Self::NullPointer,
         Self::MisalignedPointer,
@@ -121,6 +123,7 @@ impl Status {
         Self::NoCheckpoint,
         Self::BadText,
         Self::Tangled,
+        Self::TooMuchMemory,
     ];
 
     const fn text(self) -> &'static CStr {
@@ -161,6 +164,7 @@ impl Status {
             Self::NoCheckpoint => c"no checkpoint after this step",
             Self::BadText => c"not UTF-8",
             Self::Tangled => c"tangled at the start",
+            Self::TooMuchMemory => c"too much memory",
         }
     }
 }
@@ -201,6 +205,7 @@ impl From<StepError> for Failure {
             StepError::BadTime { .. } => Status::BadTime,
             StepError::Cancelled => Status::Cancelled,
             StepError::TooManyPairs { .. } => Status::TooManyPairs,
+            StepError::TooMuchMemory { .. } => Status::TooMuchMemory,
             // An error that this crate does not know yet.
             _ => Status::Internal,
         };

@@ -35,8 +35,8 @@ pub use api::{
     CandidateBoxes, CollisionDetector, ContactGeometry, Criterion, MeshMotion, World, WorldContact, WorldContactGeometry,
     WorldError,
 };
-pub use engine::StepStatistics;
 pub use engine::world::MeshHandle;
+pub use engine::{DEFAULT_MEMORY_LIMIT, StepStatistics};
 pub use mesh::{FeaturePair, Mesh, Topology, TopologyError, TopologyStatistics};
 pub use pair_counts::PairCounts;
 #[cfg(feature = "parallel")]

@@ -1,8 +1,8 @@
-//! How many pairs of each kind.
+//! Counts of pairs by kind.
 
 use std::ops::AddAssign;
 
-/// How many pairs of each kind.
+/// The number of pairs of each kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PairCounts {
     /// Vertex–face pairs.
@@ -12,13 +12,7 @@ pub struct PairCounts {
 }
 
 impl PairCounts {
-    /// No pairs.
-    pub(crate) const NONE: Self = Self {
-        vertex_face: 0,
-        edge_edge: 0,
-    };
-
-    /// Both kinds together.
+    /// Returns the number of pairs of both kinds.
     #[must_use]
     pub const fn total(self) -> u64 {
         self.vertex_face + self.edge_edge

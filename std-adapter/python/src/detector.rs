@@ -378,6 +378,11 @@ impl Detector {
         self.change(Part::PairLimit, |settings| settings.pair_limit = limit)
     }
 
+    #[pyo3(signature = (limit=Some(selvedge::DEFAULT_MEMORY_LIMIT)), text_signature = "($self, limit=2147483648)")]
+    fn set_memory_limit(&self, limit: Option<u64>) -> PyResult<()> {
+        self.change(Part::MemoryLimit, |settings| settings.memory_limit = limit)
+    }
+
     #[getter]
     fn vertex_count(&self) -> usize {
         self.topology.vertex_count()
@@ -426,6 +431,7 @@ impl Detector {
         state.set_item("excluded", rows(py, settings.excluded)?)?;
         state.set_item("coherent", settings.coherent)?;
         state.set_item("pair_limit", settings.pair_limit)?;
+        state.set_item("memory_limit", settings.memory_limit)?;
         (slf.get_type(), made_of, state).into_pyobject(py)
     }
 
@@ -441,6 +447,7 @@ impl Detector {
         let (groups, patches, excluded) = (some("groups")?, some("patches")?, some("excluded")?);
         self.set_collision_filter(groups.as_ref(), patches.as_ref(), excluded.as_ref())?;
         self.set_coherent(entry("coherent")?.extract()?)?;
-        self.set_pair_limit(entry("pair_limit")?.extract()?)
+        self.set_pair_limit(entry("pair_limit")?.extract()?)?;
+        self.set_memory_limit(entry("memory_limit")?.extract()?)
     }
 }

@@ -19,7 +19,8 @@ exceptions!(
     SceneError,
     TangledError,
     ThreadsError,
-    TooManyPairsError
+    TooManyPairsError,
+    TooMuchMemoryError
 );
 
 pub(crate) fn of_step(error: &StepError) -> PyErr {
@@ -27,6 +28,7 @@ pub(crate) fn of_step(error: &StepError) -> PyErr {
     match error {
         StepError::Cancelled => CancelledError::new_err(text),
         StepError::TooManyPairs { .. } => TooManyPairsError::new_err(text),
+        StepError::TooMuchMemory { .. } => TooMuchMemoryError::new_err(text),
         _ => InputError::new_err(text),
     }
 }

@@ -4,7 +4,7 @@ use numpy::Element;
 use selvedge::core::elementary::Limits;
 use selvedge::core::narrowing::rounded_up;
 use selvedge::{
-    CollisionDetector, CollisionFilter, Contact, ContactGeometry, Criterion, Groups, Scalar, StepError, ThreadError, Threads,
+    CollisionDetector, CollisionFilter, Contact, ContactGeometry, Criterion, DEFAULT_MEMORY_LIMIT, Groups, Scalar, StepError, ThreadError, Threads,
     Topology,
 };
 use std::sync::Arc;
@@ -22,6 +22,7 @@ pub(crate) struct Settings {
     pub(crate) excluded: Vec<[u32; 2]>,
     pub(crate) coherent: bool,
     pub(crate) pair_limit: Option<u64>,
+    pub(crate) memory_limit: Option<u64>,
 }
 
 impl Default for Settings {
@@ -37,6 +38,7 @@ impl Default for Settings {
             excluded: Vec::new(),
             coherent: false,
             pair_limit: None,
+            memory_limit: Some(DEFAULT_MEMORY_LIMIT),
         }
     }
 }
@@ -50,15 +52,17 @@ pub(crate) enum Part {
     Filter,
     Coherent,
     PairLimit,
+    MemoryLimit,
 }
 
-const PARTS: [Part; 6] = [
+const PARTS: [Part; 7] = [
     Part::Threads,
     Part::Limits,
     Part::Moving,
     Part::Filter,
     Part::Coherent,
     Part::PairLimit,
+    Part::MemoryLimit,
 ];
 
 pub(crate) enum SettingError {
@@ -141,6 +145,7 @@ impl<S: Scalar> Finder<S> {
             }
             Part::Coherent => detector.set_coherent(settings.coherent),
             Part::PairLimit => detector.set_pair_limit(settings.pair_limit),
+            Part::MemoryLimit => detector.set_memory_limit(settings.memory_limit),
         }
         Ok(())
     }

@@ -147,6 +147,17 @@ def test_more_pairs_than_allowed():
         detector.set_pair_limit(-1)
 
 
+def test_more_contacts_than_memory_is_allowed_for():
+    detector = Detector(FACES, 6)
+    detector.set_memory_limit(47)
+    end = START.copy()
+    end[3:, 2] -= 2.0
+    with pytest.raises(errors.TooMuchMemoryError, match="more than 47 bytes"):
+        detector.contacts(START, end)
+    detector.set_memory_limit(None)
+    assert len(detector.contacts(START, end)) > 0
+
+
 @pytest.mark.parametrize(
     ("kind", "start", "words"),
     [

@@ -252,6 +252,7 @@ def test_a_pickled_detector_has_its_settings(falling):
     detector.set_collision_filter(patches=[0, 1, 2, 3, 4, 5], excluded=[[0, 3]], groups=np.full((6, 2), 3))
     detector.set_coherent(True)
     detector.set_pair_limit(12345)
+    detector.set_memory_limit(1 << 20)
     again = pickle.loads(pickle.dumps(detector))
     assert again.__reduce__()[1][1:] == detector.__reduce__()[1][1:]
     for name, value in detector.__reduce__()[2].items():

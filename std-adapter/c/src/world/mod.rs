@@ -224,6 +224,16 @@ pub extern "C" fn selvedge_world_set_pair_limit(world: *mut WorldHandle, limit: 
     })
 }
 
+/// Sets the most memory that the contacts of a step may take, as for a detector. UINT64_MAX is no limit.
+#[unsafe(no_mangle)]
+pub extern "C" fn selvedge_world_set_memory_limit(world: *mut WorldHandle, limit: u64) -> Status {
+    on(world, |it| {
+        let limit = Some(limit).filter(|&limit| limit != u64::MAX);
+        with_either!(&mut it.finder, finder => finder.world.set_memory_limit(limit));
+        Ok(())
+    })
+}
+
 /// The arguments of an insertion.
 struct Inserted<S> {
     vertex_count: usize,

@@ -372,6 +372,10 @@ static void cut_short(selvedge_detector *detector) {
     answers_as_ever(detector);
     EXPECT(OK, selvedge_detector_contacts_f64(detector, START, END, VERTICES, &contacts, &count));
   }
+  EXPECT(OK, selvedge_detector_set_memory_limit(detector, 2 * 48));
+  EXPECT(TOO_MUCH_MEMORY, selvedge_detector_contacts_f64(detector, START, END, VERTICES, &contacts, &count));
+  EXPECT(OK, selvedge_detector_set_memory_limit(detector, UINT64_MAX));
+  EXPECT(OK, selvedge_detector_contacts_f64(detector, START, END, VERTICES, &contacts, &count));
 }
 
 /* A leak would be found here, by the sanitizer. */
@@ -517,6 +521,9 @@ static void worlds(void) {
   EXPECT(OK, selvedge_world_set_pair_limit(world, 0));
   EXPECT(TOO_MANY_PAIRS, CONTACTS(&falls, 1, NULL, 0));
   EXPECT(OK, selvedge_world_set_pair_limit(world, UINT64_MAX));
+  EXPECT(OK, selvedge_world_set_memory_limit(world, 0));
+  EXPECT(TOO_MUCH_MEMORY, CONTACTS(&falls, 1, NULL, 0));
+  EXPECT(OK, selvedge_world_set_memory_limit(world, UINT64_MAX));
   EXPECT(OK, selvedge_world_set_cancelled(world, 1));
   EXPECT(CANCELLED, CONTACTS(&falls, 1, NULL, 0));
   EXPECT(OK, selvedge_world_set_cancelled(world, 0));

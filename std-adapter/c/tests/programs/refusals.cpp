@@ -62,6 +62,9 @@ static void try_all() {
   first.set_pair_limit(1);
   expect(__LINE__, SELVEDGE_STATUS_TOO_MANY_PAIRS, [&] { first.contacts(start, end); });
   first.set_pair_limit(UINT64_MAX);
+  first.set_memory_limit(1);
+  expect(__LINE__, SELVEDGE_STATUS_TOO_MUCH_MEMORY, [&] { first.contacts(start, end); });
+  first.set_memory_limit(UINT64_MAX);
   first.set_cancelled(true);
   expect(__LINE__, SELVEDGE_STATUS_CANCELLED, [&] { first.contacts(start, end); });
   first.set_cancelled(false);

@@ -1,7 +1,7 @@
 //! A mesh's contacts, step by step.
 
 use super::criterion::{CandidateBoxes, Criterion};
-use crate::engine::{Engine, Probe, Question, Wanted, in_format_of_positions};
+use crate::engine::{MeshEngine, Question, Wanted, in_format_of_positions};
 use crate::mesh::Topology;
 use crate::parallel::Workers;
 #[cfg(feature = "parallel")]
@@ -82,7 +82,7 @@ use std::sync::Arc;
 /// * Frames of the wrong length, and positions that are not finite, are errors.
 #[derive(Debug)]
 pub struct CollisionDetector<S: Scalar> {
-    pub(super) engine: Engine,
+    pub(super) engine: MeshEngine,
     pub(super) workers: Workers,
     criterion: Criterion<S>,
 }
@@ -92,7 +92,7 @@ impl<S: Scalar> CollisionDetector<S> {
     #[must_use]
     pub fn new(topology: impl Into<Arc<Topology>>) -> Self {
         Self {
-            engine: Engine::new(topology.into()),
+            engine: MeshEngine::new(topology.into()),
             workers: Workers::default(),
             criterion: Criterion::default(),
         }
@@ -199,9 +199,9 @@ impl<S: Scalar> CollisionDetector<S> {
     ) -> Result<(), StepError> {
         let step = self.step(start, end)?;
         let question = self.question(Wanted::All);
-        self.engine.run(&self.workers, &step, &question, Probe::WHOLE);
+        self.engine.run(&self.workers, &step, &question);
         self.engine.collect_contacts(contacts);
-        self.engine.stop.result()
+        self.engine.pairs.stop.result()
     }
 
     /// The earliest contact of the step; of several at the same time the one with the smallest numbers, vertex–face first.
@@ -229,7 +229,7 @@ impl<S: Scalar> CollisionDetector<S> {
         let step = self.step(start, end)?;
         let question = self.question(Wanted::Earliest);
         let earliest = self.engine.earliest(&self.workers, &step, &question);
-        self.engine.stop.result()?;
+        self.engine.pairs.stop.result()?;
         Ok(earliest.as_ref().map(in_format_of_positions))
     }
 
@@ -240,11 +240,11 @@ impl<S: Scalar> CollisionDetector<S> {
     pub fn is_free<P: Position<Scalar = S>>(&mut self, start: &[P], end: &[P]) -> Result<bool, StepError> {
         let step = self.step(start, end)?;
         let question = self.question(Wanted::Any);
-        self.engine.run(&self.workers, &step, &question, Probe::WHOLE);
+        self.engine.run(&self.workers, &step, &question);
         if self.engine.statistics().contacts.total() > 0 {
             return Ok(false);
         }
-        self.engine.stop.result()?;
+        self.engine.pairs.stop.result()?;
         Ok(true)
     }
 
@@ -319,8 +319,8 @@ impl<S: Scalar> CollisionDetector<S> {
         let step = self.step(start, end)?;
         let separation = self.question(Wanted::All).limits.separation;
         self.engine
-            .candidates(&self.workers, &step, separation, boxes.are_swept(), vertex_face, edge_edge);
-        self.engine.stop.result()
+            .candidates(&self.workers, &step, separation, boxes.are_swept(), [vertex_face, edge_edge]);
+        self.engine.pairs.stop.result()
     }
 
     /// Replaces `contacts` by those of the pairs given, in their order, vertex–face first: a vertex and a face, or two edges.
@@ -343,7 +343,7 @@ impl<S: Scalar> CollisionDetector<S> {
         self.engine
             .run_on(&self.workers, &step, &question, [vertex_face, edge_edge])?;
         self.engine.collect_contacts(contacts);
-        self.engine.stop.result()
+        self.engine.pairs.stop.result()
     }
 
     /// The mesh's vertices, edges and triangles.
@@ -359,7 +359,7 @@ impl<S: Scalar> CollisionDetector<S> {
     }
 
     pub(super) fn step<'a, P: Position>(&self, start: &'a [P], end: &'a [P]) -> Result<Step<'a, P>, StepError> {
-        self.engine.stop.admits()?;
+        self.engine.pairs.stop.admits()?;
         Step::checked(start, end, self.topology().vertex_count())
     }
 

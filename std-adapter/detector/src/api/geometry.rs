@@ -127,8 +127,8 @@ impl<S: Scalar> CollisionDetector<S> {
         let distance = widened(&limits).separation;
         let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
         self.engine
-            .candidates(&self.workers, &step, distance, false, &mut vertex_face, &mut edge_edge);
-        self.engine.stop.result()?;
+            .candidates(&self.workers, &step, distance, false, [&mut vertex_face, &mut edge_edge]);
+        self.engine.pairs.stop.result()?;
         near.clear();
         let topology = self.engine.topology();
         let error = GapError::from_largest_coordinate(largest_coordinate(positions).to_f64());
@@ -148,6 +148,8 @@ impl<S: Scalar> CollisionDetector<S> {
                     near.extend(chunk.iter().copied().filter(is_near));
                 });
             });
+            self.engine.pairs.stop.stores(pairs.len() * size_of::<ContactGeometry>());
+            self.engine.pairs.stop.result()?;
             pairs.sort_unstable();
             let mut found = Vec::new();
             self.workers.run(|| {

@@ -48,7 +48,7 @@ impl<S: Scalar> CollisionDetector<S> {
     ) -> Result<(), StepError> {
         let step = self.step(positions, positions)?;
         self.engine.intersections(&self.workers, &step, Wanted::All, intersections);
-        self.engine.stop.result()
+        self.engine.pairs.stop.result()
     }
 
     /// Whether there is any of the [`intersections`](Self::intersections). Ends at the first.
@@ -62,7 +62,7 @@ impl<S: Scalar> CollisionDetector<S> {
         if !found.is_empty() {
             return Ok(true);
         }
-        self.engine.stop.result()?;
+        self.engine.pairs.stop.result()?;
         Ok(false)
     }
 }

@@ -1,7 +1,7 @@
 //! Counts and times of a step, its intermediate pairs, and the instruction set.
 
 use super::detector::CollisionDetector;
-use crate::engine::{Probe, Question, StepStatistics, Wanted};
+use crate::engine::{Question, StepStatistics, Wanted};
 use crate::simd::Level;
 use crate::step::{Contact, StepError};
 use selvedge_core::{Position, Scalar};
@@ -29,10 +29,10 @@ impl<S: Scalar> CollisionDetector<S> {
             keeps_filtered: true,
             ..self.question(Wanted::All)
         };
-        self.engine.run(&self.workers, &step, &question, Probe::WHOLE);
+        self.engine.run(&self.workers, &step, &question);
         self.engine.collect_contacts(contacts);
-        self.engine.collect_kept(vertex_face, edge_edge);
-        self.engine.stop.result()
+        self.engine.collect_kept([vertex_face, edge_edge]);
+        self.engine.pairs.stop.result()
     }
 
     /// Returns how often near pairs were searched for since the steps became [coherent](Self::set_coherent).

@@ -145,8 +145,13 @@ impl<P: Position> World<P> {
     }
 
     /// Most pairs that a step may look at, as for a [detector](crate::CollisionDetector::set_pair_limit).
-    pub const fn set_pair_limit(&mut self, limit: Option<u64>) {
-        self.stage.engine.stop.set_limit(limit);
+    pub fn set_pair_limit(&mut self, limit: Option<u64>) {
+        self.stage.engine.stop.set_pair_limit(limit);
+    }
+
+    /// Sets the most memory that the contacts of a step may take, in bytes, as for a [detector](crate::CollisionDetector::set_memory_limit).
+    pub fn set_memory_limit(&mut self, limit: Option<u64>) {
+        self.stage.engine.stop.set_memory_limit(limit);
     }
 
     /// A new mesh that rests, at these positions. `groups` say which meshes it is looked at with, itself among them.

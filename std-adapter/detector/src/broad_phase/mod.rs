@@ -1,10 +1,10 @@
-//! Candidate vertex–face and edge–edge pairs, straight from hierarchies of moving boxes.
+//! Candidate vertex–face and edge–edge pairs, from hierarchies of moving boxes.
 //!
-//! Each vertex, edge and face has its box at the start and its box at the end of the step
-//! ([`selvedge_core::boxes::moving`]). Two of them whose boxes keep one order along an axis cannot meet; the others are
-//! candidates, unless they have a vertex in common. That holds for groups of them as well, so three hierarchies, over
-//! vertices, edges and faces, find the candidates without looking at every pair: no triangle pairs, no distribution, no
-//! pair twice.
+//! Each vertex, edge and face has a box at the start and a box at the end of the step ([`selvedge_core::boxes::moving`]). Two primitives whose
+//! boxes keep one order along an axis cannot meet. All others are candidates, unless they have a vertex in common. The same test holds for
+//! groups of primitives. So three hierarchies, over vertices, edges and faces, find each candidate once without looking at every pair.
+//!
+//! A [`CollisionDetector`](crate::CollisionDetector) holds such a broad phase. Use [`MovingBroadPhase`] by itself for stages of your own.
 //!
 //! ```
 //! use selvedge::{CandidateBoxes, CollisionDetector, Topology, glam::DVec3};
@@ -27,15 +27,17 @@
 //! ```
 //!
 //! # Which pairs
-//! Exactly those that [relative boxes along three axes](selvedge_core::boxes::relative::three_axes) leave, of `f32` positions
-//! and of `f64` positions that are `f32` numbers, unless the mesh is far from the origin for its size. Other `f64` positions are
-//! [rounded to `f32`](selvedge_core::boxes::mapping) for the boxes: pairs that are apart by less than that are candidates too, none is lost.
+//! The candidates are those that [relative boxes along three axes](selvedge_core::boxes::relative::three_axes) leave, for `f32` positions and for
+//! `f64` positions that are `f32` numbers, unless the mesh is far from the origin for its size. Other `f64` positions are
+//! [rounded to `f32`](selvedge_core::boxes::mapping) for the boxes. Pairs that are apart by less than the rounding are then candidates too; none
+//! is lost.
 //!
-//! The order of the candidates depends on the hierarchies, and so on the steps before: the same sequence of steps gives the
-//! same candidates in the same order, on any number of threads and every instruction set.
+//! The order of the candidates depends on the hierarchies, and so on earlier steps. The same sequence of steps gives the same candidates in the
+//! same order, on any number of threads and every instruction set.
 
 mod degradation;
 mod hierarchies;
+mod hubs;
 mod neighbours;
 mod order;
 mod over_meshes;
@@ -46,27 +48,26 @@ mod traversal;
 mod tree;
 
 pub use degradation::{Degradation, Prices};
-pub(crate) use hierarchies::{Fit, Hierarchies, Share, mapping_within};
+pub(crate) use hierarchies::{Fit, Hierarchies, mapping_within};
 pub use neighbours::Neighbours;
 pub use order::{Centre, LEAF, order};
 pub(crate) use over_meshes::MeshHierarchy;
-pub(crate) use pairing::Pairing;
+pub(crate) use pairing::{FacesAndEdges, Pairing};
 pub(crate) use pairs::{CHUNK, Sink};
 pub(crate) use rows::{RowSlices, Rows};
 pub(crate) use traversal::{BlockPair, Scratch};
 
-use crate::PairKind;
 use crate::buffer::settle;
 use crate::mesh::Topology;
 use crate::parallel;
 use crate::simd::Level;
-use crate::step::{CollisionFilter, Step, StepError, check_length};
+use crate::step::{CollisionFilter, Motions, Step, StepError, check_length};
 use selvedge_core::Position;
 use selvedge_core::glam::DVec3;
 use std::mem::swap;
 use std::sync::Arc;
 
-/// What a [`MovingBroadPhase`] has done so far. Counts do not depend on the number of threads.
+/// Counts of a [`MovingBroadPhase`]. They do not depend on the number of threads.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MovingStatistics {
     /// How often the hierarchies were built, the first time included.
@@ -77,17 +78,20 @@ pub struct MovingStatistics {
     pub candidates: usize,
 }
 
-/// Finds the vertex–face and edge–edge pairs that moving boxes leave; see the module.
+/// Finds the vertex–face and edge–edge pairs that moving boxes leave; see the [module](self).
 ///
-/// On the rayon pool in which it is called; outside of one on the calling thread.
+/// It runs on the rayon pool of the caller, if there is one, and otherwise on the calling thread.
 #[derive(Debug)]
 pub struct MovingBroadPhase {
     pub(crate) hierarchies: Hierarchies,
     fit: Fit,
+    /// Of VF and EE pairs.
+    tasks: [Vec<BlockPair>; 2],
+    stack: Vec<BlockPair>,
     collectors: Vec<Collector>,
 }
 
-/// One share of the work, and what it found.
+/// One share of a traversal, and what it finds.
 #[derive(Debug)]
 struct Collector {
     scratch: Scratch,
@@ -97,68 +101,68 @@ struct Collector {
 }
 
 impl MovingBroadPhase {
-    /// A broad phase for a mesh.
+    /// Makes a broad phase for a mesh.
     #[must_use]
     pub fn new(topology: impl Into<Arc<Topology>>) -> Self {
         Self {
             hierarchies: Hierarchies::new(topology.into()),
             fit: Fit::default(),
+            tasks: [Vec::new(), Vec::new()],
+            stack: Vec::new(),
             collectors: Vec::new(),
         }
     }
 
-    /// Forces the instruction set; the best that the machine has is the default. Changes no result.
+    /// Forces the instruction set; the default is the best that the machine has. Changes no result.
     pub const fn set_level(&mut self, level: Level) {
         self.hierarchies.set_level(level);
     }
 
-    /// From the next update on: pairs that come within `separation` of each other are candidates too. Zero at first.
+    /// Makes pairs that come within `separation` of each other candidates too, from the next update on. Zero at first.
     ///
     /// # Errors
-    /// If it is negative, infinite or NaN. Then it stays as it was.
+    /// If `separation` is negative, infinite or NaN. The old one then stays.
     pub fn set_separation(&mut self, separation: f64) -> Result<(), StepError> {
         check_length(separation)?;
         self.fit.separation = separation;
         Ok(())
     }
 
-    /// From the next update on: whether boxes that overlap at different times make a candidate, as swept boxes do, the common
-    /// choice elsewhere. Off at first.
+    /// Sets whether boxes that overlap at different times make a candidate, from the next update on. This is the common choice elsewhere: swept
+    /// boxes. Off at first.
     pub const fn set_swept(&mut self, swept: bool) {
         self.fit.is_swept = swept;
     }
 
-    /// From the next update on only pairs with a vertex that is `wanted` are candidates, one entry for each vertex of the mesh:
-    /// pairs of cloth, say, and not those of bodies among themselves. What is found then does not depend on the steps before but for
-    /// its order.
+    /// Finds only pairs with a `wanted` vertex from the next update on, such as pairs of cloth but not of bodies among themselves. There is one
+    /// entry for each vertex. Earlier steps then only change the order of the candidates.
     ///
     /// # Panics
-    /// At the next update, if there are fewer entries than vertices.
+    /// The next update panics if there are fewer entries than vertices.
     pub fn set_wanted(&mut self, wanted: Vec<bool>) {
         self.hierarchies.set_wanted(wanted);
     }
 
-    /// From the next update on these pairs are candidates only if they come within the [separation](Self::set_separation_of_neighbours) of
-    /// their own, if that is smaller.
+    /// Makes these pairs candidates only within the [separation of neighbours](Self::set_separation_of_neighbours), if that is smaller.
     ///
     /// # Panics
-    /// At the next update, if they are of fewer vertices.
+    /// The next update panics if there are fewer vertices than in the mesh.
     pub(crate) fn set_neighbours(&mut self, neighbours: Option<Arc<Neighbours>>) {
         self.hierarchies.set_neighbours(neighbours);
     }
 
-    /// From the next update on: the separation of [neighbours](Self::set_neighbours), if it is smaller than that of others.
+    /// Sets the separation of [neighbours](Self::set_neighbours) from the next update on, if it is smaller than that of others.
     pub(crate) const fn set_separation_of_neighbours(&mut self, separation: f64) {
         self.fit.of_neighbours = separation;
     }
 
-    /// From the next update on only pairs that the filter allows are candidates; `None`: all.
+    /// Finds only pairs that the filter allows from the next update on; `None` finds all.
     pub(crate) fn set_filter(&mut self, filter: Option<Arc<CollisionFilter>>) {
         self.hierarchies.set_filter(filter);
     }
 
-    /// From the next update on only pairs with a `wanted` vertex are candidates, and only such vertices have moved since the last
-    /// update. Hierarchies are not built then.
+    /// Finds only pairs with a `wanted` vertex from the next update on. Only wanted vertices may have moved since the last update. The hierarchies
+    /// are not built then.
     pub fn narrow_to(&mut self, wanted: Vec<bool>) {
         self.hierarchies.narrow_to(wanted);
     }
@@ -168,73 +172,91 @@ impl MovingBroadPhase {
         self.hierarchies.build_if_degraded(&Step::of_finite(start, end));
     }
 
-    /// Takes the positions of a step. Builds the hierarchies in the first step and when they have degraded, refits them
-    /// otherwise.
+    /// Takes the positions of a step. Refits the hierarchies, or builds them in the first step and when they have degraded.
     ///
-    /// They have degraded when the candidates found since they were built have cost more, beyond what they cost just after,
-    /// than building them anew.
+    /// Hierarchies have degraded when the searches since they were built have cost more than a new build, beyond what they would cost just after it.
     ///
     /// # Errors
     /// If a frame's length is not the mesh's number of vertices, or a coordinate is NaN or infinite.
     pub fn update<P: Position>(&mut self, start: &[P], end: &[P]) -> Result<(), StepError> {
         let step = Step::checked(start, end, self.hierarchies.topology().vertex_count())?;
-        self.hierarchies.update(&step, &self.fit);
+        let fit = self.fit;
+        self.fit_boxes(&step, &fit);
         Ok(())
     }
 
-    /// Replaces `vertex_face` and `edge_edge` by the candidates of the last update: vertex and face, or two edges, the smaller
-    /// number first, as the topology numbers them.
+    /// Takes the positions of a step.
+    pub(crate) fn fit_boxes(&mut self, motions: &dyn Motions, fit: &Fit) {
+        self.hierarchies.fit_boxes(motions, fit);
+    }
+
+    /// Replaces `vertex_face` and `edge_edge` by the candidates of the last update: vertex and face, or two edges with the smaller number first, as
+    /// the topology numbers them.
     pub fn candidates(&mut self, vertex_face: &mut Vec<[u32; 2]>, edge_edge: &mut Vec<[u32; 2]>) {
         self.candidates_until(&|_| true, vertex_face, edge_edge);
     }
 
-    /// As [`candidates`](Self::candidates), as long as `goes_on`, which is told of how many more pairs there are.
+    /// Finds [candidates](Self::candidates) as long as `continues` says so. It is called with the number of pairs that come next.
     pub(crate) fn candidates_until(
         &mut self,
-        goes_on: &(dyn Fn(usize) -> bool + Sync),
+        continues: &(dyn Fn(usize) -> bool + Sync),
         vertex_face: &mut Vec<[u32; 2]>,
         edge_edge: &mut Vec<[u32; 2]>,
     ) {
-        let shares = self.hierarchies.shares();
-        self.collectors.resize_with(shares, Collector::new);
-        let hierarchies = &self.hierarchies;
-        // The first share of each kind goes straight into the caller's list; on one thread that is all.
-        let firsts = [0, shares / 2];
-        swap(&mut self.collectors[firsts[0]].pairs, vertex_face);
-        swap(&mut self.collectors[firsts[1]].pairs, edge_edge);
-        parallel::for_each(&mut self.collectors, |index, collector| {
-            collector.collect(hierarchies, hierarchies.share(index), goes_on);
-        });
-        swap(&mut self.collectors[firsts[0]].pairs, vertex_face);
-        swap(&mut self.collectors[firsts[1]].pairs, edge_edge);
-        for (index, collector) in self.collectors.iter_mut().enumerate() {
-            if firsts.contains(&index) {
-                continue;
-            }
-            let found = match self.hierarchies.share(index).kind {
-                PairKind::VertexFace => &mut *vertex_face,
-                PairKind::EdgeEdge => &mut *edge_edge,
-            };
-            found.extend_from_slice(&collector.pairs);
-            settle(&mut collector.pairs);
+        let pairings = Pairing::all_within(&self.hierarchies);
+        let mut tests = 0;
+        for (pairing, tasks) in pairings.iter().zip(&mut self.tasks) {
+            tasks.clear();
+            tests += pairing.find_tasks(&mut self.stack, tasks);
+            settle(tasks);
         }
-        settle(vertex_face);
-        settle(edge_edge);
-        let tests = self.collectors.iter().map(|collector| collector.tests);
-        self.hierarchies.observe(tests.sum(), vertex_face.len() + edge_edge.len());
+        // So many that a slow one does not keep the others waiting.
+        let shares = match parallel::threads() {
+            1 => 1,
+            threads => SHARES * threads,
+        };
+        self.collectors.resize_with(2 * shares, Collector::new);
+        let lists = [&mut *vertex_face, &mut *edge_edge];
+        let of_kinds = self.collectors.chunks_mut(shares);
+        // The first share of each kind writes into the caller's list: on one thread that is all.
+        for (collectors, list) in of_kinds.zip(lists) {
+            swap(&mut collectors[0].pairs, list);
+        }
+        let tasks = &self.tasks;
+        parallel::for_each(&mut self.collectors, |index, collector| {
+            let (kind, share) = (index / shares, index % shares);
+            let place = |share: usize| tasks[kind].len() * share / shares;
+            collector.collect(&pairings[kind], &tasks[kind][place(share)..place(share + 1)], continues);
+        });
+        let mut candidates = 0;
+        let lists = [vertex_face, edge_edge];
+        for (collectors, list) in self.collectors.chunks_mut(shares).zip(lists) {
+            swap(&mut collectors[0].pairs, list);
+            for collector in &mut collectors[1..] {
+                list.extend_from_slice(&collector.pairs);
+                settle(&mut collector.pairs);
+            }
+            settle(list);
+            candidates += list.len();
+            tests += collectors.iter().map(|collector| collector.tests).sum::<u64>();
+        }
+        self.hierarchies.observe(tests, candidates);
     }
 
-    /// How many neighbours the last traversal left out, though they are within the separation of others.
+    /// Returns how many neighbours the last traversal left out, though they are within the separation of others.
     pub(crate) fn neighbours_left_out(&self) -> u64 {
         self.collectors.iter().map(|collector| collector.left_out).sum()
     }
 
-    /// Counts of what was done.
+    /// Returns counts of the work so far.
     #[must_use]
     pub const fn statistics(&self) -> MovingStatistics {
         self.hierarchies.statistics()
     }
 }
+
+/// Shares of a traversal for each thread and kind.
+const SHARES: usize = 16;
 
 impl Collector {
     fn new() -> Self {
@@ -246,33 +268,31 @@ impl Collector {
         }
     }
 
-    fn collect(&mut self, hierarchies: &Hierarchies, share: Share<'_>, goes_on: &(dyn Fn(usize) -> bool + Sync)) {
+    fn collect(&mut self, pairing: &Pairing<'_>, tasks: &[BlockPair], continues: &(dyn Fn(usize) -> bool + Sync)) {
         self.pairs.clear();
         let mut collected = Collected {
-            hierarchies,
-            kind: share.kind,
+            pairing,
             pairs: &mut self.pairs,
-            goes_on,
+            continues,
         };
-        let tests = hierarchies.visit(share, &mut self.scratch, &mut collected);
-        self.tests = tests.unwrap_or(0);
+        self.tests = pairing.visit(tasks, &mut self.scratch, &mut collected).unwrap_or(0);
         self.left_out = self.scratch.left_out;
     }
 }
 
 struct Collected<'a> {
-    hierarchies: &'a Hierarchies,
-    kind: PairKind,
+    pairing: &'a Pairing<'a>,
     pairs: &'a mut Vec<[u32; 2]>,
-    goes_on: &'a (dyn Fn(usize) -> bool + Sync),
+    continues: &'a (dyn Fn(usize) -> bool + Sync),
 }
 
 impl Sink for Collected<'_> {
     fn take(&mut self, pairs: &[[u32; 2]]) -> bool {
-        if !(self.goes_on)(pairs.len()) {
+        if !(self.continues)(pairs.len()) {
             return false;
         }
-        let in_mesh = |&pair| self.hierarchies.in_mesh(self.kind, pair);
+        let [hierarchies, _] = self.pairing.meshes;
+        let in_mesh = |&pair| hierarchies.in_mesh(self.pairing.kind, pair);
         self.pairs.extend(pairs.iter().map(in_mesh));
         true
     }

@@ -105,7 +105,7 @@ impl MeshHierarchy {
                 if centre.is_finite() { centre } else { 0.0 }
             })
         };
-        self.tree.build(0..self.boxes.len() as u32, centre);
+        self.tree.build(0..self.boxes.len() as u32, centre, None);
         // A mesh stands for its one vertex.
         self.tree.connect(|mesh| [mesh]);
         let members: Vec<_> = self.groups.iter().map(|&groups| Members::of_mesh(groups)).collect();

@@ -1,10 +1,11 @@
-//! The pairs of a kind within a mesh, or between two.
+//! The pairs of one kind within a mesh, or between two meshes.
 
-use super::hierarchies::{Hierarchies, TASK_LEVEL};
+use super::hierarchies::Hierarchies;
 use super::pairs::Sink;
 use super::traversal::{BlockPair, Common, Scratch, Trees};
 use super::tree::Tree;
 use crate::PairKind;
+use crate::step::CollisionFilter;
 
 /// Primitives of one mesh and of another, or of the same: vertices of the first and faces of the second, or edges of both.
 ///
@@ -17,9 +18,8 @@ pub(crate) struct Pairing<'a> {
 }
 
 impl<'a> Pairing<'a> {
-    /// Of a mesh with itself.
     #[inline(always)]
-    pub(super) const fn within(kind: PairKind, mesh: &'a Hierarchies) -> Self {
+    const fn within(kind: PairKind, mesh: &'a Hierarchies) -> Self {
         Self {
             kind,
             meshes: [mesh; 2],
@@ -55,8 +55,26 @@ impl<'a> Pairing<'a> {
         }
     }
 
-    /// Gives `sink` the candidates of some tasks, by their positions. Returns the number of tests, or `None` if the sink has had enough.
+    /// Gives `sink` the candidates of some tasks that the mesh's filter allows, by their positions. Returns the number of box tests, or `None` if
+    /// the sink stops the traversal.
     pub(crate) fn visit(&self, tasks: &[BlockPair], scratch: &mut Scratch, sink: &mut dyn Sink) -> Option<u64> {
+        let [mesh, _] = self.meshes;
+        let Some(filter) = mesh.filter.as_ref().filter(|_| self.is_within) else {
+            return self.visit_all(tasks, scratch, sink);
+        };
+        let mut allowed = Allowed {
+            hierarchies: mesh,
+            filter,
+            kind: self.kind,
+            pairs: std::mem::take(&mut scratch.allowed),
+            sink,
+        };
+        let tests = self.visit_all(tasks, scratch, &mut allowed);
+        scratch.allowed = allowed.pairs;
+        tests
+    }
+
+    fn visit_all(&self, tasks: &[BlockPair], scratch: &mut Scratch, sink: &mut dyn Sink) -> Option<u64> {
         let level = self.meshes[0].level();
         match self.kind {
             PairKind::VertexFace => self.vertex_face().pairs(level, tasks, scratch, sink),
@@ -79,7 +97,7 @@ impl<'a> Pairing<'a> {
             first,
             second,
             common: if self.is_within { within } else { Common::Nothing },
-            are_filtered: self.is_within && self.meshes[0].are_filtered(),
+            are_filtered: self.is_within && self.meshes[0].filter.is_some(),
             of_neighbours: self.meshes[0].of_neighbours().filter(|_| self.is_within),
         }
     }
@@ -111,3 +129,59 @@ impl<'a> Pairing<'a> {
         }
     }
 }
+
+/// Passes on what a filter allows.
+struct Allowed<'a> {
+    hierarchies: &'a Hierarchies,
+    filter: &'a CollisionFilter,
+    kind: PairKind,
+    pairs: Vec<[u32; 2]>,
+    sink: &'a mut dyn Sink,
+}
+
+impl Sink for Allowed<'_> {
+    fn take(&mut self, pairs: &[[u32; 2]]) -> bool {
+        let Self {
+            hierarchies,
+            filter,
+            kind,
+            pairs: allowed,
+            sink,
+        } = self;
+        allowed.clear();
+        allowed.extend(pairs.iter().filter(|&&pair| {
+            let pair = hierarchies.in_mesh(*kind, pair);
+            filter.allows(*kind, pair, hierarchies.topology().vertices_of(*kind, pair))
+        }));
+        sink.take(allowed)
+    }
+}
+
+/// Faces and edges of one mesh without a common vertex. Faces come first, since they are fewer: each is compared with sixteen edges at once.
+#[derive(Clone, Copy)]
+pub(crate) struct FacesAndEdges<'a>(pub(crate) &'a Hierarchies);
+
+impl FacesAndEdges<'_> {
+    fn trees(&self) -> Trees<'_, 3, 2> {
+        Trees {
+            first: &self.0.faces,
+            second: &self.0.edges,
+            common: Common::Mesh,
+            are_filtered: self.0.filter.is_some(),
+            of_neighbours: None,
+        }
+    }
+
+    /// Appends where to look for pairs to `tasks`. Returns the number of box tests.
+    pub(crate) fn find_tasks(&self, stack: &mut Vec<BlockPair>, tasks: &mut Vec<BlockPair>) -> u64 {
+        self.trees().tasks(self.0.level(), TASK_LEVEL, stack, tasks)
+    }
+
+    /// Gives `sink` the pairs of some tasks, by their positions. Returns the number of box tests, or `None` if the sink stops the traversal.
+    pub(crate) fn visit(&self, tasks: &[BlockPair], scratch: &mut Scratch, sink: &mut dyn Sink) -> Option<u64> {
+        self.trees().pairs(self.0.level(), tasks, scratch, sink)
+    }
+}
+
+/// Tasks are pairs of blocks of this level, of 256 primitives each.
+const TASK_LEVEL: usize = 1;

@@ -9,6 +9,7 @@
 //! [drawn in](selvedge_core::boxes::mapping::Inset) against the same sixteen. Those that are apart then are left out if they are neighbours,
 //! which the boxes at rest tell in the same way.
 
+use super::hubs::NO_HUB;
 use super::pairs::{PairBuffer, Sink};
 use super::tree::{Node, Tree};
 use selvedge_core::batch::{Compares, LANES, Level, Loop, Mask, in_lanes};
@@ -108,15 +109,18 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
         in_lanes(level, all_pairs)
     }
 
-    /// Whether nobody in one of two blocks collides with anybody in the other.
+    /// Returns whether no primitive of one block is a pair with one of the other: all have one hub, or their groups do not collide.
     #[inline(always)]
     fn are_excluded(&self, [level_a, level_b]: [u8; 2], [a, b]: [u32; 2]) -> bool {
-        let members = || {
-            let first = self.first.levels[usize::from(level_a)].members[a as usize];
-            let second = self.second.levels[usize::from(level_b)].members[b as usize];
-            first.may_collide(second)
-        };
-        self.are_filtered && !members()
+        if !self.are_filtered && !self.first.has_hubs {
+            return false;
+        }
+        let first = &self.first.levels[usize::from(level_a)];
+        let second = &self.second.levels[usize::from(level_b)];
+        let (a, b) = (a as usize, b as usize);
+        let hub = first.nodes[a].hub;
+        let have_one_hub = self.common != Common::Nothing && hub != NO_HUB && hub == second.nodes[b].hub;
+        have_one_hub || self.are_filtered && !first.members[a].may_collide(second.members[b])
     }
 
     /// Puts the pairs of blocks that two blocks hold on the stack.

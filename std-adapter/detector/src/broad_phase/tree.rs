@@ -5,6 +5,7 @@
 //! level holds the boxes of sixteen blocks, and so on up to the one block that holds all. So the tree is arrays alone: the
 //! children of block b are the blocks, or primitives, from 16b on, and no block but the last of a level has an empty lane.
 
+use super::hubs::{NO_HUB, order_by_hub};
 use super::neighbours::AtRest;
 use super::order::{Centre, LEAF, order};
 use crate::parallel;
@@ -33,6 +34,8 @@ pub(super) struct Node {
     pub(super) present: Mask,
     /// The lanes that hold something that takes part in every pair, not only in those with such a partner.
     pub(super) moving: Mask,
+    /// The hub that all primitives in it have, or [`NO_HUB`].
+    pub(super) hub: u32,
 }
 
 /// A tree over primitives of N vertices each. Empty until it is built.
@@ -48,6 +51,8 @@ pub(super) struct Tree<const N: usize> {
     pub(super) rest: Vec<RestBlock>,
     /// Blocks of primitives first.
     pub(super) levels: Vec<Level>,
+    /// Whether nodes may have a hub.
+    pub(super) has_hubs: bool,
     centres: Vec<Centre>,
 }
 
@@ -74,14 +79,23 @@ impl<const N: usize> Tree<N> {
         self.levels.len().checked_sub(1)
     }
 
-    /// Puts primitives in order by their centres. [`connect`](Self::connect) and [`refit`](Self::refit) must follow.
-    pub(super) fn build(&mut self, primitives: impl Iterator<Item = u32>, centre: impl Fn(u32) -> [f32; 3]) {
+    /// Puts primitives in order by their centres, and by their hubs if there are any. [`connect`](Self::connect) and [`refit`](Self::refit) must
+    /// follow.
+    pub(super) fn build(
+        &mut self,
+        primitives: impl Iterator<Item = u32>,
+        centre: impl Fn(u32) -> [f32; 3],
+        hub: Option<&dyn Fn(u32) -> u32>,
+    ) {
         self.centres.clear();
         self.centres.extend(primitives.map(|item| Centre {
             position: centre(item),
             item,
         }));
-        order::<LANES>(&mut self.centres);
+        match hub {
+            Some(hub) => order_by_hub(&mut self.centres, hub),
+            None => order::<LANES>(&mut self.centres),
+        }
         self.primitives.clear();
         self.primitives.extend(self.centres.iter().map(|centre| centre.item));
 
@@ -102,12 +116,27 @@ impl<const N: usize> Tree<N> {
                     bounds: MovingBox::empty(),
                     present,
                     moving: present,
+                    hub: NO_HUB,
                 }
             }));
             height += 1;
             size = if blocks > 1 { blocks } else { 0 };
         }
         self.levels.truncate(height);
+        self.has_hubs = hub.is_some();
+        if let Some(hub) = hub {
+            let mut below: Vec<u32> = self.primitives.iter().map(|&primitive| hub(primitive)).collect();
+            for level in &mut self.levels {
+                for (node, hubs) in level.nodes.iter_mut().zip(below.chunks(LANES)) {
+                    node.hub = if hubs.iter().all(|hub| hub == &hubs[0]) {
+                        hubs[0]
+                    } else {
+                        NO_HUB
+                    };
+                }
+                below = level.nodes.iter().map(|node| node.hub).collect();
+            }
+        }
     }
 
     /// Notes the vertices of each primitive, by their positions.

@@ -1,30 +1,31 @@
 //! The stages after the broad phase, on a chunk of pairs that stays in a core's own cache.
 //!
 //! ```text
-//! candidates       positions in the hierarchies, or a caller's own pairs
+//! candidates       positions in the hierarchies, or listed pairs
 //!   │  filter      certified non-coplanarity, sixteen pairs at a time
 //!   ▼
 //! open pairs       chunk by chunk
-//!   │  sweeps      one round of advancing for all that are open, again and again
-//!   │  one by one  the few that lanes cannot decide, or that are still open then; exact verdicts, if asked for
+//!   │  sweeps      one round of advancing for all open pairs, again and again
+//!   │  one by one  the few pairs that lanes cannot decide, or that are still open; exact verdicts on request
 //!   ▼
 //! contacts         in the order of the candidates
 //! ```
 //!
 //! # `f32` first
-//! Where all positions are `f32` numbers, whichever format they came in, filter and sweeps run in `f32` first: twice as many pairs
-//! in a register, half as many bytes to fetch. What that proves holds for the positions themselves. The pairs that it leaves open
-//! go on in `f64`, from the times up to which they are proven to be apart, so contacts and times are as sharp as those of `f64`. The
-//! separation and the end of the time asked about are rounded up.
+//! Where all positions are `f32` numbers, in whichever format they came, filter and sweeps run in `f32` first. A register then holds twice as
+//! many pairs, and half as many bytes are read. A proof in `f32` holds for the positions themselves. The pairs that `f32` leaves open continue
+//! in `f64`, from the times up to which they are proven apart, so contacts and times are as sharp as those of `f64`. The separation and the
+//! end of the time range are rounded up.
 
+use super::findings::{Findings, count_of};
 use super::question::{Bound, Question, Wanted};
+use super::source::Source;
 use super::stop::Stop;
-use super::sweep::{Left, MOST, Open, Sweep};
+use super::sweep::{MOST, Open, Sweep, Undecided};
 use crate::PairKind;
 use crate::broad_phase::{CHUNK, Hierarchies, Pairing, RowSlices, Sink};
 use crate::clock::Clock;
 use crate::mesh::Topology;
-use crate::pair_counts::PairCounts;
 use crate::simd::Level;
 use crate::step::Contact;
 use selvedge_core::batch::{LANES, Mask, VertexRow, culled_from_rows};
@@ -34,7 +35,6 @@ use selvedge_core::elementary::{ContactVerdict as Verdict, Impact, Limits, Reaso
 use selvedge_core::filter::{Filter, Tier};
 use selvedge_core::narrowing::rounded_up;
 use selvedge_core::{PrimitivePair, Scalar};
-use std::time::Duration;
 
 /// So many sweeps in `f64`, then one by one. Measured on cloth-ball: 5 sweeps take 20 ms more than 16, of 60; 12 take 2 more.
 const SWEEPS: usize = 16;
@@ -113,19 +113,19 @@ pub(super) struct StepInput<'a> {
 }
 
 impl<'a> StepInput<'a> {
-    /// Of pairs that are named by the mesh's numbers.
-    pub(super) fn of_mesh(
-        hierarchies: &'a Hierarchies,
-        rows: RowSlices<'a>,
-        question: &Question,
-        bound: &'a Bound,
-        stop: &'a Stop,
-    ) -> Self {
-        Self {
-            level: hierarchies.level(),
-            numbers: Numbers::Mesh(hierarchies.topology()),
+    pub(super) fn new(source: &Source<'a>, bound: &'a Bound, stop: &'a Stop) -> Self {
+        let &Source {
+            level,
+            numbers,
             rows,
-            question: *question,
+            question,
+            ..
+        } = source;
+        Self {
+            level,
+            numbers,
+            rows,
+            question,
             bound,
             stop,
         }
@@ -138,46 +138,6 @@ impl<'a> StepInput<'a> {
             kind,
             motions: rows.map(|row| self.rows.double[row as usize].motion()),
         }
-    }
-}
-
-/// What was counted and how long it took.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Tally {
-    pub(super) candidates: PairCounts,
-    pub(super) filtered: PairCounts,
-    pub(super) filter_time: Duration,
-    pub(super) elementary_time: Duration,
-}
-
-/// What a share of the work has found.
-#[derive(Debug)]
-pub(super) struct Found {
-    pub(super) contacts: Vec<Contact<f64>>,
-    /// The pairs that the filter has kept, as the mesh numbers them, if they are wanted.
-    pub(super) kept: Vec<[u32; 2]>,
-    pub(super) tally: Tally,
-}
-
-impl Found {
-    pub(super) const fn nothing() -> Self {
-        Self {
-            contacts: Vec::new(),
-            kept: Vec::new(),
-            tally: Tally {
-                candidates: PairCounts::NONE,
-                filtered: PairCounts::NONE,
-                filter_time: Duration::ZERO,
-                elementary_time: Duration::ZERO,
-            },
-        }
-    }
-
-    /// Forgets the step before.
-    pub(super) fn clear(&mut self) {
-        self.contacts.clear();
-        self.kept.clear();
-        self.tally = Tally::default();
     }
 }
 
@@ -194,6 +154,9 @@ pub(super) struct Chunk {
     /// When contact is not excluded, for each of `pairs`; [`NEVER`] where it is.
     impacts: Vec<f64>,
 }
+
+/// A contact is held once for the engine and once for the caller.
+const BYTES_OF_CONTACT: usize = 2 * size_of::<Contact<f64>>();
 
 /// A time after the step.
 const NEVER: f64 = 2.0;
@@ -217,8 +180,14 @@ impl Chunk {
     }
 
     /// Takes candidates. Returns whether to go on.
-    pub(super) fn take(&mut self, step: &StepInput<'_>, kind: PairKind, candidates: &[[u32; 2]], found: &mut Found) -> bool {
-        if !step.stop.goes_on(candidates.len()) {
+    pub(super) fn take(
+        &mut self,
+        step: &StepInput<'_>,
+        kind: PairKind,
+        candidates: &[[u32; 2]],
+        findings: &mut Findings,
+    ) -> bool {
+        if !step.stop.continues(candidates.len()) {
             return false;
         }
         let begin = Clock::now();
@@ -231,18 +200,18 @@ impl Chunk {
         } = self;
         drop_never_coplanar(step, kind, first, pairs, indices, masks);
         let kept = &self.pairs[first..];
-        *count(&mut found.tally.candidates, kind) += candidates.len() as u64;
-        *count(&mut found.tally.filtered, kind) += kept.len() as u64;
+        *count_of(&mut findings.counts.candidates, kind) += candidates.len() as u64;
+        *count_of(&mut findings.counts.filtered, kind) += kept.len() as u64;
         if step.question.keeps_filtered {
             let in_mesh = |&pair| step.numbers.in_mesh(kind, pair);
-            found.kept.extend(kept.iter().map(in_mesh));
+            findings.kept[kind as usize].extend(kept.iter().map(in_mesh));
         }
-        found.tally.filter_time += begin.elapsed();
-        self.pairs.len() < CHUNK || self.finish(step, kind, found)
+        findings.counts.filter_time += begin.elapsed();
+        self.pairs.len() < CHUNK || self.finish(step, kind, findings)
     }
 
     /// Decides all pairs that there are. Returns whether to go on.
-    pub(super) fn finish(&mut self, step: &StepInput<'_>, kind: PairKind, found: &mut Found) -> bool {
+    pub(super) fn finish(&mut self, step: &StepInput<'_>, kind: PairKind, findings: &mut Findings) -> bool {
         let begin = Clock::now();
         let until = step.bound.get();
         self.impacts.clear();
@@ -255,19 +224,27 @@ impl Chunk {
             }
         };
         self.sweep_in_double(step, kind, until, sweeps);
+        let before = findings.contacts.len();
         for (&pair, &time) in self.pairs.iter().zip(&self.impacts) {
             if time < NEVER && (!step.question.is_exact || touches(step, kind, pair, time)) {
                 step.bound.lower(step.question.wanted, time);
-                found.contacts.push(Contact {
+                findings.contacts.push(Contact {
                     kind,
                     pair: step.numbers.in_mesh(kind, pair),
                     time,
                 });
             }
         }
+        let found = findings.contacts.len() - before;
+        *count_of(&mut findings.counts.contacts, kind) += found as u64;
+        if step.question.wanted == Wanted::Earliest {
+            findings.keep_earliest();
+        } else {
+            step.stop.stores(found * BYTES_OF_CONTACT);
+        }
         self.clear();
-        found.tally.elementary_time += begin.elapsed();
-        !(step.question.wanted == Wanted::Any && step.bound.is_lowered())
+        findings.counts.elementary_time += begin.elapsed();
+        !(step.question.wanted == Wanted::Any && step.bound.is_lowered()) && !step.stop.has_stopped()
     }
 
     /// Leaves to `f64` what `f32` does not prove to be apart until the end, from when on it does not. Returns the number of sweeps.
@@ -311,8 +288,8 @@ impl Chunk {
         for number in sweeps..sweeps + SWEEPS {
             sweep.run(number, double, |place, indices, time, outcome| {
                 impacts[place as usize] = match outcome {
-                    Left::Near => time,
-                    Left::Stuck => advanced(step, kind, indices, time, until),
+                    Undecided::Near => time,
+                    Undecided::Stuck => advanced(step, kind, indices, time, until),
                 };
             });
         }
@@ -375,23 +352,16 @@ fn touches(step: &StepInput<'_>, kind: PairKind, pair: [u32; 2], time: f64) -> b
     settled(&pair, &impact) != Verdict::Never
 }
 
-fn count(counts: &mut PairCounts, kind: PairKind) -> &mut u64 {
-    match kind {
-        PairKind::VertexFace => &mut counts.vertex_face,
-        PairKind::EdgeEdge => &mut counts.edge_edge,
-    }
-}
-
 /// A chunk that takes what a traversal finds.
 pub(super) struct ChunkSink<'a> {
     pub(super) chunk: &'a mut Chunk,
-    pub(super) found: &'a mut Found,
+    pub(super) findings: &'a mut Findings,
     pub(super) step: &'a StepInput<'a>,
     pub(super) kind: PairKind,
 }
 
 impl Sink for ChunkSink<'_> {
     fn take(&mut self, pairs: &[[u32; 2]]) -> bool {
-        self.chunk.take(self.step, self.kind, pairs, self.found)
+        self.chunk.take(self.step, self.kind, pairs, self.findings)
     }
 }

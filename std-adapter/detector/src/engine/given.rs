@@ -81,47 +81,49 @@ impl PrimitiveBoxes {
         faces.extend(triangles.map(|&[a, b, c]| Row::second(&of(a).merged(of(b)).merged(of(c)))));
     }
 
-    /// Replaces `near` by the pairs that are not certainly apart, in the same order; `None` if the mesh does not have one of
-    /// the primitives.
-    #[must_use]
-    pub(super) fn keep_near(&self, level: Level, kind: PairKind, pairs: &[[u32; 2]], near: &mut Vec<[u32; 2]>) -> Option<()> {
-        let (firsts, seconds) = (&self.firsts[kind as usize], &self.seconds[kind as usize]);
+    /// Returns the pairs of the mesh that are not certainly apart, in the same order; `near` holds them.
+    pub(super) fn select_near<'a>(
+        &self,
+        level: Level,
+        kind: PairKind,
+        pairs: &[[u32; 2]],
+        near: &'a mut Vec<[u32; 2]>,
+    ) -> &'a [[u32; 2]] {
         near.clear();
         near.resize(pairs.len(), [0; 2]);
-        let keep = KeepNear {
-            firsts,
-            seconds,
+        let select = SelectNear {
+            firsts: &self.firsts[kind as usize],
+            seconds: &self.seconds[kind as usize],
             pairs,
             near,
         };
-        let kept = in_lanes(level, keep)?;
-        near.truncate(kept);
-        Some(())
+        let count = in_lanes(level, select);
+        &near[..count]
     }
 }
 
-/// `near` is as long as `pairs`. Returns how many are kept.
-struct KeepNear<'a> {
+/// Moves near pairs to the front of `near`, which is as long as `pairs`. Returns how many there are.
+struct SelectNear<'a> {
     firsts: &'a [Row],
     seconds: &'a [Row],
     pairs: &'a [[u32; 2]],
     near: &'a mut [[u32; 2]],
 }
 
-impl Loop for KeepNear<'_> {
-    type Output = Option<usize>;
+impl Loop for SelectNear<'_> {
+    type Output = usize;
 
     #[inline(always)]
-    fn run(self, lanes: impl Compares) -> Option<usize> {
+    fn run(self, lanes: impl Compares) -> usize {
         let mut kept = 0;
         for &pair in self.pairs {
             let [first, second] = pair;
-            let (limit, second) = (self.firsts.get(first as usize)?, self.seconds.get(second as usize)?);
+            let (limit, second) = (&self.firsts[first as usize], &self.seconds[second as usize]);
             let above = lanes.above(&second.0, &limit.0);
             self.near[kept] = pair;
             kept += usize::from(above & above >> 8 & 0x3F == 0);
         }
-        Some(kept)
+        kept
     }
 }
 
@@ -143,8 +145,7 @@ mod tests {
         boxes.fit(&topology, &Step::checked(&start, &end, 6).unwrap(), separation);
         let mut answers = available_levels().into_iter().map(|(_, level)| {
             let mut near = Vec::new();
-            let known = boxes.keep_near(level, PairKind::VertexFace, &[[3, 0]], &mut near);
-            assert_eq!(known, Some(()));
+            let near = boxes.select_near(level, PairKind::VertexFace, &[[3, 0]], &mut near);
             !near.is_empty()
         });
         let answer = answers.next().unwrap();
@@ -185,10 +186,7 @@ mod tests {
         let mut near = Vec::new();
         let pairs = [[3, 1], [0, 1], [3, 0], [1, 0], [2, 1]];
         let level = crate::simd::best_level();
-        let mut keep = |pairs: &[[u32; 2]]| boxes.keep_near(level, PairKind::VertexFace, pairs, &mut near);
-        assert_eq!(keep(&[[0, 1], [4, 0]]), None);
-        assert_eq!(keep(&[[0, 2]]), None);
-        assert_eq!(keep(&pairs), Some(()));
+        let near = boxes.select_near(level, PairKind::VertexFace, &pairs, &mut near);
         // Vertex 3 is above the first triangle's box.
         assert_eq!(near, [[3, 1], [0, 1], [1, 0], [2, 1]]);
     }

@@ -26,11 +26,13 @@
 //! for triangles that name a vertex twice: such is an edge, and all that its end may touch is a face with its other end. And for those
 //! that name one vertex only: such is a point, which has no edge, so that it is looked at with every face.
 
-use super::chunk::{Chunk, ChunkSink, Found, Numbers, StepInput, drop_never_coplanar};
-use super::engine::{Engine, Space, Worker, own_space, shares, spaces_for_threads};
+use super::chunk::{Chunk, ChunkSink, Numbers, StepInput, drop_never_coplanar};
+use super::findings::Findings;
+use super::mesh_engine::MeshEngine;
+use super::pair_engine::{Space, own_space, shares, spaces_for_threads};
 use super::question::{Bound, Question, Wanted};
 use crate::PairKind;
-use crate::broad_phase::{CHUNK, Fit, Hierarchies, Rows, Sink};
+use crate::broad_phase::{BlockPair, CHUNK, FacesAndEdges, Fit, Hierarchies, Pairing, Rows, Sink};
 use crate::mesh::{Hinge, Hinges};
 use crate::parallel::{self, Workers};
 use crate::step::{Contact, Intersection, Motions};
@@ -39,7 +41,16 @@ use selvedge_core::batch::{Mask, VertexRow};
 use selvedge_core::elementary::Limits;
 use selvedge_core::separation::hinge::is_wide_open;
 
-impl Engine {
+/// Where a traversal looks for pairs at rest.
+#[derive(Debug, Default)]
+pub(super) struct RestTasks {
+    faces_and_edges: Vec<BlockPair>,
+    /// If there are loose edges or points.
+    vertices_and_faces: Vec<BlockPair>,
+    stack: Vec<BlockPair>,
+}
+
+impl MeshEngine {
     /// Replaces `found` by the intersections of a mesh at rest, or by some of them if any will do.
     pub(crate) fn intersections(
         &mut self,
@@ -48,7 +59,7 @@ impl Engine {
         wanted: Wanted,
         found: &mut Vec<Intersection>,
     ) {
-        // Whether a state is free does not depend on who is to collide.
+        // Whether a state is free does not depend on the collision filter.
         let filter = self.filter.take();
         if filter.is_some() {
             self.broad_phase.set_filter(None);
@@ -62,62 +73,81 @@ impl Engine {
 
     fn intersections_here(&mut self, motions: &dyn Motions, wanted: Wanted, found: &mut Vec<Intersection>) {
         found.clear();
-        self.stop.begin();
+        self.pairs.stop.begin();
         let hierarchies = &mut self.broad_phase.hierarchies;
-        hierarchies.update(motions, &Fit::default());
-        hierarchies.find_face_edge_tasks();
+        hierarchies.fit_boxes(motions, &Fit::default());
         let hierarchies = &*hierarchies;
         set_rows(&mut self.rows, hierarchies);
         let hinges = self.hinges.get_or_insert_with(|| Hinges::new(hierarchies.topology()));
+        let mut tests = self.rest_tasks.find(hierarchies, hinges);
 
-        spaces_for_threads(&mut self.spaces);
+        spaces_for_threads(&mut self.pairs.spaces);
         let bound = Bound::new(1.0);
-        let look = Look {
+        let search = RestSearch {
             step: StepInput {
                 level: hierarchies.level(),
                 numbers: Numbers::FacesAndEdges(hierarchies),
                 rows: self.rows.slices(),
                 question: Question {
-                    // How near the sweeps come before the exact verdict is asked. It changes no answer.
+                    // How near the sweeps come before the exact verdict. Changes no answer.
                     limits: Limits::default(),
                     wanted,
                     keeps_filtered: false,
                     is_exact: true,
                 },
                 bound: &bound,
-                stop: &self.stop,
+                stop: &self.pairs.stop,
             },
             hierarchies,
             hinges,
+            tasks: &self.rest_tasks,
         };
-        let parts = [Part::FacesAndEdges, Part::Hinges, Part::LooseFeatures];
-        let (mut tests, mut candidates) = (0, 0);
-        for part in parts {
+        let mut candidates = 0;
+        for part in [Part::FacesAndEdges, Part::Hinges, Part::LooseFeatures] {
             let shares = shares();
-            self.workers.resize_with(shares, Worker::new);
-            let spaces = &self.spaces;
-            parallel::for_each(&mut self.workers, |share, worker| {
-                worker.found.clear();
+            self.pairs.workers.resize_with(shares, Default::default);
+            let spaces = &self.pairs.spaces;
+            parallel::for_each(&mut self.pairs.workers, |share, worker| {
+                worker.findings.clear();
                 worker.tests = 0;
-                if !look.has_enough() {
-                    worker.tests = look.at(part, [share, shares], &mut own_space(spaces), &mut worker.found);
+                if !search.has_enough() {
+                    worker.tests = search.share(part, [share, shares], &mut own_space(spaces), &mut worker.findings);
                 }
             });
-            for worker in &self.workers {
+            for worker in &self.pairs.workers {
                 if matches!(part, Part::FacesAndEdges) {
                     tests += worker.tests;
-                    candidates += worker.found.tally.candidates.total();
+                    candidates += worker.findings.counts.candidates.total();
                 }
-                found.extend(worker.found.contacts.iter().map(|contact| part.intersection(contact)));
+                found.extend(worker.findings.contacts.iter().map(|contact| part.intersection(contact)));
             }
         }
         // Where a traversal ends early depends on which thread is first.
-        if !look.has_enough() {
+        if !search.has_enough() {
             self.broad_phase.hierarchies.observe_face_edge(tests, candidates as usize);
         }
         found.sort_unstable();
         found.dedup();
     }
+}
+
+impl RestTasks {
+    /// Finds where to look. Returns the box tests for faces and edges.
+    fn find(&mut self, hierarchies: &Hierarchies, hinges: &Hinges) -> u64 {
+        self.vertices_and_faces.clear();
+        if hinges.has_loose_features() {
+            let [vertex_face, _] = Pairing::all_within(hierarchies);
+            vertex_face.find_tasks(&mut self.stack, &mut self.vertices_and_faces);
+        }
+        self.faces_and_edges.clear();
+        FacesAndEdges(hierarchies).find_tasks(&mut self.stack, &mut self.faces_and_edges)
+    }
+}
+
+/// Returns one share of a list, of so many.
+fn part_of<T>(list: &[T], [share, shares]: [usize; 2]) -> &[T] {
+    let place = |share: usize| list.len() * share / shares;
+    &list[place(share)..place(share + 1)]
 }
 
 /// Some hinges of a thread's.
@@ -164,55 +194,57 @@ impl Part {
 }
 
 /// What all threads read.
-struct Look<'a> {
+struct RestSearch<'a> {
     /// Of edges and faces.
     step: StepInput<'a>,
     hierarchies: &'a Hierarchies,
     hinges: &'a Hinges,
+    tasks: &'a RestTasks,
 }
 
-impl Look<'_> {
+impl RestSearch<'_> {
     /// Whether one was found, and nobody wants more, or not now.
     fn has_enough(&self) -> bool {
         let is_answered = self.step.question.wanted == Wanted::Any && self.step.bound.is_lowered();
-        is_answered || !self.step.stop.goes_on(0)
+        is_answered || !self.step.stop.continues(0)
     }
 
     /// A share of a part, out of so many. Returns the tests that hierarchies took.
-    fn at(&self, part: Part, [share, shares]: [usize; 2], space: &mut Space, found: &mut Found) -> u64 {
+    fn share(&self, part: Part, [share, shares]: [usize; 2], space: &mut Space, findings: &mut Findings) -> u64 {
         space.chunk.clear();
         match part {
-            Part::FacesAndEdges => return self.faces_and_edges([share, shares], space, found),
+            Part::FacesAndEdges => return self.faces_and_edges([share, shares], space, findings),
             Part::Hinges => {
                 let edges = self.hierarchies.topology().edges().len();
                 let bound = |share: usize| (edges * share / shares) as u32;
-                self.hinges(bound(share)..bound(share + 1), space, found);
+                self.hinges(bound(share)..bound(share + 1), space, findings);
             }
-            Part::LooseFeatures if self.hinges.has_loose_features() => self.loose_features([share, shares], space, found),
+            Part::LooseFeatures if self.hinges.has_loose_features() => self.loose_features([share, shares], space, findings),
             Part::LooseFeatures => {}
         }
         0
     }
 
-    fn faces_and_edges(&self, [share, shares]: [usize; 2], space: &mut Space, found: &mut Found) -> u64 {
+    fn faces_and_edges(&self, [share, shares]: [usize; 2], space: &mut Space, findings: &mut Findings) -> u64 {
         let Space { scratch, chunk, .. } = space;
         let kind = PairKind::VertexFace;
         let step = &self.step;
         let mut sink = ChunkSink {
             chunk,
-            found,
+            findings,
             step,
             kind,
         };
-        let tests = self.hierarchies.visit_face_edge(share, shares, scratch, &mut sink);
+        let tasks = part_of(&self.tasks.faces_and_edges, [share, shares]);
+        let tests = FacesAndEdges(self.hierarchies).visit(tasks, scratch, &mut sink);
         if tests.is_some() {
-            chunk.finish(step, kind, found);
+            chunk.finish(step, kind, findings);
         }
         tests.unwrap_or_default()
     }
 
     /// Those of some edges.
-    fn hinges(&self, edges: impl Iterator<Item = u32>, space: &mut Space, found: &mut Found) {
+    fn hinges(&self, edges: impl Iterator<Item = u32>, space: &mut Space, findings: &mut Findings) {
         let topology = self.hierarchies.topology();
         let step = StepInput {
             numbers: Numbers::Placed(self.hierarchies),
@@ -251,14 +283,14 @@ impl Look<'_> {
                         near.extend(pairs[kind as usize]);
                     }
                 }
-                if chunk.take(&step, kind, near, found) {
-                    chunk.finish(&step, kind, found);
+                if chunk.take(&step, kind, near, findings) {
+                    chunk.finish(&step, kind, findings);
                 }
             }
         }
     }
 
-    fn loose_features(&self, [share, shares]: [usize; 2], space: &mut Space, found: &mut Found) {
+    fn loose_features(&self, [share, shares]: [usize; 2], space: &mut Space, findings: &mut Findings) {
         let Space {
             scratch, chunk, near, ..
         } = space;
@@ -267,38 +299,39 @@ impl Look<'_> {
             ..self.step
         };
         let mut sink = TiedSink {
-            look: self,
+            search: self,
             step: &step,
             tied: near,
             chunk,
-            found,
+            findings,
         };
-        let share = self.hierarchies.vertex_face_share(share, shares);
-        if self.hierarchies.visit(share, scratch, &mut sink).is_some() {
-            chunk.finish(&step, PairKind::VertexFace, found);
+        let tasks = part_of(&self.tasks.vertices_and_faces, [share, shares]);
+        let [vertex_face, _] = Pairing::all_within(self.hierarchies);
+        if vertex_face.visit(tasks, scratch, &mut sink).is_some() {
+            chunk.finish(&step, PairKind::VertexFace, findings);
         }
     }
 }
 
 /// Takes the vertices and faces that no edge and face tell of.
 struct TiedSink<'a> {
-    look: &'a Look<'a>,
+    search: &'a RestSearch<'a>,
     step: &'a StepInput<'a>,
     tied: &'a mut Vec<[u32; 2]>,
     chunk: &'a mut Chunk,
-    found: &'a mut Found,
+    findings: &'a mut Findings,
 }
 
 impl Sink for TiedSink<'_> {
     fn take(&mut self, pairs: &[[u32; 2]]) -> bool {
-        let Look { hierarchies, hinges, .. } = self.look;
+        let RestSearch { hierarchies, hinges, .. } = self.search;
         let must_be_looked_at = |&pair: &[u32; 2]| {
             let [vertex, face] = hierarchies.in_mesh(PairKind::VertexFace, pair);
             hinges.must_be_looked_at(vertex, hierarchies.topology().triangles()[face as usize])
         };
         self.tied.clear();
         self.tied.extend(pairs.iter().copied().filter(must_be_looked_at));
-        self.chunk.take(self.step, PairKind::VertexFace, self.tied, self.found)
+        self.chunk.take(self.step, PairKind::VertexFace, self.tied, self.findings)
     }
 }
 

@@ -1,15 +1,21 @@
-//! What cuts a step short: another thread, or too many pairs.
+//! What cuts a step short: another thread, too many pairs, or too much memory.
 
 use crate::step::{Cancellation, StepError};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-/// Whether to go on with a step: all threads ask, some thousand pairs at a time.
+/// The default limit on the memory of a step's pairs and contacts, in bytes: 2 GiB.
+pub const DEFAULT_MEMORY_LIMIT: u64 = 1 << 31;
+
+/// Says whether a step may continue. All threads ask every few thousand pairs.
 #[derive(Debug)]
 pub(crate) struct Stop {
     pub(crate) cancellation: Cancellation,
-    /// Most pairs to look at.
-    limit: u64,
+    /// The most pairs to look at.
+    pair_limit: u64,
+    /// The most bytes of pairs and contacts to store.
+    memory_limit: u64,
     looked_at: AtomicU64,
+    stored: AtomicU64,
     is_cancelled: AtomicBool,
 }
 
@@ -17,20 +23,23 @@ impl Stop {
     pub(crate) fn new() -> Self {
         Self {
             cancellation: Cancellation::default(),
-            limit: u64::MAX,
+            pair_limit: u64::MAX,
+            memory_limit: DEFAULT_MEMORY_LIMIT,
             looked_at: AtomicU64::new(0),
+            stored: AtomicU64::new(0),
             is_cancelled: AtomicBool::new(false),
         }
     }
 
-    /// A traversal begins.
+    /// Begins a question: nothing is looked at or stored yet.
     pub(crate) fn begin(&mut self) {
         *self.looked_at.get_mut() = 0;
+        *self.stored.get_mut() = 0;
         *self.is_cancelled.get_mut() = false;
     }
 
-    /// So many more pairs are to be looked at. Returns whether to go on.
-    pub(crate) fn goes_on(&self, pairs: usize) -> bool {
+    /// Counts pairs that are about to be looked at. Returns whether to continue.
+    pub(crate) fn continues(&self, pairs: usize) -> bool {
         if self.cancellation.is_cancelled() {
             self.is_cancelled.store(true, Ordering::Relaxed);
         }
@@ -38,31 +47,50 @@ impl Stop {
         !self.has_stopped()
     }
 
-    /// Whether the traversal was cut short.
+    /// Counts bytes that are stored.
+    pub(crate) fn stores(&self, bytes: usize) {
+        self.stored.fetch_add(bytes as u64, Ordering::Relaxed);
+    }
+
+    /// Returns whether the question was cut short.
     pub(crate) fn has_stopped(&self) -> bool {
-        self.is_cancelled.load(Ordering::Relaxed) || self.looked_at.load(Ordering::Relaxed) > self.limit
+        self.is_cancelled.load(Ordering::Relaxed) || self.has_too_many_pairs() || self.has_stored_too_much()
     }
 
-    /// Most pairs to look at from the next question on; `None`: as many as there are.
-    pub(crate) const fn set_limit(&mut self, limit: Option<u64>) {
-        self.limit = match limit {
-            Some(limit) => limit,
-            None => u64::MAX,
-        };
+    fn has_too_many_pairs(&self) -> bool {
+        self.looked_at.load(Ordering::Relaxed) > self.pair_limit
     }
 
-    /// Why it was, if it was.
+    pub(crate) fn has_stored_too_much(&self) -> bool {
+        self.stored.load(Ordering::Relaxed) > self.memory_limit
+    }
+
+    /// Sets the most pairs to look at from the next question on; `None` is no limit.
+    pub(crate) fn set_pair_limit(&mut self, limit: Option<u64>) {
+        self.pair_limit = limit.unwrap_or(u64::MAX);
+    }
+
+    /// Sets the most bytes to store from the next question on; `None` is no limit.
+    pub(crate) fn set_memory_limit(&mut self, limit: Option<u64>) {
+        self.memory_limit = limit.unwrap_or(u64::MAX);
+    }
+
+    /// Returns the reason for cutting the question short, if it was.
     pub(crate) fn result(&self) -> Result<(), StepError> {
         if self.is_cancelled.load(Ordering::Relaxed) {
             Err(StepError::Cancelled)
-        } else if self.has_stopped() {
-            Err(StepError::TooManyPairs { limit: self.limit })
+        } else if self.has_too_many_pairs() {
+            Err(StepError::TooManyPairs { limit: self.pair_limit })
+        } else if self.has_stored_too_much() {
+            Err(StepError::TooMuchMemory {
+                limit: self.memory_limit,
+            })
         } else {
             Ok(())
         }
     }
 
-    /// Whether a question may begin.
+    /// Returns an error if no question may begin.
     pub(crate) fn admits(&self) -> Result<(), StepError> {
         if self.cancellation.is_cancelled() {
             Err(StepError::Cancelled)

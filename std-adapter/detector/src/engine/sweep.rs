@@ -60,7 +60,7 @@ impl<F: Scalar> Open<F> {
 
 /// Why a pair that is not proven to be apart is open no more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Left {
+pub(super) enum Undecided {
     /// Within the tolerance of the separation, at its time.
     Near,
     /// Lanes can prove nothing more.
@@ -80,7 +80,7 @@ pub(super) struct Sweep<'a, F> {
 impl<F: Scalar> Sweep<'_, F> {
     /// One round for all open pairs, the sweep with this number. Those that it decides are open no more; `leave` gets the ones that are
     /// not proven to be apart: place, rows, time and why.
-    pub(super) fn run(&self, number: usize, open: &mut Open<F>, mut leave: impl FnMut(u32, [u32; 4], F, Left)) {
+    pub(super) fn run(&self, number: usize, open: &mut Open<F>, mut leave: impl FnMut(u32, [u32; 4], F, Undecided)) {
         let Open {
             places,
             indices,
@@ -106,7 +106,7 @@ impl<F: Scalar> Sweep<'_, F> {
                 let index = first + lane;
                 if index < len {
                     let is_near = round.near >> lane & 1 != 0;
-                    let why = if is_near { Left::Near } else { Left::Stuck };
+                    let why = if is_near { Undecided::Near } else { Undecided::Stuck };
                     leave(places[index], indices[index], times[index], why);
                 }
             }

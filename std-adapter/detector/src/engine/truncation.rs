@@ -20,7 +20,7 @@
 //!
 //! **Pairs in contact at the start** cannot be told apart by any share: their vertices rest, so that they come no nearer, and they are counted.
 
-use super::engine::{Engine, Probe};
+use super::mesh_engine::MeshEngine;
 use super::question::Question;
 use crate::PairKind;
 use crate::parallel::Workers;
@@ -79,7 +79,7 @@ impl Held<'_> {
     }
 }
 
-impl Engine {
+impl MeshEngine {
     /// Replaces `end` by the ends of a step that is free of contact, but for pairs that are in contact at the start.
     /// `round` brings a position into the format that the caller has, between the same two numbers.
     pub(crate) fn truncate(
@@ -93,8 +93,8 @@ impl Engine {
         end.clear();
         end.extend_from_slice(wanted);
         let mut contacts = Vec::new();
-        self.run(threads, &Step::of_finite(start, end), question, Probe::WHOLE);
-        self.stop.result()?;
+        self.run(threads, &Step::of_finite(start, end), question);
+        self.pairs.stop.result()?;
         self.collect_contacts(&mut contacts);
         let mut truncation = Truncation {
             rounds: 1,
@@ -107,8 +107,8 @@ impl Engine {
         let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
         let separation = question.limits.separation;
         let whole = Step::of_finite(start, wanted);
-        self.candidates(threads, &whole, separation, true, &mut vertex_face, &mut edge_edge);
-        self.stop.result()?;
+        self.candidates(threads, &whole, separation, true, [&mut vertex_face, &mut edge_edge]);
+        self.pairs.stop.result()?;
         let candidates = [vertex_face, edge_edge];
         let largest = largest_coordinate(start).max(largest_coordinate(wanted));
         let mut held = Held {
@@ -172,6 +172,6 @@ impl Engine {
         let step = Step::of_finite(start, end);
         self.run_on(threads, &step, question, [vertex_face, edge_edge])?;
         self.collect_contacts(contacts);
-        self.stop.result()
+        self.pairs.stop.result()
     }
 }

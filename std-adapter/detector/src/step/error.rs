@@ -81,6 +81,11 @@ pub enum StepError {
         /// The limit.
         limit: u64,
     },
+    /// The pairs and contacts of the step take more memory than the [limit](crate::CollisionDetector::set_memory_limit) allows.
+    TooMuchMemory {
+        /// The limit, in bytes.
+        limit: u64,
+    },
 }
 
 impl fmt::Display for StepError {
@@ -117,6 +122,10 @@ impl fmt::Display for StepError {
             Self::TooManyPairs { limit } => write!(
                 f,
                 "more than {limit} pairs are near each other, the most that may be looked at: raise the limit, or look whether the mesh has collapsed"
+            ),
+            Self::TooMuchMemory { limit } => write!(
+                f,
+                "the pairs and contacts of the step take more than {limit} bytes: check whether many triangles are in one place, or raise the memory limit"
             ),
         }
     }

@@ -124,6 +124,52 @@ fn more_pairs_than_the_limit_are_an_error_on_any_number_of_threads_and_not_one_f
 }
 
 #[test]
+fn contacts_without_end_are_an_error_that_leaves_the_detector_usable_and_the_earliest_needs_no_memory() {
+    // All pairs of triangles meet in one place: 15 contacts each.
+    let count = 200;
+    let (topology, positions) = stack(count, DVec3::ZERO);
+    let all = 15 * u64::from(count * (count - 1) / 2);
+    for threads in [1, 3] {
+        let mut detector = CollisionDetector::<f64>::new(topology.clone());
+        detector.set_threads(Threads::from_count(threads)).unwrap();
+        let limit = 48 * all - 1;
+        detector.set_memory_limit(Some(limit));
+        let refused = contacts(&mut detector, &positions, &positions);
+        assert_eq!(refused, Err(StepError::TooMuchMemory { limit }));
+        let earliest = detector.earliest(&positions, &positions).unwrap().unwrap();
+        assert_eq!((earliest.pair, earliest.time), ([0, 1], 0.0));
+        assert_eq!(detector.is_free(&positions, &positions), Ok(false));
+        detector.set_memory_limit(Some(limit + 1));
+        assert_eq!(contacts(&mut detector, &positions, &positions).unwrap().len() as u64, all);
+    }
+}
+
+#[test]
+fn candidates_and_near_pairs_without_end_are_an_error_too() {
+    let (topology, positions) = stack(40, DVec3::ZERO);
+    let mut detector = CollisionDetector::<f64>::new(topology);
+    let limit = 10_000;
+    detector.set_memory_limit(Some(limit));
+    let refused = Err(StepError::TooMuchMemory { limit });
+    let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
+    let boxes = CandidateBoxes::Moving;
+    let candidates = detector.candidates(&positions, &positions, boxes, &mut vertex_face, &mut edge_edge);
+    assert_eq!(candidates, refused);
+    let pairs = 15 * 40 * 39 / 2;
+    detector.set_memory_limit(Some(8 * pairs + limit));
+    assert_eq!(
+        detector.candidates(&positions, &positions, boxes, &mut vertex_face, &mut edge_edge),
+        Ok(())
+    );
+    let refused = Err(StepError::TooMuchMemory {
+        limit: 8 * pairs + limit,
+    });
+    assert_eq!(detector.near(&positions, 0.1, &mut Vec::new()), refused);
+    detector.set_memory_limit(None);
+    assert_eq!(detector.near(&positions, 0.1, &mut Vec::new()), Ok(()));
+}
+
+#[test]
 fn a_limit_of_none_but_cheap_questions_refuses_what_has_to_be_looked_at() {
     let (topology, positions) = stack(40, DVec3::ZERO);
     let mut detector = CollisionDetector::<f64>::new(topology);

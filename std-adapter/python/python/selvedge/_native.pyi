@@ -156,6 +156,10 @@ class Detector:
     def set_pair_limit(self, limit: int | None = None) -> None:
         """Limits the number of candidate pairs of a call; more raise TooManyPairsError. None, the default, is no limit."""
 
+    def set_memory_limit(self, limit: int | None = 2147483648) -> None:
+        """Set the most memory that the pairs and contacts of a question may take, in bytes, at 48 bytes for a contact. A question that needs
+        more raises TooMuchMemoryError. None: no limit."""
+
     @property
     def vertex_count(self) -> int: ...
     @property

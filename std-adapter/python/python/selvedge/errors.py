@@ -55,6 +55,10 @@ class TooManyPairsError(Error, RuntimeError):
     """There are more candidate pairs than ``set_pair_limit`` allows."""
 
 
+class TooMuchMemoryError(Error, MemoryError):
+    """The pairs and contacts of a question take more memory than ``set_memory_limit`` allows."""
+
+
 class BlockedError(Error, RuntimeError):
     """A step of a simulation could not be certified, and the scene stops then."""
 
@@ -86,4 +90,5 @@ __all__ = [
     "TangledError",
     "ThreadsError",
     "TooManyPairsError",
+    "TooMuchMemoryError",
 ]

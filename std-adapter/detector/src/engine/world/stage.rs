@@ -3,8 +3,8 @@
 use super::handles::{MeshHandle, Places};
 use super::mesh::{Moves, RowsAt, WorldMesh};
 use super::way::{vertices_of, ways};
-use crate::broad_phase::{MeshHierarchy, Pairing, Rows};
-use crate::engine::{Question, Source, SourceEngine, Wanted};
+use crate::broad_phase::{Hierarchies, MeshHierarchy, Pairing, Rows};
+use crate::engine::{PairEngine, Question, Refine, Source, Wanted};
 use crate::step::{Contact, Motions, StepError};
 use selvedge_core::elementary::Limits;
 use selvedge_core::paths::{Path, RigidMotion, separation_of_pieces, time_of_impact};
@@ -22,7 +22,7 @@ pub(crate) struct Stage {
     handles: Vec<MeshHandle>,
     /// Whether there are other meshes than in the hierarchy, or other groups.
     pub(crate) are_others: bool,
-    pub(crate) engine: SourceEngine,
+    pub(crate) engine: PairEngine,
     /// Vertices of all meshes.
     pub(crate) vertices: usize,
     /// Whether boxes are made for another separation.
@@ -45,7 +45,7 @@ impl Stage {
             hierarchy: MeshHierarchy::new(),
             handles: Vec::new(),
             are_others: false,
-            engine: SourceEngine::new(),
+            engine: PairEngine::new(),
             vertices: 0,
             must_fit: false,
             moved: Vec::new(),
@@ -63,20 +63,15 @@ impl Stage {
 
         let meshes = &self.meshes;
         let mut sources = Vec::new();
-        let mut turning = Vec::new();
+        // The meshes and motions of sources that have a rotating mesh.
+        let mut rotating = Vec::new();
         self.sources.clear();
         for &handle in &self.moved {
             let Some(mesh) = meshes.get(handle) else { continue };
             if mesh.moves == Moves::Deforming && mesh.groups.collide(mesh.groups) {
-                for pairing in Pairing::all_within(&mesh.hierarchies) {
-                    sources.push(Source {
-                        pairing,
-                        rows: None,
-                        question: *question,
-                    });
-                    turning.push(None);
-                    self.sources.push([handle; 2]);
-                }
+                sources.extend(Source::within(&mesh.hierarchies, *question));
+                rotating.extend([None; 2]);
+                self.sources.extend([[handle; 2]; 2]);
             }
         }
         for pair in &self.near {
@@ -89,20 +84,25 @@ impl Stage {
             for (pairing, (meshes, handles)) in pairings.into_iter().zip([(there, [a, b]), (back, [b, a]), (there, [a, b])]) {
                 let motions = meshes.map(|mesh| mesh.moves.turning());
                 let are_single = meshes.iter().all(|mesh| mesh.hierarchies.rows().single().is_some());
-                sources.push(Source {
+                let rows = self.rows.rows.put_slices(are_single);
+                let first_rows = meshes.map(PlacedRows::first_of);
+                sources.push(Source::between(
                     pairing,
-                    rows: Some((self.rows.rows.put_slices(are_single), meshes.map(PlacedRows::first_of))),
-                    question: question_on_pieces(question, meshes),
-                });
-                turning.push(motions.iter().any(Option::is_some).then_some(motions));
+                    rows,
+                    first_rows,
+                    question_on_pieces(question, meshes),
+                ));
+                rotating.push(motions.iter().any(Option::is_some).then_some((pairing.meshes, motions)));
                 self.sources.push(handles);
             }
         }
-        let refine = |source: usize, contact: &Contact<f64>| match &turning[source] {
+        let refine = |source: usize, contact: &Contact<f64>| match &rotating[source] {
             None => Some(contact.time),
-            Some(motions) => time_on_paths(&sources[source].pairing, motions, &question.limits, contact),
+            Some((meshes, motions)) => time_on_paths(*meshes, motions, &question.limits, contact),
         };
-        if self.engine.run(&sources, question.wanted, &refine) {
+        let refine: Option<&Refine<'_>> = rotating.iter().any(Option::is_some).then_some(&refine);
+        self.engine.prepare(&sources);
+        if self.engine.run(&sources, question.wanted, 1.0, refine) {
             self.observe();
         }
         self.engine.stop.result()
@@ -224,16 +224,16 @@ fn question_on_pieces(question: &Question, meshes: [&WorldMesh; 2]) -> Question 
 
 /// When a pair is in contact on its paths.
 fn time_on_paths(
-    pairing: &Pairing<'_>,
+    meshes: [&Hierarchies; 2],
     motions: &[Option<RigidMotion>; 2],
     limits: &Limits<f64>,
     contact: &Contact<f64>,
 ) -> Option<f64> {
-    let Some(vertices) = vertices_of(pairing.meshes, contact.kind, contact.pair) else {
+    let Some(vertices) = vertices_of(meshes, contact.kind, contact.pair) else {
         // Not one of these meshes' pairs, so that nothing is known of it.
         return Some(0.0);
     };
-    let ways = ways(pairing.meshes, motions, contact.kind, vertices);
+    let ways = ways(meshes, motions, contact.kind, vertices);
     let time = time_of_impact(contact.kind, ways.each_ref().map(|way| way as &dyn Path), limits).time();
     // Neither is after the exact time. A pair is left out by its time on pieces: one that is told a rounding earlier would be told or not by
     // who was first.

@@ -1,0 +1,82 @@
+//! Gives the hierarchies the boxes of a step.
+
+use super::{Fit, Hierarchies, Scope, State};
+use crate::parallel;
+use crate::step::Motions;
+use selvedge_core::batch::VertexRow;
+use selvedge_core::boxes::mapping::Mapping;
+use selvedge_core::boxes::{Aabb, moving::MovingBox};
+
+impl Hierarchies {
+    /// Takes the positions of a step. Builds the hierarchies first if there are none, or if that pays.
+    pub(crate) fn fit_boxes(&mut self, motions: &dyn Motions, fit: &Fit) {
+        let is_whole = self.scope != Scope::Narrowed;
+        let builds = self.state == State::Empty || is_whole && self.are_degraded();
+        // The rounding of boxes follows from the extent.
+        if builds || self.scope == Scope::All {
+            self.extent = extent(motions);
+        }
+        if builds {
+            self.build(motions);
+        }
+        self.state = match self.state {
+            State::Empty | State::Built if is_whole => State::New,
+            State::Empty | State::Built => State::Built,
+            State::New | State::Refitted => State::Refitted,
+        };
+        let mapping = fit.mapping(motions, &self.extent);
+        self.refit(motions, mapping);
+        self.fit = *fit;
+    }
+
+    fn refit(&mut self, motions: &dyn Motions, mapping: Mapping) {
+        // Resting vertices keep their rows and boxes.
+        let only_moving = self.moving.is_some() && self.scope != Scope::All && self.resting == Some(mapping);
+        let vertices = &self.vertices.primitives;
+        let rows = self.rows.resize(vertices.len());
+        self.boxes.resize(vertices.len(), MovingBox::empty());
+        let moving = self.moving.as_deref().filter(|_| only_moving);
+        parallel::for_each_chunk_with_chunk(rows, &mut self.boxes, VERTICES, |first, rows, boxes| {
+            let own = rows.iter_mut().zip(boxes).zip(&vertices[first..]);
+            for ((own_row, moving_box), &vertex) in own {
+                let vertex = vertex as usize;
+                if moving.is_none_or(|moving| moving[vertex]) {
+                    let motion = motions.of(vertex);
+                    *own_row = VertexRow::new(motion);
+                    *moving_box = mapping.vertex(motion.start.into(), motion.end.into());
+                }
+            }
+        });
+        self.vertices.refit(&self.boxes, only_moving);
+        self.edges.refit(&self.boxes, only_moving);
+        self.faces.refit(&self.boxes, only_moving);
+        self.resting = Some(mapping);
+    }
+}
+
+/// Vertices that one thread refits at a time.
+const VERTICES: usize = 1024;
+
+/// Returns the mapping of boxes that hold what comes within `separation`, as in the first step of a detector.
+pub(crate) fn mapping_within(motions: &dyn Motions, separation: f64) -> Mapping {
+    let fit = Fit {
+        separation,
+        ..Fit::default()
+    };
+    fit.mapping(motions, &extent(motions))
+}
+
+/// Returns the box of all positions of both frames.
+fn extent(motions: &dyn Motions) -> Aabb<f64> {
+    let mut extent = Aabb::<f64>::empty();
+    for vertex in 0..motions.len() {
+        let motion = motions.of(vertex);
+        for position in [motion.start, motion.end] {
+            for (axis, x) in position.to_array().into_iter().enumerate() {
+                extent.lower[axis] = extent.lower[axis].min(x);
+                extent.upper[axis] = extent.upper[axis].max(x);
+            }
+        }
+    }
+    extent
+}
