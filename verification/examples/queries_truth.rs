@@ -7,10 +7,8 @@
 //! the name of the file's folder, `vertex-face` or `edge-edge`. Prints each disagreement with its
 //! exact numbers; exit status 1 if there is one or the input is at fault.
 
-use dashu_base::Approximation;
-use dashu_int::IBig;
-use dashu_ratio::RBig;
 use indicatif::{ProgressBar, ProgressStyle};
+use rug::{Integer, Rational};
 use selvedge_core::PairKind;
 use selvedge_verification::oracle::{AlgebraicTime, Pair, collides};
 use std::path::{Path, PathBuf};
@@ -110,11 +108,7 @@ impl std::fmt::Display for Tally {
 fn describe(time: &AlgebraicTime) -> String {
     let exact = match time.as_rational() {
         Some(value) => format!("= {value}"),
-        None => {
-            // All digits, of which `Debug` shows a few.
-            let coefficients: Vec<_> = time.polynomial().coefficients().iter().map(IBig::to_string).collect();
-            format!("a root of [{}]", coefficients.join(", "))
-        }
+        None => format!("a root of {:?}", time.polynomial().coefficients()),
     };
     format!("contact at t ≈ {:e}, {exact}", time.to_f64_down())
 }
@@ -156,8 +150,7 @@ fn read(path: &Path) -> Result<Vec<(Pair, bool)>> {
 fn parse(row: &[String; 7]) -> Result<([f64; 3], bool)> {
     let integer = |field: &String| {
         field
-            .trim()
-            .parse::<IBig>()
+            .parse::<Integer>()
             .map_err(|error| format!("{field:?} is no integer: {error}"))
     };
     let mut position = [0.0; 3];
@@ -166,11 +159,11 @@ fn parse(row: &[String; 7]) -> Result<([f64; 3], bool)> {
         if denominator.is_zero() {
             return Err("a denominator is zero".into());
         }
-        let value = RBig::from_parts_signed(numerator, denominator);
-        let Approximation::Exact(exact) = value.to_f64() else {
+        let value = Rational::from((numerator, denominator));
+        *x = value.to_f64();
+        if Rational::from_f64(*x).as_ref() != Some(&value) {
             return Err(format!("{value} is no floating-point number"));
-        };
-        *x = exact;
+        }
     }
     match row[6].as_str() {
         "0" => Ok((position, false)),

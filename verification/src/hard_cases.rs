@@ -5,8 +5,7 @@
 
 use crate::generator::{Format, PairCase};
 use crate::oracle::collides;
-use dashu_int::UBig;
-use dashu_ratio::RBig;
+use rug::Rational;
 use selvedge_core::PairKind;
 use std::fmt::Write;
 
@@ -530,11 +529,7 @@ fn answer(pair: &PairCase<f64>, expected: Option<First>, name: &str, placement: 
     match (expected, &contact) {
         (None, _) | (Some(First::Never), None) => {}
         (Some(First::At(p, q)), Some(time)) => {
-            assert_eq!(
-                time.as_rational(),
-                Some(&RBig::from_parts_signed(p.into(), q.into())),
-                "{name}, {placement}"
-            );
+            assert_eq!(time.as_rational(), Some(&Rational::from((p, q))), "{name}, {placement}");
         }
         (Some(First::Irrational), Some(time)) => {
             assert_eq!(time.as_rational(), None, "{name}, {placement}");
@@ -547,7 +542,7 @@ fn answer(pair: &PairCase<f64>, expected: Option<First>, name: &str, placement: 
     let from = time.to_f64_down();
     let to = if time.cmp_f64(from).is_eq() { from } else { from.up() };
     let first = match time.as_rational() {
-        Some(ratio) if *ratio.denominator() < UBig::from(1000_u32) => ratio.to_string(),
+        Some(ratio) if *ratio.denom() < 1000 => ratio.to_string(),
         Some(_) => format!("about {from:.6}"),
         None => format!("irrational {from:.6}"),
     };

@@ -1,5 +1,5 @@
 use super::pair::{self, Numbers};
-use dashu_ratio::RBig;
+use rug::Rational;
 use selvedge::core::boxes::{Aabb, segment::misses};
 use selvedge::core::{Motion, Scalar, Verdict};
 use selvedge_laboratory::methods::CullingTest;
@@ -72,12 +72,12 @@ fn path_and_box<S: Format>(points: [[[S; 3]; 2]; 4]) -> (bool, bool) {
 
 /// Whether a segment and a closed box share a point, by cutting the segment at the box's planes in exact arithmetic.
 fn meets<S: Scalar>([start, end]: [[S; 3]; 2], target: &Aabb<S>) -> bool {
-    let exact = |x: S| RBig::try_from(x.to_f64()).expect("finite");
-    let (mut from, mut to) = (RBig::ZERO, RBig::ONE);
+    let exact = |x: S| Rational::from_f64(x.to_f64()).expect("finite");
+    let (mut from, mut to) = (Rational::from(0), Rational::from(1));
     for axis in 0..3 {
         let [start, end] = [start, end].map(|position| exact(position[axis]));
         let [lower, upper] = [target.lower, target.upper].map(|bound| exact(bound[axis]));
-        let along = &end - &start;
+        let along = Rational::from(&end - &start);
         if along.is_zero() {
             if start < lower || start > upper {
                 return false;
@@ -85,7 +85,7 @@ fn meets<S: Scalar>([start, end]: [[S; 3]; 2], target: &Aabb<S>) -> bool {
             continue;
         }
         let times = [lower, upper].map(|bound| (bound - &start) / &along);
-        let [enters, leaves] = if along > RBig::ZERO {
+        let [enters, leaves] = if along.is_positive() {
             times
         } else {
             let [lower, upper] = times;

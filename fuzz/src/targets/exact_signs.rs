@@ -1,6 +1,5 @@
 use super::pair::{self, Numbers};
-use dashu_int::IBig;
-use dashu_ratio::RBig;
+use rug::{Integer, Rational};
 use selvedge::core::verification::exact::{UNKNOWN, certain_signs, control_value_signs, is_never_coplanar};
 use selvedge::core::verification::of_kind;
 use selvedge::core::verification::points::PairShape;
@@ -26,7 +25,7 @@ fn check<S: Format>(case: &PairCase<S>) {
     }
     // The volume of the four points in the order of `PairShape::volume_points`: a, b, c, p.
     let at = |end: usize| {
-        let exact = |x: S| RBig::try_from(x.to_f64()).expect("finite");
+        let exact = |x: S| Rational::from_f64(x.to_f64()).expect("finite");
         let points = case.points.map(|point| point[end].map(exact));
         of_kind!(case.kind, P => P::volume_points(points))
     };
@@ -47,14 +46,14 @@ fn check<S: Format>(case: &PairCase<S>) {
     }
 }
 
-type Point = [RBig; 3];
+type Point = [Rational; 3];
 
 /// Of the control values, from the volume at four times: with K(0), K(1), K(−1) and K(2) the cubic is known.
 fn signs(ends: [[Point; 4]; 2]) -> [Ordering; 4] {
     let volume = |time: i32| {
         let at = |point: usize, axis: usize| {
             let (start, end) = (&ends[0][point][axis], &ends[1][point][axis]);
-            (end - start) * IBig::from(time) + start
+            Rational::from(end - start) * time + start
         };
         let from_a = |point: usize| -> Point { std::array::from_fn(|axis| at(point, axis) - at(0, axis)) };
         determinant([from_a(3), from_a(1), from_a(2)])
@@ -62,18 +61,18 @@ fn signs(ends: [[Point; 4]; 2]) -> [Ordering; 4] {
     let [before, v0, v1, v2] = [-1, 0, 1, 2].map(volume);
     // c₀ + c₁t + c₂t² + c₃t³ through the four.
     let c0 = v0;
-    let [two, three, four, six] = [2, 3, 4, 6].map(IBig::from);
-    let c2 = (&v1 + &before) / &two - &c0;
-    let odd = (&v1 - &before) / &two;
-    let c3 = (v2 - &c0 - &c2 * four - &odd * two) / six;
+    let c2 = Rational::from(&v1 + &before) / 2 - &c0;
+    let odd = Rational::from(&v1 - &before) / 2;
+    let c3 = (v2 - &c0 - Rational::from(&c2 * 4) - Rational::from(&odd * 2)) / 6;
     let c1 = odd - &c3;
-    let k0 = &c0 * three;
-    let k1 = &k0 + &c1;
-    let k2 = &k1 + &c1 + &c2;
-    [k0, k1, k2, v1].map(|value| value.cmp(&RBig::ZERO))
+    let three = Integer::from(3);
+    let k0 = Rational::from(&c0 * &three);
+    let k1 = Rational::from(&k0 + &c1);
+    let k2: Rational = Rational::from(&k0 + &c1) + &c1 + &c2;
+    [k0.cmp0(), k1.cmp0(), k2.cmp0(), v1.cmp0()]
 }
 
-fn determinant([a, b, c]: [Point; 3]) -> RBig {
-    let minor = |i: usize, j: usize| &b[i] * &c[j] - &b[j] * &c[i];
+fn determinant([a, b, c]: [Point; 3]) -> Rational {
+    let minor = |i: usize, j: usize| Rational::from(&b[i] * &c[j]) - Rational::from(&b[j] * &c[i]);
     &a[0] * minor(1, 2) - &a[1] * minor(0, 2) + &a[2] * minor(0, 1)
 }

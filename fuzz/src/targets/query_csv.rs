@@ -1,7 +1,5 @@
 use super::message;
-use dashu_base::Abs;
-use dashu_int::IBig;
-use dashu_ratio::RBig;
+use rug::{Integer, Rational};
 use selvedge::PairKind;
 use selvedge::glam::DVec3;
 use selvedge_laboratory::queries::{Query, QueryFile, read_from};
@@ -21,7 +19,7 @@ pub fn query_csv(data: &[u8]) {
     let mut inexact = 0;
     for (&value, ratio) in read.iter().zip(&ratios) {
         assert_nearest(value, ratio);
-        inexact += usize::from(RBig::try_from(value).as_ref() != Ok(ratio));
+        inexact += usize::from(Rational::from_f64(value).as_ref() != Some(ratio));
     }
     assert_eq!(file.inexact, inexact);
 
@@ -56,28 +54,30 @@ fn bits(query: &Query) -> impl Iterator<Item = u64> {
 }
 
 /// The ratios of a file that was accepted.
-fn ratios(data: &[u8]) -> Vec<RBig> {
+fn ratios(data: &[u8]) -> Vec<Rational> {
     let text = std::str::from_utf8(data).expect("digits, commas and white space");
     let rows = text.lines().filter(|row| !row.trim().is_empty());
     let integers = rows.flat_map(|row| row.split(',').take(6).map(integer));
-    let integers: Vec<IBig> = integers.collect();
+    let integers: Vec<Integer> = integers.collect();
     let pairs = integers.chunks_exact(2);
-    pairs
-        .map(|pair| RBig::from_parts_signed(pair[0].clone(), pair[1].clone()))
-        .collect()
+    pairs.map(|pair| Rational::from((pair[0].clone(), pair[1].clone()))).collect()
 }
 
-fn integer(field: &str) -> IBig {
+fn integer(field: &str) -> Integer {
     field.trim().parse().expect("an integer was accepted")
 }
 
 /// No other double is nearer; of two that are as near, it is the even one.
-fn assert_nearest(value: f64, ratio: &RBig) {
-    let distance = |x: f64| RBig::try_from(x).map(|x| (x - ratio).abs());
+fn assert_nearest(value: f64, ratio: &Rational) {
+    let distance = |x: f64| Rational::from_f64(x).map(|x| Rational::from(&x - ratio).into_numer_denom());
+    let distance = |x: f64| {
+        let (numerator, denominator) = distance(x)?;
+        Some(Rational::from((numerator.abs(), denominator)))
+    };
     let own = distance(value).expect("coordinates are finite");
     for neighbour in [value.next_down(), value.next_up()] {
         // An infinite neighbour stands for the double that would come next, which is never nearer than an accepted one.
-        if let Ok(other) = distance(neighbour) {
+        if let Some(other) = distance(neighbour) {
             assert!(own <= other, "{value:e} for {ratio}");
             assert!(own < other || value.to_bits() & 1 == 0, "{value:e} is odd");
         }
@@ -89,8 +89,8 @@ fn read_again(file: &QueryFile) -> QueryFile {
     for query in &file.queries {
         for point in points(query) {
             let fields = point.to_array().map(|x| {
-                let ratio = RBig::try_from(x).expect("finite");
-                format!("{},{}", ratio.numerator(), ratio.denominator())
+                let ratio = Rational::from_f64(x).expect("finite");
+                format!("{},{}", ratio.numer(), ratio.denom())
             });
             text += &fields.join(",");
             if let Some(collides) = query.collides {

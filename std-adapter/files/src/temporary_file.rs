@@ -14,7 +14,6 @@ pub fn beside(path: &Path) -> io::Result<NamedTempFile> {
         Some(folder) if folder != Path::new("") => folder,
         _ => Path::new("."),
     };
-    #[cfg_attr(not(unix), expect(unused_mut, reason = "permissions are unix's"))]
     let mut builder = tempfile::Builder::new();
     // Temporary files are private to their user.
     #[cfg(unix)]

@@ -5,7 +5,7 @@
 //! |---|---|
 //! | [`exact`] | a billion pairs, every cull and every "never" checked by exact arithmetic |
 //! | [`false_culls`] | every tier of the filter over random and adversarial pairs |
-//! | [`screw_motions`] | bodies that turn and meet, against enclosures of their arcs |
+//! | `screw_motions` | bodies that turn and meet, against enclosures of their arcs |
 //! | [`mutants`] | changes of core, and whether a test notices: `verification/mutants/` writes its states, which are joined here |
 //!
 //! # Beyond one machine
@@ -22,6 +22,7 @@ mod file;
 mod merge;
 pub mod mutants;
 mod progress;
+#[cfg(feature = "screw-motions")]
 pub mod screw_motions;
 mod shard;
 

@@ -3,8 +3,7 @@
 use super::numbers::{exponent, whole};
 use super::strategy::Simplify;
 use super::{Choices, Format, PairCase};
-use dashu_int::UBig;
-use dashu_ratio::RBig;
+use rug::Rational;
 use selvedge_core::PairKind;
 use std::fmt;
 use std::marker::PhantomData;
@@ -64,8 +63,8 @@ impl<S: Format> Moment<S> {
 
     /// When, in [0, 1].
     #[must_use]
-    pub fn time(&self) -> RBig {
-        RBig::from_parts(self.numerator.into(), UBig::ONE << self.bits as usize)
+    pub fn time(&self) -> Rational {
+        Rational::from(self.numerator) >> self.bits
     }
 
     /// The pair.

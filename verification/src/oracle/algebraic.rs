@@ -2,9 +2,8 @@
 
 use super::geometry::Signs;
 use super::polynomial::{Polynomial, SturmSequence};
-use dashu_base::{BitTest, UnsignedAbs};
-use dashu_int::{IBig, UBig};
-use dashu_ratio::RBig;
+use rug::ops::DivRounding;
+use rug::{Integer, Rational};
 use std::cmp::Ordering;
 
 /// A real root, in [0, 1], of a polynomial with integer coefficients; known exactly.
@@ -19,10 +18,10 @@ pub struct AlgebraicTime {
 
 #[derive(Clone, Debug)]
 enum Place {
-    Exact(RBig),
+    Exact(Rational),
     /// The only root in the closed interval `[index, index + 1] / 2^bits`, and not at an end of it.
     Isolated {
-        index: IBig,
+        index: Integer,
         bits: u32,
         /// The polynomial's sign at the low end.
         sign_at_low: Ordering,
@@ -35,23 +34,15 @@ enum Place {
 /// divisor decides whether the value is zero. Affects speed alone.
 const BITS_BEFORE_GCD: u32 = 48;
 
-/// `index / 2^bits`.
-fn dyadic(index: IBig, bits: u32) -> RBig {
-    RBig::from_parts(index, UBig::ONE << bits as usize)
-}
-
 impl AlgebraicTime {
     /// A rational time.
     ///
     /// # Panics
     /// If it is not in [0, 1].
     #[must_use]
-    pub fn rational(time: RBig) -> Self {
-        assert!(
-            (RBig::ZERO..=RBig::ONE).contains(&time),
-            "a time of the step lies in [0, 1], not at {time}"
-        );
-        let coefficients = vec![-time.numerator(), time.denominator().clone().into()];
+    pub fn rational(time: Rational) -> Self {
+        assert!((0..=1).contains(&time), "a time of the step lies in [0, 1], not at {time}");
+        let coefficients = vec![Integer::from(-time.numer()), time.denom().clone()];
         Self {
             polynomial: Polynomial::new(coefficients),
             place: Place::Exact(time),
@@ -65,13 +56,13 @@ impl AlgebraicTime {
             return roots;
         }
         let isolation = Isolation(SturmSequence::new(polynomial));
-        let (low, high) = (isolation.end(&IBig::ZERO, 0), isolation.end(&IBig::ONE, 0));
+        let (low, high) = (isolation.end(&Integer::from(0), 0), isolation.end(&Integer::from(1), 0));
         if low.sign.is_eq() {
-            roots.push(Self::rational(RBig::ZERO));
+            roots.push(Self::rational(Rational::from(0)));
         }
-        isolation.inside(IBig::ZERO, 0, &low, &high, &mut roots);
+        isolation.inside(Integer::from(0), 0, &low, &high, &mut roots);
         if high.sign.is_eq() {
-            roots.push(Self::rational(RBig::ONE));
+            roots.push(Self::rational(Rational::from(1)));
         }
         roots
     }
@@ -85,7 +76,7 @@ impl AlgebraicTime {
     /// The value, where it is known to be rational. What [`collides`](super::collides) returns is
     /// known to be rational exactly when it is.
     #[must_use]
-    pub fn as_rational(&self) -> Option<&RBig> {
+    pub fn as_rational(&self) -> Option<&Rational> {
         match &self.place {
             Place::Exact(value) => Some(value),
             Place::Isolated { .. } => None,
@@ -95,10 +86,12 @@ impl AlgebraicTime {
     /// An interval that holds this root and no other root of [`polynomial`](Self::polynomial); both
     /// ends are the root itself when it is known to be rational.
     #[must_use]
-    pub fn interval(&self) -> [RBig; 2] {
+    pub fn interval(&self) -> [Rational; 2] {
         match &self.place {
             Place::Exact(value) => [value.clone(), value.clone()],
-            Place::Isolated { index, bits, .. } => [index.clone(), index + IBig::ONE].map(|end| dyadic(end, *bits)),
+            Place::Isolated { index, bits, .. } => {
+                [index.clone(), Integer::from(index + 1)].map(|end| Rational::from(end) >> *bits)
+            }
         }
     }
 
@@ -132,21 +125,21 @@ impl AlgebraicTime {
             return;
         };
         let low = self.polynomial.value_at_dyadic(index, *bits);
-        let high = self.polynomial.value_at_dyadic(&(&*index + IBig::ONE), *bits);
+        let high = self.polynomial.value_at_dyadic(&Integer::from(&*index + 1), *bits);
         // The signs differ, so the quotient is in (0, 1), and its floor after scaling a valid part.
-        let part = (&low << *pace as usize) / (low - high);
-        *index <<= *pace as usize;
+        let part = (Integer::from(&low << *pace)).div_floor(low - high);
+        *index <<= *pace;
         *index += part;
         *bits += *pace;
-        let ends = [index.clone(), &*index + IBig::ONE];
+        let ends = [index.clone(), Integer::from(&*index + 1)];
         let signs = ends.each_ref().map(|end| self.polynomial.sign_at_dyadic(end, *bits));
         if let Some(found) = signs.iter().position(|sign| sign.is_eq()) {
-            self.place = Place::Exact(dyadic(ends[found].clone(), *bits));
+            self.place = Place::Exact(Rational::from(ends[found].clone()) >> *bits);
         } else if signs[0] == *sign_at_low && signs[1] != *sign_at_low {
             *pace *= 2;
         } else {
             // A wrong guess: back to the interval it was made in, and halve that.
-            *index >>= *pace as usize;
+            *index >>= *pace;
             *bits -= *pace;
             *pace = (*pace / 2).max(1);
             self.halve();
@@ -163,10 +156,10 @@ impl AlgebraicTime {
         {
             *index <<= 1;
             *bits += 1;
-            let middle = &*index + IBig::ONE;
+            let middle = Integer::from(&*index + 1);
             let sign = self.polynomial.sign_at_dyadic(&middle, *bits);
             if sign.is_eq() {
-                self.place = Place::Exact(dyadic(middle, *bits));
+                self.place = Place::Exact(Rational::from(middle) >> *bits);
             } else if sign == *sign_at_low {
                 *index = middle;
             }
@@ -175,7 +168,7 @@ impl AlgebraicTime {
 
     /// Compares with a rational number.
     #[must_use]
-    pub fn cmp_rational(&self, other: &RBig) -> Ordering {
+    pub fn cmp_rational(&self, other: &Rational) -> Ordering {
         match &self.place {
             Place::Exact(value) => value.cmp(other),
             Place::Isolated { sign_at_low, .. } => {
@@ -202,10 +195,10 @@ impl AlgebraicTime {
     #[must_use]
     pub fn cmp_f64(&self, other: f64) -> Ordering {
         assert!(!other.is_nan(), "NaN has no place among the times");
-        match RBig::try_from(other) {
-            Ok(value) => self.cmp_rational(&value),
-            Err(_) if other > 0.0 => Ordering::Less,
-            Err(_) => Ordering::Greater,
+        match Rational::from_f64(other) {
+            Some(value) => self.cmp_rational(&value),
+            None if other > 0.0 => Ordering::Less,
+            None => Ordering::Greater,
         }
     }
 
@@ -229,13 +222,13 @@ impl AlgebraicTime {
     ///
     /// A rational root, times the leading coefficient, is an integer.
     pub(crate) fn settled(mut self) -> Self {
-        let lead = self.polynomial.coefficients().last().map(UnsignedAbs::unsigned_abs);
+        let lead = self.polynomial.coefficients().last().map(|c| Integer::from(c.abs_ref()));
         let lead = lead.expect("not the zero polynomial");
-        self.refine(u32::try_from(lead.bit_len()).expect("bits that fit into memory") + 1);
+        self.refine(lead.significant_bits() + 1);
         if let Place::Isolated { index, bits, .. } = &self.place {
             // The interval is shorter than 1 / lead: this is the only candidate that can be in it.
-            let numerator = ((&lead * index) >> *bits as usize) + IBig::ONE;
-            let candidate = RBig::from_parts(numerator, lead);
+            let candidate = ((Integer::from(&lead * index) >> *bits) + 1, lead);
+            let candidate = Rational::from(candidate);
             if self.cmp_rational(&candidate).is_eq() {
                 self.place = Place::Exact(candidate);
             }
@@ -261,7 +254,7 @@ impl Signs<Polynomial> for AlgebraicTime {
                 // interval: it has the root if it changes sign.
                 let common = self.polynomial.gcd(value);
                 let sign_at_low = common.sign_at_dyadic(index, bits);
-                if sign_at_low != common.sign_at_dyadic(&(index + IBig::ONE), bits) {
+                if sign_at_low != common.sign_at_dyadic(&Integer::from(index + 1), bits) {
                     // It describes the root as well, more simply.
                     self.place = Place::Isolated {
                         index: index.clone(),
@@ -339,7 +332,7 @@ struct End {
 }
 
 impl Isolation {
-    fn end(&self, index: &IBig, bits: u32) -> End {
+    fn end(&self, index: &Integer, bits: u32) -> End {
         let variations = self.0.variations(index, bits);
         End {
             variations,
@@ -348,7 +341,7 @@ impl Isolation {
     }
 
     /// Appends the roots in the open interval `(index, index + 1) / 2^bits`, in ascending order.
-    fn inside(&self, index: IBig, bits: u32, low: &End, high: &End, roots: &mut Vec<AlgebraicTime>) {
+    fn inside(&self, index: Integer, bits: u32, low: &End, high: &End, roots: &mut Vec<AlgebraicTime>) {
         let count = low.variations - high.variations - usize::from(high.sign.is_eq());
         if count == 0 {
             return;
@@ -368,11 +361,11 @@ impl Isolation {
             return;
         }
         let left = index << 1;
-        let right = &left + IBig::ONE;
+        let right = Integer::from(&left + 1);
         let middle = self.end(&right, bits + 1);
         self.inside(left, bits + 1, low, &middle, roots);
         if middle.sign.is_eq() {
-            let time = dyadic(right.clone(), bits + 1);
+            let time = Rational::from(right.clone()) >> (bits + 1);
             roots.push(AlgebraicTime {
                 polynomial: polynomial.clone(),
                 place: Place::Exact(time),
@@ -395,7 +388,7 @@ mod tests {
         let product = factors.prop_map(|factors| {
             let factors = factors
                 .into_iter()
-                .map(|own| Polynomial::new(own.into_iter().map(IBig::from).collect()));
+                .map(|own| Polynomial::new(own.into_iter().map(Integer::from).collect()));
             factors.reduce(|a, b| a.product(&b)).expect("one factor at least")
         });
         product.prop_filter("every number is a root of zero", |product| !product.is_zero())
@@ -407,8 +400,8 @@ mod tests {
         #[test]
         fn roots_are_those_that_sturm_counts_and_in_order(polynomial in polynomials()) {
             let sequence = SturmSequence::new(&polynomial);
-            let at = |t: i32| sequence.variations(&IBig::from(t), 0);
-            let at_start = usize::from(polynomial.sign_at_dyadic(&IBig::ZERO, 0).is_eq());
+            let at = |t: i32| sequence.variations(&Integer::from(t), 0);
+            let at_start = usize::from(polynomial.sign_at_dyadic(&Integer::from(0), 0).is_eq());
             let roots = AlgebraicTime::roots(&polynomial);
             prop_assert_eq!(roots.len(), at(0) - at(1) + at_start);
             prop_assert!(roots.is_sorted_by(|a, b| a < b));

@@ -7,8 +7,7 @@ use super::geometry::{
 };
 use super::motion::{Motion, Pair, PairKind};
 use super::polynomial::{Polynomial, SturmSequence};
-use dashu_int::IBig;
-use dashu_ratio::RBig;
+use rug::{Integer, Rational};
 
 /// Are four points, each moving linearly from `start` to `end`, coplanar at some time in [0, 1]?
 ///
@@ -21,12 +20,12 @@ pub fn coplanar(start: &[[f64; 3]; 4], end: &[[f64; 3]; 4]) -> bool {
     if volume.is_zero() {
         return true;
     }
-    let [at_start, at_end] = [0, 1].map(|t| volume.sign_at_dyadic(&IBig::from(t), 0));
+    let [at_start, at_end] = [0, 1].map(|t| volume.sign_at_dyadic(&Integer::from(t), 0));
     if at_start.is_eq() || at_start != at_end {
         return true;
     }
     let roots = SturmSequence::new(&volume);
-    roots.variations(&IBig::ZERO, 0) != roots.variations(&IBig::ONE, 0)
+    roots.variations(&Integer::from(0), 0) != roots.variations(&Integer::from(1), 0)
 }
 
 /// The earliest time in [0, 1] at which the closed vertex and face, or the two closed edges, share a
@@ -39,10 +38,10 @@ pub fn coplanar(start: &[[f64; 3]; 4], end: &[[f64; 3]; 4]) -> bool {
 #[must_use]
 pub fn collides(pair: &Pair) -> Option<AlgebraicTime> {
     let motion = Motion::new(&pair.start, &pair.end);
-    if motion.apart_along_an_axis(pair.kind, &IBig::ZERO) {
+    if motion.apart_along_an_axis(pair.kind, &Integer::new()) {
         return None;
     }
-    let start = RBig::ZERO;
+    let start = Rational::from(0);
     if touches(pair.kind, &motion, &start) {
         return Some(AlgebraicTime::rational(start));
     }
@@ -77,11 +76,11 @@ pub fn collides(pair: &Pair) -> Option<AlgebraicTime> {
 /// # Panics
 /// If a coordinate is NaN or infinite.
 #[must_use]
-pub fn touches_at(pair: &Pair, t: &RBig) -> bool {
+pub fn touches_at(pair: &Pair, t: &Rational) -> bool {
     touches(pair.kind, &Motion::new(&pair.start, &pair.end), t)
 }
 
-fn touches(kind: PairKind, motion: &Motion, t: &RBig) -> bool {
+fn touches(kind: PairKind, motion: &Motion, t: &Rational) -> bool {
     let [a, b, c, d] = &motion.at(t);
     match kind {
         PairKind::VertexFace => point_in_triangle(&mut AtRest, a, [b, c, d]),

@@ -4,7 +4,7 @@
 //! in the time (things in motion, with the signs taken at one algebraic time).
 
 use super::polynomial::Polynomial;
-use dashu_int::IBig;
+use rug::Integer;
 use std::cmp::Ordering;
 
 /// Addition, subtraction and multiplication; the first two in place, as numbers are long.
@@ -22,13 +22,13 @@ pub(crate) trait Signs<R> {
 /// The signs of integers.
 pub(crate) struct AtRest;
 
-impl Signs<IBig> for AtRest {
-    fn sign(&mut self, value: &IBig) -> Ordering {
-        value.cmp(&IBig::ZERO)
+impl Signs<Integer> for AtRest {
+    fn sign(&mut self, value: &Integer) -> Ordering {
+        value.cmp0()
     }
 }
 
-impl Ring for IBig {
+impl Ring for Integer {
     fn sum(self, other: &Self) -> Self {
         self + other
     }
@@ -36,7 +36,7 @@ impl Ring for IBig {
         self - other
     }
     fn product(&self, other: &Self) -> Self {
-        self * other
+        Integer::from(self * other)
     }
 }
 
@@ -49,7 +49,7 @@ impl Ring for Polynomial {
     }
     fn product(&self, other: &Self) -> Self {
         let (a, b) = (self.coefficients(), other.coefficients());
-        let mut product = vec![IBig::ZERO; (a.len() + b.len()).saturating_sub(1)];
+        let mut product = vec![Integer::new(); (a.len() + b.len()).saturating_sub(1)];
         for (i, x) in a.iter().enumerate() {
             for (j, y) in b.iter().enumerate() {
                 product[i + j] += x * y;

@@ -7,10 +7,10 @@ use super::geometry::{
 };
 use super::motion::scale_to_integers;
 use super::signs::triangles_intersect_by_signs;
-use dashu_int::IBig;
+use rug::Integer;
 use std::cmp::Ordering;
 
-type IntegerPoint = Point<IBig>;
+type IntegerPoint = Point<Integer>;
 
 /// Do two triangles have a point in common, beyond the simplex that they share in the mesh?
 ///
@@ -142,7 +142,7 @@ fn triangles_meet(a: [&IntegerPoint; 3], b: [&IntegerPoint; 3]) -> bool {
 fn on_one_side<const N: usize>(points: [&IntegerPoint; N], triangle: [&IntegerPoint; 3]) -> bool {
     let [a, b, c] = triangle;
     let normal = normal(a, b, c);
-    let side = points.map(|point| dot(&normal, &subtract(point, a)).cmp(&IBig::ZERO));
+    let side = points.map(|point| dot(&normal, &subtract(point, a)).cmp0());
     side[0].is_ne() && side.iter().all(|&s| s == side[0])
 }
 
@@ -178,7 +178,7 @@ fn points_into(direction: &IntegerPoint, cone: &[IntegerPoint; 2]) -> bool {
     if is_zero(signs, &normal) {
         return cone
             .iter()
-            .any(|side| is_zero(signs, &cross(side, direction)) && dot(side, direction) > IBig::ZERO);
+            .any(|side| is_zero(signs, &cross(side, direction)) && dot(side, direction).is_positive());
     }
     signs.sign(&dot(&normal, direction)).is_eq()
         && signs.sign(&dot(&normal, &cross(direction, &cone[1]))).is_ge()
@@ -196,14 +196,12 @@ fn meet_beyond_an_edge([p, q]: [&IntegerPoint; 2], a: &IntegerPoint, b: &Integer
     let areas = [a, b].map(|x| cross(&edge, &subtract(x, p)));
     match areas.each_ref().map(|area| is_zero(signs, area)) {
         // The common part lies in the half-planes of a and of b: the same one, or their border.
-        [false, false] => is_zero(signs, &cross(&areas[0], &areas[1])) && dot(&areas[0], &areas[1]) > IBig::ZERO,
+        [false, false] => is_zero(signs, &cross(&areas[0], &areas[1])) && dot(&areas[0], &areas[1]).is_positive(),
         // One of the triangles is a segment on the line p q, where the other has only p q.
         [true, false] | [false, true] => false,
         // Two segments on the line: do both go on beyond the same end?
         [true, true] => {
-            let beyond = |end: &IntegerPoint, sign: Ordering| {
-                [a, b].iter().all(|x| dot(&edge, &subtract(x, end)).cmp(&IBig::ZERO) == sign)
-            };
+            let beyond = |end: &IntegerPoint, sign: Ordering| [a, b].iter().all(|x| dot(&edge, &subtract(x, end)).cmp0() == sign);
             beyond(q, Ordering::Greater) || beyond(p, Ordering::Less)
         }
     }

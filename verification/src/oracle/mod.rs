@@ -15,7 +15,7 @@
 //! | which triangles of a mesh intersect? | [`mesh_self_intersections`], [`mesh_intersections`] |
 //! | and which ropes, at rest and on their way? | [`intersections_with_loose_edges`], [`edges_that_meet`] |
 //!
-//! The method is kept apart from that of `selvedge-core`: numbers of any length are dashu's, coordinates are scaled to integers, motions
+//! The method is kept apart from that of `selvedge-core`: numbers of any length are rug's, coordinates are scaled to integers, motions
 //! are polynomials in the time `t` by powers of `t`, roots are counted with Sturm's theorem, and a
 //! time that is irrational is a polynomial together with an interval that holds one of its roots
 //! ([`AlgebraicTime`]). Of meshes at rest most pairs are settled by Shewchuk's exact signs first

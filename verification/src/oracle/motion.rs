@@ -2,8 +2,7 @@
 
 use super::geometry::{Point, Ring};
 use super::polynomial::Polynomial;
-use dashu_int::IBig;
-use dashu_ratio::RBig;
+use rug::{Integer, Rational};
 // A name, not arithmetic.
 pub use selvedge_core::PairKind;
 
@@ -37,20 +36,20 @@ fn decode(value: f64) -> (i64, i32) {
 ///
 /// # Panics
 /// If a coordinate is NaN or infinite.
-pub(crate) fn scale_to_integers(points: &[[f64; 3]]) -> Vec<Point<IBig>> {
+pub(crate) fn scale_to_integers(points: &[[f64; 3]]) -> Vec<Point<Integer>> {
     let coordinates = points.iter().flatten().map(|&x| decode(x));
     let exponent = coordinates.filter(|&(m, _)| m != 0).map(|(_, e)| e).min().unwrap_or(0);
     let scale = |x: f64| match decode(x) {
-        (0, _) => IBig::ZERO,
-        (mantissa, e) => IBig::from(mantissa) << (e - exponent).cast_unsigned() as usize,
+        (0, _) => Integer::new(),
+        (mantissa, e) => Integer::from(mantissa) << (e - exponent).cast_unsigned(),
     };
     points.iter().map(|point| point.map(scale)).collect()
 }
 
 /// Four points in motion, scaled to integers.
 pub(crate) struct Motion {
-    start: [Point<IBig>; 4],
-    end: [Point<IBig>; 4],
+    start: [Point<Integer>; 4],
+    end: [Point<Integer>; 4],
 }
 
 impl Motion {
@@ -64,7 +63,7 @@ impl Motion {
     }
 
     /// The points of a pair and a length, at a common scale.
-    pub(crate) fn with_separation(pair: &Pair, separation: f64) -> (Self, IBig) {
+    pub(crate) fn with_separation(pair: &Pair, separation: f64) -> (Self, Integer) {
         let length = [[separation, 0.0, 0.0]; 4];
         let [start, end] = [&pair.start, &pair.end].map(|side| side.as_slice());
         let mut points = scale_to_integers(&[start, end, &length[..1]].concat());
@@ -82,7 +81,7 @@ impl Motion {
 
     /// Are the two sides of the pair more than `separation` apart along one coordinate axis, in the
     /// same order at both ends of the step? Linear motion then keeps them so in between.
-    pub(crate) fn apart_along_an_axis(&self, kind: PairKind, separation: &IBig) -> bool {
+    pub(crate) fn apart_along_an_axis(&self, kind: PairKind, separation: &Integer) -> bool {
         let first = match kind {
             PairKind::VertexFace => 1,
             PairKind::EdgeEdge => 2,
@@ -90,7 +89,7 @@ impl Motion {
         let apart = |low: usize, high: usize, axis: usize| {
             [&self.start, &self.end]
                 .iter()
-                .all(|positions| &positions[high][axis] - &positions[low][axis] > *separation)
+                .all(|positions| Integer::from(&positions[high][axis] - &positions[low][axis]) > *separation)
         };
         let side = |swapped: bool, axis: usize| {
             (0..first).all(|i| (first..4).all(|j| if swapped { apart(j, i, axis) } else { apart(i, j, axis) }))
@@ -109,11 +108,11 @@ impl Motion {
     }
 
     /// The points at time `t`, times its (positive) denominator.
-    pub(crate) fn at(&self, t: &RBig) -> [Point<IBig>; 4] {
+    pub(crate) fn at(&self, t: &Rational) -> [Point<Integer>; 4] {
         std::array::from_fn(|point| {
             std::array::from_fn(|axis| {
                 let (start, end) = (&self.start[point][axis], &self.end[point][axis]);
-                (end - start) * t.numerator() + start * t.denominator()
+                Integer::from(end - start) * t.numer() + Integer::from(start * t.denom())
             })
         })
     }
@@ -127,8 +126,8 @@ mod tests {
     fn every_finite_number_is_decoded_exactly() {
         for value in [1.0, -0.1, f64::MAX, f64::MIN_POSITIVE, 5e-324, -5e-324 * 3.0, 0.0, -0.0] {
             let (mantissa, exponent) = decode(value);
-            let decoded = RBig::from(mantissa) * RBig::from(2).pow(exponent as isize);
-            assert_eq!(decoded, RBig::try_from(value).expect("finite"));
+            let decoded = Rational::from(mantissa) << exponent;
+            assert_eq!(decoded, Rational::from_f64(value).expect("finite"));
         }
     }
 
@@ -136,10 +135,10 @@ mod tests {
     fn common_scale_keeps_the_ratios() {
         let values = [0.5, 3.0, 5e-324];
         let integers = &scale_to_integers(&[values])[0];
-        let exact = values.map(|x| RBig::try_from(x).expect("finite"));
+        let exact = values.map(|x| Rational::from_f64(x).expect("finite"));
         for (integer, value) in integers.iter().zip(&exact) {
-            let ratio = RBig::from_parts_signed(integer.clone(), integers[0].clone());
-            assert_eq!(ratio, value / &exact[0]);
+            let ratio = Rational::from((integer, &integers[0]));
+            assert_eq!(ratio, Rational::from(value / &exact[0]));
         }
     }
 }

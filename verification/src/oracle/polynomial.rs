@@ -1,22 +1,20 @@
 //! Polynomials in one variable with integer coefficients, and Sturm's theorem.
 
-use dashu_base::{Gcd, Sign, UnsignedAbs};
-use dashu_int::{IBig, UBig};
-use dashu_ratio::RBig;
+use rug::{Assign, Integer, Rational};
 use std::cmp::Ordering;
 
 /// A polynomial with integer coefficients, by powers of the variable.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Polynomial {
     /// Lowest power first; the last one is not zero. Empty for the zero polynomial.
-    coefficients: Vec<IBig>,
+    coefficients: Vec<Integer>,
 }
 
 impl Polynomial {
     /// The polynomial with these coefficients, lowest power first.
     #[must_use]
-    pub fn new(mut coefficients: Vec<IBig>) -> Self {
-        while coefficients.last().is_some_and(IBig::is_zero) {
+    pub fn new(mut coefficients: Vec<Integer>) -> Self {
+        while coefficients.last().is_some_and(Integer::is_zero) {
             coefficients.pop();
         }
         Self { coefficients }
@@ -24,15 +22,15 @@ impl Polynomial {
 
     /// The coefficients, lowest power first, without leading zeros.
     #[must_use]
-    pub fn coefficients(&self) -> &[IBig] {
+    pub fn coefficients(&self) -> &[Integer] {
         &self.coefficients
     }
 
     /// Each coefficient changed by the other's of the same power; what is missing is zero.
-    pub(crate) fn combined(self, other: &Self, change: impl Fn(&mut IBig, &IBig)) -> Self {
+    pub(crate) fn combined(self, other: &Self, change: impl Fn(&mut Integer, &Integer)) -> Self {
         let mut coefficients = self.coefficients;
         let length = coefficients.len().max(other.coefficients.len());
-        coefficients.resize(length, IBig::ZERO);
+        coefficients.resize(length, Integer::new());
         for (own, c) in coefficients.iter_mut().zip(&other.coefficients) {
             change(own, c);
         }
@@ -53,37 +51,39 @@ impl Polynomial {
 
     /// The sign of the value at a rational number.
     #[must_use]
-    pub fn sign_at(&self, x: &RBig) -> Ordering {
+    pub fn sign_at(&self, x: &Rational) -> Ordering {
         // Horner's rule on numerators: denominator^degree · value, and the denominator is positive.
         let Some((last, lower)) = self.coefficients.split_last() else {
             return Ordering::Equal;
         };
         let mut value = last.clone();
-        let mut power = UBig::ONE;
+        let mut power = Integer::from(1);
         for coefficient in lower.iter().rev() {
-            power *= x.denominator();
-            value *= x.numerator();
+            power *= x.denom();
+            value *= x.numer();
             value += coefficient * &power;
         }
-        value.cmp(&IBig::ZERO)
+        value.cmp0()
     }
 
     /// The value at `index / 2^bits`, times `2^(bits · degree)`.
-    pub(crate) fn value_at_dyadic(&self, index: &IBig, bits: u32) -> IBig {
+    pub(crate) fn value_at_dyadic(&self, index: &Integer, bits: u32) -> Integer {
         let Some((last, lower)) = self.coefficients.split_last() else {
-            return IBig::ZERO;
+            return Integer::new();
         };
         let mut value = last.clone();
-        for (coefficient, steps) in lower.iter().rev().zip(1..) {
+        let mut shifted = Integer::new();
+        for (coefficient, steps) in lower.iter().rev().zip(1u32..) {
             value *= index;
-            value += coefficient << (bits as usize * steps);
+            shifted.assign(coefficient << (bits * steps));
+            value += &shifted;
         }
         value
     }
 
     /// The sign of the value at `index / 2^bits`.
-    pub(crate) fn sign_at_dyadic(&self, index: &IBig, bits: u32) -> Ordering {
-        self.value_at_dyadic(index, bits).cmp(&IBig::ZERO)
+    pub(crate) fn sign_at_dyadic(&self, index: &Integer, bits: u32) -> Ordering {
+        self.value_at_dyadic(index, bits).cmp0()
     }
 
     /// The sign on the whole closed interval `[index, index + 1] / 2^bits`, if interval arithmetic shows
@@ -91,44 +91,41 @@ impl Polynomial {
     ///
     /// The width of the computed range shrinks with the interval, so a value other than zero is
     /// recognised once the interval around it is small enough.
-    pub(crate) fn sign_on_cell(&self, index: &IBig, bits: u32) -> Option<Ordering> {
+    pub(crate) fn sign_on_cell(&self, index: &Integer, bits: u32) -> Option<Ordering> {
         let Some((last, lower)) = self.coefficients.split_last() else {
             return Some(Ordering::Equal);
         };
-        let above = index + IBig::ONE;
+        let above = Integer::from(index + 1);
         let (mut low, mut high) = (last.clone(), last.clone());
-        for (coefficient, steps) in lower.iter().rev().zip(1..) {
-            low *= if low.sign() == Sign::Negative { &above } else { index };
-            high *= if high.sign() == Sign::Negative { index } else { &above };
-            let shifted = coefficient << (bits as usize * steps);
+        let mut shifted = Integer::new();
+        for (coefficient, steps) in lower.iter().rev().zip(1u32..) {
+            low *= if low.is_negative() { &above } else { index };
+            high *= if high.is_negative() { index } else { &above };
+            shifted.assign(coefficient << (bits * steps));
             low += &shifted;
-            high += shifted;
+            high += &shifted;
         }
-        let [low, high] = [low, high].map(|end| end.cmp(&IBig::ZERO));
-        (low == high).then_some(low)
+        (low.cmp0() == high.cmp0()).then(|| low.cmp0())
     }
 
     /// The derivative.
     #[must_use]
     pub fn derivative(&self) -> Self {
         let terms = self.coefficients.iter().zip(0u32..).skip(1);
-        Self::new(terms.map(|(c, power)| c * IBig::from(power)).collect())
+        Self::new(terms.map(|(c, power)| Integer::from(c * power)).collect())
     }
 
     /// This polynomial divided by the (positive) greatest common divisor of its coefficients.
     fn primitive(mut self) -> Self {
-        let Some((last, lower)) = self.coefficients.split_last() else {
-            return self;
-        };
-        let mut content = last.unsigned_abs();
-        for coefficient in lower.iter().filter(|coefficient| !coefficient.is_zero()) {
-            content = content.gcd(coefficient);
-            if content.is_one() {
+        let mut content = Integer::new();
+        for coefficient in &self.coefficients {
+            content.gcd_mut(coefficient);
+            if content == 1 {
                 return self;
             }
         }
         for coefficient in &mut self.coefficients {
-            *coefficient /= &content;
+            coefficient.div_exact_mut(&content);
         }
         self
     }
@@ -136,14 +133,14 @@ impl Polynomial {
     /// A positive multiple of the remainder on division by `divisor`, reduced to its primitive part.
     fn remainder(&self, divisor: &Self) -> Self {
         let lead = divisor.coefficients.last().expect("division by the zero polynomial");
-        let scale = lead.unsigned_abs();
+        let scale = Integer::from(lead.abs_ref());
         let mut rest = self.coefficients.clone();
         while rest.len() >= divisor.coefficients.len() {
             let mut factor = rest.pop().expect("longer than the divisor, so not empty");
             if factor.is_zero() {
                 continue;
             }
-            if lead.sign() == Sign::Negative {
+            if lead.is_negative() {
                 factor = -factor;
             }
             let shift = rest.len() + 1 - divisor.coefficients.len();
@@ -170,12 +167,12 @@ impl Polynomial {
     /// A positive multiple of the quotient by a divisor that leaves no remainder.
     fn quotient(&self, divisor: &Self) -> Self {
         let lead = divisor.coefficients.last().expect("division by the zero polynomial");
-        let scale = lead.unsigned_abs();
+        let scale = Integer::from(lead.abs_ref());
         let mut rest = self.coefficients.clone();
         let mut quotient = Vec::new();
         while rest.len() >= divisor.coefficients.len() {
             let mut factor = rest.pop().expect("longer than the divisor, so not empty");
-            if lead.sign() == Sign::Negative {
+            if lead.is_negative() {
                 factor = -factor;
             }
             let shift = rest.len() + 1 - divisor.coefficients.len();
@@ -187,7 +184,7 @@ impl Polynomial {
             }
             quotient.push(factor);
         }
-        assert!(rest.iter().all(IBig::is_zero), "the division leaves a remainder");
+        assert!(rest.iter().all(Integer::is_zero), "the division leaves a remainder");
         quotient.reverse();
         Self::new(quotient).primitive()
     }
@@ -220,7 +217,7 @@ impl SturmSequence {
         while !next.is_zero() {
             let mut rest = terms[terms.len() - 1].remainder(&next);
             for coefficient in &mut rest.coefficients {
-                *coefficient = -std::mem::take(coefficient);
+                *coefficient = Integer::from(-&*coefficient);
             }
             terms.push(next);
             next = rest;
@@ -235,7 +232,7 @@ impl SturmSequence {
 
     /// Sign variations at `index / 2^bits`. The variations at a minus those at b are the number of
     /// roots in (a, b].
-    pub(crate) fn variations(&self, index: &IBig, bits: u32) -> usize {
+    pub(crate) fn variations(&self, index: &Integer, bits: u32) -> usize {
         let mut count = 0;
         let mut previous = Ordering::Equal;
         for term in &self.terms {
@@ -254,7 +251,7 @@ mod tests {
     use super::*;
 
     fn polynomial(coefficients: &[i32]) -> Polynomial {
-        Polynomial::new(coefficients.iter().map(|&c| IBig::from(c)).collect())
+        Polynomial::new(coefficients.iter().map(|&c| Integer::from(c)).collect())
     }
 
     #[test]
@@ -263,7 +260,7 @@ mod tests {
         let square = polynomial(&[1, -4, 4]);
         let ends = polynomial(&[3, -4, 1]);
         let sequence = SturmSequence::new(&crate::oracle::geometry::Ring::product(&square, &ends));
-        let at = |x: i32| sequence.variations(&IBig::from(x), 0);
+        let at = |x: i32| sequence.variations(&Integer::from(x), 0);
         assert_eq!(sequence.polynomial().degree(), 3);
         assert_eq!(at(0) - at(1), 2);
         assert_eq!(at(0) - at(3), 3);
@@ -282,6 +279,6 @@ mod tests {
         let b = polynomial(&[3, -4, 1]); // (t − 1)(t − 3)
         let g = a.gcd(&b);
         assert_eq!(g.degree(), 1);
-        assert_eq!(g.sign_at(&RBig::ONE), Ordering::Equal);
+        assert_eq!(g.sign_at(&Rational::from(1)), Ordering::Equal);
     }
 }

@@ -4,9 +4,7 @@ use super::algebraic::AlgebraicTime;
 use super::geometry::{AtRest, EDGES, Point, Ring, Signs, cross, dot, subtract};
 use super::motion::{Motion, Pair, PairKind};
 use super::polynomial::Polynomial;
-use dashu_base::Gcd;
-use dashu_int::IBig;
-use dashu_ratio::RBig;
+use rug::{Integer, Rational};
 
 /// Is the distance of the closed vertex and face, or of the two closed edges, `separation` or less at
 /// some time in [0, 1]?
@@ -20,7 +18,7 @@ use dashu_ratio::RBig;
 pub fn within(pair: &Pair, separation: f64) -> bool {
     let question = Question::new(pair, separation);
     question.cannot_be_ruled_out()
-        && (question.is_near_at(&RBig::ZERO) || question.find_approach(|feature, mut time| feature.is_near(&mut time)))
+        && (question.is_near_at(&Rational::from(0)) || question.find_approach(|feature, mut time| feature.is_near(&mut time)))
 }
 
 /// The earliest time in [0, 1] at which the distance is `separation` or less; `None` if it never is.
@@ -36,7 +34,7 @@ pub fn first_within(pair: &Pair, separation: f64) -> Option<AlgebraicTime> {
     if !question.cannot_be_ruled_out() {
         return None;
     }
-    let start = RBig::ZERO;
+    let start = Rational::from(0);
     if question.is_near_at(&start) {
         return Some(AlgebraicTime::rational(start));
     }
@@ -56,7 +54,7 @@ pub fn first_within(pair: &Pair, separation: f64) -> Option<AlgebraicTime> {
 /// # Panics
 /// As [`within`].
 #[must_use]
-pub fn within_at(pair: &Pair, t: &RBig, separation: f64) -> bool {
+pub fn within_at(pair: &Pair, t: &Rational, separation: f64) -> bool {
     Question::new(pair, separation).is_near_at(t)
 }
 
@@ -65,19 +63,19 @@ pub fn within_at(pair: &Pair, t: &RBig, separation: f64) -> bool {
 /// # Panics
 /// If the separation is NaN, infinite or negative.
 #[must_use]
-pub fn within_at_rest(kind: PairKind, points: &[[RBig; 3]; 4], separation: f64) -> bool {
+pub fn within_at_rest(kind: PairKind, points: &[[Rational; 3]; 4], separation: f64) -> bool {
     assert!(separation >= 0.0, "the separation must not be negative, but is {separation}");
-    let separation = RBig::try_from(separation).expect("a finite separation");
-    let mut scale = separation.denominator().clone();
+    let separation = Rational::from_f64(separation).expect("a finite separation");
+    let mut scale = separation.denom().clone();
     for x in points.iter().flatten() {
-        scale *= x.denominator() / scale.clone().gcd(x.denominator());
+        scale.lcm_mut(x.denom());
     }
-    let scaled = |x: &RBig| x.numerator() * (&scale / x.denominator());
+    let scaled = |x: &Rational| (x * Rational::from(&scale)).into_numer_denom().0;
     let points = points.each_ref().map(|point| point.each_ref().map(scaled));
-    is_near_at_rest(kind, &points, &scaled(&separation).sqr().into())
+    is_near_at_rest(kind, &points, &scaled(&separation).square())
 }
 
-fn is_near_at_rest(kind: PairKind, points: &[Point<IBig>; 4], squared: &IBig) -> bool {
+fn is_near_at_rest(kind: PairKind, points: &[Point<Integer>; 4], squared: &Integer) -> bool {
     features(kind, points, squared)
         .iter()
         .any(|feature| feature.is_near(&mut AtRest))
@@ -87,7 +85,7 @@ fn is_near_at_rest(kind: PairKind, points: &[Point<IBig>; 4], squared: &IBig) ->
 struct Question {
     kind: PairKind,
     motion: Motion,
-    separation: IBig,
+    separation: Integer,
 }
 
 impl Question {
@@ -106,9 +104,9 @@ impl Question {
         !self.motion.apart_along_an_axis(self.kind, &self.separation)
     }
 
-    fn is_near_at(&self, t: &RBig) -> bool {
+    fn is_near_at(&self, t: &Rational) -> bool {
         // The positions are those at `t` times its denominator.
-        let squared = (&self.separation * t.denominator()).sqr().into();
+        let squared = Integer::from(&self.separation * t.denom()).square();
         is_near_at_rest(self.kind, &self.motion.at(t), &squared)
     }
 
@@ -119,7 +117,7 @@ impl Question {
         // separation, the features that hold the closest points are at exactly that distance, so their
         // `excess` is zero and the closest points are within them. If the excess is zero at all times,
         // the closest points have just come within them: one of `inside` has become zero.
-        let constant = Polynomial::new(vec![self.separation.sqr().into()]);
+        let constant = Polynomial::new(vec![self.separation.clone().square()]);
         features(self.kind, &self.motion.trajectories(), &constant)
             .iter()
             .any(|feature| {

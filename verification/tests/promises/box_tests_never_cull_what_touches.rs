@@ -1,9 +1,7 @@
 //! Box tests never cull a pair that touches, cull what they say they cull, and keep what is not finite.
 
-use crate::support::rationals::{self, fraction, sum};
-use dashu_int::IBig;
-use dashu_ratio::RBig;
 use proptest::prelude::*;
+use rug::Rational;
 use selvedge_core::Motion;
 use selvedge_core::PairKind;
 use selvedge_core::boxes::{Aabb, segment};
@@ -115,10 +113,10 @@ fn stronger_tests_cull_what_weaker_ones_cull_f32() {
     check(40_000, pairs_of_any_kind::<f32>(), stronger_tests_cull_what_weaker_ones_cull);
 }
 
-type RationalPoint = [RBig; 3];
+type RationalPoint = [Rational; 3];
 
 fn rational<S: Format>(position: [S; 3]) -> RationalPoint {
-    position.map(rationals::rational)
+    position.map(|x| Rational::from_f64(x.to_f64()).expect("finite"))
 }
 
 /// Whether `direction` · x strictly separates the two sets, in the same order at both ends. From the definition.
@@ -127,11 +125,11 @@ fn keeps_order<S: Format>(pair: &PairCase<S>, direction: [i32; 3]) -> bool {
     let heights = pair.points.map(|ends| {
         ends.map(|position| {
             let terms = rational(position).into_iter().zip(direction);
-            sum(terms.map(|(x, d)| x * IBig::from(d)))
+            terms.map(|(x, d)| x * d).sum::<Rational>()
         })
     });
     let (one, other) = heights.split_at(first);
-    let below = |low: &[[RBig; 2]], high: &[[RBig; 2]]| {
+    let below = |low: &[[Rational; 2]], high: &[[Rational; 2]]| {
         low.iter()
             .all(|low| high.iter().all(|high| low[0] < high[0] && low[1] < high[1]))
     };
@@ -180,17 +178,17 @@ fn relative_boxes_are_exact_on_all_nine_directions_where_sums_are() {
 
 /// Whether the closed segment meets the closed box: the part of it within each slab, in exact arithmetic.
 fn segment_meets_box(ends: &[RationalPoint; 2], [lower, upper]: &[RationalPoint; 2]) -> bool {
-    let (mut enter, mut leave) = (RBig::ZERO, RBig::ONE);
+    let (mut enter, mut leave) = (Rational::from(0), Rational::from(1));
     for axis in 0..3 {
         let start = &ends[0][axis];
-        let along = &ends[1][axis] - start;
+        let along = Rational::from(&ends[1][axis] - start);
         if along.is_zero() {
             if *start < lower[axis] || *start > upper[axis] {
                 return false;
             }
             continue;
         }
-        let mut times = [&lower[axis], &upper[axis]].map(|bound| (bound - start) / &along);
+        let mut times = [&lower[axis], &upper[axis]].map(|bound| Rational::from(bound - start) / &along);
         times.sort();
         let [first, last] = times;
         enter = enter.max(first);
@@ -352,7 +350,7 @@ fn a_path_clearly_past_the_box_is_culled<S: Format>() {
     let culled = std::cell::Cell::new(0);
     check(10_000, paths, |pair| {
         let [lower, upper] = swept_bounds(pair);
-        let margin = fraction(1, 128);
+        let margin = Rational::from((1, 128));
         let larger = [lower.map(|x| x - &margin), upper.map(|x| x + &margin)];
         if !segment_meets_box(&pair.points[0].map(rational), &larger) {
             prop_assert!(verdict(SegmentBox, pair).is_culled());

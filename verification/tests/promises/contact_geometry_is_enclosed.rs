@@ -4,9 +4,8 @@ use crate::support::at;
 use crate::support::environment::Environment;
 use crate::support::geometry::Truth;
 use crate::support::rationals::rational;
-use dashu_base::Abs;
-use dashu_ratio::RBig;
 use proptest::prelude::*;
+use rug::Rational;
 use selvedge::{CollisionDetector, PairKind, StepError, Topology};
 use selvedge_core::Motion;
 use selvedge_core::glam::DVec3;
@@ -133,7 +132,7 @@ fn near_pairs_are_all_within_the_distance_and_none_is_missed() {
         let is_within = |pair: (PairKind, [u32; 2]), distance: f64| {
             let vertices = topology.vertices_of(pair.0, pair.1);
             let resting = vertices.map(|vertex| [positions[vertex as usize].to_array(); 2]);
-            within_at(&PairCase::new(pair.0, resting).question(), &RBig::ZERO, distance)
+            within_at(&PairCase::new(pair.0, resting).question(), &Rational::new(), distance)
         };
         // Some of them, and some of the others, which are many.
         assert!(keys.iter().step_by(61).all(|&pair| is_within(pair, 1.00001 * distance)));

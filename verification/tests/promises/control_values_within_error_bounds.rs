@@ -1,10 +1,7 @@
 //! The coplanarity cubic: its control values are the right polynomial, and rounding moves them no further than proven.
 
-use crate::support::rationals::{rational, root, sum};
-use dashu_base::Abs;
-use dashu_int::IBig;
-use dashu_ratio::RBig;
 use proptest::prelude::*;
+use rug::{Float, Rational, ops::Pow};
 use selvedge_core::PairKind;
 use selvedge_core::verification::coplanarity::{MovingTetrahedron, error_bound_by_magnitudes, is_in_range};
 use selvedge_core::verification::lanes::{Lanes, Rounding};
@@ -185,8 +182,12 @@ proptest! {
 
 /// A control value as a sum of monomials of exact differences, and its permanent: the sum of their magnitudes.
 struct ExactControlValue {
-    value: RBig,
-    permanent: RBig,
+    value: Rational,
+    permanent: Rational,
+}
+
+fn rational<S: Format>(x: S) -> Rational {
+    Rational::from_f64(x.to_f64()).expect("finite")
 }
 
 /// In the order k₀, 3k₁, 3k₂, k₃, from the definition: the coefficient of (1−t)^(3−i)·t^i in det(P, B, C).
@@ -196,13 +197,13 @@ fn exact_control_values<S: Format>(pair: &PairCase<S>) -> [ExactControlValue; 4]
         PairKind::EdgeEdge => [2, 0, 1, 3],
     };
     let [a, b, c, p] = order.map(|k| pair.points[k].map(|position| position.map(rational)));
-    let from_a = |x: &[[RBig; 3]; 2]| -> [[RBig; 3]; 2] {
-        std::array::from_fn(|end| std::array::from_fn(|axis| &x[end][axis] - &a[end][axis]))
+    let from_a = |x: &[[Rational; 3]; 2]| -> [[Rational; 3]; 2] {
+        std::array::from_fn(|end| std::array::from_fn(|axis| Rational::from(&x[end][axis] - &a[end][axis])))
     };
     let [p, b, c] = [from_a(&p), from_a(&b), from_a(&c)];
     let mut values = [(); 4].map(|()| ExactControlValue {
-        value: RBig::ZERO,
-        permanent: RBig::ZERO,
+        value: Rational::new(),
+        permanent: Rational::new(),
     });
     let even = [[0, 1, 2], [1, 2, 0], [2, 0, 1]];
     let odd = [[0, 2, 1], [1, 0, 2], [2, 1, 0]];
@@ -211,7 +212,7 @@ fn exact_control_values<S: Format>(pair: &PairCase<S>) -> [ExactControlValue; 4]
         let control_value = &mut values[i + j + k];
         for (axes, negative) in even.map(|axes| (axes, false)).into_iter().chain(odd.map(|axes| (axes, true))) {
             let [x, y, z] = axes;
-            let monomial = &p[i][x] * &b[j][y] * &c[k][z];
+            let monomial = Rational::from(&p[i][x] * &b[j][y]) * &c[k][z];
             control_value.permanent += monomial.clone().abs();
             if negative {
                 control_value.value -= monomial;
@@ -224,17 +225,17 @@ fn exact_control_values<S: Format>(pair: &PairCase<S>) -> [ExactControlValue; 4]
 }
 
 /// Half of the smallest subnormal: the most that a product loses by underflow.
-fn lost_by_underflow<S: Format>() -> RBig {
-    rational(S::exact(1, S::MIN_EXPONENT)) / IBig::from(2)
+fn lost_by_underflow<S: Format>() -> Rational {
+    rational(S::exact(1, S::MIN_EXPONENT)) / 2_u32
 }
 
 /// (1 + u)^n − 1.
-fn relative_error<S: Format>(roundings: isize) -> RBig {
-    (RBig::ONE + rational(S::UNIT_ROUNDOFF)).pow(roundings) - RBig::ONE
+fn relative_error<S: Format>(roundings: u32) -> Rational {
+    (Rational::from(1) + rational(S::UNIT_ROUNDOFF)).pow(roundings) - 1_u32
 }
 
 /// The largest magnitude of a component, as computed.
-fn largest<S: Format>(vectors: impl IntoIterator<Item = [Vector<S>; 2]>) -> RBig {
+fn largest<S: Format>(vectors: impl IntoIterator<Item = [Vector<S>; 2]>) -> Rational {
     let components = vectors.into_iter().flatten().flat_map(|v| [v.x, v.y, v.z]);
     let magnitudes = components.map(|x| rational(x).abs());
     magnitudes.max().expect("some components")
@@ -242,13 +243,13 @@ fn largest<S: Format>(vectors: impl IntoIterator<Item = [Vector<S>; 2]>) -> RBig
 
 /// What the filter computes and what is exact.
 struct Compared {
-    computed: [RBig; 4],
-    bounds: [RBig; 4],
+    computed: [Rational; 4],
+    bounds: [Rational; 4],
     exact: [ExactControlValue; 4],
     /// Of P.
-    largest_p: RBig,
+    largest_p: Rational,
     /// Of all edges.
-    largest: RBig,
+    largest: Rational,
 }
 
 /// Nothing if the pair is beyond the range in which bounds hold.
@@ -286,16 +287,16 @@ property!(
         for (k, (computed, exact)) in computed.iter().zip(&exact).enumerate() {
             let outer = k == 0 || k == 3;
             let (roundings, per_p, alone) = if outer { (8, 6, 3) } else { (10, 18, 6) };
-            let underflow = (&largest_p * IBig::from(per_p) + IBig::from(alone))
+            let underflow = (Rational::from(&largest_p * per_p) + alone)
                 * lost_by_underflow::<S>()
-                * (relative_error::<S>(6) + RBig::ONE);
-            let allowed = relative_error::<S>(roundings) * &exact.permanent + underflow;
-            let error = (computed - &exact.value).abs();
+                * (relative_error::<S>(6) + 1_u32);
+            let allowed: Rational = relative_error::<S>(roundings) * &exact.permanent + underflow;
+            let error = Rational::from(computed - &exact.value).abs();
             prop_assert!(
                 error <= allowed,
                 "control value {k}: off by {} of {}",
-                error.to_f64().value(),
-                allowed.to_f64().value()
+                error.to_f64(),
+                allowed.to_f64()
             );
         }
         Ok(())
@@ -303,17 +304,21 @@ property!(
 );
 
 /// Whether a computed value beyond its bound has the exact one's sign.
-fn signs_are_certain(computed: &[RBig; 4], bounds: &[RBig; 4], exact: &[ExactControlValue; 4]) -> Result<(), TestCaseError> {
+fn signs_are_certain(
+    computed: &[Rational; 4],
+    bounds: &[Rational; 4],
+    exact: &[ExactControlValue; 4],
+) -> Result<(), TestCaseError> {
     for k in 0..4 {
         let (computed, bound, value) = (&computed[k], &bounds[k], &exact[k].value);
-        prop_assert!(computed <= bound || *value > RBig::ZERO, "control value {k}");
-        prop_assert!(-computed <= *bound || *value < RBig::ZERO, "control value {k}");
+        prop_assert!(computed <= bound || *value > 0, "control value {k}");
+        prop_assert!(-computed.clone() <= *bound || *value < 0, "control value {k}");
     }
     Ok(())
 }
 
 /// The bounds of k₀ and k₃, and four times as much for the other two.
-fn bounds_by_magnitudes<S: Format>(pair: &PairCase<S>) -> [RBig; 4] {
+fn bounds_by_magnitudes<S: Format>(pair: &PairCase<S>) -> [Rational; 4] {
     let outer = error_bound_by_magnitudes(pair.tetrahedron().largest_by_axis());
     let inner = S::small(4) * outer;
     [outer, inner, inner, outer].map(rational)
@@ -351,19 +356,19 @@ property!(
 
 /// Whether a computed bound is the documented sum of a relative and an absolute term, but for 16 roundings at most on the way and
 /// what its products lose by underflow, which is less than an eighth of the absolute term.
-fn is_documented<S: Format>(bound: &RBig, relative: RBig, absolute: &RBig) -> Result<(), TestCaseError> {
-    let slack = relative_error::<S>(16) + RBig::ONE;
-    let (documented, lost) = (relative + absolute, absolute / IBig::from(8));
-    let most = &documented * &slack + &lost;
-    prop_assert!(*bound <= most, "{} is too large", bound.to_f64().value());
-    let at_most = (bound + &lost) * slack;
-    prop_assert!(at_most >= documented, "{} is too small", bound.to_f64().value());
+fn is_documented<S: Format>(bound: &Rational, relative: Rational, absolute: &Rational) -> Result<(), TestCaseError> {
+    let slack = relative_error::<S>(16) + 1_u32;
+    let (documented, lost) = (relative + absolute, Rational::from(absolute / 8_u32));
+    let most = Rational::from(&documented * &slack) + &lost;
+    prop_assert!(*bound <= most, "{} is too large", bound.to_f64());
+    let at_most = Rational::from(bound + &lost) * slack;
+    prop_assert!(at_most >= documented, "{} is too small", bound.to_f64());
     Ok(())
 }
 
 /// (1 + M)²·η.
-fn underflow_term<S: Format>(largest: &RBig) -> RBig {
-    (largest + RBig::ONE).sqr() * rational(S::UNDERFLOW)
+fn underflow_term<S: Format>(largest: &Rational) -> Rational {
+    (Rational::from(largest) + 1_u32).square() * rational(S::UNDERFLOW)
 }
 
 property!(
@@ -382,8 +387,8 @@ property!(
             return Ok(());
         };
         for (k, (bound, exact)) in bounds.iter().zip(&exact).enumerate() {
-            let count = if k == 0 || k == 3 { 16 } else { 20 };
-            let relative = rational(S::UNIT_ROUNDOFF) * IBig::from(count) * &exact.permanent;
+            let count = if k == 0 || k == 3 { 16_u32 } else { 20 };
+            let relative = rational(S::UNIT_ROUNDOFF) * count * &exact.permanent;
             is_documented::<S>(bound, relative, &underflow_term::<S>(&largest))?;
         }
         Ok(())
@@ -407,34 +412,34 @@ property!(
         };
         let [x, y, z] = [0, 1, 2].map(along);
         let underflow = underflow_term::<S>(&largest(edges));
-        let relative = rational(S::UNIT_ROUNDOFF) * IBig::from(96) * (x * y * z);
+        let relative = rational(S::UNIT_ROUNDOFF) * 96_u32 * (x * y * z);
         is_documented::<S>(&bounds_by_magnitudes(pair)[0], relative, &underflow)
     }
 );
 
 /// The control points n₀, h/2, n₁ of the normal, exactly, each as the square of its length.
-fn squared_normals<S: Format>(pair: &PairCase<S>) -> [RBig; 3] {
+fn squared_normals<S: Format>(pair: &PairCase<S>) -> [Rational; 3] {
     // As two moving vectors whose cross product is the normal.
     let [from_0, to_0, from_1, to_1] = match pair.kind {
         PairKind::VertexFace => [1, 2, 1, 3],
         PairKind::EdgeEdge => [0, 1, 2, 3],
     };
     let points = pair.points.map(|ends| ends.map(|x| x.map(rational)));
-    let vector = |from: usize, to: usize, end: usize| -> [RBig; 3] {
+    let vector = |from: usize, to: usize, end: usize| -> [Rational; 3] {
         let ends = [&points[from][end], &points[to][end]];
-        std::array::from_fn(|axis| &ends[1][axis] - &ends[0][axis])
+        std::array::from_fn(|axis| Rational::from(&ends[1][axis] - &ends[0][axis]))
     };
-    let cross = |a: &[RBig; 3], b: &[RBig; 3]| -> [RBig; 3] {
+    let cross = |a: &[Rational; 3], b: &[Rational; 3]| -> [Rational; 3] {
         std::array::from_fn(|axis| {
             let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
-            &a[i] * &b[j] - &a[j] * &b[i]
+            Rational::from(&a[i] * &b[j]) - Rational::from(&a[j] * &b[i])
         })
     };
     let [a0, a1] = [0, 1].map(|end| vector(from_0, to_0, end));
     let [b0, b1] = [0, 1].map(|end| vector(from_1, to_1, end));
     let (one, other) = (cross(&a0, &b1), cross(&a1, &b0));
-    let middle: [RBig; 3] = std::array::from_fn(|axis| (&one[axis] + &other[axis]) / IBig::from(2));
-    [cross(&a0, &b0), middle, cross(&a1, &b1)].map(|normal| sum(normal.iter().map(RBig::sqr)))
+    let middle: [Rational; 3] = std::array::from_fn(|axis| Rational::from(&one[axis] + &other[axis]) / 2_u32);
+    [cross(&a0, &b0), middle, cross(&a1, &b1)].map(|normal| normal.into_iter().map(Rational::square).sum())
 }
 
 fn largest_normal<S: Format>(pair: &PairCase<S>) -> S {
@@ -444,7 +449,7 @@ fn largest_normal<S: Format>(pair: &PairCase<S>) -> S {
 
 property!(no_normal_is_longer_than_its_bound, 15_000, pairs_of_any_kind(), |pair| {
     if compared(pair).is_some() {
-        let bound = rational(largest_normal(pair)).sqr();
+        let bound = rational(largest_normal(pair)).square();
         for (k, squared) in squared_normals(pair).iter().enumerate() {
             prop_assert!(bound >= *squared, "control point {k}");
         }
@@ -464,11 +469,11 @@ fn the_bound_of_the_normal_is_the_documented_one<S: Format>() {
         let MovingTetrahedron { b, c, p } = pair.tetrahedron();
         let [u, eta] = [S::UNIT_ROUNDOFF, S::UNDERFLOW].map(rational);
         let squared = squared_normals(pair).into_iter().max().expect("three") + eta;
-        let length = root(&squared);
-        let rounding = IBig::from(128) * &u * largest([b, c, p]).sqr();
-        let documented = (length + rounding) * (IBig::from(32) * &u + RBig::ONE);
+        let length = rational_root(&squared);
+        let rounding = Rational::from(128) * &u * largest([b, c, p]).square();
+        let documented = (length + rounding) * (Rational::from(32) * &u + 1_u32);
         let error = (rational(largest_normal(pair)) - &documented).abs();
-        prop_assert!(error <= documented * u * IBig::from(5));
+        prop_assert!(error <= documented * u * 5_u32);
         Ok(())
     });
 }
@@ -481,4 +486,10 @@ fn the_bound_of_the_normal_is_the_documented_one_f64() {
 #[test]
 fn the_bound_of_the_normal_is_the_documented_one_f32() {
     the_bound_of_the_normal_is_the_documented_one::<f32>();
+}
+
+/// To 200 bits.
+fn rational_root(square: &Rational) -> Rational {
+    let root = Float::with_val(200, square).sqrt();
+    root.to_rational().expect("finite")
 }

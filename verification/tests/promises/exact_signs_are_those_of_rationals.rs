@@ -1,10 +1,10 @@
 //! `selvedge_core::verification::exact` says what rational arithmetic says, for every finite pair.
 
 use crate::support::environment::Environment;
-use crate::support::rationals::{InRationals, half_to_the, rational, separations};
+use crate::support::rationals::{InRationals, rational, separations};
 use crate::support::widths::at_the_limit_of_a_width;
-use dashu_ratio::RBig;
 use proptest::prelude::*;
+use rug::Rational;
 use selvedge_core::PairKind;
 use selvedge_core::verification::coplanarity::is_in_range;
 use selvedge_core::verification::exact::{
@@ -211,7 +211,7 @@ fn the_same_numbers_in_f64_have_the_same_signs() {
 
 fn is_right_to_a_relative_2_to_the_minus_60<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
     let exact = InRationals::new(pair);
-    let slack = RBig::ONE + half_to_the(60);
+    let slack = Rational::from(1) + (Rational::from(1) >> 60);
     for separation in separations(pair, &exact) {
         let culled = never_within(pair, separation, UNKNOWN);
         let length = rational(separation);

@@ -9,9 +9,7 @@
 //!
 //! No input here has a wrong sign. The tests assert how close the grids come, so that constants cut to a fraction would be seen.
 
-use crate::support::rationals::half_to_the;
-use dashu_int::IBig;
-use dashu_ratio::RBig;
+use rug::{Rational, ops::Pow};
 use selvedge_core::verification::coplanarity::MovingTetrahedron;
 use selvedge_core::verification::vector::Vector;
 use selvedge_verification::minifloat::{DOWNWARD, FLUSHING, Minifloat, TO_NEAREST, TOWARDS_ZERO, UPWARD, every};
@@ -233,24 +231,24 @@ fn every_middle_control_value_on_grids_of_two_values_with_6_bits() {
 }
 
 /// (1 + x)^n.
-fn power(x: &RBig, n: isize) -> RBig {
-    (x + RBig::ONE).pow(n)
+fn power(x: &Rational, n: u32) -> Rational {
+    (Rational::from(x) + 1_u32).pow(n)
 }
 
 #[test]
 fn the_constants_suffice_for_the_precisions_that_are_documented() {
     // Whether `constant`·u, less `lost` roundings, covers `count` monomials of `roundings` roundings each, `per_rounding` the most
     // that one rounding does, `more` of them in the computed magnitudes.
-    let covers = |u: &RBig, per_rounding: u32, [constant, lost, count, roundings, more]: [isize; 5]| {
-        let rounding = u * IBig::from(per_rounding);
-        let down = -&rounding;
-        let needed = (power(&rounding, roundings) - RBig::ONE) * IBig::from(count) / power(&down, more);
-        u * IBig::from(constant) * power(&down, lost) >= needed
+    let covers = |u: &Rational, per_rounding: u32, [constant, lost, count, roundings, more]: [u32; 5]| {
+        let rounding = Rational::from(u * per_rounding);
+        let down = Rational::from(-&rounding);
+        let needed = (power(&rounding, roundings) - 1_u32) * count / power(&down, more);
+        Rational::from(u * constant) * power(&down, lost) >= needed
     };
     let (outer, inner) = ([16, 10, 1, 7, 0], [20, 13, 1, 9, 0]);
     let by_magnitudes = [[96, 5, 6, 7, 3], [384, 5, 18, 9, 3]];
     for bits in 5..=53 {
-        let u = half_to_the(bits);
+        let u = Rational::from(1) >> bits;
         assert!(covers(&u, 1, outer) && covers(&u, 1, inner), "{bits}");
         assert!(bits < 8 || covers(&u, 2, outer), "{bits}");
         assert!(bits < 9 || covers(&u, 2, inner), "{bits}");
@@ -258,6 +256,7 @@ fn the_constants_suffice_for_the_precisions_that_are_documented() {
             assert!(bits < 10 || covers(&u, 2, constants), "{bits}");
         }
     }
-    assert!(!covers(&half_to_the(4), 1, outer));
-    assert!(!covers(&half_to_the(7), 2, outer) && !covers(&half_to_the(8), 2, inner));
+    let at = |bits: u32| Rational::from(1) >> bits;
+    assert!(!covers(&at(4), 1, outer));
+    assert!(!covers(&at(7), 2, outer) && !covers(&at(8), 2, inner));
 }

@@ -1,10 +1,9 @@
 //! Contact and separation of primitive pairs in motion, against clipping and against stepping.
 
 use crate::support::distance::{SLACK, advance, distance};
-use crate::support::rationals::{fraction, half_to_the, rational};
 use crate::support::{at, common_part};
-use dashu_ratio::RBig;
 use proptest::prelude::*;
+use rug::Rational;
 use selvedge_core::PairKind;
 use selvedge_verification::oracle::{Pair, collides, first_within, touches_at, within, within_at};
 
@@ -58,7 +57,7 @@ fn any_pair() -> impl Strategy<Value = Pair> {
 }
 
 /// Contact at a rational time, found by construction instead of signs.
-fn touches_by_clipping(pair: &Pair, t: &RBig) -> bool {
+fn touches_by_clipping(pair: &Pair, t: &Rational) -> bool {
     let points: Vec<_> = (0..4).map(|i| at(pair.start[i], pair.end[i], t)).collect();
     let (first, second) = points.split_at(match pair.kind {
         PairKind::VertexFace => 1,
@@ -68,8 +67,8 @@ fn touches_by_clipping(pair: &Pair, t: &RBig) -> bool {
 }
 
 /// All times of the step with a denominator of at most 8.
-fn sample_times() -> Vec<RBig> {
-    let mut times: Vec<_> = (1..=8).flat_map(|q| (0..=q).map(move |p| fraction(p, q))).collect();
+fn sample_times() -> Vec<Rational> {
+    let mut times: Vec<_> = (1..=8).flat_map(|q| (0..=q).map(move |p| Rational::from((p, q)))).collect();
     times.sort();
     times.dedup();
     times
@@ -107,7 +106,7 @@ fn check_against_stepping(pair: &Pair) -> Result<(), TestCaseError> {
             time.refine(100);
             let [low, high] = time.interval();
             prop_assert!(time.cmp_rational(&low).is_ge() && time.cmp_rational(&high).is_le());
-            prop_assert!(high - low <= half_to_the(100));
+            prop_assert!(high - low <= Rational::from(1) >> 100);
         }
     }
     Ok(())
@@ -194,7 +193,8 @@ proptest! {
         let just_before = first.to_f64_down().next_down();
         for time in [just_before, 0.75 * just_before, 0.0] {
             if time >= 0.0 && first.cmp_f64(time).is_gt() {
-                prop_assert!(!within_at(&pair, &rational(time), separation));
+                let time = Rational::from_f64(time).expect("finite");
+                prop_assert!(!within_at(&pair, &time, separation));
             }
         }
     }
@@ -247,7 +247,7 @@ proptest! {
             // The first contact backwards is the last one forwards.
             let [low, _] = first.interval();
             let [from_end, _] = last.interval();
-            prop_assert!(low + from_end <= RBig::ONE);
+            prop_assert!(low + from_end <= 1);
         }
     }
 }

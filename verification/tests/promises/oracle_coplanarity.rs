@@ -1,7 +1,7 @@
 //! Coplanarity of four moving points, against the extremes of the volume.
 
-use dashu_int::IBig;
 use proptest::prelude::*;
+use rug::Integer;
 use selvedge_verification::oracle::coplanar;
 use std::cmp::Ordering;
 
@@ -13,7 +13,7 @@ fn sign(a: i128, b: i128, d: i128) -> Ordering {
     match a.cmp(&0) {
         whole if whole == root || root.is_eq() => whole,
         Ordering::Equal => root,
-        whole => match (IBig::from(a) * a).cmp(&(IBig::from(b) * b * d)) {
+        whole => match Integer::from(a).square().cmp(&(Integer::from(b).square() * d)) {
             Ordering::Equal => Ordering::Equal,
             Ordering::Greater => whole,
             Ordering::Less => root,

@@ -2,11 +2,8 @@
 
 use crate::support::environment::Environment;
 use crate::support::geometry::Truth;
-use dashu_base::{Abs, Inverse};
-use dashu_float::{FBig, round::mode::HalfEven};
-use dashu_int::UBig;
-use dashu_ratio::RBig;
 use proptest::prelude::*;
+use rug::{Float, Rational};
 use selvedge_core::elementary::{Impact, Limits};
 use selvedge_core::glam::DVec3;
 use selvedge_core::paths::{Arc, Moment, Path, Piece, Polyline, RigidMotion, geometry, time_of_impact};
@@ -15,23 +12,12 @@ use selvedge_verification::generator::{Choices, Screw, Simplify, check, from_cho
 use std::cell::Cell;
 use std::f64::consts::PI;
 
-const BITS: usize = 256;
+const BITS: u32 = 256;
 
-type Float = FBig<HalfEven>;
 type Place = [Float; 3];
 
 fn float(x: f64) -> Float {
-    Float::try_from(x).expect("not NaN").with_precision(BITS).value()
-}
-
-fn rational(x: Float) -> RBig {
-    let (significand, exponent) = x.into_repr().into_parts();
-    let power = UBig::ONE << exponent.unsigned_abs();
-    if exponent < 0 {
-        RBig::from_parts(significand, power)
-    } else {
-        (significand * power).into()
-    }
+    Float::with_val(BITS, x)
 }
 
 fn place(point: DVec3) -> Place {
@@ -39,21 +25,21 @@ fn place(point: DVec3) -> Place {
 }
 
 fn plus(a: &Place, b: &Place) -> Place {
-    [0, 1, 2].map(|k| &a[k] + &b[k])
+    [0, 1, 2].map(|k| Float::with_val(BITS, &a[k] + &b[k]))
 }
 
 fn minus(a: &Place, b: &Place) -> Place {
-    [0, 1, 2].map(|k| &a[k] - &b[k])
+    [0, 1, 2].map(|k| Float::with_val(BITS, &a[k] - &b[k]))
 }
 
 fn times(a: &Place, factor: &Float) -> Place {
-    a.each_ref().map(|x| x * factor)
+    a.each_ref().map(|x| Float::with_val(BITS, x * factor))
 }
 
 fn dot(a: &Place, b: &Place) -> Float {
     let mut sum = float(0.0);
     for k in 0..3 {
-        sum += &a[k] * &b[k];
+        sum += Float::with_val(BITS, &a[k] * &b[k]);
     }
     sum
 }
@@ -61,7 +47,7 @@ fn dot(a: &Place, b: &Place) -> Float {
 fn cross(a: &Place, b: &Place) -> Place {
     [0, 1, 2].map(|k| {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        &a[i] * &b[j] - &a[j] * &b[i]
+        Float::with_val(BITS, &a[i] * &b[j]) - Float::with_val(BITS, &a[j] * &b[i])
     })
 }
 
@@ -88,8 +74,8 @@ impl Pose {
     fn of(screw: &Screw, time: f64) -> Self {
         let (angle, time) = (float(screw.angle), float(time));
         let axis = place(screw.axis);
-        let axis = times(&axis, &dot(&axis, &axis).sqrt().inv());
-        let (sine, cosine) = (&angle * &time).sin_cos();
+        let axis = times(&axis, &dot(&axis, &axis).sqrt().recip());
+        let (sine, cosine) = Float::with_val(BITS, &angle * &time).sin_cos(float(0.0));
         let [centre, translation] = [screw.centre, screw.translation].map(place);
         Self {
             sine,
@@ -126,8 +112,8 @@ impl Pose {
 
     /// Where a point starts that is there; rounded.
     fn start_of(&self, there: &Place) -> DVec3 {
-        let back = self.turned(&minus(there, &self.moved), &-&self.sine);
-        DVec3::from_array(plus(&self.centre, &back).map(|x| x.to_f64().value()))
+        let back = self.turned(&minus(there, &self.moved), &-self.sine.clone());
+        DVec3::from_array(plus(&self.centre, &back).map(|x| x.to_f64()))
     }
 }
 
@@ -182,17 +168,12 @@ fn a_point_of_a_body_that_turns_is_where_it_is_said_to_be_and_as_fast() {
 
 fn is_as_told(moment: &Moment, (position, velocity): &(Place, Place)) -> Result<(), TestCaseError> {
     let off = distance(&place(moment.position), position);
-    prop_assert!(
-        off <= float(moment.position_error),
-        "{} of {}",
-        off.to_f64().value(),
-        moment.position_error
-    );
+    prop_assert!(off <= float(moment.position_error), "{} of {}", off, moment.position_error);
     let off = distance(&place(moment.velocity), velocity);
     prop_assert!(
         off <= float(moment.velocity_error),
         "{} of {}, its velocity",
-        off.to_f64().value(),
+        off,
         moment.velocity_error
     );
     Ok(())
@@ -209,7 +190,7 @@ fn a_point_on_straight_pieces_is_where_it_is_said_to_be_and_as_fast() {
         for time in [0.0, 0.25, knots[2], 0.5 * case.time, case.time, 1.0] {
             let way = |from: DVec3, to: DVec3, [begin, end]: [f64; 2]| {
                 let lasts = float(end) - float(begin);
-                let velocity = times(&minus(&place(to), &place(from)), &lasts.inv());
+                let velocity = times(&minus(&place(to), &place(from)), &lasts.recip());
                 let since = float(time) - float(begin);
                 (plus(&place(from), &times(&velocity, &since)), velocity)
             };
@@ -245,12 +226,7 @@ fn deviates(piece: &Piece, [from, to]: [f64; 2], at: impl Fn(f64) -> Place) -> R
             &times(&place(piece.motion.end), &share),
         );
         let off = distance(&straight, &at(time));
-        prop_assert!(
-            off <= float(piece.deviation),
-            "{} of {} at {time}",
-            off.to_f64().value(),
-            piece.deviation
-        );
+        prop_assert!(off <= float(piece.deviation), "{off} of {} at {time}", piece.deviation);
     }
     Ok(())
 }
@@ -363,7 +339,7 @@ fn geometry_is_kept(case: &Turning, environment: Environment, count: &Cell<[usiz
                 let of_side = starts.iter().zip(&moments).filter(|((own, _), _)| *own == side);
                 of_side.map(|(_, moment)| error(moment)).fold(0.0, f64::max)
             };
-            let exact = |place: Place| place.map(rational);
+            let exact = |place: Place| place.map(|x| x.to_rational().expect("a finite number"));
             let all = |time: f64, of: fn(&Pose, DVec3) -> Place| {
                 let poses = case.turns.each_ref().map(|turn| Pose::of(turn, time));
                 [0, 1, 2, 3].map(|k| exact(of(&poses[starts[k].0], starts[k].1)))
@@ -371,8 +347,8 @@ fn geometry_is_kept(case: &Turning, environment: Environment, count: &Cell<[usiz
             let at = |time: f64| all(time, Pose::at);
             let velocities = all(time, Pose::velocity);
             let from_first = velocities.iter().flat_map(|velocity| velocity.iter().zip(&velocities[0]));
-            let of_speed = from_first.map(|(own, first)| (own - first).abs()).max();
-            let largest = at(time).into_iter().flatten().map(RBig::abs).max();
+            let of_speed = from_first.map(|(own, first)| Rational::from(own - first).abs()).max();
+            let largest = at(time).into_iter().flatten().map(Rational::abs).max();
             // The widening, which errors of moments that are asked for in another direction of rounding differ by, is 16u of them.
             let wider = 1.0 + 1e-12;
             let truth = Truth {

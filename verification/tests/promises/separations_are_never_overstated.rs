@@ -4,11 +4,8 @@
 
 use crate::support::environment::Environment;
 use crate::support::point;
-use crate::support::rationals::{half_to_the, rational, sum};
-use dashu_base::{Abs, Approximation};
-use dashu_int::IBig;
-use dashu_ratio::RBig;
 use proptest::prelude::*;
+use rug::Rational;
 use selvedge_core::PairKind;
 use selvedge_core::boxes::Aabb;
 use selvedge_core::boxes::mapping::{Inset, Mapping};
@@ -158,7 +155,7 @@ property!(
 
 /// Whether the distance at an end of the step is certainly `bound` or more.
 fn is_at_least(pair: &Pair, end: u32, bound: f64) -> bool {
-    bound <= 0.0 || !within_at(pair, &RBig::from(end), bound.next_down())
+    bound <= 0.0 || !within_at(pair, &Rational::from(end), bound.next_down())
 }
 
 property!(a_bound_of_the_distance_is_not_above_it, 600, pairs_of_any_kind(), |pair| {
@@ -242,8 +239,8 @@ fn largest_stray(pair: &PairCase<f64>, distance: f64) -> f32 {
 /// x + `by`, or the next number nearer to x if that is farther from it.
 fn strayed(x: f64, by: f64) -> f64 {
     let (from, to) = (x, x + by);
-    let way = rational(to) - rational(from);
-    if way.abs() <= rational(by).abs() {
+    let way = Rational::from_f64(to).expect("finite") - Rational::from_f64(from).expect("finite");
+    if way.abs() <= Rational::from_f64(by).expect("finite").abs() {
         to
     } else if to > from {
         to.next_down()
@@ -387,23 +384,24 @@ property!(
             let Some(course) = environment.run(question, |question| course_of(question)) else {
                 continue;
             };
+            let exact = |x: S| Rational::from_f64(x.to_f64()).expect("finite");
             let position_of = |vector: S::Vector| {
                 let position: [S; 3] = vector.into();
                 point(position.map(S::to_f64))
             };
-            let share = rational(course.time) / rational(course.span);
+            let share = exact(course.time) / exact(course.span);
             let [origin, end, position] = [course.origin, course.end, course.position].map(position_of);
             for axis in 0..3 {
-                let on_course = (&end[axis] - &origin[axis]) * &share + &origin[axis];
-                let strayed = (&position[axis] - &on_course).abs();
+                let on_course = Rational::from(&end[axis] - &origin[axis]) * &share + &origin[axis];
+                let strayed = Rational::from(&position[axis] - &on_course).abs();
                 // 2·strayed ≤ stray + spare/√3.
-                let more = strayed * IBig::from(2) - rational(course.stray);
-                let (spare, squared) = (rational(course.spare), more.sqr() * IBig::from(3));
-                let is_within = match (more > RBig::ZERO, spare > RBig::ZERO) {
-                    (true, true) => squared <= spare.sqr(),
+                let more = strayed * 2_u32 - exact(course.stray);
+                let (spare, squared) = (exact(course.spare), Rational::from(more.square_ref()) * 3_u32);
+                let is_within = match (more > 0, spare > 0) {
+                    (true, true) => squared <= spare.square(),
                     (true, false) => false,
                     (false, true) => true,
-                    (false, false) => squared >= spare.sqr(),
+                    (false, false) => squared >= spare.square(),
                 };
                 prop_assert!(is_within, "{environment:?}: {course:?}");
             }
@@ -459,12 +457,12 @@ fn are_drawn_in_boxes_apart<S: Format>(pair: &PairCase<S>, separation: S, smalle
 fn cut_short(pair: &Pair, until: f64) -> Option<Pair> {
     let mut cut = *pair;
     for k in 0..4 {
-        let end = crate::support::at(pair.start[k], pair.end[k], &rational(until));
+        let end = crate::support::at(pair.start[k], pair.end[k], &Rational::from_f64(until)?);
         for axis in 0..3 {
-            let Approximation::Exact(x) = end[axis].to_f64() else {
+            cut.end[k][axis] = end[axis].to_f64();
+            if end[axis] != cut.end[k][axis] {
                 return None;
-            };
-            cut.end[k][axis] = x;
+            }
         }
     }
     Some(cut)
@@ -560,8 +558,9 @@ property!(
     400,
     pairs_of_any_kind(),
     |pair| {
-        let near = half_to_the(22);
-        let least_normal = rational(f32::MIN_POSITIVE);
+        let exact = |x: f64| Rational::from_f64(x).expect("finite");
+        let near = Rational::from((1, 1 << 22));
+        let least_normal = exact(f32::MIN_POSITIVE.into());
         for value in pair.coordinates().map(|x| x.to_f64().abs()) {
             // As it is, and as a time of the step.
             for value in [value, value / (1.0 + value), value * 1e-200] {
@@ -574,18 +573,18 @@ property!(
                         )
                     });
                     prop_assert!(up >= 0.0 && down >= 0.0);
-                    let most = rational(value) * (RBig::ONE + &near) + &least_normal;
+                    let most = exact(value) * (Rational::from(1) + &near) + &least_normal;
                     if up.is_finite() {
-                        let up = rational(up);
-                        prop_assert!(up >= rational(value) && up <= most, "{environment:?}: {value} up to {up}");
+                        let up = exact(f64::from(up));
+                        prop_assert!(up >= exact(value) && up <= most, "{environment:?}: {value} up to {up}");
                     } else {
                         prop_assert!(value > f64::from(f32::MAX), "{environment:?}: {value}");
                     }
                     if value <= f64::from(f32::MAX) {
-                        let least = rational(value) * (RBig::ONE - &near) - &least_normal;
-                        let down = rational(down);
+                        let least = exact(value) * (Rational::from(1) - &near) - &least_normal;
+                        let down = exact(f64::from(down));
                         prop_assert!(
-                            down <= rational(value) && down >= least,
+                            down <= exact(value) && down >= least,
                             "{environment:?}: {value} down to {down}"
                         );
                     }
@@ -630,10 +629,11 @@ property!(
 );
 
 /// (a·b)(e·e) − (a·e)(b·e) of the ways from the first point to the others, e to the second: less than zero beyond a right angle.
-fn across<S: Format>([v, others @ ..]: [[S; 3]; 4]) -> RBig {
-    let way = |point: [S; 3]| [0, 1, 2].map(|axis| rational(point[axis]) - rational(v[axis]));
+fn across<S: Format>([v, others @ ..]: [[S; 3]; 4]) -> Rational {
+    let exact = |x: S| Rational::from_f64(x.to_f64()).expect("finite");
+    let way = |point: [S; 3]| [0, 1, 2].map(|axis| exact(point[axis]) - exact(v[axis]));
     let [e, a, b] = others.map(way);
-    let dot = |x: &[RBig; 3], y: &[RBig; 3]| sum(x.iter().zip(y).map(|(x, y)| x * y));
+    let dot = |x: &[Rational; 3], y: &[Rational; 3]| x.iter().zip(y).map(|(x, y)| Rational::from(x * y)).sum::<Rational>();
     dot(&a, &b) * dot(&e, &e) - dot(&a, &e) * dot(&b, &e)
 }
 
@@ -654,9 +654,9 @@ fn only_what_is_beyond_a_right_angle_is_wide_open<S: Format>() {
             let exact = across(points);
             for environment in Environment::all() {
                 let is_open = environment.run(&points, |points| is_wide_open(points.map(S::Vector::from)));
-                prop_assert!(!is_open || exact < RBig::ZERO, "{environment:?}: {points:?}");
+                prop_assert!(!is_open || exact < 0, "{environment:?}: {points:?}");
                 let [so_far, all] = open.get();
-                open.set([so_far + usize::from(is_open), all + usize::from(exact < RBig::ZERO)]);
+                open.set([so_far + usize::from(is_open), all + usize::from(exact < 0)]);
             }
         }
         Ok(())

@@ -2,11 +2,8 @@
 //! more work than it says; in every floating-point environment.
 
 use crate::support::environment::Environment;
-use crate::support::rationals::{half_to_the, rational};
-use dashu_base::Abs;
-use dashu_int::IBig;
-use dashu_ratio::RBig;
 use proptest::prelude::*;
+use rug::Rational;
 use selvedge::simd::{available_levels, best_level};
 use selvedge_core::PairKind;
 use selvedge_core::batch::{Level, Round, RoundQuestion, VertexRow, advance_from_rows};
@@ -119,14 +116,15 @@ fn answer_in_sweeps<S: Format>(pair: &PairCase<S>, tolerance: S, separation: S, 
 }
 
 /// The largest difference along an axis between points of the two sets, exactly.
-fn extents<S: Format>(pair: &PairCase<S>) -> [RBig; 3] {
+fn extents<S: Format>(pair: &PairCase<S>) -> [Rational; 3] {
     let [first, second] = pair.sets();
     std::array::from_fn(|axis| {
-        let mut largest = RBig::ZERO;
+        let exact = |x: S| Rational::from_f64(x.to_f64()).expect("finite");
+        let mut largest = Rational::new();
         for end in 0..2 {
             for one in first {
                 for other in second {
-                    let difference = rational(one[end][axis]) - rational(other[end][axis]);
+                    let difference = exact(one[end][axis]) - exact(other[end][axis]);
                     largest = largest.max(difference.abs());
                 }
             }
@@ -137,7 +135,7 @@ fn extents<S: Format>(pair: &PairCase<S>) -> [RBig; 3] {
 
 fn size<S: Format>(pair: &PairCase<S>) -> S {
     let [x, y, z] = extents(pair);
-    let largest = S::from_f64(x.max(y).max(z).to_f64().value());
+    let largest = S::from_f64(x.max(y).max(z).to_f64());
     if Scalar::is_finite(largest) { largest } else { S::LARGEST }
 }
 
@@ -241,7 +239,7 @@ fn finds_what_touches<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError
     let time = moment.time();
     for tolerance in [S::ZERO, size(&pair) * S::exact(1, -20)] {
         let (impact, _) = answer(&pair, tolerance, S::ZERO);
-        let found = impact.time().map(rational);
+        let found = impact.time().map(|time| time.to_f64());
         prop_assert!(found.is_some_and(|found| found <= time), "{impact:?}");
     }
     Ok(())
@@ -260,7 +258,7 @@ fn finds_what_touches_in_every_environment<S: Format>(moment: &Moment<S>) -> Res
             let (impact, _) = environment.run(&pair, |pair| answer(pair, tolerance, S::ZERO));
             let in_sweeps = environment.run(&pair, |pair| answer_in_sweeps(pair, tolerance, S::ZERO, best_level()));
             for impact in [impact, in_sweeps] {
-                let found = impact.time().map(rational);
+                let found = impact.time().map(|time| time.to_f64());
                 prop_assert!(found.is_some_and(|found| found <= time), "{environment:?}: {impact:?}");
             }
         }
@@ -348,21 +346,17 @@ fn is_tight<S: Format>(question: &Question<S>) -> Result<(), TestCaseError> {
     else {
         return Ok(());
     };
-    let wanted = rational(question.tolerance) + rational(question.separation);
+    let exact = |x: S| Rational::from_f64(x.to_f64()).expect("finite");
+    let wanted = exact(question.tolerance) + exact(question.separation);
     let [x, y, z] = extents(&question.pair);
-    let sum = &wanted + x + y + z;
-    let rounding = sum * IBig::from(64) * rational(S::UNIT_ROUNDOFF);
-    let vanishing = half_to_the(if S::NAME == "f32" { 60 } else { 500 });
+    let sum: Rational = wanted.clone() + x + y + z;
+    let rounding = sum * 64 * exact(S::UNIT_ROUNDOFF);
+    let vanishing = Rational::from(1) >> if S::NAME == "f32" { 60 } else { 500 };
     // To a floating-point number, and not below.
-    let bound = wanted + rounding + vanishing;
-    let nearest = bound.to_f64().value();
-    let bound = if rational(nearest) < bound {
-        nearest.next_up()
-    } else {
-        nearest
-    };
+    let bound: Rational = wanted + rounding + vanishing;
+    let bound = bound.to_f64().next_up();
     prop_assert!(
-        within_at(&question.pair.question(), &rational(time), bound),
+        within_at(&question.pair.question(), &exact(time), bound),
         "not within {bound:e} at {time}"
     );
     Ok(())
@@ -423,10 +417,11 @@ fn confirms_only_contacts<S: Format>(
         let interval = environment.run(pair, |pair| certain_contact(&pair.pair(), near));
         let Some([from, to]) = interval else { continue };
         confirmed.set(confirmed.get() + 1);
+        let exact = |x: S| Rational::from_f64(x.to_f64()).expect("finite");
         let Some(first) = collides(&pair.question()) else {
             return Err(TestCaseError::fail("confirmed what never touches"));
         };
-        prop_assert!(first.cmp_rational(&rational(to)).is_le(), "[{from}, {to}]");
+        prop_assert!(first.cmp_rational(&exact(to)).is_le(), "[{from}, {to}]");
     }
     Ok(())
 }
@@ -481,7 +476,7 @@ fn bisection_is_not_late<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseEr
         separation: S::ZERO,
     };
     let impact = tight_inclusion::time_of_impact(&pair.pair(), &limits);
-    let found = impact.time().map(rational);
+    let found = impact.time().map(|time| time.to_f64());
     prop_assert!(found.is_some_and(|found| found <= moment.time()), "{impact:?}");
     Ok(())
 }

@@ -4,8 +4,7 @@
 //! Rounding errors are a large part of such numbers, so that grids of a few values come close to every bound. The tests assert how
 //! close, and that something is proven at all.
 
-use crate::support::rationals::rational;
-use dashu_int::IBig;
+use rug::Integer;
 use selvedge_core::PairKind;
 use selvedge_core::elementary::advance::time_of_impact_of_points;
 use selvedge_core::elementary::{Impact, Limits};
@@ -239,13 +238,13 @@ fn determinant([a, b, c]: [[i128; 3]; 3]) -> i128 {
 }
 
 /// A multiple of the volume at the time that is `part` of `whole`, which is a power of two.
-fn exact_volume(corners: &[ExactCorner], part: i128, whole: i128) -> IBig {
+fn exact_volume(corners: &[ExactCorner], part: i128, whole: i128) -> Integer {
     let [k0, k1, k2, k3] = [0, 1, 2, 3].map(|ends: usize| {
         let choices = (0..8_usize).filter(|choice| choice.count_ones() as usize == ends);
         let of_choice = |choice: usize| determinant([0, 1, 2].map(|corner: usize| corners[corner][choice >> corner & 1]));
-        IBig::from(choices.map(of_choice).sum::<i128>())
+        Integer::from(choices.map(of_choice).sum::<i128>())
     });
-    let (part, rest) = (IBig::from(part), IBig::from(whole - part));
+    let (part, rest) = (Integer::from(part), Integer::from(whole - part));
     let mut sum = k0 * &rest * &rest * &rest;
     sum += k1 * &rest * &rest * &part;
     sum += k2 * &rest * &part * &part;
@@ -265,9 +264,9 @@ fn random_volumes<const ENVIRONMENT: u32>() -> Seen {
         let corners = Corners::of_vertex_face(&points);
         let volume = SignedVolume::new(&corners, None);
         let exact = exact_corners(PairKind::VertexFace, &points);
-        let sign_at = |part: i128| exact_volume(&exact, part, whole).cmp(&IBig::ZERO);
+        let at = |part: i128| exact_volume(&exact, part, whole);
         seen.asked += 1;
-        let (computed, sign) = (volume.at(time).value(), sign_at(time.units().into()));
+        let (computed, sign) = (volume.at(time).value(), at(time.units().into()).cmp0());
         let share = computed.abs() / volume.error.value();
         if share > seen.worst && computed.partial_cmp(&0.0) != Some(sign) {
             seen.worst = share;
@@ -283,11 +282,14 @@ fn random_volumes<const ENVIRONMENT: u32>() -> Seen {
             assert!(sign.is_ne(), "{points:?} at {time:?}");
             for step in 1..=16 {
                 let part = from + (to - from) * step / 16;
-                assert_eq!(sign_at(part), sign, "{points:?} from {time:?} to {until:?}");
+                assert_eq!(at(part).cmp0(), sign, "{points:?} from {time:?} to {until:?}");
             }
         }
         if volume.proves_apart_throughout() {
-            assert!((0..=16).all(|step| sign_at(whole * step / 16) == sign_at(0)), "{points:?}");
+            assert!(
+                (0..=16).all(|step| at(whole * step / 16).cmp0() == at(0).cmp0()),
+                "{points:?}"
+            );
         }
     }
     seen
@@ -384,7 +386,7 @@ fn late_with_bounds_times<F: Factors, S: Format>() -> u32 {
             separation: S::ZERO,
         };
         let impact = altered::time_of_impact::<F, S>(&moment.pair(), &limits);
-        let is_late = impact.time().is_none_or(|time| rational(time) > moment.time());
+        let is_late = impact.time().is_none_or(|time| time.to_f64() > moment.time());
         late += u32::from(is_late);
     }
     late

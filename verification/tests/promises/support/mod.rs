@@ -10,9 +10,7 @@ pub(crate) mod geometry;
 pub(crate) mod rationals;
 pub(crate) mod widths;
 
-use dashu_base::Signed;
-use dashu_ratio::RBig;
-use rationals::{rational, sum};
+use rug::Rational;
 
 /// A property of pairs of format `S`, or of other inputs, and a test for each format.
 macro_rules! property {
@@ -41,33 +39,33 @@ macro_rules! property {
     };
 }
 
-pub(crate) type Point = [RBig; 3];
+pub(crate) type Point = [Rational; 3];
 
 pub(crate) fn point(coordinates: [f64; 3]) -> Point {
-    coordinates.map(rational)
+    coordinates.map(|x| Rational::from_f64(x).expect("finite"))
 }
 
 /// The position at time `t` of a point that moves linearly.
-pub(crate) fn at(start: [f64; 3], end: [f64; 3], t: &RBig) -> Point {
+pub(crate) fn at(start: [f64; 3], end: [f64; 3], t: &Rational) -> Point {
     let (start, end) = (point(start), point(end));
-    std::array::from_fn(|i| (&end[i] - &start[i]) * t + &start[i])
+    std::array::from_fn(|i| Rational::from(&end[i] - &start[i]) * t + &start[i])
 }
 
 fn minus(a: &Point, b: &Point) -> Point {
-    std::array::from_fn(|i| &a[i] - &b[i])
+    std::array::from_fn(|i| Rational::from(&a[i] - &b[i]))
 }
 
-fn dot(a: &Point, b: &Point) -> RBig {
-    sum(a.iter().zip(b).map(|(x, y)| x * y))
+fn dot(a: &Point, b: &Point) -> Rational {
+    a.iter().zip(b).map(|(x, y)| Rational::from(x * y)).sum()
 }
 
 fn cross(a: &Point, b: &Point) -> Point {
-    let minor = |i: usize, j: usize| &a[i] * &b[j] - &a[j] * &b[i];
+    let minor = |i: usize, j: usize| Rational::from(&a[i] * &b[j]) - Rational::from(&a[j] * &b[i]);
     [minor(1, 2), minor(2, 0), minor(0, 1)]
 }
 
 fn is_zero(v: &Point) -> bool {
-    v.iter().all(RBig::is_zero)
+    v.iter().all(Rational::is_zero)
 }
 
 /// `{ x : direction · (x − through) ≥ 0 }`
@@ -138,8 +136,8 @@ pub(crate) fn common_part(a: &[Point], b: &[Point]) -> Vec<Point> {
                 clipped.push(p.clone());
             }
             if above_p.is_negative() != above_q.is_negative() {
-                let part = &above_p / (&above_p - &above_q);
-                clipped.push(std::array::from_fn(|i| (&q[i] - &p[i]) * &part + &p[i]));
+                let part = &above_p / Rational::from(&above_p - &above_q);
+                clipped.push(std::array::from_fn(|i| Rational::from(&q[i] - &p[i]) * &part + &p[i]));
             }
         }
         polygon = clipped;

@@ -1,69 +1,46 @@
 //! The signed volume's control values in rational arithmetic, and the separations where they change the answer.
 
-use dashu_base::SquareRoot;
-use dashu_int::{IBig, UBig};
-use dashu_ratio::RBig;
+use rug::{Float, Rational};
 use selvedge_core::PairKind;
 use selvedge_core::Scalar;
 use selvedge_verification::generator::{Format, PairCase};
 use std::cmp::Ordering::{self, Greater, Less};
 
-type Point = [RBig; 3];
+type Point = [Rational; 3];
 
-pub(crate) fn rational<S: Scalar>(x: S) -> RBig {
-    RBig::try_from(x.to_f64()).expect("finite")
-}
-
-pub(crate) fn fraction(numerator: u32, denominator: u32) -> RBig {
-    RBig::from_parts(numerator.into(), denominator.into())
-}
-
-/// 1/2 to a power.
-pub(crate) fn half_to_the(power: usize) -> RBig {
-    RBig::from_parts(IBig::ONE, UBig::ONE << power)
-}
-
-/// `RBig` has no `Sum`.
-pub(crate) fn sum(terms: impl Iterator<Item = RBig>) -> RBig {
-    terms.fold(RBig::ZERO, |sum, term| sum + term)
-}
-
-/// The root of a number that is not negative, less at most 2⁻²⁰⁰ of it.
-pub(crate) fn root(square: &RBig) -> RBig {
-    // √(n/d) = √(n·d)/d.
-    let product = square.numerator() * square.denominator();
-    RBig::from_parts((product << 400).sqrt().into(), square.denominator() << 200)
+pub(crate) fn rational<S: Scalar>(x: S) -> Rational {
+    Rational::from_f64(x.to_f64()).expect("finite")
 }
 
 fn minus(a: &Point, b: &Point) -> Point {
-    std::array::from_fn(|axis| &a[axis] - &b[axis])
+    std::array::from_fn(|axis| Rational::from(&a[axis] - &b[axis]))
 }
 
 fn cross(a: &Point, b: &Point) -> Point {
-    let minor = |i: usize, j: usize| &a[i] * &b[j] - &a[j] * &b[i];
+    let minor = |i: usize, j: usize| Rational::from(&a[i] * &b[j]) - Rational::from(&a[j] * &b[i]);
     [minor(1, 2), minor(2, 0), minor(0, 1)]
 }
 
-fn dot(a: &Point, b: &Point) -> RBig {
-    sum(a.iter().zip(b).map(|(x, y)| x * y))
+fn dot(a: &Point, b: &Point) -> Rational {
+    a.iter().zip(b).map(|(x, y)| Rational::from(x * y)).sum()
 }
 
 /// The volume's control values, the middle ones tripled, and the normals that go with them; by interpolation, not by
 /// the formula of `selvedge-core`.
 pub(crate) struct InRationals {
-    values: [RBig; 4],
-    squared_normals: [RBig; 4],
+    values: [Rational; 4],
+    squared_normals: [Rational; 4],
 }
 
 impl InRationals {
     pub(crate) fn new<S: Format>(pair: &PairCase<S>) -> Self {
         let points = pair.points.map(|ends| ends.map(|x| x.map(rational)));
-        let at = |numerator: u32, denominator: u32| -> [Point; 4] {
-            let t = fraction(numerator, denominator);
+        let at = |numerator: i32, denominator: i32| -> [Point; 4] {
+            let t = Rational::from((numerator, denominator));
             std::array::from_fn(|point| {
                 std::array::from_fn(|axis| {
                     let [start, end] = &points[point];
-                    (&end[axis] - &start[axis]) * &t + &start[axis]
+                    Rational::from(&end[axis] - &start[axis]) * &t + &start[axis]
                 })
             })
         };
@@ -78,18 +55,18 @@ impl InRationals {
         };
 
         let [v0, v1, v2, v3] = [0, 1, 2, 3].map(|third| volume(at(third, 3)));
-        let combined = |factors: [i32; 4]| -> RBig {
+        let combined = |factors: [i32; 4]| -> Rational {
             let terms = [&v0, &v1, &v2, &v3].into_iter().zip(factors);
-            sum(terms.map(|(v, f)| v * IBig::from(f))) / IBig::from(2)
+            terms.map(|(v, f)| Rational::from(v * f)).sum::<Rational>() / 2
         };
         let inner = [combined([-5, 18, -9, 2]), combined([2, -9, 18, -5])];
         let [inner_1, inner_2] = inner;
 
         let [n0, middle, n1] = [0, 1, 2].map(|half| normal(at(half, 2)));
         // n(½) = (n₀ + h + n₁)/4.
-        let four = IBig::from(4);
+        let four = Rational::from(4);
         let h = minus(&minus(&middle.map(|x| x * &four), &n0), &n1);
-        let plus = |a: &Point, b: &Point| -> Point { std::array::from_fn(|axis| &a[axis] + &b[axis]) };
+        let plus = |a: &Point, b: &Point| -> Point { std::array::from_fn(|axis| Rational::from(&a[axis] + &b[axis])) };
         let normals = [n0.clone(), plus(&n0, &h), plus(&h, &n1), n1];
         Self {
             values: [v0, inner_1, inner_2, v3],
@@ -98,7 +75,7 @@ impl InRationals {
     }
 
     pub(crate) fn signs(&self) -> [Ordering; 4] {
-        [0, 1, 2, 3].map(|i| self.values[i].cmp(&RBig::ZERO))
+        [0, 1, 2, 3].map(|i| self.values[i].cmp0())
     }
 
     pub(crate) fn have_one_sign(&self) -> bool {
@@ -106,12 +83,12 @@ impl InRationals {
     }
 
     /// Whether the control value exceeds `separation` times the normal.
-    fn is_beyond(&self, i: usize, separation: &RBig) -> bool {
-        let bound = separation.sqr() * &self.squared_normals[i];
-        self.values[i].sqr() > bound
+    fn is_beyond(&self, i: usize, separation: &Rational) -> bool {
+        let bound = separation.clone().square() * &self.squared_normals[i];
+        self.values[i].clone().square() > bound
     }
 
-    pub(crate) fn are_beyond(&self, separation: &RBig) -> bool {
+    pub(crate) fn are_beyond(&self, separation: &Rational) -> bool {
         self.have_one_sign() && (0..4).all(|i| self.is_beyond(i, separation))
     }
 
@@ -121,10 +98,11 @@ impl InRationals {
             return S::ZERO;
         }
         // Where the normal is zero the value, which is not, exceeds it times any separation.
-        let bounded = (0..4).filter(|&i| self.squared_normals[i] > RBig::ZERO);
-        let squares = bounded.map(|i| self.values[i].sqr() / &self.squared_normals[i]);
+        let bounded = (0..4).filter(|&i| self.squared_normals[i].is_positive());
+        let squares = bounded.map(|i| self.values[i].clone().square() / &self.squared_normals[i]);
         let smallest = squares.min().expect("were all four zero, the values would be");
-        S::from_f64(root(&smallest).to_f64().value()).made_finite()
+        let root = Float::with_val(200, smallest).sqrt();
+        S::from_f64(root.to_f64()).made_finite()
     }
 }
 
