@@ -23,7 +23,7 @@ of_distance = 96; #! core/src/separation/geometry.rs: (96.0 * u() * largest + <f
 #~ core/src/separation/geometry.rs: (computed - self.error) * (1.0 - 8.0 * u())
 of_error = 8;
 of_length = 16; #! core/src/separation/geometry.rs: length(met[0] - met[1]) * (1.0 + 16.0 * u())
-doubled = 2; #! core/src/separation/geometry.rs: let error = GapError::of_coordinates(2.0 * self.largest);
+doubled = 2; #! core/src/separation/geometry.rs: let error = GapError::from_largest_coordinate(2.0 * self.largest);
 # Promised beyond: 96u B of a point, 16u of a normal's length, 256u D of a speed.
 R = 1.7321;
 eta = 1b@eta@;
