@@ -1,12 +1,12 @@
-//! From a candidate triangle pair to its primitive pairs: at most 6 vertex–face and 9 edge–edge.
+//! Distributes a candidate triangle pair to its primitive pairs: at most 6 vertex–face and 9 edge–edge.
 //!
-//! The paper's rules (with its misprints mended): each vertex that A represents with face B, each vertex that B
-//! represents with face A, each edge that A represents with each edge that B represents. If every vertex and edge is
-//! represented exactly once, every primitive pair is distributed at most once over all triangle pairs; and at least
-//! once if the triangle pairs hold every two triangles whose boxes overlap, *adjacent ones included*: a triangle's
-//! swept box contains those of its vertices and edges.
+//! The paper's rules, with its misprints corrected: each vertex that A represents with face B, each vertex that B represents with
+//! face A, and each edge that A represents with each edge that B represents. If every vertex and edge is represented exactly
+//! once, no primitive pair is distributed twice over all triangle pairs. Each one is distributed if the triangle pairs include
+//! every two triangles whose boxes overlap, *adjacent ones included*, since a triangle's swept box contains those of its vertices
+//! and edges.
 //!
-//! Primitive pairs that share a vertex are skipped. They touch at every time; no step could resolve them.
+//! Primitive pairs that share a vertex are skipped: they touch at every time, and no step could resolve them.
 
 use crate::features::{FeatureTriangle, Features};
 use arrayvec::ArrayVec;
@@ -50,7 +50,7 @@ pub fn distribute<I: Copy + PartialEq>(a: &FeatureTriangle<I>, b: &FeatureTriang
     for (from, face) in [(a, b), (b, a)] {
         for &vertex in from.vertices.iter().take(from.features.vertices()) {
             if !face.vertices.contains(&vertex) {
-                // Never full: at most 3 + 3. `push` would bring a panic path with it.
+                // Never full: at most 3 + 3. `push` would add a panic path.
                 let _ = pairs.vertex_face.try_push([vertex, face.face]);
             }
         }

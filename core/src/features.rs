@@ -1,11 +1,11 @@
-//! Representative features: which of its vertices and edges a triangle stands for.
+//! Representative features: the vertices and edges that a triangle represents.
 //!
-//! Triangles of a mesh share vertices and edges, so the 15 primitive pairs of each candidate triangle pair hold
-//! the same pair many times. Curtis et al. 2008 give every vertex and every edge to exactly one of its triangles,
-//! its *representative*; a pair is tested only where both representatives meet (a face represents itself). The paper
-//! adds that each triangle lists the features it represents first, so that two counts describe them.
+//! Triangles of a mesh share vertices and edges, so the 15 primitive pairs of the candidate triangle pairs repeat. Curtis et al.
+//! 2008 assign every vertex and every edge to exactly one of its triangles, its *representative*. A pair is tested only where
+//! both representatives meet; a face represents itself. The paper adds that each triangle lists the features it represents first,
+//! so that two counts describe them.
 
-/// How many vertices and edges a triangle represents, in one byte: they come first in its lists.
+/// The numbers of vertices and edges that a triangle represents, in one byte. They come first in its lists.
 ///
 /// ```
 /// use selvedge_core::Features;
@@ -22,7 +22,7 @@ impl Features {
     /// Represents all three vertices and all three edges.
     pub const ALL: Self = Self(0b1111);
 
-    /// `None` if a triangle has not that many.
+    /// Returns `None` if a count exceeds 3.
     #[must_use]
     pub const fn new(vertices: u8, edges: u8) -> Option<Self> {
         if vertices > 3 || edges > 3 {
@@ -31,22 +31,22 @@ impl Features {
         Some(Self(vertices | edges << 2))
     }
 
-    /// How many vertices, 0 to 3.
+    /// The number of vertices, 0 to 3.
     #[inline(always)]
     #[must_use]
     pub const fn vertices(self) -> usize {
         (self.0 & 0b11) as usize
     }
 
-    /// How many edges, 0 to 3.
+    /// The number of edges, 0 to 3.
     #[inline(always)]
     #[must_use]
     pub const fn edges(self) -> usize {
         (self.0 >> 2) as usize
     }
 
-    /// Whether two triangles with these features have any pair to test (the paper's *compatible feature pairs*): a
-    /// vertex on either side, or an edge on both.
+    /// Returns whether two triangles with these features have a pair to test (the paper's *compatible feature pairs*): a vertex
+    /// on either side, or an edge on both.
     #[inline(always)]
     #[must_use]
     pub const fn are_compatible(self, other: Self) -> bool {
@@ -57,24 +57,24 @@ impl Features {
 /// An edge of a triangle: its identity and the identities of its two ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FeatureEdge<I> {
-    /// Which edge of the mesh.
+    /// The edge's identity in the mesh.
     pub edge: I,
-    /// Which vertices it joins.
+    /// The vertices it joins.
     pub ends: [I; 2],
 }
 
-/// A triangle as distribution sees it: its identity, its vertices and edges with those it represents first.
+/// A triangle for distribution: its identity, its vertices and its edges, represented ones first.
 ///
-/// `I` is whatever the caller names vertices, edges and faces by; only equality of vertices matters here.
+/// `I` is the caller's name for vertices, edges and faces. Only equality of vertices matters here.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FeatureTriangle<I> {
-    /// Which face of the mesh.
+    /// The face's identity in the mesh.
     pub face: I,
     /// Its vertices, represented ones first.
     pub vertices: [I; 3],
     /// Its edges, represented ones first.
     pub edges: [FeatureEdge<I>; 3],
-    /// How many of each it represents.
+    /// The number of each that it represents.
     pub features: Features,
 }
 

@@ -6,14 +6,14 @@ use core::str::FromStr;
 /// A kind of primitive pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum PairKind {
-    /// A vertex against a triangle, one point against three; written `vertex-face`.
+    /// A vertex and a triangle: one point and three. Written `vertex-face`.
     VertexFace,
-    /// An edge against an edge, two points against two; written `edge-edge`.
+    /// Two edges: two points and two. Written `edge-edge`.
     EdgeEdge,
 }
 
 impl PairKind {
-    /// `"vertex-face"` or `"edge-edge"`.
+    /// Returns `"vertex-face"` or `"edge-edge"`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -29,7 +29,7 @@ impl fmt::Display for PairKind {
     }
 }
 
-/// The text is neither `vertex-face` nor `edge-edge`.
+/// The error of a text that is neither `vertex-face` nor `edge-edge`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ParsePairKindError;
 

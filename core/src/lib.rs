@@ -1,9 +1,8 @@
-//! Which vertex–face and edge–edge pairs of deforming triangles can *not* meet during a time step.
+//! Certified culling of vertex–face and edge–edge pairs of deforming triangles for continuous collision detection.
 //!
-//! This crate looks at one primitive pair at a time: four points, each moving on a straight line from
-//! its position at the start of a step (time 0) to its position at the end (time 1). It answers with a
-//! [`Verdict`]: [`Culled`](Verdict::Culled) is a proof that the pair does not touch at any time in [0, 1],
-//! [`Kept`](Verdict::Kept) says nothing. Positions are in any length unit of the caller's.
+//! This crate works on one primitive pair at a time: four points, each moving on a straight line from its position at the start
+//! of a step (time 0) to its position at the end (time 1). Its tests return a [`Verdict`]. [`Culled`](Verdict::Culled) is a proof
+//! that the pair does not touch at any time in [0, 1]; [`Kept`](Verdict::Kept) proves nothing. Positions are in any length unit.
 //!
 //! ```
 //! use selvedge_core::{filter, glam::DVec3, Motion, Verdict, PrimitivePair};
@@ -16,44 +15,42 @@
 //! assert_eq!(filter::certified::non_coplanarity(&pair), Verdict::Culled);
 //! ```
 //!
-//! # What is promised
-//! * **Nothing in this crate can miss a contact.** What decides is certified or exact: it covers its own rounding, and never culls a
-//!   pair that touches at some time in [0, 1], whatever the input.
-//! * That holds in every floating-point environment of IEEE 754 arithmetic that a thread may have switched to: any
-//!   rounding direction, flush-to-zero, denormals-are-zero ([`Rounding`](lanes::Rounding) says how). Verdicts may differ from one
-//!   environment to another; none of them is wrong.
-//! * NaN, infinite or overflowing input is always kept.
+//! # Guarantees
+//! * **No function of this crate misses a contact.** Decisions are certified or exact: they cover their own rounding, and never
+//!   cull a pair that touches at some time in [0, 1], whatever the input.
+//! * That holds in every floating-point environment of IEEE 754 arithmetic: any rounding direction, flush-to-zero,
+//!   denormals-are-zero (see [`Rounding`](lanes::Rounding)). Verdicts may differ between environments; none of them is wrong.
+//! * A pair with NaN, infinite or overflowing coordinates is always kept.
 //! * No allocation, no `unsafe`, no panic, no dependence on `std`.
 //!
-//! # The rooms
-//! | module | what it does | promise |
+//! # Modules
+//! | module | what it does | guarantee |
 //! |---|---|---|
-//! | [`motion`] | the primitive pair, of either kind, in [`glam`] types | |
+//! | [`motion`] | moving points and primitive pairs, in [`glam`] types | |
 //! | [`filter`] | culls pairs that are never coplanar, or never within a separation: a [`Filter`](filter::Filter) of some [`Tier`](filter::Tier) | certified or exact |
-//! | [`batch`] | the tests of `boxes` and `filter`, and rounds of advancing, on sixteen pairs side by side, alone or from a mesh | the same verdicts, bit for bit; certified |
+//! | [`batch`] | the tests of `boxes` and `filter`, and rounds of advancing, on sixteen pairs of a mesh side by side | the same verdicts, bit for bit |
 //! | [`boxes`] | swept boxes, segment against box, relative boxes | exact or certified |
-//! | [`separation`] | how far a pair keeps apart, and for how long: for callers that follow the same pairs step by step | certified |
+//! | [`separation`] | how far a pair keeps apart, and for how long: for callers that follow pairs from step to step | certified |
 //! | [`narrowing`] | times and lengths in another format, rounded to the safe side | certified |
-//! | [`features`], [`distribution`] | representative features of a triangle; a candidate triangle pair to its primitive pairs | each pair once |
-//! | [`elementary`] | whether a pair touches; time of impact | exact; certified |
-//! | [`paths`] | time of impact where points move on arcs, with bodies that turn, or on several straight pieces | certified |
+//! | [`features`], [`distribution`] | representative features of a triangle; the primitive pairs of a candidate triangle pair | each pair once |
+//! | [`elementary`] | whether a pair touches; its time of impact | exact; certified |
+//! | [`paths`] | time of impact on arcs of rotating bodies and on several straight pieces | certified |
 //!
 //! # Features
-//! They only add; a user of single pairs needs none of them.
+//! Features only add items. Code that tests single pairs needs none of them.
 //!
 //! | feature | what it adds |
 //! |---|---|
-//! | `batch` | [`batch`], and boxes of a hierarchy ([`boxes::moving`]): what `selvedge` is built of. Its types name instruction sets by `fearless_simd`'s |
-//! | `verification` | that, and the kernels themselves ([`coplanarity`], [`exact`], [`lanes`] and others, in a module of that name), for the project's laboratory and verification. Nothing is promised of them |
+//! | `batch` | [`batch`], and boxes of a hierarchy ([`boxes::moving`]): the basis of `selvedge`. Instruction sets are named by types of `fearless_simd` |
+//! | `verification` | `batch`, and the kernels ([`coplanarity`], [`exact`], [`lanes`] and others) in a module of that name, for the project's laboratory and verification. These items may change in any release |
 //!
-//! # Words
-//! The paper that this work starts from (Lv, He, Mi: *Improved Method in Lower Tailoring of Self-collision
-//! Detection of Arm Cloth Simulation*) says *lower tailoring* for culling primitive pairs, *higher tailoring*
-//! for the broad phase, *PCTP* for a candidate triangle pair and *basic intersection test* for the elementary
-//! test. We use the field's words.
+//! # Terms
+//! The paper behind this work (Lv, He, Mi: *Improved Method in Lower Tailoring of Self-collision Detection of Arm Cloth
+//! Simulation*) says *lower tailoring* for culling primitive pairs, *higher tailoring* for the broad phase, *PCTP* for a
+//! candidate triangle pair and *basic intersection test* for the elementary test. This crate uses the terms of the field.
 #![no_std]
 #![forbid(unsafe_code)]
-// What only they show is not used without the features, and links to it lead nowhere.
+// Without the features, kernels that only they expose are unused, and links to them are broken.
 #![cfg_attr(
     not(feature = "verification"),
     allow(
@@ -95,7 +92,7 @@ pub use verdict::Verdict;
 
 use kernels::{coplanarity, exact, lanes, points, vector};
 
-/// The kernels themselves, for the project's laboratory and verification. Nothing is promised of them.
+/// The kernels, for the project's laboratory and verification. They may change in any release.
 #[cfg(feature = "verification")]
 pub mod verification {
     pub use crate::kernels::{advance, coplanarity, exact, lanes, points, vector};
@@ -104,7 +101,7 @@ pub mod verification {
 #[cfg(not(feature = "verification"))]
 use kernels as verification;
 
-/// The readme's examples are tests.
+/// Runs the readme's examples as tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 mod readme {}

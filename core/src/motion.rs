@@ -1,4 +1,4 @@
-//! Points that move on a straight line during the step, and the primitive pairs made of them.
+//! Points that move on a straight line during the step, and primitive pairs of them.
 
 use crate::kind::PairKind;
 use crate::scalar::{Position, Scalar};
@@ -13,7 +13,7 @@ pub struct Motion<S: Scalar> {
 }
 
 impl<S: Scalar> Motion<S> {
-    /// From `start` to `end`.
+    /// A motion from `start` to `end`.
     #[inline]
     pub const fn new<P: Position<Scalar = S>>(start: P, end: P) -> Self
     where
@@ -22,7 +22,7 @@ impl<S: Scalar> Motion<S> {
         Self { start, end }
     }
 
-    /// At the same place throughout.
+    /// A point that rests at `position`.
     #[inline]
     pub const fn resting<P: Position<Scalar = S>>(position: P) -> Self
     where
@@ -31,8 +31,8 @@ impl<S: Scalar> Motion<S> {
         Self::new(position, position)
     }
 
-    /// Where the point is at a time in [0, 1] of the step: in the box of its two ends, rounding included, and at one of them exactly at 0
-    /// and at 1; along each axis within 8u of the larger coordinate of where it would be without rounding.
+    /// Returns the position at a time in [0, 1] of the step. Rounding included, it lies in the box of the two ends, and is
+    /// exactly one of them at 0 and at 1. Along each axis the error is at most 8u times the larger coordinate.
     ///
     /// ```
     /// use selvedge_core::{Motion, glam::DVec3};
@@ -44,7 +44,7 @@ impl<S: Scalar> Motion<S> {
         let mut there = [S::ZERO; 3];
         for axis in 0..3 {
             let (from, to) = (from[axis], to[axis]);
-            // A difference of the two might overflow.
+            // A weighted sum: a difference of the two could overflow.
             let between = from * (S::ONE - time) + to * time;
             there[axis] = between.larger(from.smaller(to)).smaller(from.larger(to));
         }
@@ -55,7 +55,7 @@ impl<S: Scalar> Motion<S> {
         }
     }
 
-    /// Start and end as arrays.
+    /// The start and the end as arrays.
     #[inline(always)]
     pub(crate) fn ends(&self) -> [[S; 3]; 2] {
         [self.start.into(), self.end.into()]
@@ -64,7 +64,7 @@ impl<S: Scalar> Motion<S> {
     #[inline(always)]
     pub(crate) fn is_finite(&self) -> bool {
         let [[x, y, z], [u, v, w]] = self.ends();
-        // `&`, not `&&`: six tests without a branch.
+        // `&`, not `&&`: six tests without branches.
         x.is_finite() & y.is_finite() & z.is_finite() & u.is_finite() & v.is_finite() & w.is_finite()
     }
 }
@@ -81,10 +81,10 @@ impl From<([f64; 3], [f64; 3])> for Motion<f64> {
     }
 }
 
-/// Four moving points and which of them belong together: a vertex and a triangle, or two edges.
+/// Four moving points, as a vertex and a triangle or as two edges.
 ///
-/// Either way two closed convex sets, each the hull of its moving points; they touch when the sets share a point. (So a triangle's
-/// border belongs to it, and an edge's ends to it.)
+/// Each side is a closed convex set, the hull of its moving points: a triangle includes its border, an edge its ends. The pair
+/// touches when the two sets share a point.
 ///
 /// ```
 /// use selvedge_core::{glam::Vec3, Motion, PairKind, PrimitivePair};
@@ -97,14 +97,14 @@ impl From<([f64; 3], [f64; 3])> for Motion<f64> {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PrimitivePair<S: Scalar> {
-    /// Which of the points belong together.
+    /// The kind of the pair.
     pub kind: PairKind,
     /// The points of one set, then those of the other: vertex, face; or first edge, second edge.
     pub motions: [Motion<S>; 4],
 }
 
 impl<S: Scalar> PrimitivePair<S> {
-    /// A vertex, and a triangle by its three vertices.
+    /// A pair of a vertex and a triangle, given by its three vertices.
     #[inline(always)]
     #[must_use]
     pub const fn vertex_face(vertex: Motion<S>, [a, b, c]: [Motion<S>; 3]) -> Self {
@@ -113,7 +113,7 @@ impl<S: Scalar> PrimitivePair<S> {
         Self { kind, motions }
     }
 
-    /// Two edges, each by its two ends.
+    /// A pair of two edges, each given by its two ends.
     #[inline(always)]
     #[must_use]
     pub const fn edge_edge([u, v]: [Motion<S>; 2], [k, l]: [Motion<S>; 2]) -> Self {
@@ -122,7 +122,7 @@ impl<S: Scalar> PrimitivePair<S> {
         Self { kind, motions }
     }
 
-    /// The points of the one set and those of the other.
+    /// Returns the points of the first set and those of the second.
     #[inline(always)]
     #[must_use]
     pub const fn sets(&self) -> [&[Motion<S>]; 2] {
@@ -135,7 +135,7 @@ impl<S: Scalar> PrimitivePair<S> {
         }
     }
 
-    /// The same pair in `f64`, exactly.
+    /// Returns the same pair in `f64`, exactly.
     #[inline]
     #[must_use]
     pub fn widened(&self) -> PrimitivePair<f64> {

@@ -1,4 +1,4 @@
-//! `f32` and `f64`, the two number formats that positions come in.
+//! The number formats of positions: `f32` and `f64`.
 
 use crate::lanes::{Number, power_of_two_f64};
 use core::fmt::{Debug, Display};
@@ -12,38 +12,38 @@ mod sealed {
     impl<S: super::Scalar> Sealed for [S; 3] {}
 }
 
-/// `f32` or `f64`: the format of a caller's positions, with the [`glam`] vector type that goes with it.
+/// `f32` or `f64`: the format of a caller's positions, with its [`glam`] vector type.
 ///
-/// Sealed: the adapter's promises are checked for these two formats only.
+/// Sealed: the guarantees are verified for these two formats only.
 pub trait Scalar: Number + Debug + Display + Default + Send + Sync + 'static + sealed::Sealed {
     /// [`glam::Vec3`] or [`glam::DVec3`].
     type Vector: Position<Scalar = Self>;
 
     /// `"f32"` or `"f64"`.
     const NAME: &'static str;
-    /// Stored bits of the significand, the leading one not counted: 23 or 52.
+    /// The stored bits of the significand, without the leading one: 23 or 52.
     const FRACTION_BITS: u32;
-    /// Bits of the exponent field: 8 or 11.
+    /// The bits of the exponent field: 8 or 11.
     const EXPONENT_BITS: u32;
 
-    /// The number's IEEE 754 encoding; `f32` in the low half.
+    /// Returns the number's IEEE 754 encoding; `f32` in the low half.
     ///
-    /// Not an operation in floating point: denormals-are-zero does not change it.
+    /// This is not a floating-point operation: denormals-are-zero does not change it.
     fn encoding(self) -> u64;
-    /// The nearest number of this format; infinite if `value` is out of range.
+    /// Returns the nearest number of this format, or infinity if `value` is out of range.
     fn from_f64(value: f64) -> Self;
-    /// The number of this format next to `value` on the side of zero, in any direction of rounding: its largest one if `value` is beyond, zero
-    /// below the normal ones of `f32`; what is infinite or NaN stays so. Digits are cut off, there is no operation in floating point.
+    /// Rounds `value` towards zero by cutting off digits, in any rounding direction. The result is the largest finite number if
+    /// `value` is beyond it, and zero below the normal numbers of `f32`. Infinity and NaN are kept.
     fn truncated(value: f64) -> Self;
-    /// The least number above.
+    /// Returns the least number above.
     fn next_up(self) -> Self;
-    /// The same number as `f64`, exactly, even where a thread treats subnormal operands as zero.
+    /// Returns the same number as `f64`, exactly, even in a thread that treats subnormal operands as zero.
     fn to_f64(self) -> f64;
-    /// Neither infinite nor NaN.
+    /// Returns whether the number is neither infinite nor NaN.
     fn is_finite(self) -> bool;
-    /// A positive subnormal number becomes the smallest normal one; any other stays what it is.
+    /// Returns the smallest normal number for a positive subnormal one, and any other number unchanged.
     ///
-    /// For lengths that are safe to overstate: a thread may compare a subnormal one as zero, as if none had been asked for.
+    /// For lengths that are safe to overstate: a thread that flushes compares a subnormal length as zero.
     fn raised_to_normal(self) -> Self;
     /// Names the format of a value that is generic over it, so that code for one format can be called.
     #[doc(hidden)]
@@ -66,7 +66,7 @@ pub enum InFormat<F: Family> {
     Double(F::Of<f64>),
 }
 
-/// A position, from which its [`Scalar`] can be inferred: [`glam::Vec3`], [`glam::DVec3`], `[f32; 3]` or `[f64; 3]`. Sealed.
+/// A position whose [`Scalar`] can be inferred: [`glam::Vec3`], [`glam::DVec3`], `[f32; 3]` or `[f64; 3]`. Sealed.
 pub trait Position:
     Copy + Debug + Default + PartialEq + Send + Sync + From<[Self::Scalar; 3]> + Into<[Self::Scalar; 3]> + sealed::Sealed
 {
@@ -138,7 +138,7 @@ macro_rules! scalar {
 scalar!(f32, Single, glam::Vec3, 8, widened, truncated);
 scalar!(f64, Double, glam::DVec3, 11, core::convert::identity, core::convert::identity);
 
-/// A subnormal number goes by way of its digits, since a thread may take it for zero in arithmetic.
+/// Converts a subnormal number through its digits, since a thread may treat it as zero in arithmetic.
 #[inline(always)]
 fn widened(value: f32) -> f64 {
     const SMALLEST_SUBNORMAL: f64 = power_of_two_f64(-149);
