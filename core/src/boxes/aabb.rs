@@ -11,7 +11,7 @@ pub struct Aabb<S> {
 }
 
 impl<S: Scalar> Aabb<S> {
-    /// Nothing: [`merged`](Self::merged) with another box gives that box. It overlaps nothing finite.
+    /// The box of no points: it overlaps nothing finite. [`merged`](Self::merged) with another box, it gives that box.
     #[must_use]
     pub fn empty() -> Self {
         Self {
@@ -20,7 +20,7 @@ impl<S: Scalar> Aabb<S> {
         }
     }
 
-    /// All of space.
+    /// The box of all space.
     #[must_use]
     pub fn everything() -> Self {
         Self {
@@ -29,8 +29,8 @@ impl<S: Scalar> Aabb<S> {
         }
     }
 
-    /// The smallest box that holds all of `motions` throughout the step, exactly: linear motion stays between its
-    /// ends. All of space if a coordinate is NaN or infinite, so that nothing is culled by it.
+    /// Returns the smallest box that holds all of `motions` throughout the step. Exact: linear motion stays between its ends. The
+    /// result is all of space if a coordinate is NaN or infinite, so that it culls nothing.
     ///
     /// ```
     /// use selvedge_core::{boxes::Aabb, Motion};
@@ -54,7 +54,7 @@ impl<S: Scalar> Aabb<S> {
         if finite { swept } else { Self::everything() }
     }
 
-    /// The smallest box that holds both.
+    /// Returns the smallest box that holds both.
     #[inline]
     #[must_use]
     pub fn merged(&self, other: &Self) -> Self {
@@ -63,7 +63,7 @@ impl<S: Scalar> Aabb<S> {
         both
     }
 
-    /// Becomes the smallest box that holds both.
+    /// Grows to the smallest box that holds both.
     #[inline]
     pub fn merge(&mut self, other: &Self) {
         for axis in 0..3 {
@@ -72,7 +72,7 @@ impl<S: Scalar> Aabb<S> {
         }
     }
 
-    /// Whether the closed boxes share a point. Exact.
+    /// Returns whether the closed boxes share a point. Exact.
     #[inline]
     #[must_use]
     pub fn overlaps(&self, other: &Self) -> bool {
@@ -84,7 +84,7 @@ impl<S: Scalar> Aabb<S> {
         !apart
     }
 
-    /// Whether along each axis the gap between the boxes, rounded, is at most `distance`; not where a coordinate of a gap is NaN.
+    /// Returns whether the gap between the boxes, rounded, is at most `distance` along each axis. False if a gap is NaN.
     #[inline]
     #[must_use]
     pub fn is_within(&self, other: &Self, distance: S) -> bool {

@@ -3,7 +3,7 @@
 use super::Aabb;
 use crate::batch::mask::{LANES, Mask, next_lane};
 
-/// Sixteen boxes side by side: for each coordinate of the lower and the upper corner one row of sixteen numbers.
+/// Sixteen boxes side by side: one row of sixteen numbers for each coordinate of the lower and the upper corner.
 ///
 /// ```
 /// use selvedge_core::boxes::{Aabb, block::BoxBlock};
@@ -18,12 +18,12 @@ use crate::batch::mask::{LANES, Mask, next_lane};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct BoxBlock {
-    /// Lower corner (x, y, z), upper corner.
+    /// The lower corner (x, y, z), then the upper corner.
     rows: [[f32; LANES]; 6],
 }
 
 impl BoxBlock {
-    /// Sixteen [empty](Aabb::empty) boxes, at no finite distance from any.
+    /// A block of [empty](Aabb::empty) boxes, which are at no finite distance from any box.
     #[must_use]
     pub const fn empty() -> Self {
         const LOWER: [f32; LANES] = [f32::INFINITY; LANES];
@@ -33,7 +33,7 @@ impl BoxBlock {
         }
     }
 
-    /// Puts a box in lane `lane`. Does nothing from lane [`LANES`] on.
+    /// Stores a box in lane `lane`. Does nothing from lane [`LANES`](crate::batch::LANES) on.
     #[inline(always)]
     pub const fn set(&mut self, lane: usize, own: &Aabb<f32>) {
         if lane >= LANES {
@@ -44,7 +44,7 @@ impl BoxBlock {
         [d[lane], e[lane], f[lane]] = own.upper;
     }
 
-    /// The box in lane `lane`; an [empty](Aabb::empty) one from lane [`LANES`] on.
+    /// Returns the box in lane `lane`, or an [empty](Aabb::empty) one from lane [`LANES`](crate::batch::LANES) on.
     #[inline(always)]
     #[must_use]
     pub fn get(&self, lane: usize) -> Aabb<f32> {
@@ -58,7 +58,7 @@ impl BoxBlock {
         }
     }
 
-    /// The smallest box that holds all sixteen.
+    /// Returns the smallest box that holds all sixteen.
     #[inline]
     #[must_use]
     pub fn merged(&self) -> Aabb<f32> {
@@ -74,8 +74,8 @@ impl BoxBlock {
         }
     }
 
-    /// The lanes `among` these bits whose box comes [within](Aabb::is_within) a distance of `other`, one lane after the other. Sixteen lanes at
-    /// once: [`Compares::within`](crate::batch::Compares::within).
+    /// Returns the lanes `among` these bits whose box comes [within](Aabb::is_within) `distance` of `other`, one lane after the
+    /// other. [`Compares::within`](crate::batch::Compares::within) tests sixteen lanes at once.
     #[must_use]
     pub fn within(&self, other: &Aabb<f32>, distance: f32, among: Mask) -> Mask {
         let (mut asked, mut within) = (among, 0);
@@ -86,7 +86,7 @@ impl BoxBlock {
         within
     }
 
-    /// The numbers of all lanes: lower corners, then upper ones.
+    /// The numbers of all lanes: lower corners, then upper corners.
     #[cfg(not(unoptimised))]
     #[inline(always)]
     pub(crate) const fn rows(&self) -> &[[f32; LANES]; 6] {

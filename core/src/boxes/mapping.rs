@@ -1,54 +1,56 @@
-//! From positions of any format to boxes in `f32`.
+//! Maps positions of any format to boxes in `f32`.
 //!
 //! # Without a separation
-//! A coordinate x becomes fl₃₂(fl₆₄(x − o)), o the same for all of an axis. Both roundings are monotone, in any direction, so
-//! images that are in strict order belong to coordinates that are: [nothing has to be rounded
-//! outwards](super::moving#boxes-in-fewer-digits). `f32` positions stay as they are, with o = 0; so do
-//! `f64` positions that are `f32` numbers, unless the mesh is far from the origin for its size. There o is its middle, so
-//! that `f32` does not waste its digits on where the mesh is.
+//! A coordinate x becomes fl₃₂(fl₆₄(x − o)), with one origin o for each axis. Both roundings are monotone in any direction. So
+//! images in strict order belong to coordinates in strict order, and [nothing has to be rounded
+//! outwards](super::moving#boxes-in-fewer-digits). `f32` positions are unchanged, with o = 0. So are `f64` positions that are
+//! `f32` numbers, unless the mesh is far from the origin for its size. Then o is its middle, so that `f32` does not spend its
+//! digits on the mesh's position.
 //!
 //! # With a separation, or for a part of the step
-//! Boxes are widened by half the separation s on each side, and a position within the step is rounded itself; then images
-//! are no longer monotone, and bounds are moved outwards by more than all roundings together:
+//! Boxes are widened by half the separation s on each side, and a position within the step is itself rounded. Then images are not
+//! monotone, and bounds move outwards by more than all roundings together:
 //!
 //! ```text
 //! widening = s/2 + 2⁻²²·(|x₀ − o| + |x₁ − o| + s/2) + 2⁻¹⁰⁰
 //! ```
 //!
-//! In any direction of rounding, with v the magnitudes in brackets: the difference x − o is off by at most 2⁻⁵²v, a position
-//! within the step by three operations more, each at most 2⁻⁵²v; sums in the widening and subtracting it by less than 2⁻⁴⁹v;
-//! the last rounding, to `f32`, by at most 2⁻²³ of a number that is at most (1 + 2⁻²²)v. That is less than 2⁻²²v by
-//! 2⁻²⁴v. Flushed numbers lose 2⁻¹²⁶ (`f32`) or 2⁻¹⁰²² each, less than 2⁻¹⁰⁰ altogether. So two images that are in strict
-//! order belong to coordinates more than s apart. Overflow makes a bound infinite, or in directed rounding the largest number;
-//! neither is beyond a bound that it should not be beyond, for both are at least as far out as any that is not widened.
-//! What is NaN or infinite, or so large that a vertex's coordinates add up to that, has no bounds.
+//! Let v be the sum of the magnitudes in brackets. In any rounding direction, the difference x − o is off by at most 2⁻⁵²v, and a
+//! position within the step by three more operations of at most 2⁻⁵²v each. The sums in the widening and its subtraction are off
+//! by less than 2⁻⁴⁹v. The last rounding, to `f32`, is off by at most 2⁻²³ of a number that is at most (1 + 2⁻²²)v. The total is
+//! less than 2⁻²²v by 2⁻²⁴v. Flushed numbers lose 2⁻¹²⁶ (`f32`) or 2⁻¹⁰²² each, less than 2⁻¹⁰⁰ in all. So two images in strict
+//! order belong to coordinates more than s apart.
+//!
+//! Overflow makes a bound infinite, or the largest number in directed rounding. Either is at least as far out as any bound that
+//! is not widened, so it is not beyond a bound that it should not exceed. Vertices whose coordinates are NaN or infinite, or add
+//! up to that, have no bounds.
 //!
 //! # A smaller separation
-//! Boxes that are made for a separation s can be asked for a smaller one, s′, without new ones: one of two is drawn in by δ = s − s′ on each
-//! side ([`Inset`]). Were that exact, strict order would mean more than s/2 − δ + s/2 = s′. As computed, with B the largest magnitude of
-//! its bounds, bounds are moved inwards by less:
+//! Boxes made for a separation s also serve a smaller one, s′: one of two boxes is drawn in by δ = s − s′ on each side
+//! ([`Inset`]). In exact arithmetic, strict order then means more than s/2 − δ + s/2 = s′. With B the largest magnitude of its
+//! bounds, computed bounds move inwards by less:
 //!
 //! ```text
 //! inset = δ − 8u·(B + δ)
 //! ```
 //!
-//! (`f32`, u = 2⁻²⁴, any direction of rounding, 2u an operation; the product is exact.) δ was rounded to `f32`, the difference and the moved
-//! bound, at most B + δ, are rounded: 6u(B + δ), and a little of second order, which is less than 8u(B + δ). A δ below 2⁻⁶⁰ draws
-//! nothing in, so that flushed numbers are far less than what is left of that; nor does a sum of more
-//! than [`Rounding::LARGEST_EDGE`].
+//! (`f32`, u = 2⁻²⁴, any rounding direction, 2u an operation; the product is exact.) δ is rounded to `f32`, and so are the
+//! difference and the moved bound, at most B + δ: 6u(B + δ) and a little of second order, less than 8u(B + δ). A δ below 2⁻⁶⁰
+//! draws nothing in, so flushed numbers are far less than the rest of it. Nor does a sum above [`Rounding::LARGEST_EDGE`].
 //!
 //! # Two mappings
-//! Boxes of two mappings compare if both have one origin; of an empty extent it is zero. With half separations h and k, images in strict order
-//! belong to coordinates more than h + k apart, as each bound is moved outwards by its own half. Without one (h = 0, the other with k > 0):
-//! let b be the bound that was moved, an `f32` number, and image(x) < b. Were x ≥ b, image(x) ≥ image(b) = b, rounding being monotone: so x < b,
-//! and the other coordinate is more than k beyond b. With origin zero x − o is exact, so that this holds of x itself.
+//! Boxes of two mappings compare if both have one origin; for an empty extent it is zero. With half separations h and k, images
+//! in strict order belong to coordinates more than h + k apart, since each bound moves outwards by its own half. Now let h = 0
+//! and k > 0, let b be the bound that moved, an `f32` number, and image(x) < b. If x ≥ b, then image(x) ≥ image(b) = b, rounding
+//! being monotone. So x < b, and the other coordinate is more than k beyond b. With origin zero, x − o is exact, so that this
+//! holds of x itself.
 
 use super::Aabb;
 use super::moving::MovingBox;
 use crate::lanes::{Lanes, Rounding};
 use crate::scalar::Scalar;
 
-/// How positions become boxes: the same for all vertices of a mesh, in one step.
+/// The map from positions to boxes: one for all vertices of a mesh, in one step.
 ///
 /// ```
 /// use selvedge_core::boxes::{Aabb, mapping::Mapping};
@@ -62,18 +64,19 @@ use crate::scalar::Scalar;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mapping {
     origin: [f64; 3],
-    /// Half of the separation.
+    /// Half the separation.
     half: f64,
-    /// Where in the step the boxes of the end are taken.
+    /// The time of the step at which the end's boxes are taken.
     until: f64,
-    /// Both boxes the same, the swept one.
+    /// Whether both boxes are the swept one.
     is_swept: bool,
 }
 
 impl Mapping {
-    /// For positions within `extent`, which only decides where the images are: any will do. Boxes that are apart prove that their sets keep
-    /// more than `separation` apart until a time of the step, in (0, 1]: boxes of the end are taken there. `is_swept`: both boxes of
-    /// a vertex are the one that it sweeps.
+    /// A mapping for positions within `extent`. Boxes that are apart prove that their sets keep more than `separation` apart
+    /// until the time `until` in (0, 1], where the end's boxes are taken.
+    ///
+    /// Any `extent` is correct: it only decides where the images are. With `is_swept`, both boxes of a vertex are its swept box.
     #[must_use]
     pub fn new<S: Scalar>(extent: &Aabb<f64>, separation: S, until: S, is_swept: bool) -> Self {
         Self {
@@ -84,7 +87,7 @@ impl Mapping {
         }
     }
 
-    /// The box of one vertex that moves from `start` to `end`. Merge those of a set's vertices.
+    /// Returns the box of one vertex that moves from `start` to `end`. Merge the boxes of a set's vertices.
     #[inline]
     #[must_use]
     pub fn vertex<S: Scalar>(&self, start: [S; 3], end: [S; 3]) -> MovingBox<f32> {
@@ -107,7 +110,7 @@ impl Mapping {
             moving.end.lower[axis] = image(c);
             moving.end.upper[axis] = image(d);
         }
-        // Of what is NaN or infinite so is the sum.
+        // The sum is not finite if a coordinate is not.
         if !sum.is_finite() {
             return MovingBox {
                 start: Aabb::everything(),
@@ -125,7 +128,7 @@ impl Mapping {
     }
 }
 
-/// By how much boxes of one [mapping](Mapping) are drawn in to be asked for a smaller separation than they were made for.
+/// The amount by which boxes of one [mapping](Mapping) are drawn in, to serve a smaller separation than they were made for.
 ///
 /// ```
 /// use selvedge_core::boxes::{Aabb, mapping::{Inset, Mapping}};
@@ -138,13 +141,13 @@ impl Mapping {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inset {
-    /// δ; less than any number if there is none.
+    /// δ, or −∞ if nothing can be drawn in.
     by: f32,
 }
 
 impl Inset {
-    /// For boxes that were made for `separation`: a pair of which one is [drawn in](MovingBox::drawn_in) and apart from the other keeps more
-    /// than `smaller`.
+    /// An inset for boxes made for `separation`. If one box of a pair is [drawn in](MovingBox::drawn_in) and apart from the
+    /// other, the pair keeps more than `smaller`.
     #[inline]
     #[must_use]
     pub fn new(separation: f64, smaller: f64) -> Self {
@@ -153,8 +156,8 @@ impl Inset {
         Self { by }
     }
 
-    /// By how much boxes within `bounds` are to be drawn in: less than any number, so that they are apart from nothing, if there is nothing
-    /// to draw in or it cannot be told.
+    /// Returns the amount by which boxes within `bounds` are drawn in. It is −∞, so that they are apart from nothing, if nothing
+    /// can be drawn in.
     #[inline]
     #[must_use]
     pub fn for_bounds(self, bounds: &MovingBox<f32>) -> f32 {
@@ -176,7 +179,7 @@ const WIDENING: f64 = 1.0 / 4_194_304.0;
 /// 2⁻¹⁰⁰.
 const FLUSHED: f64 = f64::from_bits((1023 - 100) << 52);
 
-/// A coordinate in `f32`. It never exchanges two of them: images in strict order belong to coordinates that are, in every floating-point
+/// Rounds a coordinate to `f32`. Monotone: images in strict order belong to coordinates in strict order, in every floating-point
 /// environment.
 #[inline]
 #[must_use]
@@ -184,7 +187,7 @@ pub fn image(coordinate: f64) -> f32 {
     f32::from_f64(coordinate)
 }
 
-/// The middle of an axis where it is more than four times the mesh's size away from zero; else zero.
+/// Returns the middle of each axis where it is more than four times the mesh's size away from zero, and zero elsewhere.
 fn origin<S: Scalar>(extent: &Aabb<f64>) -> [f64; 3] {
     let is_single = S::UNIT_ROUNDOFF.to_f64() > f64::EPSILON;
     let ([a, b, c], [d, e, f]) = (extent.lower, extent.upper);

@@ -11,10 +11,10 @@
 //!
 //! Motion is linear in all of them: a coordinate lies between its values at both ends of the step.
 
-/// Whether a test of the four points' values at the start and at the end holds along one of the axes.
+/// Evaluates a test of the four points' values at the start and at the end along each axis, and combines the results by or.
 ///
-/// A macro, as are others in kernels: closures and `array::map` are functions of their own, which the compiler
-/// will not always inline into code for a wider instruction set; then every operation becomes a call.
+/// A macro, like others in kernels: closures and `array::map` are separate functions, which the compiler does not always inline
+/// into code for a wider instruction set.
 macro_rules! along_axes {
     ($points:expr, $test:expr) => {
         $test(values!($points.start, |p| p.x), values!($points.end, |p| p.x))
@@ -23,7 +23,7 @@ macro_rules! along_axes {
     };
 }
 
-/// One value for each of four points.
+/// Computes one value for each of four points.
 macro_rules! values {
     ($points:expr, |$p:ident| $value:expr) => {{
         let [a, b, c, d] = $points;
@@ -66,9 +66,9 @@ use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
 use crate::verdict::Verdict;
 
-/// Culls `pair` if the swept boxes of its two sets do not overlap. Exact; boxes that touch overlap.
+/// Culls `pair` if the swept boxes of its two sets do not overlap. Exact; touching boxes overlap.
 ///
-/// NaN and infinite coordinates keep the pair, and so do coordinates so large that their sum overflows.
+/// NaN and infinite coordinates keep the pair. So do coordinates so large that their sum overflows.
 #[inline(always)]
 pub fn swept_boxes<S: Scalar>(pair: &PrimitivePair<S>) -> Verdict {
     Verdict::culled_if(of_kind!(pair.kind, P => PairPoints::from(pair).have_disjoint_swept_boxes::<P>()))
@@ -84,7 +84,7 @@ impl<L: Lanes> PairPoints<L> {
     }
 }
 
-/// Whether the intervals that the two sets' values sweep are disjoint.
+/// Returns whether the intervals that the two sets' values sweep are disjoint.
 #[inline(always)]
 fn are_disjoint_intervals<P: PairShape, L: Lanes>(start: [L; 4], end: [L; 4]) -> L::Mask {
     let [[low_0, high_0], [other_low_0, other_high_0]] = P::ranges(start);

@@ -1,17 +1,16 @@
-//! Moving boxes: a set's box at the start of the step and its box at the end.
+//! Moving boxes: a set's box at the start of the step, and its box at the end.
 //!
 //! Two sets whose boxes are apart along one axis, *in the same order* at both ends of the step, are apart throughout: each
-//! coordinate moves linearly, so the order holds in between as well. That is the test of [relative boxes](super::relative)
-//! along three axes, for sets of any number of points, and so for the nodes of a hierarchy. It culls whatever the overlap of
-//! swept boxes culls, and more, because it knows that the two move together. **Exact**: comparisons only.
+//! coordinate moves linearly. This is the test of [relative boxes](super::relative) for sets of any number of points, and so for
+//! the nodes of a hierarchy. It culls whatever the overlap of swept boxes culls, and more, since it uses that the two move
+//! together. **Exact**: comparisons only.
 //!
-//! [`MovingBox`] is one box, [`MovingBlock`] sixteen of them side by side.
+//! [`MovingBox`] is one box; [`MovingBlock`] is sixteen of them side by side.
 //!
 //! # Boxes in fewer digits
-//! A block holds `f32`. Coordinates of more digits may be mapped by any function that never exchanges two of them (rounding is
-//! one, in any direction): what is strictly ordered after the mapping was so before, so nothing
-//! has to be rounded outwards, and no pair that touches is culled. Pairs that are apart by less than the mapping shows are
-//! kept.
+//! A block holds `f32`. Any monotone function may map coordinates of more digits; rounding is monotone in any direction. What is
+//! strictly ordered after the mapping was so before. So nothing has to be rounded outwards, and no touching pair is culled. Pairs
+//! that are apart by less than the mapping shows are kept.
 
 use super::Aabb;
 use super::block::BoxBlock;
@@ -21,7 +20,7 @@ use crate::batch::mask::{Mask, next_lane};
 use crate::motion::Motion;
 use crate::scalar::Scalar;
 
-/// The box of a set at the start of the step, and at its end.
+/// The box of a set at the start of the step and at its end.
 ///
 /// ```
 /// use selvedge_core::boxes::moving::MovingBox;
@@ -33,14 +32,14 @@ use crate::scalar::Scalar;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MovingBox<S> {
-    /// At time 0.
+    /// The box at time 0.
     pub start: Aabb<S>,
-    /// At time 1.
+    /// The box at time 1.
     pub end: Aabb<S>,
 }
 
 impl<S: Scalar> MovingBox<S> {
-    /// The box of nothing: apart from every bounded box, and no part of what it is [merged](Self::merged) with.
+    /// The box of no points: apart from every bounded box. [`merged`](Self::merged) with another box, it gives that box.
     #[must_use]
     pub fn empty() -> Self {
         Self {
@@ -49,7 +48,7 @@ impl<S: Scalar> MovingBox<S> {
         }
     }
 
-    /// The boxes of one moving point. Unbounded, and so apart from nothing, if a coordinate is NaN or infinite.
+    /// The box of one moving point. It is unbounded, and so apart from nothing, if a coordinate is NaN or infinite.
     #[inline]
     #[must_use]
     pub fn from_motion(motion: &Motion<S>) -> Self {
@@ -66,7 +65,7 @@ impl<S: Scalar> MovingBox<S> {
         Self { start, end }
     }
 
-    /// The smallest that holds both.
+    /// Returns the smallest moving box that holds both.
     #[inline]
     #[must_use]
     pub fn merged(&self, other: &Self) -> Self {
@@ -75,21 +74,21 @@ impl<S: Scalar> MovingBox<S> {
         both
     }
 
-    /// Becomes the smallest that holds both.
+    /// Grows to the smallest moving box that holds both.
     #[inline]
     pub fn merge(&mut self, other: &Self) {
         self.start.merge(&other.start);
         self.end.merge(&other.end);
     }
 
-    /// The box that holds the set throughout the step.
+    /// Returns the box that holds the set throughout the step.
     #[inline]
     #[must_use]
     pub fn swept(&self) -> Aabb<S> {
         self.start.merged(&self.end)
     }
 
-    /// Whether along one axis all of one set stays above all of the other throughout the step. Exact.
+    /// Returns whether all of one set stays above all of the other along one axis throughout the step. Exact.
     #[inline]
     #[must_use]
     pub fn is_apart_from(&self, other: &Self) -> bool {
@@ -103,7 +102,8 @@ impl<S: Scalar> MovingBox<S> {
 }
 
 impl MovingBox<f32> {
-    /// Each side moved inwards by so much, rounded; inside out if that is more than it has. What that proves: [`Inset`](super::mapping::Inset).
+    /// Returns the box with each side moved inwards by `by`, rounded. The result may be inside out.
+    /// [`Inset`](super::mapping::Inset) says what it proves.
     #[inline(always)]
     #[must_use]
     pub fn drawn_in(&self, by: f32) -> Self {
@@ -122,7 +122,7 @@ impl MovingBox<f32> {
     }
 }
 
-/// Sixteen moving boxes side by side: those of the start, and those of the end.
+/// Sixteen moving boxes side by side: their boxes at the start, and at the end.
 ///
 /// ```
 /// use selvedge_core::{batch::Level, boxes::moving::{MovingBlock, MovingBox}};
@@ -140,7 +140,7 @@ pub struct MovingBlock {
 }
 
 impl MovingBlock {
-    /// Sixteen [empty](MovingBox::empty) boxes.
+    /// A block of [empty](MovingBox::empty) boxes.
     #[must_use]
     pub const fn empty() -> Self {
         Self {
@@ -149,14 +149,14 @@ impl MovingBlock {
         }
     }
 
-    /// Puts a box in lane `lane`. Does nothing from lane [`LANES`](crate::batch::LANES) on.
+    /// Stores a box in lane `lane`. Does nothing from lane [`LANES`](crate::batch::LANES) on.
     #[inline]
     pub const fn set(&mut self, lane: usize, moving: &MovingBox<f32>) {
         self.start.set(lane, &moving.start);
         self.end.set(lane, &moving.end);
     }
 
-    /// The box in lane `lane`; an [empty](MovingBox::empty) one from lane [`LANES`](crate::batch::LANES) on.
+    /// Returns the box in lane `lane`, or an [empty](MovingBox::empty) one from lane [`LANES`](crate::batch::LANES) on.
     #[inline(always)]
     #[must_use]
     pub fn get(&self, lane: usize) -> MovingBox<f32> {
@@ -166,7 +166,7 @@ impl MovingBlock {
         }
     }
 
-    /// The smallest box that holds all sixteen.
+    /// Returns the smallest moving box that holds all sixteen.
     #[inline]
     #[must_use]
     pub fn merged(&self) -> MovingBox<f32> {
@@ -176,8 +176,8 @@ impl MovingBlock {
         }
     }
 
-    /// The lanes `among` these bits whose box is not [apart from](MovingBox::is_apart_from) `other`, one lane after the other. Sixteen
-    /// lanes at once: [`Compares::near`](crate::batch::Compares::near).
+    /// Returns the lanes `among` these bits whose box is not [apart from](MovingBox::is_apart_from) `other`, one lane after the
+    /// other. [`Compares::near`](crate::batch::Compares::near) tests sixteen lanes at once.
     #[must_use]
     pub fn near(&self, other: &MovingBox<f32>, among: Mask) -> Mask {
         let (mut asked, mut near) = (among, 0);

@@ -1,23 +1,30 @@
 //! The paper's VF box test: the vertex's path, a segment, against the face's swept box, by separating axes.
 //!
-//! A segment and a box are disjoint exactly if one of six axes separates them: the box's three, and the three cross
-//! products of a box axis with the segment's direction.
+//! A segment and a box are disjoint exactly if one of six axes separates them: the box's three axes, and their three cross
+//! products with the segment's direction.
 //!
 //! **Box axes** compare coordinates: exact.
 //!
-//! **Cross axes.** Along the axis eᵢ × d, with j, k the other two coordinates, the box's corners x lie strictly on one side
-//! of the segment's line iff s(x) = (x_j − p_j)·d_k − (x_k − p_k)·d_j has one sign on all four corners of the box's
-//! projection. Its least value is min(L_j·d_k, U_j·d_k) − max(L_k·d_j, U_k·d_j), its largest has min and max exchanged,
-//! L = lower − p, U = upper − p. (The midpoint form of the textbooks cancels; this one has orientation's small error.)
+//! **Cross axes.** Let the axis be eᵢ × d, and j, k the other two coordinates. The box's corners x lie strictly on one side of
+//! the segment's line iff s(x) = (x_j − p_j)·d_k − (x_k − p_k)·d_j has one sign on all four corners of the box's projection. With
+//! L = lower − p and U = upper − p, its least value is min(L_j·d_k, U_j·d_k) − max(L_k·d_j, U_k·d_j). Its largest value has min
+//! and max exchanged. (The midpoint form of the textbooks cancels; this form has the small error of an orientation.)
 //!
-//! *Rounding* (any direction: 2u an operation). A product T of two rounded differences is computed as T̂ = T(1 + θ), so
+//! *Rounding* (any direction: 2u an operation). A product T of two rounded differences is computed as T̂ = T(1 + θ), so |T − T̂|
+//! ≤ ((1 − 2u)⁻³ − 1)·|T̂| ≤ 6.1u·|T̂|. The least and the greatest of two products move by no more than the larger of their
+//! errors, and the last subtraction is monotone. With Ŝ = Σ|T̂| over the four products, s > 0 follows from fl(s) > 6.1u·Ŝ +
+//! underflow. The test requires fl(s) > fl(8u·Ŝ + (1 + M)·η), M the largest magnitude of a difference; the bound is at least 8u(1
+//! − 2u)⁵·Ŝ.
+//!
+//! Where subnormal numbers are flushed, a difference is off by at most 3λ, a product by (6M + 1)·λ, and s by (12M + 3)·λ; η ≥
+//! 512·λ. Only M < [`Rounding::LARGEST_EDGE`] culls, so nothing overflows.
 //! |T − T̂| ≤ ((1 − 2u)⁻³ − 1)·|T̂| ≤ 6.1u·|T̂|. The least of two products and the greatest of two move by no more than
 //! the larger of theirs, and the last subtraction is monotone. So s > 0 follows from fl(s) > 6.1u·Ŝ + underflow,
 //! Ŝ = Σ|T̂| over the four products. The test asks for fl(s) > fl(8u·Ŝ + (1 + M)·η), M the largest magnitude of a difference:
 //! at least 8u(1 − 2u)⁵·Ŝ. Where subnormal numbers are flushed a difference is off by 3λ at most, a product by (6M + 1)·λ, and
 //! s by (12M + 3)·λ; η ≥ 512·λ. Only M < [`Rounding::LARGEST_EDGE`] culls, so that nothing overflows.
 //!
-//! Strict inequalities: what touches is kept, and d = 0 gives 0 > η, which is false.
+//! Inequalities are strict: touching pairs are kept, and d = 0 gives 0 > η, which is false.
 
 use super::Aabb;
 use crate::PairKind;
@@ -29,10 +36,10 @@ use crate::scalar::Scalar;
 use crate::vector::Vector;
 use crate::verdict::Verdict;
 
-/// Culls `pair` if the vertex's path misses the axis-aligned box that the face sweeps; of two edges if
-/// [their swept boxes](super::swept_boxes) do not overlap (the paper, stage 1; *disengaging shaft* there is the separating axis).
+/// Culls `pair` if the vertex's path misses the axis-aligned box that the face sweeps. Culls two edges if [their swept
+/// boxes](super::swept_boxes) do not overlap. (The paper, stage 1; its *disengaging shaft* is the separating axis.)
 ///
-/// Certified: never culls if the path and the box share a point. NaN, infinities and overflow keep the pair.
+/// Certified: never culls a pair whose path and box share a point. NaN, infinities and overflow keep the pair.
 #[inline]
 pub fn primitive_boxes<S: Scalar>(pair: &PrimitivePair<S>) -> Verdict {
     Verdict::culled_if(of_kind!(pair.kind, P => PairPoints::from(pair).have_disjoint_primitive_boxes::<P>()))
@@ -55,11 +62,11 @@ fn vertex_misses_face<L: Lanes>(points: &PairPoints<L>) -> L::Mask {
     let ([p, a0, b0, c0], [q, a1, b1, c1]) = (points.start, points.end);
     let lower = a0.smaller(b0).smaller(c0).smaller(a1.smaller(b1).smaller(c1));
     let upper = a0.larger(b0).larger(c0).larger(a1.larger(b1).larger(c1));
-    // The smallest and largest values drop NaN; and the cross axis of two coordinates does not see the third.
+    // The smallest and largest values drop NaN, and the cross axis of two coordinates ignores the third.
     path_misses([p, q], [lower, upper]) & points.is_finite()
 }
 
-/// Whether the path of `vertex` certainly misses `target`. False if a coordinate of the path is NaN or infinite.
+/// Returns whether the path of `vertex` certainly misses `target`. False if a coordinate of the path is NaN or infinite.
 #[inline]
 #[must_use]
 pub fn misses<S: Scalar>(vertex: &Motion<S>, target: &Aabb<S>) -> bool {
@@ -67,27 +74,27 @@ pub fn misses<S: Scalar>(vertex: &Motion<S>, target: &Aabb<S>) -> bool {
     path_misses(path, [target.lower.into(), target.upper.into()]) & vertex.is_finite()
 }
 
-/// Whether one of the six axes separates the segment from the box. NaN may be dropped.
+/// Returns whether one of the six axes separates the segment from the box. NaN may be dropped.
 #[inline(always)]
 fn path_misses<L: Lanes>([start, end]: [Vector<L>; 2], [lower, upper]: [Vector<L>; 2]) -> L::Mask {
     let by_axis = apart(start.x, end.x, lower.x, upper.x)
         | apart(start.y, end.y, lower.y, upper.y)
         | apart(start.z, end.z, lower.z, upper.z);
     let (lower, upper, along) = (lower - start, upper - start, end - start);
-    // No shortcut between the three: they are cheap, and a branch is not.
+    // No early exit between the three: they cost less than a branch.
     by_axis
         | separates([lower.y, upper.y, along.y], [lower.z, upper.z, along.z])
         | separates([lower.z, upper.z, along.z], [lower.x, upper.x, along.x])
         | separates([lower.x, upper.x, along.x], [lower.y, upper.y, along.y])
 }
 
-/// A box axis: the path from `from` to `to` against the interval.
+/// A box axis: the path from `from` to `to` and the interval.
 #[inline(always)]
 fn apart<L: Lanes>(from: L, to: L, low: L, high: L) -> L::Mask {
     low.greater(from.larger(to)) | from.smaller(to).greater(high)
 }
 
-/// One cross axis: lower − p, upper − p, d along its two coordinates.
+/// One cross axis: lower − p, upper − p and d along its two coordinates.
 #[inline(always)]
 fn separates<L: Lanes>([lower_j, upper_j, d_j]: [L; 3], [lower_k, upper_k, d_k]: [L; 3]) -> L::Mask {
     let (left_a, left_b) = (lower_j * d_k, upper_j * d_k);

@@ -1,11 +1,11 @@
-//! The exact verdict: does a pair touch at some time in [0, 1], yes or no.
+//! The exact verdict: whether a pair touches at some time in [0, 1].
 //!
-//! [`contact`] never errs on either side, and has no tolerance. It asks, one after the other:
+//! [`contact`] errs on neither side, and has no tolerance. It tries in order:
 //! 1. the [certified time of impact](super::advance) with tolerance zero, whose "never" is a proof;
-//! 2. [`certain_contact`], a proof of contact around the time that came of it;
+//! 2. [`certain_contact`], a proof of contact around the resulting time;
 //! 3. for `f32` positions, which `f64` holds exactly, both again in `f64`, whose errors are half a billion times smaller;
-//! 4. whole numbers, [`exact::touches`], for what floating point leaves open: contacts at the very start or end, touching
-//!    without passing through, coplanar motion, distances of a rounding error.
+//! 4. whole numbers, [`exact::touches`], for what floating point leaves open: contacts at the very start or end, touching without
+//!    passing through, coplanar motion, distances of a rounding error.
 //!
 //! ```
 //! use selvedge_core::elementary::{ContactVerdict, contact};
@@ -20,13 +20,13 @@
 //! assert_eq!(contact(&lands_at(0.0)), ContactVerdict::Happens);
 //! ```
 //!
-//! # What is promised
-//! * **The truth, for every finite input**, `f32` and `f64`, subnormal and largest numbers included, in every floating-point environment.
-//!   NaN and infinity have no truth: [`ContactVerdict::Undefined`].
-//! * **A bounded amount of work**: that of the [time of impact](super::advance), at most 18 attempts at confirmation, and in
-//!   whole numbers what `exact::touches` states: nothing is refined until it is good enough. Time grows with the square of the
-//!   number of bits from a coordinate's highest to another's lowest along an axis: microseconds with everyday coordinates, some milliseconds
-//!   where `f64` coordinates of 1e300 and 1e-300 come together along one axis, which also take up to 100 kB of stack (x86-64, optimised).
+//! # Guarantees
+//! * **Exact for every finite input**, `f32` and `f64`, subnormal and largest numbers included, in every floating-point
+//!   environment. NaN and infinity give [`ContactVerdict::Undefined`].
+//! * **Bounded work**: that of the [time of impact](super::advance), at most 18 attempts at confirmation, and in whole numbers
+//!   what `exact::touches` states. Nothing iterates until it converges. Time grows with the square of the number of bits between
+//!   a coordinate's highest and another's lowest along an axis. Everyday coordinates take microseconds. `f64` coordinates of
+//!   1e300 and 1e-300 along one axis take some milliseconds, and up to 100 kB of stack (x86-64, optimised).
 
 use super::advance::{certain_contact, time_of_impact, time_of_impact_within};
 use super::{Impact, Limits};
@@ -38,29 +38,29 @@ use crate::scalar::Scalar;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[must_use = "a contact has to be dealt with"]
 pub enum ContactVerdict {
-    /// At no time.
+    /// They share no point at any time.
     Never,
-    /// At some time.
+    /// They share a point at some time.
     Happens,
-    /// A coordinate is NaN or infinite, so there is no answer. To be on the safe side, take it for contact.
+    /// A coordinate is NaN or infinite, so there is no answer. The safe choice is to treat it as contact.
     Undefined,
 }
 
-/// Whether the pair touches at some time in [0, 1]. Exact: see the [module](self).
+/// Returns whether the pair touches at some time in [0, 1]. Exact: see the [module](self).
 #[inline]
 pub fn contact<S: Scalar>(pair: &PrimitivePair<S>) -> ContactVerdict {
     answer(pair, &time_of_impact(pair, &exactly())).0
 }
 
-/// [`contact`], and what the answer rests on.
+/// Returns [`contact`] and the evidence for it.
 #[cfg(feature = "verification")]
 #[inline]
 pub fn contact_and_evidence<S: Scalar>(pair: &PrimitivePair<S>) -> (ContactVerdict, Evidence) {
     answer(pair, &time_of_impact(pair, &exactly()))
 }
 
-/// [`contact`] of a pair whose time of impact is known already, for separation zero and any tolerance: the answer to it makes a
-/// verdict of `impact`, which must be this pair's.
+/// Returns [`contact`] of a pair whose time of impact is already known. `impact` must be this pair's, for separation zero and any
+/// tolerance.
 ///
 /// ```
 /// use selvedge_core::elementary::{ContactVerdict, Limits, advance::time_of_impact, contact::settled};
@@ -80,7 +80,7 @@ pub fn settled<S: Scalar>(pair: &PrimitivePair<S>, impact: &Impact<S>) -> Contac
     answer(pair, impact).0
 }
 
-/// Neither tolerance nor separation.
+/// Limits with neither tolerance nor separation.
 const fn exactly<S: Scalar>() -> Limits<S> {
     Limits {
         tolerance: S::ZERO,
@@ -96,7 +96,7 @@ fn answer<S: Scalar>(pair: &PrimitivePair<S>, impact: &Impact<S>) -> (ContactVer
     }
 }
 
-/// Where contact from `time` on is not excluded.
+/// Decides a pair for which contact from `time` on is not excluded.
 #[inline(never)]
 fn settled_from<S: Scalar>(pair: &PrimitivePair<S>, time: S) -> (ContactVerdict, Evidence) {
     if certain_contact(pair, time).is_some() {
@@ -112,7 +112,7 @@ fn settled_from<S: Scalar>(pair: &PrimitivePair<S>, time: S) -> (ContactVerdict,
     }
 }
 
-/// What `f64` proves of a narrower format's pair, for which contact from `time` on is not excluded.
+/// Decides such a pair of a narrower format in `f64`, if it can.
 fn settled_in_f64<S: Scalar>(pair: &PrimitivePair<S>, time: S) -> Option<(ContactVerdict, Evidence)> {
     if S::FRACTION_BITS + 1 >= f64::MANTISSA_DIGITS {
         return None;

@@ -1,22 +1,22 @@
-//! The question and the answer of a time of impact.
+//! The parameters and the result of a time of impact.
 
 use crate::lanes::power_of_two_f64;
 use crate::scalar::Scalar;
 
-/// What distance counts as contact, and how tight the answer is to be.
+/// The distance that counts as contact, and the tolerance of the answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits<S> {
-    /// δ, in units of length: the sets are taken to be in contact when they are that much more than `separation` apart. With
-    /// zero, or less than the error of rounding, the answer is as tight as can be proven.
+    /// δ, a length: the sets count as in contact when they are at most that much more than `separation` apart. With zero, or less
+    /// than the rounding error, the answer is as tight as the proof allows.
     pub tolerance: S,
-    /// s, in units of length: the distance that the sets are to keep. Zero: they are not to touch. If it is negative or NaN
-    /// nothing is excluded.
+    /// s, a length: the distance that the sets must keep. Zero means that they must not touch. A negative or NaN separation
+    /// excludes nothing.
     pub separation: S,
 }
 
 impl<S: Scalar> Default for Limits<S> {
-    /// Contact itself, with a tolerance of 2⁻³⁰ (`f64`, about 1e-9) or 2⁻²⁰ (`f32`, about 1e-6): for positions in metres, a
-    /// nanometre or a micrometre. A finer tolerance costs hardly more.
+    /// Contact without a separation, with a tolerance of 2⁻³⁰ (`f64`, about 1e-9) or 2⁻²⁰ (`f32`, about 1e-6): for positions in
+    /// metres, a nanometre or a micrometre. A finer tolerance costs little more.
     #[inline]
     fn default() -> Self {
         Self {
@@ -26,15 +26,15 @@ impl<S: Scalar> Default for Limits<S> {
     }
 }
 
-/// When two moving sets may be closer than they should.
+/// The time from which two moving sets may be within the separation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[must_use = "what is not excluded has to be dealt with"]
 pub enum Impact<S> {
     /// Certainly never: at all times in [0, 1] they are farther apart than the separation.
     Never,
-    /// It is not excluded from `time` on. Certainly never before.
+    /// Contact cannot be ruled out from `time` on. It certainly does not happen before.
     Possible {
-        /// In [0, 1]; no later than the first time, if there is one, at which they are within the separation.
+        /// A time in [0, 1], no later than the first time at which the sets are within the separation, if there is one.
         time: S,
         /// Why no later time is proven.
         reason: Reason,
@@ -44,20 +44,20 @@ pub enum Impact<S> {
 /// Why advancing stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Reason {
-    /// The sets are within the tolerance of the separation, at the time returned.
+    /// At the returned time, the sets are within the tolerance of the separation.
     WithinTolerance,
     /// The sets are so close that rounding errors hide whether they are apart.
     WithinError,
-    /// The work that is allowed is used up.
+    /// The allowed number of rounds is used up.
     OutOfRounds,
-    /// Coordinates differ too much, or the separation is too large, for products to be sure not to overflow.
+    /// Coordinates differ too much, or the separation is too large, to be sure that products do not overflow.
     OutOfRange,
     /// A coordinate is NaN or infinite (or their sum is), or the separation is NaN or negative.
     NotFinite,
 }
 
 impl<S: Scalar> Impact<S> {
-    /// The time from which on contact is not excluded; `None` if it is excluded throughout.
+    /// Returns the time from which contact cannot be ruled out, or `None` if it is excluded throughout.
     #[inline]
     #[must_use]
     pub fn time(&self) -> Option<S> {

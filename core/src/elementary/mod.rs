@@ -1,9 +1,9 @@
-//! Elementary tests: does a primitive pair touch, and when first?
+//! Elementary tests of a primitive pair: whether it touches, and when first.
 //!
-//! | test | promise |
+//! | test | guarantee |
 //! |---|---|
-//! | [`contact`](mod@contact) | **exact**: whether there is contact, not when; a bounded amount of work |
-//! | [`advance`] | **certified**: never a miss, a time that is never too late, a bounded amount of work |
+//! | [`contact`](mod@contact) | **exact**: whether there is contact, but not when; bounded work |
+//! | [`advance`] | **certified**: no miss, a time that is never too late, bounded work |
 
 pub mod advance;
 pub mod contact;
