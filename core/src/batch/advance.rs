@@ -1,4 +1,4 @@
-//! Advancing many pairs by separating directions, one round for sixteen of them at a time.
+//! Advances many pairs by separating directions, sixteen of them in one round.
 //!
 //! [`advance_from_rows`] is one [round](crate::kernels::advance::round) of the certified
 //! [time of impact](crate::elementary::advance::time_of_impact) for pairs of a mesh.
@@ -18,45 +18,43 @@ use fearless_simd::Level;
 #[cfg(not(unoptimised))]
 use fearless_simd::{Simd, f32x8, f32x16, f64x2, f64x4, f64x8};
 
-/// What a round found of sixteen pairs. A pair in none of the three has advanced, and is still open.
+/// The result of one round for sixteen pairs. A pair in none of the three masks has advanced, and is still open.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Round {
-    /// Certainly farther apart than the separation until the end of the time asked about.
+    /// Pairs that are certainly farther apart than the separation until the end of the requested time.
     pub apart: Mask,
-    /// At its time, which did not change, within the tolerance of the separation.
+    /// Pairs that are, at their unchanged time, within the tolerance of the separation.
     pub near: Mask,
-    /// Nothing more could be proven in lanes; its time did not change.
+    /// Pairs of which the lanes can prove no more; their times did not change.
     pub stuck: Mask,
 }
 
-/// What a round is asked.
+/// The parameters of a round.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RoundQuestion<S> {
-    /// Separation and tolerance.
+    /// The separation and the tolerance.
     pub limits: Limits<S>,
-    /// Up to when pairs are of interest, at most 1.
+    /// The time up to which pairs matter, at most 1.
     pub until: S,
-    /// Whether the signed volume is asked as well: half as much work again, which pays for pairs that come close to contact. Only
+    /// True to use the signed volume as well. It costs half as much again, which pays for pairs that come close to contact. Only
     /// with a separation of zero.
     pub with_volume: bool,
 }
 
-/// One round of advancing for each pair that `indices` name, from its time on: proven to be apart up to that, each is proven to be so up
-/// to a later one, or to the end.
+/// Advances each pair that `indices` name by one round. A pair that is proven apart up to its time is proven apart up to a later
+/// one, or to the end.
 ///
-/// A caller sweeps over all open pairs, drops those that are decided, sweeps again, and finishes those that are stuck, or still
-/// open after a dozen sweeps, one by one
-/// ([`time_of_impact_within`](crate::elementary::advance::time_of_impact_within)).
+/// A caller sweeps over all open pairs, drops the decided ones, and sweeps again. It finishes pairs that are stuck, or still open
+/// after a dozen sweeps, one by one with [`time_of_impact_within`](crate::elementary::advance::time_of_impact_within).
 ///
-/// **Certified, in every floating-point environment**, as for one pair, and the same bits on every instruction set. NaN,
+/// **Certified, in every floating-point environment**, as for one pair, with the same bits on every instruction set. NaN,
 /// infinite or too large differences, and indices that are not in the rows, make a pair [`stuck`](Round::stuck).
 ///
-/// Times and rounds past the last pair are not touched; pairs past
-/// the last time or round are not looked at. With a separation or a tolerance that is negative, NaN or too large (above 2²⁹,
-/// `f64` 2²⁵⁰) all pairs are stuck.
+/// Times and rounds past the last pair are not changed; pairs past the last time or round are ignored. All pairs are stuck if a
+/// separation or a tolerance is negative, NaN or too large (above 2²⁹, `f64` 2²⁵⁰).
 ///
-/// Each pair must be proven to be apart from the start up to its time; zero will always do. Afterwards it is so up to the
-/// new one. The four indices are those of its vertices: vertex, face; or first edge, second edge.
+/// Each pair must be proven apart from the start up to its time; zero is always valid. Afterwards it is so up to the new time.
+/// The four indices are those of its vertices: vertex, face; or first edge, second edge.
 ///
 /// ```
 /// use selvedge_core::batch::{advance_from_rows, Level, Round, RoundQuestion, VertexRow};
@@ -108,7 +106,7 @@ pub fn advance_from_rows<S: Scalar>(
     }
 }
 
-/// Fewer than sixteen pairs, or some whose indices are not in `rows`.
+/// Handles fewer than sixteen pairs, or some whose indices are not in `rows`.
 #[cold]
 fn padded<S: Scalar>(
     level: Level,
@@ -144,7 +142,7 @@ fn padded<S: Scalar>(
     all
 }
 
-/// One round for sixteen pairs, from their times on. Returns `None`, and changes no time, if an index is not in the rows.
+/// Runs one round for sixteen pairs. Returns `None`, and changes no time, if an index is not in the rows.
 fn sixteen<S: Scalar>(
     level: Level,
     kind: PairKind,
@@ -159,7 +157,7 @@ fn sixteen<S: Scalar>(
     }
 }
 
-/// What a round reads and writes, in either format.
+/// The input and output of a round, in either format.
 struct Input<'a>(PhantomData<&'a ()>);
 
 impl<'a> Family for Input<'a> {
@@ -208,7 +206,7 @@ fn all<P: PairShape, L: Chunk>(
     Some(all)
 }
 
-/// One round in lanes.
+/// Runs one round in lanes.
 #[inline(always)]
 fn round<P: PairShape, L: Lanes>(points: &PairPoints<L>, time: L, question: &RoundQuestion<L::Scalar>) -> round::RoundResult<L>
 where

@@ -1,4 +1,4 @@
-//! As many of sixteen pairs as go side by side at once: what a vector register holds, or one.
+//! Chunks of sixteen pairs: as many as a vector register holds, or one.
 
 use super::mask::{LANES, Mask};
 use super::rows::VertexRow;
@@ -9,32 +9,32 @@ use crate::scalar::Scalar;
 use crate::vector::Vector;
 use core::ops::Sub;
 
-/// Lanes that are loaded from rows and tiles, and stored. Chunks of sixteen pairs begin at `first`, a multiple of the width.
+/// Lanes that load from rows and tiles, and store. Chunks of sixteen pairs begin at `first`, a multiple of the width.
 pub(super) trait Chunk: Lanes<Scalar: Scalar> {
-    /// Shows that the machine has the instructions.
+    /// The proof that the machine has the instructions.
     type Token: Copy;
-    /// As much of a [`VertexRow`] as a register holds, at most all of it.
+    /// The part of a [`VertexRow`] that a register holds, at most all of it.
     type Part: Copy + Sub<Output = Self::Part>;
 
-    /// How many pairs.
+    /// The number of pairs.
     const WIDTH: usize;
 
-    /// The numbers from `first` on.
+    /// Loads the numbers from `first` on.
     fn load(token: Self::Token, numbers: &[Self::Scalar; LANES], first: usize) -> Self;
     /// Stores the numbers from `first` on.
     fn store(self, numbers: &mut [Self::Scalar; LANES], first: usize);
-    /// One bit for each lane.
+    /// Returns one bit for each lane.
     fn bits(mask: Self::Mask) -> Mask;
-    /// One of the parts of a row, the first of which is 0.
+    /// Loads one part of a row; the first is part 0.
     fn part(token: Self::Token, row: &VertexRow<Self::Scalar>, part: usize) -> Self::Part;
-    /// Lanes of start and end, of which `row` gives the rows by lane and part. `None` if it gives none.
+    /// Transposes rows to lanes of start and end. `row` returns a row by lane and part; the result is `None` if `row` returns it.
     fn columns(row: impl Fn(usize, usize) -> Option<Self::Part>) -> Option<[Vector<Self>; 2]>;
 }
 
-/// The points of the pairs from `first` on. `None` if an index is not in the rows.
+/// Loads the points of the pairs from `first` on. Returns `None` if an index is not in the rows.
 #[inline(always)]
 pub(super) fn points<L: Chunk>(token: L::Token, pairs: Sixteen<'_, L::Scalar>, first: usize) -> Option<PairPoints<L>> {
-    // A macro, not a closure: what is not inlined has none of the machine's instructions.
+    // A macro: a closure that is not inlined has none of the machine's instructions.
     macro_rules! point {
         ($point:literal) => {
             match pairs {
@@ -66,9 +66,11 @@ pub(super) fn points<L: Chunk>(token: L::Token, pairs: Sixteen<'_, L::Scalar>, f
     })
 }
 
-/// The second less the first of two points of each pair from `first` on, which `ends` names by the pair's four indices. `None` if an index
-/// is not in the rows. Rows are subtracted before they are transposed: start and end in one subtraction, and three edges to transpose
-/// instead of four points.
+/// Returns, for each pair from `first` on, the difference of the two points that `ends` selects from the pair's four indices: the
+/// second minus the first. Returns `None` if an index is not in the rows.
+///
+/// Rows are subtracted before they are transposed: one subtraction for start and end, and three edges to transpose instead of
+/// four points.
 #[inline(always)]
 pub(super) fn edge<L: Chunk>(
     token: L::Token,
@@ -157,7 +159,7 @@ mod vectors {
     /// 3 rounds    a0 b0 c0 d0 e0 f0 g0 h0     column 0
     /// ```
     ///
-    /// Of rows of 2N numbers each result holds two columns, 0 and 1 the first.
+    /// With rows of 2N numbers, each result holds two columns, 0 and 1 first.
     #[inline(always)]
     fn two<V: Simd, T: SimdBase<V>>([a, b]: [T; 2]) -> [T; 2] {
         let (first, second) = a.interleave(b);

@@ -11,8 +11,8 @@ use fearless_simd::Level;
 use fearless_simd::{Simd, f64x2, f64x4, f64x8};
 use glam::DVec3;
 
-/// Sets in `closest` where each pair, of whose four points these are, is closest: [`ClosestPoints::from_points`], to the bit, but for the bits of NaN. As many
-/// as there are of both. Certifies nothing.
+/// Writes to `closest` the closest points of each pair, given its four points: the same bits as [`ClosestPoints::from_points`],
+/// except in NaN. Handles as many pairs as both slices have. Certifies nothing.
 ///
 /// ```
 /// use selvedge_core::batch::{Level, closest_points};
@@ -50,7 +50,7 @@ pub fn closest_points(level: Level, kind: PairKind, pairs: &[[DVec3; 4]], closes
 /// The coordinates of sixteen pairs' four points.
 struct Sixteen([[[f64; LANES]; 3]; 4]);
 
-/// What is found of them.
+/// The closest points of sixteen pairs.
 struct Ways {
     weights: [[f64; LANES]; 4],
     way: [[f64; LANES]; 3],
@@ -70,7 +70,7 @@ fn all<P: PairShape, L: Chunk<Scalar = f64>>(token: L::Token, Sixteen(pairs): &S
     };
     for chunk in 0..LANES / L::WIDTH {
         let first = chunk * L::WIDTH;
-        // Macros, not closures: what is not inlined has none of the machine's instructions.
+        // Macros: a closure that is not inlined has none of the machine's instructions.
         macro_rules! point {
             ($point:literal) => {
                 Vector::new(

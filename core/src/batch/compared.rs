@@ -1,4 +1,4 @@
-//! A caller's own loops over sixteen numbers, or boxes, at a time: what a traversal of hierarchies is made of.
+//! Loops of the caller over sixteen numbers or boxes at a time, for traversals of hierarchies.
 //!
 //! ```
 //! use selvedge_core::batch::{Compares, Level, Loop, Mask, in_lanes};
@@ -27,28 +27,28 @@ use fearless_simd::Level;
 #[cfg(not(unoptimised))]
 use fearless_simd::{Simd, SimdBase, SimdMask, f32x16, u32x16};
 
-/// Sixteen comparisons, by the instructions of a [`Level`]. The same answers for each.
+/// Sixteen comparisons, with the instructions of a [`Level`]. The results are the same for each level.
 pub trait Compares: Copy {
-    /// The lanes `among` these whose box is not [apart from](MovingBox::is_apart_from) `other`.
+    /// Returns the lanes `among` these whose box is not [apart from](MovingBox::is_apart_from) `other`.
     fn near(self, block: &MovingBlock, other: &MovingBox<f32>, among: Mask) -> Mask;
-    /// The lanes `among` these whose box comes [within](Aabb::is_within) a distance of `other`.
+    /// Returns the lanes `among` these whose box comes [within](Aabb::is_within) `distance` of `other`.
     fn within(self, block: &BoxBlock, other: &Aabb<f32>, distance: f32, among: Mask) -> Mask;
-    /// The lanes whose number is above its limit; not where either is NaN.
+    /// Returns the lanes whose number is above its limit; false where either is NaN.
     fn above(self, numbers: &[f32; LANES], limits: &[f32; LANES]) -> Mask;
-    /// The lanes `among` these that have one of the `wanted` numbers in one of the rows.
+    /// Returns the lanes `among` these that have one of the `wanted` numbers in one of the rows.
     fn equal<const M: usize, const N: usize>(self, rows: &[[u32; LANES]; M], wanted: &[u32; N], among: Mask) -> Mask;
 }
 
-/// A loop that is compiled for each instruction set. `run` must be `#[inline(always)]`, and so must what it calls: what is not inlined has
-/// none of the instructions.
+/// A loop that is compiled for each instruction set. `run`, and every function that it calls, must be `#[inline(always)]`: a
+/// function that is not inlined has none of the instructions.
 pub trait Loop {
-    /// What comes of it.
+    /// The loop's result.
     type Output;
     /// Runs it.
     fn run(self, lanes: impl Compares) -> Self::Output;
 }
 
-/// Runs a loop by the instructions of `level`.
+/// Runs a loop with the instructions of `level`.
 #[inline(always)]
 pub fn in_lanes<L: Loop>(level: Level, work: L) -> L::Output {
     #[cfg(not(unoptimised))]
@@ -78,7 +78,7 @@ pub fn in_lanes<L: Loop>(level: Level, work: L) -> L::Output {
     work.run(OneByOne)
 }
 
-/// Where there are no vectors, and in builds without optimisation.
+/// Comparisons one by one, for machines without vectors and builds without optimisation.
 #[derive(Clone, Copy)]
 struct OneByOne;
 
@@ -111,7 +111,7 @@ impl Compares for OneByOne {
     }
 }
 
-/// The vectors that a token names.
+/// Comparisons with the vectors of a token.
 #[cfg(not(unoptimised))]
 #[derive(Clone, Copy)]
 struct Vectors<V>(V);

@@ -1,6 +1,6 @@
-//! Tests of lanes, on batches: with the feature `verification` those of boxes, and a caller's, which promise nothing.
+//! Tests of lanes for batches. The feature `verification` adds tests of boxes, and tests of the caller's own.
 //!
-//! Engines do not wait for them: what `selvedge` is built of is the filter and the rounds of advancing.
+//! `selvedge` itself uses only the filter and the rounds of advancing.
 
 #[cfg(feature = "verification")]
 pub use shown::{ByPoints, ByVolume, Test};
@@ -13,7 +13,7 @@ use crate::scalar::Scalar;
 /// A test of the pairs' points, on any number of lanes.
 #[cfg(feature = "verification")]
 pub trait PointsTest: Copy {
-    /// The lanes whose pairs it culls.
+    /// Returns the lanes whose pairs it culls.
     fn on<P: PairShape, L: Lanes>(self, points: &crate::points::PairPoints<L>) -> L::Mask;
 }
 
@@ -67,11 +67,11 @@ mod shown {
         }
     }
 
-    /// A caller's test of points as a [`BatchTest`], by the code that runs [`Test`]: for a fair comparison of times.
+    /// A caller's test of points as a [`BatchTest`], run by the code that runs [`Test`]: for a fair comparison of times.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub struct ByPoints<T>(pub T);
 
-    /// A caller's test of volumes as a [`BatchTest`], by the code that runs [`Filter`](crate::filter::Filter).
+    /// A caller's test of volumes as a [`BatchTest`], run by the code that runs [`Filter`](crate::filter::Filter).
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub struct ByVolume<T>(pub T);
 

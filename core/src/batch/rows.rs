@@ -2,22 +2,22 @@ use super::mask::{LANES, Mask};
 use crate::motion::Motion;
 use crate::scalar::Scalar;
 
-/// A vertex's start and end in one row, `x₀ y₀ z₀ 0 x₁ y₁ z₁ 0`: one load, or two, fetches all of it.
+/// A vertex's start and end in one row, `x₀ y₀ z₀ 0 x₁ y₁ z₁ 0`: one or two loads fetch all of it.
 ///
-/// Keep one for each vertex of a mesh, in the order of its vertices.
+/// Keep one row for each vertex of a mesh, in the order of its vertices.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(32))]
 pub struct VertexRow<S>(pub(super) [S; 8]);
 
 impl<S: Scalar> VertexRow<S> {
-    /// The row of a moving vertex.
+    /// A row for a moving vertex.
     #[inline(always)]
     pub fn new(motion: Motion<S>) -> Self {
         let ([x, y, z], [u, v, w]) = (motion.start.into(), motion.end.into());
         Self([x, y, z, S::ZERO, u, v, w, S::ZERO])
     }
 
-    /// The moving vertex of the row.
+    /// Returns the moving vertex of the row.
     #[inline(always)]
     #[must_use]
     pub fn motion(&self) -> Motion<S> {
@@ -26,7 +26,7 @@ impl<S: Scalar> VertexRow<S> {
     }
 }
 
-/// Fewer than sixteen pairs, or some that name rows that there are not: one that is known stands in for the others.
+/// Fewer than sixteen pairs, or some with indices out of range: a known pair stands in for the others.
 pub(super) struct Padded {
     pub(super) indices: [[u32; 4]; LANES],
     /// The lanes of pairs that are known.
@@ -34,7 +34,7 @@ pub(super) struct Padded {
 }
 
 impl Padded {
-    /// Of so many rows. `None` if no pair is known.
+    /// Pads `indices` into so many rows. Returns `None` if no pair is known.
     #[cold]
     pub(super) fn new(indices: &[[u32; 4]], rows: usize) -> Option<Self> {
         let is_known = |pair: &&[u32; 4]| pair.iter().all(|&index| (index as usize) < rows);

@@ -1,4 +1,4 @@
-//! How far the points of many pairs may [stray](crate::separation::clearance).
+//! Computes how far the points of many pairs may [stray](crate::separation::clearance).
 
 use super::chunk::{Chunk, points};
 use super::mask::LANES;
@@ -11,10 +11,11 @@ use fearless_simd::Level;
 #[cfg(not(unoptimised))]
 use fearless_simd::{Simd, f32x4, f32x8, f32x16};
 
-/// Sets in `strays` how far the points of each pair may stray ([`Clearance::largest_stray`], to the bit), which `clearances` say by the
-/// pair's class; less than zero where they may not, and where an index is not in the rows or a class is none. As many as there are of all.
+/// Writes to `strays` how far the points of each pair may stray: the same bits as [`Clearance::largest_stray`]. `classes` selects
+/// each pair's clearance. The value is less than zero where points may not stray, where an index is not in the rows, and where a
+/// class has no clearance. Handles as many pairs as all slices have.
 ///
-/// Rows hold positions rounded to the nearest `f32` in any direction of rounding.
+/// Rows hold positions rounded to the nearest `f32`, in any rounding direction.
 ///
 /// ```
 /// use selvedge_core::batch::{Level, VertexRow, largest_strays_from_rows};
@@ -54,7 +55,7 @@ pub fn largest_strays_from_rows(
     }
 }
 
-/// Fewer than sixteen pairs, or some whose indices are not in `rows`.
+/// Handles fewer than sixteen pairs, or some whose indices are not in `rows`.
 #[cold]
 fn padded(
     level: Level,
@@ -75,7 +76,7 @@ fn padded(
     }
 }
 
-/// `None` if an index is not in the rows.
+/// Returns `None` if an index is not in the rows.
 fn sixteen(
     level: Level,
     kind: PairKind,

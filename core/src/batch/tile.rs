@@ -6,21 +6,21 @@ use crate::motion::{Motion, PrimitivePair};
 use crate::scalar::Scalar;
 use fearless_simd::Level;
 
-/// Sixteen pairs side by side: for each of the four points, at the start and at the end, three coordinates of sixteen pairs.
+/// Sixteen pairs side by side: three coordinates of sixteen pairs, for each of the four points, at the start and at the end.
 ///
-/// It takes four times the memory of indices, so it pays where pairs are tested more than once, or come like this.
+/// A tile takes four times the memory of indices. It pays where pairs are tested more than once, or already lie side by side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct Tile<S>(pub(super) [[[[S; LANES]; 3]; 2]; 4]);
 
 impl<S: Scalar> Tile<S> {
-    /// Sixteen pairs that are not known: not a number, so that every test keeps them.
+    /// A tile of sixteen unknown pairs: their coordinates are NaN, so that every test keeps them.
     #[must_use]
     pub fn unknown() -> Self {
         Self([[[[S::INFINITY * S::ZERO; LANES]; 3]; 2]; 4])
     }
 
-    /// The first sixteen of `pairs`, each by its four points; if there are fewer, the other lanes are
+    /// A tile of the first sixteen of `pairs`, each given by its four points. If there are fewer, the other lanes are
     /// [`unknown`](Self::unknown).
     ///
     /// ```
@@ -44,8 +44,7 @@ impl<S: Scalar> Tile<S> {
         tile
     }
 
-    /// Puts a pair's four points (vertex, face; or first, second edge) in lane `lane`. Does nothing from lane
-    /// [`LANES`] on.
+    /// Stores a pair's four points (vertex, face; or first, second edge) in lane `lane`. Does nothing from lane [`LANES`] on.
     #[inline]
     pub fn set(&mut self, lane: usize, points: [Motion<S>; 4]) {
         for (coordinates, motion) in self.0.iter_mut().zip(points) {
@@ -59,7 +58,7 @@ impl<S: Scalar> Tile<S> {
         }
     }
 
-    /// The four points of a lane; not a number from lane [`LANES`] on.
+    /// Returns the four points of a lane; NaN from lane [`LANES`] on.
     #[inline]
     pub(super) fn motions(&self, lane: usize) -> [Motion<S>; 4] {
         let number = |numbers: &[S; LANES]| match numbers.get(lane) {
@@ -74,8 +73,8 @@ impl<S: Scalar> Tile<S> {
     }
 }
 
-/// Which of `pairs`, of either kind, `test` culls, sixteen to a mask. Masks past the last pair are not touched; pairs past the last
-/// mask are not looked at.
+/// Writes which of `pairs`, of either kind, `test` culls, sixteen to a mask. Masks past the last pair are not changed; pairs past
+/// the last mask are ignored.
 pub fn culled<S: Scalar>(level: Level, test: impl BatchTest<S>, pairs: &[PrimitivePair<S>], masks: &mut [Mask]) {
     for (pairs, mask) in pairs.chunks(LANES).zip(masks) {
         *mask = 0;
@@ -83,7 +82,7 @@ pub fn culled<S: Scalar>(level: Level, test: impl BatchTest<S>, pairs: &[Primiti
             if !pairs.iter().any(|pair| pair.kind == kind) {
                 continue;
             }
-            // Of the other kind nothing is known, so that it is kept.
+            // Pairs of the other kind are unknown, so that they are kept.
             let mut tile = Tile::unknown();
             for (lane, pair) in pairs.iter().enumerate().filter(|(_, pair)| pair.kind == kind) {
                 tile.set(lane, pair.motions);
@@ -93,7 +92,7 @@ pub fn culled<S: Scalar>(level: Level, test: impl BatchTest<S>, pairs: &[Primiti
     }
 }
 
-/// Which pairs of `tiles` `test` culls, a mask for each tile: the fastest form, for pairs that lie side by side already.
+/// Writes which pairs of `tiles` `test` culls, a mask for each tile: the fastest form for pairs that already lie side by side.
 pub fn culled_from_tiles<S: Scalar>(
     level: Level,
     kind: PairKind,

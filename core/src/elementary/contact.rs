@@ -34,7 +34,7 @@ use crate::exact::{self, Evidence};
 use crate::motion::PrimitivePair;
 use crate::scalar::Scalar;
 
-/// Whether two moving sets share a point at some time in [0, 1].
+/// The exact answer to contact of two moving sets during the step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[must_use = "a contact has to be dealt with"]
 pub enum ContactVerdict {

@@ -1,46 +1,45 @@
-//! Numbers that the kernels compute with: one per pair, or several pairs side by side.
+//! The numbers of the kernels: one per pair, or several pairs side by side.
 //!
-//! A kernel is written once, generic over [`Lanes`]. With `f32` or `f64` it serves one pair; with a type that
-//! holds several numbers it serves as many pairs, one per lane, and comparisons yield a mask instead of a
-//! `bool`. Verification instantiates the same source with tiny number formats and tries every input.
+//! A kernel is written once, generic over [`Lanes`]. With `f32` or `f64` it serves one pair. With a type that holds several
+//! numbers it serves one pair per lane, and comparisons yield a mask instead of a `bool`. Verification instantiates the same
+//! source with tiny number formats and tries every input.
 
 use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
-/// The constants of a binary floating-point format that rounding-error bounds are made of.
+/// The constants of a binary floating-point format for rounding-error bounds.
 ///
 /// # Floating-point environments
-/// The bounds that use these constants hold in every environment that a thread can be in: rounding to nearest or in any
-/// direction, subnormal numbers kept or flushed to zero, as results or as operands. In symbols: an operation's result
-/// differs from the exact one by at most 2u times its magnitude (u to nearest), plus λ, the smallest normal number, where
-/// subnormal numbers are flushed; and an operand below λ may count as zero. One set of constants serves all: doubling
-/// them for directed rounding costs neither time nor, on real scenes, culls.
+/// Bounds with these constants hold in every environment of a thread: rounding to nearest or in any direction, subnormal numbers
+/// kept or flushed to zero, as results or as operands. An operation's result differs from the exact one by at most 2u times its
+/// magnitude (u to nearest). Where subnormal numbers are flushed, λ is added, the smallest normal number, and an operand below λ
+/// may count as zero. One set of constants serves all environments: doubling them for directed rounding costs neither time nor,
+/// on real scenes, culls.
 pub trait Rounding: Copy {
-    /// The unit roundoff u: a result rounded to nearest differs from the exact one by at most u times its magnitude,
-    /// in any other direction by at most 2u times, unless it is subnormal. 2⁻²⁴ for `f32`, 2⁻⁵³ for `f64`.
+    /// The unit roundoff u. A result rounded to nearest differs from the exact one by at most u times its magnitude, in any other
+    /// direction by at most 2u times, unless it is subnormal. 2⁻²⁴ for `f32`, 2⁻⁵³ for `f64`.
     const UNIT_ROUNDOFF: Self;
-    /// A bound η of what underflow can add to an error, as derived in [`coplanarity`](crate::coplanarity): 2⁻¹¹⁷ for
-    /// `f32`, 2⁻¹⁰⁰⁰ for `f64`.
+    /// η, a bound of what underflow can add to an error, as derived in [`coplanarity`](crate::coplanarity): 2⁻¹¹⁷ for `f32`,
+    /// 2⁻¹⁰⁰⁰ for `f64`.
     ///
-    /// It is at least 512·λ, λ = 2⁻¹²⁶ or 2⁻¹⁰²² being the smallest normal number, so that it covers threads that flush
-    /// subnormal numbers to zero. It must be normal itself: many processors take a hundred cycles for a product
-    /// with a subnormal operand, and that made the certified filter four times slower. It costs culls only where volumes
-    /// are that small: features of a few 10⁻¹² (`f32`) units of length.
+    /// It is at least 512·λ, with λ = 2⁻¹²⁶ or 2⁻¹⁰²² the smallest normal number, so that it covers threads that flush subnormal
+    /// numbers. It must itself be normal: many processors take a hundred cycles for a product with a subnormal operand. It costs
+    /// culls only where volumes are that small: features of a few 10⁻¹² (`f32`) units of length.
     const UNDERFLOW: Self;
-    /// Pairs with a difference of two points' coordinates from here on are kept: 2³⁰ for `f32`, 2²⁵⁰ for `f64`.
+    /// Pairs with a difference of two points' coordinates of at least this are kept: 2³⁰ for `f32`, 2²⁵⁰ for `f64`.
     ///
-    /// Below it no intermediate result of the filters overflows: volumes stay below 18·2⁹⁰ (18·2⁷⁵⁰), squares of normals
-    /// below 3·(8·2⁶⁰)², which is 2¹²⁷·⁶ (3·(8·2⁵⁰⁰)²). To nearest overflow is infinite, and every test keeps what is not finite; but rounding
-    /// towards zero stops at the largest finite number, which nothing would notice.
+    /// Below it, no intermediate result of the filters overflows: volumes stay below 18·2⁹⁰ (18·2⁷⁵⁰), squares of normals below
+    /// 3·(8·2⁶⁰)², which is 2¹²⁷·⁶ (3·(8·2⁵⁰⁰)²). In rounding to nearest, overflow is infinite, and every test keeps infinite
+    /// values. But rounding towards zero stops at the largest finite number, which no test would notice.
     const LARGEST_EDGE: Self;
-    /// Differences of points along an axis up to which the time of impact proves anything: 2²⁹ for `f32`, 2²⁵⁰ for `f64`. Products
-    /// of four numbers of eight times this size do not overflow.
+    /// The largest differences of points along an axis for which the time of impact proves anything: 2²⁹ for `f32`, 2²⁵⁰ for
+    /// `f64`. Products of four numbers of eight times this size do not overflow.
     const LARGEST_EXTENT: Self;
-    /// μ, added to the extent of a pair along each axis: 20u·μ is more than the seven λ that flushing takes from a component. 2⁻¹⁰⁰ for
-    /// `f32`, 2⁻⁹⁶⁰ for `f64`.
+    /// μ, added to the extent of a pair along each axis: 20u·μ exceeds the seven λ that flushing takes from a component. 2⁻¹⁰⁰
+    /// for `f32`, 2⁻⁹⁶⁰ for `f64`.
     const EXTENT_UNDERFLOW: Self;
-    /// A sum of squares above this has lost less than a part u of itself to flushing: 2⁻¹⁰⁰ for `f32`, 2⁻⁹⁰⁰ for `f64`.
+    /// A sum of squares above this loses less than a part u of itself to flushing: 2⁻¹⁰⁰ for `f32`, 2⁻⁹⁰⁰ for `f64`.
     const SAFE_SQUARE: Self;
-    /// A vector of which the squares underflow is no longer than this: 2⁻⁶² for `f32`, 2⁻⁵¹⁰ for `f64`.
+    /// A bound of the length of a vector whose squares underflow: 2⁻⁶² for `f32`, 2⁻⁵¹⁰ for `f64`.
     const LENGTH_UNDERFLOW: Self;
     /// Zero.
     const ZERO: Self;
@@ -50,14 +49,14 @@ pub trait Rounding: Copy {
     const HALF: Self;
     /// Positive infinity.
     const INFINITY: Self;
-    /// A small whole number, exactly.
+    /// Returns a small whole number, exactly.
     fn small(count: u8) -> Self;
 }
 
 /// One or more numbers of the same format, with arithmetic lane by lane.
 ///
-/// Every operation rounds on its own: no fused multiply-add, no reassociation. That is what makes
-/// verdicts the same for every number of lanes.
+/// Every operation rounds on its own: no fused multiply-add, no reassociation. So verdicts are the same for every number of
+/// lanes.
 pub trait Lanes:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
@@ -70,37 +69,37 @@ pub trait Lanes:
         + BitXor<Output = Self::Mask>
         + Not<Output = Self::Mask>;
 
-    /// The same value in each lane. It takes `self` (and ignores its value) because a vector type may need a
-    /// witness that the machine has its instructions.
+    /// Returns the same value in each lane. It takes `self`, and ignores its value, because a vector type may need a witness that
+    /// the machine has its instructions.
     #[must_use]
     fn splat(self, value: Self::Scalar) -> Self;
-    /// Whether any lane of a mask is true.
+    /// Returns whether any lane of a mask is true.
     #[must_use]
     fn any(mask: Self::Mask) -> bool;
-    /// The square root of each lane, rounded once.
+    /// Returns the square root of each lane, rounded once.
     #[must_use]
     fn sqrt(self) -> Self;
-    /// The magnitude of each lane.
+    /// Returns the magnitude of each lane.
     #[must_use]
     fn abs(self) -> Self;
-    /// The larger of two, lane by lane. Where one of them is NaN the result may be either: only for
-    /// magnitudes whose NaN is noticed elsewhere.
+    /// Returns the larger of two, lane by lane. Where one is NaN, the result may be either: only for magnitudes whose NaN is
+    /// noticed elsewhere.
     #[must_use]
     fn larger(self, other: Self) -> Self;
-    /// The smaller of two, lane by lane. NaN as in [`larger`](Self::larger).
+    /// Returns the smaller of two, lane by lane. NaN as in [`larger`](Self::larger).
     #[must_use]
     fn smaller(self, other: Self) -> Self;
-    /// `self > other`, lane by lane; false where either is NaN.
+    /// Returns `self > other`, lane by lane; false where either is NaN.
     #[must_use]
     fn greater(self, other: Self) -> Self::Mask;
-    /// `self <= other`, lane by lane; false where either is NaN.
+    /// Returns `self <= other`, lane by lane; false where either is NaN.
     #[must_use]
     fn at_most(self, other: Self) -> Self::Mask;
-    /// One or the other, lane by lane.
+    /// Selects one or the other, lane by lane.
     #[must_use]
     fn select(mask: Self::Mask, if_true: Self, if_false: Self) -> Self;
-    /// Whether no lane is `open`, so that the rest of a computation can be left out. Several lanes say no, whatever they are:
-    /// they agree so rarely that asking costs more than it saves.
+    /// Returns true if no lane is `open`, so that the rest of a computation can be left out. With several lanes it always returns
+    /// false: they agree so rarely that the test costs more than it saves.
     #[inline(always)]
     #[must_use]
     fn may_leave(open: Self::Mask) -> bool {
@@ -109,25 +108,24 @@ pub trait Lanes:
     }
 }
 
-/// One lane alone, whose comparisons are a `bool` that early exits may take: `f32`, `f64`, and what verification puts in their
-/// place.
+/// One lane alone, whose comparisons are a `bool` for early exits: `f32`, `f64`, and verification's number types.
 pub trait Number: Lanes<Scalar = Self, Mask = bool> + Rounding + PartialOrd {}
 
 impl<T: Lanes<Scalar = T, Mask = bool> + Rounding + PartialOrd> Number for T {}
 
-/// So many unit roundoffs below one, in the lanes of `like`: a factor that makes up for the rounding of a few operations.
+/// Returns 1 − `count`·u in the lanes of `like`: a factor that makes up for the rounding of a few operations.
 #[inline(always)]
 pub(crate) fn less_roundoffs<L: Lanes>(like: L, count: u8) -> L {
     like.splat(L::Scalar::ONE) - roundoffs(like, count)
 }
 
-/// So many unit roundoffs above one.
+/// Returns 1 + `count`·u.
 #[inline(always)]
 pub(crate) fn more_roundoffs<L: Lanes>(like: L, count: u8) -> L {
     like.splat(L::Scalar::ONE) + roundoffs(like, count)
 }
 
-/// So many unit roundoffs.
+/// Returns `count`·u.
 #[inline(always)]
 pub(crate) fn roundoffs<L: Lanes>(like: L, count: u8) -> L {
     like.splat(L::Scalar::small(count)) * like.splat(L::Scalar::UNIT_ROUNDOFF)
@@ -211,12 +209,12 @@ macro_rules! one_lane {
     };
 }
 
-/// A power of two, whose exponent field is biased by 127.
+/// Returns a power of two; the exponent field is biased by 127.
 const fn power_of_two_f32(exponent: i64) -> f32 {
     f32::from_bits(((127 + exponent) as u32) << 23)
 }
 
-/// A power of two, whose exponent field is biased by 1023.
+/// Returns a power of two; the exponent field is biased by 1023.
 pub(crate) const fn power_of_two_f64(exponent: i64) -> f64 {
     f64::from_bits(((1023 + exponent) as u64) << 52)
 }

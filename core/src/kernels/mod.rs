@@ -1,4 +1,5 @@
-//! What tests and proofs are made of, each written once: for one pair or for several side by side, and for verification's own numbers.
+//! The building blocks of tests and proofs. Each is written once, for one pair, for several side by side, and for verification's
+//! own number types.
 
 pub mod advance;
 pub mod coplanarity;

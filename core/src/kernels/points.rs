@@ -1,4 +1,4 @@
-//! A pair's four points in lanes, and what tells a vertex–face pair from an edge–edge pair.
+//! A pair's four points in lanes, and the differences between vertex–face and edge–edge pairs.
 
 use crate::coplanarity::MovingTetrahedron;
 use crate::kind::PairKind;
@@ -7,7 +7,7 @@ use crate::motion::PrimitivePair;
 use crate::scalar::Scalar;
 use crate::vector::Vector;
 
-/// Four points at the start and at the end of the step: those of one set, then those of the other.
+/// Four points at the start and at the end of the step: the points of one set, then those of the other.
 ///
 /// VF: vertex, face. EE: first edge, second edge.
 #[derive(Clone, Copy, Debug)]
@@ -20,28 +20,28 @@ pub struct PairPoints<L> {
 
 /// A [`PairKind`] that the compiler knows: [`VertexFace`] or [`EdgeEdge`].
 pub trait PairShape {
-    /// The same as a value.
+    /// The kind as a value.
     const KIND: PairKind;
 
-    /// The smallest and largest value over each set's points, given one value for each point. NaN may be dropped.
+    /// Returns the smallest and largest value over each set's points, given one value for each point. NaN may be dropped.
     fn ranges<L: Lanes>(values: [L; 4]) -> [[L; 2]; 2];
 
-    /// The points in the roles a, b, c, p of the signed volume ([`coplanarity`](crate::coplanarity)).
+    /// Returns the points in the roles a, b, c, p of the signed volume ([`coplanarity`](crate::coplanarity)).
     fn volume_points<T>(points: [T; 4]) -> [T; 4];
 
-    /// The differences of a point of one set and a point of the other: three for VF (the first twice), four for EE. The
+    /// Returns the differences of a point of one set and a point of the other: three for VF (the first twice), four for EE. The
     /// sets touch exactly when 0 lies in their convex hull.
     fn corners<L: Lanes>(points: [Vector<L>; 4]) -> [Vector<L>; 4];
 
-    /// From the middle of the second set to that of the first: a direction, some times as long as that way.
+    /// Returns a multiple of the way from the middle of the second set to that of the first.
     fn between_middles<L: Lanes>(points: [Vector<L>; 4]) -> Vector<L>;
 }
 
-/// One point against three.
+/// A vertex and a face: one point and three.
 #[derive(Clone, Copy, Debug)]
 pub enum VertexFace {}
 
-/// Two points against two.
+/// Two edges: two points and two.
 #[derive(Clone, Copy, Debug)]
 pub enum EdgeEdge {}
 
@@ -95,9 +95,9 @@ impl PairShape for EdgeEdge {
     }
 }
 
-/// Code for a kind that is known when it runs: `of_kind!(kind, P => code)`, where `P` is the [`PairShape`] of the kind.
+/// Selects code by a kind that is known at run time: `of_kind!(kind, P => code)`, where `P` is the [`PairShape`] of the kind.
 ///
-/// The one way from a [`PairKind`] to what is compiled for each.
+/// This is the only way from a [`PairKind`] to code that is compiled for each kind.
 #[cfg_attr(feature = "verification", macro_export)]
 macro_rules! of_kind {
     ($kind:expr, $pair:ident => $code:expr) => {
@@ -108,7 +108,8 @@ macro_rules! of_kind {
             }
             $crate::PairKind::EdgeEdge => {
                 type $pair = $crate::verification::points::EdgeEdge;
-                // Both begin with the same loads: without this, LLVM moves those ahead of the branch, where registers do not suffice.
+                // Both arms begin with the same loads. Without this, LLVM moves them ahead of the branch, where registers do not
+                // suffice.
                 ::core::hint::black_box(());
                 $code
             }
@@ -137,16 +138,16 @@ impl<S: Scalar> From<&PrimitivePair<S>> for MovingTetrahedron<S> {
 }
 
 impl<L: Lanes> PairPoints<L> {
-    /// The four points as a tetrahedron that is flat whenever they are coplanar.
+    /// Returns the four points as a tetrahedron that is flat whenever they are coplanar.
     #[inline(always)]
     #[must_use]
     pub fn tetrahedron<P: PairShape>(&self) -> MovingTetrahedron<L> {
         MovingTetrahedron::from_points(P::volume_points(self.start), P::volume_points(self.end))
     }
 
-    /// True only where all 24 coordinates are finite. (Also false where their sum overflows.)
+    /// Returns true only where all 24 coordinates are finite. Also false where their sum overflows.
     ///
-    /// A sum is NaN or infinite if a term is: two dozen additions, without a branch, cost less than as many tests.
+    /// A sum is NaN or infinite if a term is. Two dozen additions without a branch cost less than as many tests.
     #[inline(always)]
     #[must_use]
     pub fn is_finite(&self) -> L::Mask {

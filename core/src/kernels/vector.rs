@@ -1,10 +1,10 @@
-//! Three-component vectors of [`Lanes`], with the few operations that the kernels use.
+//! Three-component vectors of [`Lanes`], with the operations that the kernels use.
 
 use crate::lanes::Lanes;
 use core::ops::{Add, Sub};
 
-/// Three components, each one number or one lane per pair. Every operation rounds each of its additions,
-/// subtractions and products on its own, in the order written here: error bounds rely on it.
+/// Three components, each one number or one lane per pair. Every addition, subtraction and product rounds on its own, in the
+/// order written here: error bounds rely on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vector<L> {
     /// First component.
@@ -23,14 +23,14 @@ impl<L: Lanes> Vector<L> {
         Self { x, y, z }
     }
 
-    /// `(x·x′ + y·y′) + z·z′`.
+    /// Returns `(x·x′ + y·y′) + z·z′`.
     #[inline(always)]
     #[must_use]
     pub fn dot(self, other: Self) -> L {
         (self.x * other.x + self.y * other.y) + self.z * other.z
     }
 
-    /// The cross product, each component a difference of two products.
+    /// Returns the cross product, each component a difference of two products.
     #[inline(always)]
     #[must_use]
     pub fn cross(self, other: Self) -> Self {
@@ -41,8 +41,8 @@ impl<L: Lanes> Vector<L> {
         )
     }
 
-    /// The [cross product](Self::cross) with every subtraction replaced by an addition: on magnitudes it
-    /// bounds each component's size and every intermediate result.
+    /// Returns the [cross product](Self::cross) with every subtraction replaced by an addition. On magnitudes, it bounds each
+    /// component and every intermediate result.
     #[inline(always)]
     #[must_use]
     pub fn cross_permanent(self, other: Self) -> Self {
@@ -53,35 +53,35 @@ impl<L: Lanes> Vector<L> {
         )
     }
 
-    /// The magnitude of each component.
+    /// Returns the magnitude of each component.
     #[inline(always)]
     #[must_use]
     pub fn abs(self) -> Self {
         Self::new(self.x.abs(), self.y.abs(), self.z.abs())
     }
 
-    /// The larger of two vectors, component by component. NaN may be dropped: see [`Lanes::larger`].
+    /// Returns the larger of two vectors, component by component. NaN may be dropped: see [`Lanes::larger`].
     #[inline(always)]
     #[must_use]
     pub fn larger(self, other: Self) -> Self {
         Self::new(self.x.larger(other.x), self.y.larger(other.y), self.z.larger(other.z))
     }
 
-    /// The smaller of two vectors, component by component. NaN may be dropped: see [`Lanes::larger`].
+    /// Returns the smaller of two vectors, component by component. NaN may be dropped: see [`Lanes::larger`].
     #[inline(always)]
     #[must_use]
     pub fn smaller(self, other: Self) -> Self {
         Self::new(self.x.smaller(other.x), self.y.smaller(other.y), self.z.smaller(other.z))
     }
 
-    /// The largest component. NaN may be dropped: see [`Lanes::larger`].
+    /// Returns the largest component. NaN may be dropped: see [`Lanes::larger`].
     #[inline(always)]
     #[must_use]
     pub fn largest(self) -> L {
         self.x.larger(self.y).larger(self.z)
     }
 
-    /// Each component times `factor`.
+    /// Returns each component times `factor`.
     #[inline(always)]
     #[must_use]
     pub fn scaled(self, factor: L) -> Self {
