@@ -32,7 +32,7 @@ pub struct Distribution<I> {
 /// };
 /// let apart = distribute(&triangle(0, [0, 1, 2]), &triangle(1, [3, 4, 5]));
 /// assert_eq!((apart.vertex_face.len(), apart.edge_edge.len()), (6, 9));
-/// // Across a common edge only two vertices face a triangle that they do not belong to,
+/// // Across a common edge, only two vertices face a triangle that they do not belong to,
 /// // and each of the two outer edges of one side meets one of the other.
 /// let adjacent = distribute(&triangle(0, [0, 1, 2]), &triangle(1, [2, 1, 3]));
 /// assert_eq!((adjacent.vertex_face.len(), adjacent.edge_edge.len()), (2, 2));

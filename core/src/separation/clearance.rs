@@ -1,20 +1,21 @@
-//! Pairs that keep a distance though their points stray: which of them need no attention while no point strays too far.
+//! Clearance: pairs that keep a distance although their points stray, and need no attention while no point strays too far.
 //!
-//! Points are looked for that come within a distance h of each other, though each may stray by b/2 along each axis from a motion on
-//! straight ways. A direction d that keeps two sets apart by more than some distance, times its length, at the start and at the end, does so
-//! in between, whatever d is. Two points stray along d by b·(|d₁| + |d₂| + |d₃|) towards each other, so h·|d| + b·(|d₁| + |d₂| + |d₃|) must be
-//! kept along d. The axes are tried, h + b; then the direction from the middle of one set to the middle of the other, which shows most
-//! of what is left at once: triangles side by side.
+//! The caller looks for points that come within a distance h of each other, where each may stray by b/2 along each axis from a
+//! straight motion. A direction d that keeps two sets more than a distance apart, times its length, at the start and at the end,
+//! does so in between. Two points stray towards each other along d by at most b·(|d₁| + |d₂| + |d₃|). So d must keep h·|d| +
+//! b·(|d₁| + |d₂| + |d₃|). The test tries the axes, with h + b, and then the direction from the middle of one set to the middle
+//! of the other. The latter settles most of the remaining pairs: triangles side by side.
 //!
 //! # Rounding
-//! (`f32`; any direction: ε = 2u = 2⁻²³ an operation.) A coordinate of at most B is rounded by εB at most, and the difference of
-//! two, at most 2B, by 2εB more: together 4εB along an axis. A product with d errs by √3·εB·|d| from the coordinates and by 3ε·√3·B·|d|
-//! from its own operations, to first order; the difference of two of them by twice that and 2√3·εB·|d| more: together 18εB·|d|. |d|, the
-//! sum and what is asked for err by less than 8ε of themselves. 32ε of B and of the distance are added ([`Clearance::new`]).
+//! (`f32`; any direction: ε = 2u = 2⁻²³ an operation.) A coordinate of at most B is rounded by at most εB, and the difference of
+//! two, at most 2B, by 2εB more: together 4εB along an axis. A product with d errs by √3·εB·|d| from the coordinates and by
+//! 3ε·√3·B·|d| from its own operations, to first order. The difference of two products errs by twice that and 2√3·εB·|d| more:
+//! together 18εB·|d|. |d|, the sum and the required distance err by less than 8ε of themselves. [`Clearance::new`] adds 32ε of B
+//! and of the distance.
 //!
-//! **Underflow.** Flushed operands and results, of λ each, make less than 40λ(1 + |d|) along d. 2⁻⁸⁰ is added to h, and a direction whose
-//! square is not above 10⁻¹⁸ proves nothing: |d| is then above 2⁻³⁰, and 2⁻⁸⁰|d| ≥ 40λ(1 + |d|).
-//! **Overflow.** B must not exceed 2³⁰, or nothing is proven, as if h were infinite; nor if a distance is NaN.
+//! **Underflow.** Flushed operands and results, of λ each, make less than 40λ(1 + |d|) along d. 2⁻⁸⁰ is added to h. A direction
+//! whose square is not above 10⁻¹⁸ proves nothing; otherwise |d| is above 2⁻³⁰, and 2⁻⁸⁰|d| ≥ 40λ(1 + |d|). **Overflow.** If B
+//! exceeds 2³⁰, or a distance is NaN, nothing is proven, as if h were infinite.
 
 use crate::kind::PairKind;
 use crate::lanes::{Lanes, Rounding};
@@ -22,35 +23,35 @@ use crate::points::{PairPoints, PairShape};
 use crate::vector::Vector;
 use glam::Vec3A;
 
-/// What a pair must keep to need no attention, of positions rounded to `f32`; in the unit of the positions.
+/// The distance that a pair must keep to need no attention, for positions rounded to `f32`; in the unit of the positions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clearance {
-    /// h with what rounding may take of it, rounded up; and the same along a direction that is no axis.
+    /// h plus the rounding error, rounded up.
     along_axis: f32,
     along_direction: f32,
 }
 
-/// How much of the distance, and of the largest coordinate, is added: 32ε.
+/// The part of the distance, and of the largest coordinate, that is added: 32ε.
 #[inline(always)]
 fn rounding() -> f64 {
     f64::small(64) * f64::from(f32::UNIT_ROUNDOFF)
 }
 
-/// For what underflows.
+/// The allowance for underflow.
 const FLUSHED: f64 = 1.0 / (1_u128 << 80) as f64;
-/// Squared length of a direction that is long enough.
+/// The squared length above which a direction is long enough.
 const SHORTEST: f32 = 1e-18;
 
 impl Clearance {
-    /// Nothing keeps it.
+    /// A clearance that no pair keeps.
     pub const UNKNOWN: Self = Self {
         along_axis: f32::INFINITY,
         along_direction: f32::INFINITY,
     };
 
-    /// Of points that are to keep `distance`. No coordinate exceeds `largest` in
-    /// magnitude ([`largest_coordinate`](super::largest_coordinate)). Along a direction that is no axis `margin` times the distance is
-    /// asked for in addition, zero or more: it is no part of the proof.
+    /// A clearance for points that must keep `distance`. No coordinate exceeds `largest` in magnitude
+    /// ([`largest_coordinate`](super::largest_coordinate)). Along a direction that is not an axis, `margin` times the distance is
+    /// required in addition, zero or more; no proof depends on it.
     #[inline]
     #[must_use]
     pub fn new(distance: f64, largest: f64, margin: f32) -> Self {
@@ -65,12 +66,13 @@ impl Clearance {
         }
     }
 
-    /// How far points may stray, b of the [module](self), for a pair to keep its distance certainly on straight ways from `start` to `end`, along an
-    /// axis or the direction between its middles: at both ends, and with the same order. Less than zero if they may not.
-    /// [`largest_strays_from_rows`](crate::batch::largest_strays_from_rows) says it of many pairs.
+    /// Returns how far points may stray, b of the [module](self), so that the pair certainly keeps its distance on straight ways
+    /// from `start` to `end`. The pair must keep it at both ends, in the same order, along an axis or along the direction between
+    /// the sets' middles. The result is less than zero if points may not stray at all.
+    /// [`largest_strays_from_rows`](crate::batch::largest_strays_from_rows) computes it for many pairs.
     ///
-    /// Certified, in every floating-point environment, for positions of which these are the nearest `f32` in any direction of rounding. What is
-    /// compared with it may have been rounded to `f32` as well, and be the rounded mean of two.
+    /// Certified, in every floating-point environment, for positions that were rounded to the nearest `f32` in any rounding
+    /// direction. The stray that is compared with the result may also be rounded to `f32`, and may be the rounded mean of two.
     ///
     /// ```
     /// use selvedge_core::{PairKind, glam::Vec3A, separation::clearance::Clearance};
@@ -88,13 +90,13 @@ impl Clearance {
         of_kind!(kind, P => largest_stray::<P, f32>(&points, asked))
     }
 
-    /// A gap between the boxes of two sets along an axis, at both ends of the step and with the same order, from which on their points
-    /// certainly are [found](Self::largest_stray) to stray by `beyond`, rounded to `f32`; infinite if there is none. A hierarchy of boxes that
-    /// leaves out what has such a gap leaves out nothing but what would be left out one by one: no proof depends on it. No coordinate exceeds
-    /// `largest` in magnitude.
+    /// Returns a gap between the boxes of two sets that certainly lets their points [stray](Self::largest_stray) by `beyond`,
+    /// rounded to `f32`; infinite if no gap does. The gap is along an axis, at both ends of the step and in the same order. A
+    /// hierarchy of boxes that skips such sets skips only pairs that would be skipped one by one; no proof depends on it. No
+    /// coordinate exceeds `largest` in magnitude.
     ///
-    /// What is kept along an axis is off by at most 4εB ([module](self)), the difference to what is asked for by ε of both, the last product by
-    /// 2⁻¹⁷ and ε, and `beyond` by ε: 16εB, and 2⁻¹⁶ of the two, are more.
+    /// The kept distance along an axis is off by at most 4εB ([module](self)), its difference to the required one by ε of both,
+    /// the last product by 2⁻¹⁷ and ε, and `beyond` by ε. The gap adds 16εB, and 2⁻¹⁶ of the two, which is more.
     #[inline]
     #[must_use]
     pub fn certain_gap(&self, beyond: f64, largest: f64) -> f64 {
@@ -102,16 +104,17 @@ impl Clearance {
             + largest * (f64::small(32) * f64::from(f32::UNIT_ROUNDOFF))
     }
 
-    /// What is asked for along an axis, and along a direction times its length, before anything strays.
+    /// Returns the required distance along an axis, and along a direction times its length, before anything strays.
     #[inline(always)]
     pub(crate) const fn asked(&self) -> [f32; 2] {
         [self.along_axis, self.along_direction]
     }
 }
 
-/// How far points may stray, given what is [asked](Clearance::asked) of each pair.
+/// Returns how far points may stray, given the [required distances](Clearance::asked) of each pair.
 ///
-/// The division, and what led to it, and what is compared with it, err by less than 8ε of the result: 2⁻¹⁷ is taken off.
+/// The division, its operands, and the stray that is compared with the result err by less than 8ε of the result: 2⁻¹⁷ is taken
+/// off.
 #[inline(always)]
 pub(crate) fn largest_stray<P: PairShape, L: Lanes<Scalar = f32>>(points: &PairPoints<L>, asked: [L; 2]) -> L {
     let [along_axis, along_direction] = asked;
@@ -138,8 +141,8 @@ pub(crate) fn largest_stray<P: PairShape, L: Lanes<Scalar = f32>>(points: &PairP
     by_axis.larger(by_direction) * gap.splat(1.0 - 1.0 / 131_072.0)
 }
 
-/// By how much the first set of a pair is ahead of the second at both ends, and by how much it is behind, along a line on which the points
-/// are there.
+/// Returns by how much the first set of a pair is ahead of the second at both ends, and by how much it is behind, given the
+/// points' places on a line.
 #[inline(always)]
 fn kept<P: PairShape, L: Lanes>(start: [L; 4], end: [L; 4]) -> [L; 2] {
     let [[low, high], [other_low, other_high]] = P::ranges(start);
@@ -150,8 +153,8 @@ fn kept<P: PairShape, L: Lanes>(start: [L; 4], end: [L; 4]) -> [L; 2] {
     ]
 }
 
-/// How near boxes of positions, rounded to `f32`, must be for those of the positions themselves to be within `distance`, rounded down; less
-/// than any if that cannot be told. No coordinate exceeds `largest` in magnitude.
+/// Returns the distance, rounded down, at which boxes of positions rounded to `f32` prove that the positions themselves are
+/// within `distance`; −∞ if no distance does. No coordinate exceeds `largest` in magnitude.
 #[inline]
 #[must_use]
 pub fn nearness(distance: f64, largest: f64) -> f32 {
@@ -164,7 +167,8 @@ pub fn nearness(distance: f64, largest: f64) -> f32 {
     }
 }
 
-/// Whether the boxes of a pair at rest come within `distance` of each other along each axis. False with NaN in all of a set.
+/// Returns whether the boxes of a pair at rest come within `distance` of each other along each axis. False if all of a set is
+/// NaN.
 #[inline(always)]
 #[must_use]
 pub fn are_boxes_within(kind: PairKind, points: [Vec3A; 4], distance: f32) -> bool {
@@ -178,7 +182,7 @@ fn narrowed(length: f64) -> f32 {
     length as f32
 }
 
-/// By how much the first set of a pair is ahead of the second along each axis, and by how much it is behind.
+/// Returns by how much the first set of a pair is ahead of the second along each axis, and by how much it is behind.
 #[inline(always)]
 fn gaps(kind: PairKind, [a, b, c, d]: [Vec3A; 4]) -> [Vec3A; 2] {
     let (low, high, other_low, other_high) = match kind {

@@ -1,7 +1,7 @@
 //! The closest points of a pair at rest, in plain floating point.
 //!
-//! Nothing that is certified relies on how well this is done (Ericson, Real-Time Collision Detection, 2005, 5.1.5 and 5.1.9). One source serves
-//! one pair and [many side by side](crate::batch::closest_points).
+//! No certificate relies on their accuracy (Ericson, Real-Time Collision Detection, 2005, 5.1.5 and 5.1.9). One source serves one
+//! pair and [many side by side](crate::batch::closest_points).
 
 use crate::kind::PairKind;
 use crate::lanes::Lanes;
@@ -12,18 +12,18 @@ use glam::DVec3;
 /// The shortest way from the second set of a pair to the first.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ClosestPoints {
-    /// Of the four points in [`way`](Self::way): those of the first set add up to 1, those of the second to −1.
+    /// The weights of the four points in [`way`](Self::way): those of the first set add up to 1, those of the second to −1.
     pub weights: [f64; 4],
     /// Σ weightᵢ·xᵢ.
     pub way: DVec3,
-    /// Perpendicular to the features on which the closest points lie, as far as rounding allows: of length one, or zero where
-    /// the sets touch.
+    /// The direction of the way, of length one, perpendicular to the features of the closest points as far as rounding allows.
+    /// Zero where the sets touch.
     pub direction: DVec3,
 }
 
 impl ClosestPoints {
-    /// Of the pair whose four vertices are these. What comes of points that are not finite, or of products of four lengths that overflow, means
-    /// nothing. [`closest_points`](crate::batch::closest_points) is the same of many pairs.
+    /// Computes the closest points of the pair with these four vertices. The result means nothing if a point is not finite, or if
+    /// products of four lengths overflow. [`closest_points`](crate::batch::closest_points) computes the same for many pairs.
     #[must_use]
     pub fn from_points(kind: PairKind, [p, q, r, s]: [DVec3; 4]) -> Self {
         let points = [vector(p), vector(q), vector(r), vector(s)];
@@ -36,7 +36,7 @@ impl ClosestPoints {
         }
     }
 
-    /// The length of the shortest way.
+    /// Returns the length of the shortest way.
     #[must_use]
     pub fn distance(&self) -> f64 {
         self.way.length()
@@ -48,7 +48,7 @@ const fn vector(point: DVec3) -> Vector<f64> {
     Vector::new(point.x, point.y, point.z)
 }
 
-/// What [`ClosestPoints`] says, of one pair or of one in each lane.
+/// [`ClosestPoints`] of one pair, or of one in each lane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ClosestInLanes<L> {
     pub(crate) weights: [L; 4],
@@ -82,10 +82,10 @@ impl<L: Lanes<Scalar = f64>> ClosestInLanes<L> {
     }
 }
 
-/// A way of length one, perpendicular to `count` sides: two, and the difference of these.
+/// Returns a direction of length one, perpendicular to `count` sides: the two given, and their difference.
 ///
-/// Where the sets are near to each other the difference of the closest points has lost its digits: then a normal is computed from the
-/// features themselves.
+/// Where the sets are near each other, the difference of the closest points has lost its digits. Then the features themselves
+/// give the normal.
 #[inline(always)]
 fn upright<L: Lanes<Scalar = f64>>(way: Vector<L>, [first, second]: [Vector<L>; 2], count: usize) -> Vector<L> {
     let zero = way.x.splat(0.0);
@@ -103,7 +103,7 @@ fn upright<L: Lanes<Scalar = f64>>(way: Vector<L>, [first, second]: [Vector<L>; 
     let mut direction = chosen(is_near, normal.scaled(sign), straight);
     let is_on_side = is_near & !is_level;
     if L::any(is_on_side) {
-        // Take off what is left along it.
+        // Removes the rest along each side.
         let mut left = way;
         let sides = [first, second, second - first];
         let mut place = 0;
@@ -127,7 +127,7 @@ const NEAR: f64 = 1e-6;
 fn of_vertex_face<L: Lanes<Scalar = f64>>([p, a, b, c]: [Vector<L>; 4]) -> [L; 4] {
     let (zero, one) = (p.x.splat(0.0), p.x.splat(1.0));
     let mut weights = [one, -one, zero, zero];
-    // One pair leaves where it is settled; several side by side go through all.
+    // One pair returns where it is settled; several side by side run through all cases.
     macro_rules! settled_if {
         ($is_here:expr, $open:expr, $weights:expr) => {{
             let is_here = $is_here & $open;

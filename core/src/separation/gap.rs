@@ -1,26 +1,26 @@
-//! The gap of a pair along a direction: a lower bound of its distance, and a proof that lasts as long as the direction does.
+//! The gap of a pair along a direction: a lower bound of its distance, and a proof that lasts as long as the direction separates.
 //!
-//! For a fixed direction d and any points p of the first set and q of the second, d·(p(t) − q(t)) is linear in t. The gap is the least
-//! of these: by how much the first set is ahead of the second. If it exceeds m·|d| at the start and at the end of a step, the sets
-//! are more than m apart throughout. d may come from anywhere, rounded as it likes: directions longer than 1 + 2⁻²¹ are refused.
+//! For a fixed direction d and any points p of the first set and q of the second, d·(p(t) − q(t)) is linear in t. The gap is the
+//! least of these: by how much the first set is ahead of the second. If it exceeds m·|d| at the start and at the end of a step,
+//! the sets are more than m apart throughout. d may have any origin and rounding; directions longer than 1 + 2⁻²¹ are rejected.
 //!
 //! # Rounding
-//! (Any direction: ε = 2u an operation.) Let no coordinate exceed B, and no component of d exceed 1.01. A dot product passes each of
-//! its terms through at most 3 roundings; its error is at most 3ε·3·1.01B to first order. A gap is the difference of two of them, itself
-//! rounded: 18.2εB + 6.1εB ≤ 49uB. [`GapError`] allows 64u·B.
+//! (Any direction: ε = 2u an operation.) Let no coordinate exceed B, and no component of d exceed 1.01. A dot product passes each
+//! term through at most 3 roundings, so its error is at most 3ε·3·1.01B to first order. A gap is the difference of two of them,
+//! itself rounded: 18.2εB + 6.1εB ≤ 49uB. [`GapError`] allows 64u·B.
 //!
-//! **σ = 1 + 2⁻²⁰** (`slack`) makes up for the length of d and for what is rounded after that:
-//! * The length that is accepted: fl(d·d) ≤ 1 + 2⁻²⁰ shows that |d| ≤ 1 + 2⁻²⁰·0.8 in both formats.
+//! **σ = 1 + 2⁻²⁰** (`slack`) covers the length of d and later roundings:
+//! * An accepted length: fl(d·d) ≤ 1 + 2⁻²⁰ shows that |d| ≤ 1 + 2⁻²⁰·0.8 in both formats.
 //! * A lower bound of the distance: fl(gap/σ − 64uB) is at most (gap − 49uB)/|d|.
-//! * What is stored, fl₃₂((gap − 64uB)/σ), is as well: `f32` rounds by 2⁻²³. Below 2⁻¹⁰⁰, where it might round up by more, zero is
-//!   stored in place of it, and 2¹⁰⁰ beyond that.
-//! * A threshold: gap > fl(m·σ² + 64uB) shows that the exact gap is more than m·|d|; so does a stored one.
+//! * A stored gap, fl₃₂((gap − 64uB)/σ), is also a lower bound: `f32` rounds by 2⁻²³. Below 2⁻¹⁰⁰, where it might round up by
+//!   more, zero is stored instead, and 2¹⁰⁰ above that.
+//! * A threshold: gap > fl(m·σ² + 64uB) shows that the exact gap is more than m·|d|. The same holds for a stored gap.
 //!
-//! **Underflow.** Where subnormal numbers are flushed a dot product loses at most 3 operands times 1.01 and 5 results, 3 of B's and 3 of
-//! d's, each λ or λB: twice that and the difference is less than 20λ(1 + B), which 64uB and η ≥ 512λ cover for every B (λ ≤ u²).
-//! **Overflow.** B must not exceed [`Rounding::LARGEST_EDGE`], or the error is infinite: then no gap exceeds
-//! it. [`largest_coordinate`](super::largest_coordinate) is infinite if a coordinate is NaN or infinite. NaN in a direction or a separation
-//! proves nothing either: comparisons are ordered.
+//! **Underflow.** Where subnormal numbers are flushed, a dot product loses at most 3 operands times 1.01 and 5 results, 3 of B's
+//! and 3 of d's, each λ or λB. Twice that and the difference is less than 20λ(1 + B), which 64uB and η ≥ 512λ cover for every B
+//! (λ ≤ u²). **Overflow.** If B exceeds [`Rounding::LARGEST_EDGE`], the error is infinite, and no gap exceeds it.
+//! [`largest_coordinate`](super::largest_coordinate) is infinite if a coordinate is NaN or infinite. NaN in a direction or a
+//! separation proves nothing either: comparisons are ordered.
 
 use crate::kind::PairKind;
 use crate::lanes::Rounding;
@@ -28,13 +28,14 @@ use crate::points::PairShape;
 use crate::scalar::{Position, Scalar};
 use crate::vector::Vector;
 
-/// How far rounding can move a gap.
+/// A bound of the rounding error of a gap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GapError<S>(S);
 
 impl<S: Scalar> GapError<S> {
-    /// Of points none of whose coordinates exceeds `largest`, in the unit of the positions: see
-    /// [`largest_coordinate`](super::largest_coordinate). Infinite, so that nothing is proven, if that is NaN or too large.
+    /// The error for points whose coordinates do not exceed `largest` in magnitude
+    /// ([`largest_coordinate`](super::largest_coordinate)), in the unit of the positions. It is infinite, so that nothing is
+    /// proven, if `largest` is NaN or too large.
     #[inline]
     #[must_use]
     pub fn from_largest_coordinate(largest: S) -> Self {
@@ -45,14 +46,14 @@ impl<S: Scalar> GapError<S> {
         }
     }
 
-    /// The larger of two: of points that belong to either.
+    /// Returns the larger of two errors, for points that belong to either.
     #[inline]
     #[must_use]
     pub fn larger(self, other: Self) -> Self {
         Self(self.0.larger(other.0))
     }
 
-    /// As a length.
+    /// The error as a length.
     #[inline(always)]
     pub(super) const fn length(self) -> S {
         self.0
@@ -65,13 +66,13 @@ fn slack<S: Scalar>() -> S {
     S::from_f64(1.0 + 1.0 / 1_048_576.0)
 }
 
-/// What a gap must exceed to prove that two sets are more than `separation` apart.
+/// Returns the threshold that a gap must exceed to prove that two sets are more than `separation` apart.
 #[inline(always)]
 pub(super) fn threshold<S: Scalar>(separation: S, error: GapError<S>) -> S {
     separation * (slack::<S>() * slack::<S>()) + error.0
 }
 
-/// By how much the first set is ahead of the second along a direction, as computed. Proves nothing by itself.
+/// Returns by how much the first set is ahead of the second along a direction, as computed. It proves nothing by itself.
 #[inline(always)]
 #[must_use]
 pub fn gap<P: Position>(kind: PairKind, points: [P; 4], direction: [P::Scalar; 3]) -> P::Scalar {
@@ -88,15 +89,15 @@ pub fn gap<P: Position>(kind: PairKind, points: [P; 4], direction: [P::Scalar; 3
     low - high
 }
 
-/// Whether a direction is no longer than σ allows. False with NaN.
+/// Returns whether a direction is no longer than σ allows. False with NaN.
 #[inline(always)]
 fn is_short<S: Scalar>(direction: [S; 3]) -> bool {
     let direction = Vector::from(direction);
     direction.dot(direction) <= slack()
 }
 
-/// A lower bound of the distance of two sets at rest, by a direction of length one from the second to the first; zero if it proves
-/// none.
+/// Returns a lower bound of the distance of two sets at rest, by a direction of length one from the second to the first. It is
+/// zero if the direction proves none.
 ///
 /// Certified, in every floating-point environment, whatever the direction.
 ///
@@ -115,7 +116,7 @@ pub fn distance_from_below<P: Position>(kind: PairKind, points: [P; 4], directio
     if bound > zero && is_short(direction) { bound } else { zero }
 }
 
-/// The direction that last kept a pair apart, and by how much: 16 bytes for a caller to keep with the pair.
+/// The direction that last kept a pair apart, and its gap: 16 bytes for a caller to keep with the pair.
 ///
 /// ```
 /// use selvedge_core::{PairKind, glam::DVec3, separation::gap::{GapError, SeparatingDirection}};
@@ -124,7 +125,7 @@ pub fn distance_from_below<P: Position>(kind: PairKind, points: [P; 4], directio
 /// let error = GapError::from_largest_coordinate(1.0);
 /// let found = SeparatingDirection::for_step(kind, DVec3::Z, [at(0.5), at(0.4)], 0.1, error).unwrap();
 /// assert!(found.gap() <= 0.4);
-/// // The next step, on to 0.2, costs four dot products; the one to 0.05 is no longer proven.
+/// // The next step, to 0.2, costs four dot products. The one to 0.05 is not proven.
 /// let later = found.lasts(kind, at(0.2), 0.1, error).unwrap();
 /// assert!(later.lasts(kind, at(0.05), 0.1, error).is_none());
 /// ```
@@ -132,25 +133,26 @@ pub fn distance_from_below<P: Position>(kind: PairKind, points: [P; 4], directio
 pub struct SeparatingDirection {
     /// No longer than σ allows.
     direction: [f32; 3],
-    /// Not more than the distance.
+    /// At most the distance.
     gap: f32,
 }
 
 impl SeparatingDirection {
-    /// No direction is known.
+    /// No known direction.
     pub const NONE: Self = Self {
         direction: [0.0; 3],
         gap: f32::NEG_INFINITY,
     };
 
-    /// A lower bound of the distance where the direction was last shown to keep the pair apart; −∞ if there is none.
+    /// Returns a lower bound of the distance at the last positions for which the direction was shown to keep the pair apart; −∞
+    /// if there are none.
     #[inline(always)]
     #[must_use]
     pub const fn gap(&self) -> f32 {
         self.gap
     }
 
-    /// The direction without its gap: the pair has moved on.
+    /// Returns the direction without its gap, for a pair that has moved on.
     #[inline(always)]
     #[must_use]
     pub const fn without_gap(self) -> Self {
@@ -160,7 +162,7 @@ impl SeparatingDirection {
         }
     }
 
-    /// The direction. Of length one but for rounding, or zero.
+    /// Returns the direction: of length one but for rounding, or zero.
     #[inline(always)]
     #[must_use]
     pub fn direction<P: Position>(&self) -> P {
@@ -173,14 +175,14 @@ impl SeparatingDirection {
         [S::from_f64(x.into()), S::from_f64(y.into()), S::from_f64(z.into())]
     }
 
-    /// By how much the direction keeps the pair apart there, as computed: for what needs no proof.
+    /// Returns by how much the direction keeps the pair apart at `points`, as computed. It proves nothing.
     #[inline(always)]
     #[must_use]
     pub fn gap_at<P: Position>(&self, kind: PairKind, points: [P; 4]) -> P::Scalar {
         gap(kind, points, self.components())
     }
 
-    /// This direction with another gap, from which the error is taken off already.
+    /// Returns this direction with another gap, from which the error is already subtracted.
     #[inline(always)]
     fn with_gap<S: Scalar>(self, gap: S) -> Self {
         let least = S::from_f64(1.0 / LARGEST_GAP);
@@ -196,7 +198,7 @@ impl SeparatingDirection {
         }
     }
 
-    /// Another direction, in the digits that are kept of it, without a gap. Zero if it is longer than one.
+    /// Rounds a direction to the stored digits, without a gap. Returns zero if it is longer than one.
     #[inline(always)]
     fn rounded<P: Position>(direction: P) -> Self {
         let [x, y, z]: [P::Scalar; 3] = direction.into();
@@ -212,7 +214,8 @@ impl SeparatingDirection {
         }
     }
 
-    /// Whichever proves more at `points`: this one, whose gap must be right there, or `direction`, from the second set to the first.
+    /// Returns whichever proves more at `points`: this direction, whose gap must be valid there, or `direction`, from the second
+    /// set to the first.
     #[inline]
     #[must_use]
     pub fn or_better<P: Position>(self, kind: PairKind, direction: P, points: [P; 4], error: GapError<P::Scalar>) -> Self {
@@ -225,8 +228,8 @@ impl SeparatingDirection {
         }
     }
 
-    /// `direction` with its gap at the end, if it certainly keeps the pair more than `separation` apart on straight ways from the start
-    /// to the end. It is rounded first: what is returned is what proves it.
+    /// Returns `direction` with its gap at the end, if it certainly keeps the pair more than `separation` apart on straight ways
+    /// from the start to the end. The direction is rounded first: the returned one is the one that proves it.
     #[inline]
     #[must_use]
     pub fn for_step<P: Position>(
@@ -239,7 +242,7 @@ impl SeparatingDirection {
         Self::rounded(direction).keeps(kind, [start, end], separation, error)
     }
 
-    /// The same for this direction, whatever its gap says.
+    /// The same for this direction; its own gap does not matter.
     #[inline]
     #[must_use]
     pub fn keeps<P: Position>(
@@ -254,7 +257,7 @@ impl SeparatingDirection {
         (gap > threshold && self.gap_at(kind, start) > threshold).then(|| self.with_gap(gap - error.0))
     }
 
-    /// The same where the gap is right at the start: only the end is looked at.
+    /// The same where the gap is valid at the start: only the end is computed.
     #[inline(always)]
     #[must_use]
     pub fn lasts<P: Position>(
@@ -273,5 +276,5 @@ impl SeparatingDirection {
     }
 }
 
-/// 2¹⁰⁰; its inverse is the least that is stored.
+/// 2¹⁰⁰. Its inverse is the least stored gap.
 const LARGEST_GAP: f64 = 1_267_650_600_228_229_401_496_703_205_376.0;

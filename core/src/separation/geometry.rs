@@ -1,35 +1,39 @@
-//! Where a pair meets: the points of both sides, their weights, and the normal between them.
+//! The geometry of a contact: the points of both sides, their weights, and the normal between them.
 //!
-//! A contact's time lies a little before the pair touches, so that its closest points are near each other and the way between them is mostly
-//! rounding. The normal is therefore not taken from it alone: directions perpendicular to the features that meet are tried as well, and each
-//! is only taken if it **certainly kept the pair apart** at the time of contact, or as short before as it can be shown ([`gap`](super::gap)).
-//! So up to the first contact a normal points from the second side to the first as it was before, whichever way the vertices are numbered. (At a
-//! time after a pair has passed through each other it points as they lie then.)
+//! A contact's time lies a little before the pair touches, so its closest points are near each other and the way between them is
+//! mostly rounding. So the normal does not come from that way alone: directions perpendicular to the features are tried as well.
+//! A direction is taken only if it **certainly kept the pair apart** at the time of contact, or as shortly before as can be shown
+//! ([`gap`](super::gap)). Up to the first contact, a normal therefore points from the second side to the first as they were
+//! before, however the vertices are numbered. At a time after a pair has passed through each other, it points as they lie then.
 //!
-//! # What is promised
-//! For positions of at most 2¹⁰²⁰ in magnitude and a time in [0, 1], in every floating-point environment, with B the largest magnitude of a
-//! coordinate at both ends of the step, and D that of a coordinate's difference between the first of the four points and another: all but
-//! the points is computed of such differences, so that it does not matter how far from the origin a pair is.
+//! # Guarantees
+//! These hold for positions of at most 2¹⁰²⁰ in magnitude and a time in [0, 1], in every floating-point environment. B is the
+//! largest magnitude of a coordinate at both ends of the step. D is that of a coordinate's difference between the first of the
+//! four points and another. All results but the points are computed from such differences, so a pair's distance from the origin
+//! does not matter.
 //! * Weights are in [0, 1]; those of each side add up to 1 within 4u.
-//! * Each point is within 96u·B of the point of its side that has these weights exactly, at that time exactly. Along each axis a difference is
-//!   within 2u·D, and at a time within another 6u·D ([`Motion::at`](crate::Motion::at)); products and two sums add 6u·D; D ≤ 2B. The place of
-//!   the first point adds 6u·B, what the weights do not add up to 4u·B, the last sum 2u·B: 40u·B, times √3. Numbers too small for the format
-//!   add η = [`Rounding::UNDERFLOW`] at most.
-//! * [`Geometry::distance`] encloses the distance of the two sides at that time. From above: no two points of the sides are nearer than those
-//!   that are nearest, whatever the weights; both sides' 18u·D along each axis, 62.4u·D, are covered by 96u·D, and η and 16u of the length are
+//! * Each point is within 96u·B of the exact point of its side with these weights at that time. Along each axis a difference is
+//!   within 2u·D, and at a time within another 6u·D ([`Motion::at`](crate::Motion::at)); products and two sums add 6u·D; D ≤ 2B.
+//!   The place of the first point adds 6u·B, the error of the weights' sum 4u·B, the last sum 2u·B: 40u·B, times √3. Numbers too
+//!   small for the format add at most η = [`Rounding::UNDERFLOW`].
+//! * [`Geometry::distance`] encloses the distance of the two sides at that time. From above: the closest points are the nearest,
+//!   whatever the weights. Both sides' 18u·D along each axis, 62.4u·D, are covered by 96u·D, and η and 16u of the length are
 //!   added. From below: by the normal.
-//! * The speed is within 256u·D of that of the points with these weights along this normal: along each axis a way is within 8u·D, weighing adds
-//!   12u·D, the difference of the two sides makes 48u·D of it, and the product with the normal no more than 125u·D in all.
-//! * A normal has length one within 16u, and **the two sides were certainly apart along it** at [`Geometry::separated_at`]. There is none
-//!   where none can be shown: for a pair that touches when the step begins, or is then nearer than rounding can tell.
+//! * The speed is within 256u·D of that of the points with these weights along this normal. Along each axis a way is within 8u·D,
+//!   weighing adds 12u·D, the difference of the two sides makes 48u·D of it, and the product with the normal at most 125u·D in
+//!   all.
+//! * A normal has length one within 16u, and **the two sides were certainly apart along it** at [`Geometry::separated_at`]. There
+//!   is no normal where none can be shown: for a pair that touches when the step begins, or is then nearer than rounding can
+//!   resolve.
 //!
-//! A time outside of [0, 1], or NaN, and positions that are not finite prove nothing: there is no normal, and the distance may be any.
+//! A time outside of [0, 1], or NaN, and positions that are not finite prove nothing: there is no normal, and the distance is
+//! unbounded.
 //!
-//! How well conditioned the closest points are depends on the pair, as of two edges next to parallel: the enclosure tells.
+//! The conditioning of the closest points depends on the pair, for example with nearly parallel edges: the enclosure shows it.
 //!
 //! # Rounding
-//! A gap is computed of positions that are off by 8u·D along each axis, 13.9u·D each: 28u·D more than the 49u·D that [`GapError`] of D allows
-//! 64u·D for. So it is asked for 2D. Gappa has proven all of these (`verification/gappa/geometry.g`).
+//! A gap is computed from positions that are off by 8u·D along each axis, 13.9u·D each: 28u·D more than the 49u·D for which
+//! [`GapError`] of D allows 64u·D. So the error is taken for 2D. Gappa proves all of these (`verification/gappa/geometry.g`).
 
 use super::closest::ClosestPoints;
 use super::gap::{GapError, distance_from_below};
@@ -39,30 +43,31 @@ use crate::lanes::Rounding;
 use crate::motion::{Motion, PrimitivePair};
 use glam::DVec3;
 
-/// See the [module](self). Lengths are in the unit of the positions, speeds in lengths a step.
+/// The geometry of a contact: see the [module](self). Lengths are in the unit of the positions, speeds in lengths per step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Geometry {
-    /// Of the vertex and the three corners of the face, or of the ends of the first edge and of the second: barycentric, of each side.
+    /// The barycentric weights of each side: of the vertex and the three corners of the face, or of the ends of the first edge
+    /// and of the second.
     pub weights: [f64; 4],
-    /// The points of the first and the second side that have these weights.
+    /// The points of the first and the second side with these weights.
     pub points: [DVec3; 2],
-    /// From the second side to the first.
+    /// The normal, from the second side to the first.
     pub normal: Option<DVec3>,
-    /// When the sides were certainly apart along the normal, in [0, time]: the time of contact itself, or a little before it. 0 without
-    /// a normal.
+    /// A time in [0, time] at which the sides were certainly apart along the normal: the time of contact itself, or a little
+    /// before it. 0 without a normal.
     pub separated_at: f64,
-    /// The distance of the two sides at the time of contact is in this range.
+    /// A lower and an upper bound of the distance of the two sides at the time of contact.
     pub distance: [f64; 2],
-    /// How fast the first point moves away from the second along the normal: less than zero if they approach each other, zero without a
-    /// normal.
+    /// The speed at which the first point moves away from the second along the normal: less than zero if they approach each
+    /// other, zero without a normal.
     pub speed: f64,
 }
 
-/// By how much before the contact it is looked for a time at which the pair was apart, as a share of the time since the step began. Each is about a
-/// thousand times the one before, and the last is all of it.
+/// The times before the contact at which the pair may have been apart, as shares of the time since the step began. Each is about
+/// a thousand times the one before, and the last is all of it.
 const BEFORE: [f64; 5] = [0.0, 1.0 / 1_073_741_824.0, 1.0 / 1_048_576.0, 1.0 / 1024.0, 1.0];
 
-/// The geometry of a pair at a time in [0, 1], as of a contact.
+/// Computes the geometry of a pair at a time in [0, 1], as for a contact.
 ///
 /// ```
 /// use selvedge_core::{Motion, PrimitivePair, glam::DVec3, separation::geometry::geometry};
@@ -98,18 +103,18 @@ pub fn geometry(pair: &PrimitivePair<f64>, time: f64) -> Geometry {
 
 /// Four points at some time.
 pub(crate) struct Instant {
-    /// Where the first is.
+    /// The position of the first point.
     pub origin: DVec3,
-    /// From the first.
+    /// The points, relative to the first.
     pub points: [DVec3; 4],
     pub velocities: [DVec3; 4],
     /// The largest coordinate that any of `points` may have.
     pub largest: f64,
-    /// By how much the two sides may be off, added up, beyond what is rounded of [straight motion](self).
+    /// The error of the two sides, added up, beyond the rounding of [straight motion](self).
     pub error: f64,
 }
 
-/// The geometry of four points that move somehow, at a time in [0, 1].
+/// Computes the geometry of four points with any motion, at a time in [0, 1].
 pub(crate) fn of_instants(kind: PairKind, time: Option<f64>, at: impl Fn(f64) -> Instant) -> Geometry {
     let (is_time, time) = (time.is_some(), time.unwrap_or(0.0));
     let now = at(time);
@@ -127,11 +132,11 @@ pub(crate) fn of_instants(kind: PairKind, time: Option<f64>, at: impl Fn(f64) ->
             ClosestPoints::from_points(kind, before.points)
         };
         let directions = [own.direction, across, -across].map(|direction| {
-            // Once more: the length of a tiny vector is not known to its last digit.
+            // Normalised again: the length of a tiny vector is not known to its last digit.
             let direction = direction.normalize_or_zero();
             (direction, before.distance_from_below(kind, direction))
         });
-        // The nearest points are what keeps two sets farthest apart.
+        // Of several directions, the one with the largest gap.
         let farther = |a: (DVec3, f64), b: (DVec3, f64)| if b.1 > a.1 { b } else { a };
         let (direction, gap) = directions.into_iter().fold((DVec3::ZERO, 0.0), farther);
         (gap > 0.0).then_some((direction, earlier))
@@ -162,7 +167,8 @@ pub(crate) fn of_instants(kind: PairKind, time: Option<f64>, at: impl Fn(f64) ->
 }
 
 impl Instant {
-    /// A lower bound of the distance of the two sides, as they truly are, by a direction from the second to the first; zero if it shows none.
+    /// Returns a lower bound of the true distance of the two sides, by a direction from the second to the first; zero if it shows
+    /// none.
     fn distance_from_below(&self, kind: PairKind, direction: DVec3) -> f64 {
         let error = GapError::from_largest_coordinate(2.0 * self.largest);
         let computed = distance_from_below(kind, self.points, direction, error);
@@ -182,19 +188,19 @@ const fn u() -> f64 {
     <f64 as Rounding>::UNIT_ROUNDOFF
 }
 
-/// Of a vector whose square may be out of range.
+/// Returns the length of a vector whose square may be out of range.
 fn length(vector: DVec3) -> f64 {
     let size = vector.abs().max_element();
     if size > 0.0 { size * (vector / size).length() } else { size }
 }
 
-/// From weights of the way between the two: none is less than zero, those of each side add up to one.
+/// Turns weights of the way between the two into barycentric weights: none is negative, and those of each side add up to one.
 fn barycentric(kind: PairKind, [_, b, c, d]: [f64; 4]) -> [f64; 4] {
     let part = |weight: f64| weight.abs().clamp(0.0, 1.0);
     match kind {
         PairKind::VertexFace => {
             let (c, d) = (part(c), part(d));
-            // Beyond the far side by rounding.
+            // Rounding can lead beyond the far side.
             let sum = c + d;
             if sum > 1.0 {
                 [1.0, 0.0, c / sum, d / sum]
@@ -209,7 +215,7 @@ fn barycentric(kind: PairKind, [_, b, c, d]: [f64; 4]) -> [f64; 4] {
     }
 }
 
-/// The points of both sides that have these weights.
+/// Returns the points of both sides with these weights.
 fn both(kind: PairKind, [a, b, c, d]: [f64; 4], [p, q, r, s]: [DVec3; 4]) -> [DVec3; 2] {
     match kind {
         PairKind::VertexFace => [p, q * b + r * c + s * d],
@@ -217,13 +223,13 @@ fn both(kind: PairKind, [a, b, c, d]: [f64; 4], [p, q, r, s]: [DVec3; 4]) -> [DV
     }
 }
 
-/// Perpendicular to the face, or to both edges; zero if there is no such direction.
+/// Returns a direction perpendicular to the face, or to both edges; zero if there is none.
 fn across(kind: PairKind, [p, q, r, s]: [DVec3; 4]) -> DVec3 {
     let (first, second) = match kind {
         PairKind::VertexFace => (r - q, s - q),
         PairKind::EdgeEdge => (q - p, s - r),
     };
-    // As long as one each, so that their product is no zero where they are small.
+    // Normalised first, so that their product is not zero where they are small.
     first
         .normalize_or_zero()
         .cross(second.normalize_or_zero())

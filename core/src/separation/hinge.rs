@@ -1,27 +1,28 @@
-//! Two triangles with a common edge: whether they can touch beside it.
+//! Two triangles with a common edge: a test that excludes contact beside it.
 //!
-//! Let e = u − v be the edge, and a and b the ways from v to the corners opposite to it. What is perpendicular to e of any point of the first
-//! triangle is that of a times a weight in [0, 1], which is zero on the edge only; of the second that of b. A common point has both:
-//! s·a⊥ = t·b⊥. Where a⊥·b⊥ < 0 the product with a⊥ leaves s = 0, the one with b⊥ t = 0: it is on the edge. So two triangles that are **wide
-//! open**, by more than a right angle, flat ones above all, need no further look; and as a⊥·b⊥·(e·e) = (a·b)(e·e) − (a·e)(b·e), only a sign
-//! is asked for.
+//! Let e = u − v be the edge, and a and b the ways from v to the opposite corners. The part perpendicular to e of any point of
+//! the first triangle is that of a times a weight in [0, 1], which is zero only on the edge; for the second triangle it is that
+//! of b. A common point has both: s·a⊥ = t·b⊥. Where a⊥·b⊥ < 0, the product with a⊥ gives s = 0, and the one with b⊥ gives t = 0,
+//! so the point is on the edge. So two triangles that are **wide open**, by more than a right angle, need no further test; flat
+//! ones above all. Since a⊥·b⊥·(e·e) = (a·b)(e·e) − (a·e)(b·e), only a sign is needed.
 //!
 //! # Rounding
-//! (Any direction: ε = 2u an operation.) Each monomial passes through four differences, three operations of each dot product, a product and a
-//! difference: 12. Their magnitudes add up to at most 2|a||b|(e·e) ≤ (a·a + b·b)(e·e), which is computed in 13 roundings with its factor: 32u
-//! of that exceeds 24u.
+//! (Any direction: ε = 2u an operation.) Each monomial passes through four differences, three operations of each dot product, a
+//! product and a difference: 12. Their magnitudes add up to at most 2|a||b|(e·e) ≤ (a·a + b·b)(e·e), which is computed in 13
+//! roundings with its factor: 32u of that exceeds 24u.
 //!
-//! **Underflow.** With M the largest component, a difference is off by 3λ, a dot product by (18M + 5)λ, all of it by (216M³ + 60M² + 3)λ, where
-//! 2M³ ≤ M² + M⁴: less than 256λ(1 + M²)². η times (1 + a·a + b·b + e·e)² is added, and η ≥ 512λ. **Overflow.** a·a + b·b + e·e must not exceed the square of [`Rounding::LARGEST_EDGE`]. NaN proves nothing.
+//! **Underflow.** With M the largest component, a difference is off by 3λ, a dot product by (18M + 5)λ, and the whole by (216M³ +
+//! 60M² + 3)λ, where 2M³ ≤ M² + M⁴: less than 256λ(1 + M²)². η times (1 + a·a + b·b + e·e)² is added, and η ≥ 512λ. **Overflow.**
+//! a·a + b·b + e·e must not exceed the square of [`Rounding::LARGEST_EDGE`]. NaN proves nothing.
 
 use crate::lanes::Rounding;
 use crate::scalar::Position;
 use crate::vector::Vector;
 
-/// Whether two triangles with a common edge, of which the first two `points` are the ends and the others the opposite corners, certainly have no
-/// point in common beside the edge, since more than a right angle is between them.
+/// Returns true if two triangles with a common edge certainly have no common point beside the edge, because they open by more
+/// than a right angle. The first two `points` are the ends of the edge, the others the opposite corners.
 ///
-/// Certified, in every floating-point environment. False says nothing.
+/// Certified, in every floating-point environment. False proves nothing.
 ///
 /// ```
 /// use selvedge_core::{glam::DVec3, separation::hinge::is_wide_open};

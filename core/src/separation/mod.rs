@@ -1,16 +1,16 @@
-//! How far two sets keep apart, and for how long that can be relied on: for a caller that follows the same pairs step by step.
+//! How far two sets keep apart, and for how long that holds: for callers that follow the same pairs from step to step.
 //!
 //! | module | what it bounds | rounding |
 //! |---|---|---|
-//! | [`gap`] | the distance along a direction, from below; the direction that a pair remembers | 64u of the largest coordinate, and 2⁻²⁰ for what is stored |
-//! | [`clearance`] | the distance that a pair keeps though its points stray from the motion that was looked at | 64u of the largest coordinate and of the distance, 128u of the stray, in `f32` |
+//! | [`gap`] | the distance along a direction, from below; the direction that a pair remembers | 64u of the largest coordinate, and 2⁻²⁰ for stored values |
+//! | [`clearance`] | the distance that a pair keeps although its points stray from their expected motion | 64u of the largest coordinate and of the distance, 128u of the stray, in `f32` |
 //! | [`closest`] | the closest points of a pair at rest | plain floating point: certifies nothing by itself |
-//! | [`course`] | how far points may stray from their course, and whether they have | 64u of the largest coordinate, no more than a hundredth of the room |
-//! | [`geometry`] | where a pair meets: points, weights, normal | enclosed: 96u of the largest coordinate; a normal is certified by [`gap`] |
+//! | [`course`] | how far points may stray from their course, and whether they do | 64u of the largest coordinate, at most a hundredth of the room |
+//! | [`geometry`] | the points, weights and normal of a contact | enclosed: 96u of the largest coordinate; a normal is certified by [`gap`] |
 //! | [`hinge`] | whether neighbours can touch beside their common edge | 32u of products of squared lengths |
-//! | [`truncation`] | how far each point may go for the pair to keep its distance | decides nothing: what it leads to is certified by the others |
+//! | [`truncation`] | how far each point may go so that the pair keeps its distance | decides nothing: the others certify its result |
 //!
-//! All are functions of values: the caller keeps the pairs, and what was found out about them.
+//! All are functions of values: the caller keeps the pairs and the results.
 
 pub mod clearance;
 pub mod closest;
@@ -23,8 +23,8 @@ pub mod truncation;
 use crate::lanes::{Lanes, Rounding};
 use crate::scalar::{Position, Scalar};
 
-/// The largest magnitude of any coordinate; infinite if one of them is NaN or infinite, or their sum is, so that nothing that depends on it
-/// is proven. Zero of no positions.
+/// Returns the largest magnitude of any coordinate, or zero of no positions. It is infinite if a coordinate is NaN or infinite,
+/// or if their sum is, so that nothing that depends on it is proven.
 ///
 /// ```
 /// use selvedge_core::{glam::DVec3, separation::largest_coordinate};

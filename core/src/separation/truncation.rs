@@ -1,31 +1,32 @@
-//! How far each point of a pair may go so that the pair keeps its distance, whatever the others do: a step is truncated vertex by vertex,
-//! where a time of impact would cut it for the whole mesh.
+//! How far each point of a pair may go so that the pair keeps its distance, whatever the others do. A step is truncated vertex by
+//! vertex, where a time of impact would cut it for the whole mesh.
 //!
-//! **The lemma.** Let x be where the four points start, y where they are wanted, d a direction with |d| ≤ 1 along which the first set A is
-//! ahead of the second B by more than m at the start: min_A d·x − max_B d·x > m. Choose an offset o with max_B d·x ≤ o ≤ min_A d·x − m, and let
-//! each point go as far as e = x + s·(y − x), its share s in [0, 1] at most the largest with d·e ≥ o + m in A and d·e ≤ o in B. Then the sets
-//! are at least m apart throughout the step from x to e, **and so they are for all smaller shares, each on its own**.
+//! **The lemma.** Let x be where the four points start, y where they are wanted, and d a direction with |d| ≤ 1 along which the
+//! first set A is ahead of the second B by more than m at the start: min_A d·x − max_B d·x > m. Choose an offset o with max_B d·x
+//! ≤ o ≤ min_A d·x − m. Let each point go as far as e = x + s·(y − x), with its share s in [0, 1] at most the largest with d·e ≥
+//! o + m in A and d·e ≤ o in B. Then the sets are at least m apart throughout the step from x to e, **and also for all smaller
+//! shares, each on its own**.
 //!
-//! *Proof.* At s = 0 each point is in its half-space by the choice of o. Half-spaces are convex: so it is for every share up to the largest,
-//! whatever the others' are. So the gap along d is at least m at the end, and more than m at the start; along straight ways it is linear in
-//! time ([`gap`](super::gap)). ∎
+//! *Proof.* At s = 0 each point is in its half-space, by the choice of o. Half-spaces are convex, so it is there for every share
+//! up to the largest, whatever the others' shares are. So the gap along d is at least m at the end, and more than m at the start.
+//! Along straight ways it is linear in time ([`gap`](super::gap)). ∎
 //!
-//! **From a base.** Where the step begins at another place than x, which is then a *base* from which its points go on towards y, only the
-//! start is to be looked at in addition: if d keeps the pair more than m apart there too, the sets are at least m apart throughout the step
-//! from there to e. *Proof.* What was said of the end of the way from x to y is said of e alone, and straight ways from wherever the step
-//! begins are linear in time as well. ∎ So a step that cannot go from its start towards y goes at first to a base that is free, and
-//! from there as far as it can.
+//! **From a base.** The step may begin at another place than x, which is then a *base* from which its points continue towards y.
+//! Then only the start needs a further test: if d keeps the pair more than m apart there too, the sets are at least m apart
+//! throughout the step from there to e. *Proof.* The statement about the end of the way from x to y concerns e alone, and
+//! straight ways from any start are linear in time. ∎ So a step that cannot go from its start towards y first goes to a base that
+//! is free, and from there as far as it can.
 //!
-//! A vertex takes the least of its shares over all of its pairs; the order in which they are asked for does not matter. Only d is shared by
-//! both ends, o belongs to the end: what moves together is not held back. Where d keeps the pair apart at y too, o is put so that nobody is.
-//! Else the room is shared in proportion to how far each set goes towards the other.
+//! A vertex takes the least of its shares over all of its pairs; their order does not matter. Only d is shared by both ends, and
+//! o belongs to the end, so points that move together are not held back. Where d keeps the pair apart at y too, o is chosen so
+//! that no point is held back. Otherwise the room is shared in proportion to how far each set goes towards the other.
 //!
-//! **Rounding.** What the shares are for has the ordinary certificate, of the positions that are stored: *no promise rests on the
-//! arithmetic here*. So that the certificate finds what it needs, m is the threshold of [`gap`](super::gap), and once more the error that it
-//! allows for, which covers the rounding of e; and a share is of [`PART`] of what there is.
+//! **Rounding.** The result has the ordinary certificate, of the stored positions: *no guarantee rests on the arithmetic here*.
+//! So that the certificate succeeds, m is the threshold of [`gap`](super::gap), plus once more the error that it allows for,
+//! which covers the rounding of e. A share is at most [`PART`] of the room.
 //!
-//! Shares towards planes are Lan, Li and others' *Divide and Truncate* (2026) and Chen and others' *Offset Geometric Contact* (2025), who
-//! leave pairs out or let them through that they cannot certify.
+//! Shares towards planes are due to Lan, Li and others, *Divide and Truncate* (2026), and Chen and others, *Offset Geometric
+//! Contact* (2025), who leave out pairs, or let them pass, that they cannot certify.
 
 use super::gap::{GapError, threshold};
 use crate::kind::PairKind;
@@ -34,15 +35,16 @@ use crate::points::PairShape;
 use crate::scalar::{Position, Scalar};
 use crate::vector::Vector;
 
-/// How much of its room a point may take: what takes all of it has none in the next step, and its pair would rest from then on.
+/// The part of its room that a point may take. A point that took all of it would have none in the next step, and its pair would
+/// rest from then on.
 pub const PART: f64 = 127.0 / 128.0;
 
-/// The largest shares of their ways from `start` to `wanted` that the four points may go, each in [0, 1], for the pair to keep more than
-/// `separation` along `direction`, which goes from the second set to the first and is no longer than one. `None` if it keeps the
-/// pair no farther apart than that at the start.
+/// Returns the largest shares of their ways from `start` to `wanted` that the four points may go, each in [0, 1], so that the
+/// pair keeps more than `separation` along `direction`. `direction` goes from the second set to the first and is no longer than
+/// one. Returns `None` if it keeps the pair no farther apart than that at the start.
 ///
-/// The shares of points that need not be held back are exactly 1. Plain floating point, and never NaN: see the [module](self) for what is
-/// proven of them.
+/// The shares of points that need not be held back are exactly 1. Shares are plain floating point, and never NaN: see the
+/// [module](self) for what is proven of them.
 ///
 /// ```
 /// use selvedge_core::{PairKind, glam::DVec3, separation::gap::GapError, separation::truncation::shares};
@@ -50,7 +52,7 @@ pub const PART: f64 = 127.0 / 128.0;
 /// let start = [DVec3::new(0.2, 0.2, 0.5), DVec3::ZERO, DVec3::X, DVec3::Y];
 /// let wanted = [start[0] - DVec3::Z, start[1] + DVec3::Z, start[2] + DVec3::Z, start[3] + DVec3::Z];
 /// let [vertex, face, ..] = shares(PairKind::VertexFace, [start, wanted], DVec3::Z, 0.1, GapError::from_largest_coordinate(1.5)).unwrap();
-/// // Each may go by nearly half of the 0.4 that are between them.
+/// // Each may go by nearly half of the 0.4 between them.
 /// assert!(vertex < 0.2 && vertex > 0.198 && face < 0.2 && face > 0.198);
 /// ```
 #[must_use]
@@ -85,7 +87,7 @@ pub fn shares<P: Position>(
     };
     let mut shares = [one; 4];
     for corner in 0..4 {
-        // By how much it is on its side of the plane, at both ends.
+        // How far the point is on its side of the plane, at both ends.
         let [before, after] = [from, to].map(|values| {
             if corner < of_first {
                 values[corner] - offset - kept
@@ -103,8 +105,8 @@ pub fn shares<P: Position>(
     Some(shares)
 }
 
-/// Of the [`shares`] along each of these directions, those that leave most to the point which has least, with the direction; of equals the
-/// first. `None` if none of the directions keeps the pair apart at the start.
+/// Returns the [`shares`] along the direction that leaves most to the point which has least, with that direction; the first of
+/// equals. Returns `None` if none of the directions keeps the pair apart at the start.
 ///
 /// ```
 /// use selvedge_core::{PairKind, glam::DVec3, separation::gap::GapError, separation::truncation::most_shares};
