@@ -1,4 +1,4 @@
-//! Where a pair on paths that are not straight meets.
+//! The geometry of a contact on paths.
 
 use super::impact::{of_both_sides, separation_of_pieces};
 use super::{Moment, Path};
@@ -6,14 +6,15 @@ use crate::kind::PairKind;
 use crate::separation::geometry::{Geometry, Instant, of_instants};
 use crate::separation::largest_coordinate;
 
-/// The geometry of a pair on its paths at a time in [0, 1], as of a [contact](super::time_of_impact).
+/// Computes the geometry of a pair on its paths at a time in [0, 1], as for a [contact](super::time_of_impact).
 ///
-/// `paths` are the points of the one set, then those of the other, as in a [`PrimitivePair`](crate::PrimitivePair).
+/// `paths` are the points of one set, then those of the other, as in a [`PrimitivePair`](crate::PrimitivePair).
 ///
-/// What is [promised of straight ways](crate::separation::geometry) is promised of these, with B and D of the positions at that time, and what
-/// the paths say of themselves beside rounding: each point is off by the largest [error](Moment::position_error) of its side more, the
-/// range of the distance is wider by those of both sides, and the speed is off by those of [velocities](Moment::velocity_error). A normal
-/// is there if rounding and these errors leave no doubt that the sides were apart along it.
+/// The [guarantees for straight motion](crate::separation::geometry) hold with B and D of the positions at that time, plus the
+/// errors that the paths state. Each point is off by the largest [position error](Moment::position_error) of its side in
+/// addition. The range of the distance is wider by those of both sides, and the speed is off by those of
+/// [velocities](Moment::velocity_error). There is a normal if, despite rounding and these errors, the sides were certainly apart
+/// along it.
 ///
 /// ```
 /// use selvedge_core::{Motion, PairKind, glam::DVec3, paths::{Path, RigidMotion, geometry}};

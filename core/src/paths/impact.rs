@@ -1,28 +1,31 @@
-//! When a pair on paths that are not straight may be closer than it should.
+//! The time of impact of a pair on paths.
 //!
-//! From time t on, a part of the step is asked about at a time: on the straight pieces of its four points, with the larger deviation of each side
-//! added to the separation. If the pair keeps that, it keeps the separation on its paths, and the next part is twice as long. If not, it does so
-//! until a certified time; from there on the part is half as long. When the deviations are no more than the tolerance, that time is the answer.
+//! From time t on, one part of the step is tested at a time, on the straight pieces of its four points, with the larger deviation
+//! of each side added to the separation. If the pair keeps that distance, it keeps the separation on its paths, and the next part
+//! is twice as long. Otherwise it does so until a certified time, and the next part, from there on, is half as long. When the
+//! deviations are at most the tolerance, that time is the answer.
 //!
 //! # Rounding
-//! The [sum of separation and deviations](separation_of_pieces) is rounded up. A time t within the part, found for the straight pieces in
-//! [0, 1], is the time from + (to − from)·t of the step: three operations, and one to take 16u off; never less than `from`.
+//! The [sum of separation and deviations](separation_of_pieces) is rounded up. A time t in [0, 1] within the part, found for the
+//! straight pieces, is the time from + (to − from)·t of the step: three operations, and one that subtracts 16u; never less than
+//! `from`.
 
 use super::{Path, u};
 use crate::elementary::{Impact, Limits, Reason, advance};
 use crate::kind::PairKind;
 use crate::motion::PrimitivePair;
 
-/// Most parts that are asked about, of one pair.
+/// The largest number of parts that are tested for one pair.
 const PARTS: u32 = 4096;
-/// A part that is no longer is not cut.
+/// Shorter parts are not cut.
 const SHORTEST: f64 = 1.0 / 1_073_741_824.0;
 
-/// From when on a pair on these paths may be within the separation. Certified: no contact is earlier, rounding and the bend of the paths
-/// included, as long as each path's [deviation](super::Piece::deviation) is what it says.
+/// Returns from when on a pair on these paths may be within the separation. Certified: no contact is earlier, rounding and the
+/// bend of the paths included, as long as each path's [deviation](super::Piece::deviation) is correct.
 ///
-/// `paths` are the points of the one set, then those of the other, as in a [`PrimitivePair`]. With [`Reason::WithinTolerance`] the distance at
-/// that time is at most s + 3δ, but for [what is rounded](crate::elementary::advance#what-is-promised). At most 4096 straight tests.
+/// `paths` are the points of one set, then those of the other, as in a [`PrimitivePair`]. With [`Reason::WithinTolerance`], the
+/// distance at that time is at most s + 3δ, but for [rounding](crate::elementary::advance#what-is-promised). Runs at most 4096
+/// straight tests.
 ///
 /// ```
 /// use selvedge_core::{Motion, PairKind, glam::DVec3, elementary::{Impact, Limits}, paths::{Path, RigidMotion, time_of_impact}};
@@ -38,16 +41,17 @@ pub fn time_of_impact(kind: PairKind, paths: [&dyn Path; 4], limits: &Limits<f64
     between(kind, paths, limits, [0.0, 1.0])
 }
 
-/// The distance that points are to keep on straight pieces, so that they keep `separation` on their paths, rounding included.
+/// Returns the distance that points must keep on straight pieces so that they keep `separation` on their paths, rounding
+/// included.
 ///
-/// `deviation` is what the paths of the two sides [deviate](super::Piece::deviation) at most, added up: within that sum of it are the ways
-/// between two points, one of each side, on pieces and on paths. Three operations, each within 2u: 16u of it is added.
+/// `deviation` is the largest [deviation](super::Piece::deviation) of the paths of the two sides, added up. The ways between two
+/// points, one of each side, on pieces and on paths differ by at most that. Three operations, each within 2u: 16u of it is added.
 #[must_use]
 pub fn separation_of_pieces(separation: f64, deviation: f64) -> f64 {
     (separation + deviation) * (1.0 + 16.0 * u())
 }
 
-/// The largest of what the points of each side deviate, added up; NaN if one is.
+/// Returns the largest values over the points of each side, added up; NaN if a value is NaN.
 pub(super) fn of_both_sides(kind: PairKind, [a, b, c, d]: [f64; 4]) -> f64 {
     // A maximum may drop NaN.
     let unknown = 0.0 * (a + b + c + d);
@@ -58,9 +62,9 @@ pub(super) fn of_both_sides(kind: PairKind, [a, b, c, d]: [f64; 4]) -> f64 {
     first + second + unknown
 }
 
-/// The same of a part of the step, from its first time to its second: [`Impact::Never`] is said of that part only.
+/// The same for a part of the step, from its first time to its second: [`Impact::Never`] concerns that part only.
 ///
-/// Not in [0, 1], or not ascending: nothing is excluded from time 0 on.
+/// If the times are not in [0, 1], or do not ascend, nothing is excluded from time 0 on.
 pub(super) fn between(kind: PairKind, paths: [&dyn Path; 4], limits: &Limits<f64>, [mut from, end]: [f64; 2]) -> Impact<f64> {
     let possible = |time, reason| Impact::Possible { time, reason };
     if !(from >= 0.0 && from < end && end <= 1.0) {

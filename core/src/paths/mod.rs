@@ -1,17 +1,18 @@
-//! Points that do not move on straight lines: on arcs with a body that turns, or on several straight pieces.
+//! Points that move on arcs of rotating bodies, or on several straight pieces.
 //!
-//! All tests of this crate are of straight motion. A [`Path`] is brought to it piece by piece: of any part of the step it gives a straight
-//! [motion](Piece::motion), and a bound of how far the point is from that at any time of the part, **rounding included**. What is farther
-//! apart than the bounds of both sides on straight ways cannot meet on its paths; where that is not enough to tell, the part is cut, and
-//! of an arc's half the bound is a quarter. [`time_of_impact`] does that for one pair, and [`geometry`] says how the pair meets then.
+//! All tests of this crate are for straight motion. A [`Path`] is reduced to it piece by piece: for any part of the step it
+//! returns a straight [motion](Piece::motion), and a bound of the point's distance from it at any time of the part, **rounding
+//! included**. Sets that are farther apart than the bounds of both sides on straight ways cannot meet on their paths. Where that
+//! does not decide, the part is halved, and for half an arc the bound is a quarter. [`time_of_impact`] does that for one pair,
+//! and [`geometry`] returns how the pair then meets.
 //!
 //! | path | what it is |
 //! |---|---|
 //! | [`Motion<f64>`] | straight, at constant velocity |
-//! | [`Arc`], of a [`RigidMotion`] | with a body that turns at a constant rate about an axis that moves on |
+//! | [`Arc`], of a [`RigidMotion`] | with a body that turns at a constant rate about a translating axis |
 //! | [`Polyline`] | straight pieces, from knot to knot |
 //!
-//! All is computed in `f64`. A caller's own path is as good as its bound.
+//! All computation is in `f64`. A caller's own path is certified if its bound is.
 
 #[cfg(feature = "batch")]
 mod geometry;
@@ -29,34 +30,35 @@ use crate::lanes::Rounding;
 use crate::motion::Motion;
 use glam::DVec3;
 
-/// What a path is in a part of the step.
+/// A straight approximation of a path in a part of the step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Piece {
-    /// From where the point is at the beginning of the part to where it is at its end, at constant velocity, both rounded.
+    /// The motion from the point's position at the beginning of the part to that at its end, at constant velocity, both rounded.
     pub motion: Motion<f64>,
-    /// The point is certainly no farther than this from the motion, at any time of the part. Not finite if nothing is known.
+    /// A bound of the point's distance from the motion, at any time of the part. Not finite if nothing is known.
     pub deviation: f64,
 }
 
 /// A point on its path at some time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moment {
-    /// Where it is.
+    /// The position.
     pub position: DVec3,
-    /// The point is certainly no farther than this from there. Not finite if nothing is known.
+    /// A bound of the true position's distance from it. Not finite if nothing is known.
     pub position_error: f64,
-    /// How fast it moves, in lengths a step.
+    /// The velocity, in lengths per step.
     pub velocity: DVec3,
-    /// Its velocity is certainly no farther than this from that.
+    /// A bound of the true velocity's distance from it.
     pub velocity_error: f64,
 }
 
-/// A point's way during the step.
+/// The path of a point during the step.
 pub trait Path {
-    /// The part between two times, 0 ≤ `from` < `to` ≤ 1. Of other times nothing is promised.
+    /// Returns the part between two times, 0 ≤ `from` < `to` ≤ 1. The result for other times is unspecified.
     fn piece(&self, from: f64, to: f64) -> Piece;
 
-    /// The point at a time in [0, 1]; where its velocity changes at once, with the one before. Of other times nothing is promised.
+    /// Returns the point at a time in [0, 1]. Where its velocity jumps, it is the one before. The result for other times is
+    /// unspecified.
     fn moment(&self, time: f64) -> Moment;
 }
 
@@ -81,25 +83,25 @@ impl Path for Motion<f64> {
     }
 }
 
-/// How far a point on a straight way may be from where it is computed to be: along each axis within 8u of the larger coordinate, 13.9u of it
-/// in all.
+/// Returns a bound of the rounding error of a position on a straight way: along each axis 8u of the larger coordinate, 13.9u of
+/// it in all.
 fn rounding(motion: &Motion<f64>) -> f64 {
     16.0 * u() * largest(motion.start).max(largest(motion.end)) + <f64 as Rounding>::UNDERFLOW
 }
 
-/// Half the distance from 1 to the next number.
+/// Returns half the distance from 1 to the next number.
 const fn u() -> f64 {
     <f64 as Rounding>::UNIT_ROUNDOFF
 }
 
-/// The largest magnitude of a coordinate; NaN if one is.
+/// Returns the largest magnitude of a coordinate; NaN if one is NaN.
 fn largest(point: DVec3) -> f64 {
     let [x, y, z] = point.abs().to_array();
     // A maximum may drop NaN.
     x.max(y).max(z) + 0.0 * (x + y + z)
 }
 
-/// Of a vector, or a little more: see [`separation::geometry`](crate::separation::geometry), 11 half roundings.
+/// Returns the length of a vector, rounded up: see [`separation::geometry`](crate::separation::geometry), 11 half roundings.
 fn length_above(vector: DVec3) -> f64 {
     let size = largest(vector);
     if size > 0.0 {

@@ -1,11 +1,11 @@
-//! Several straight pieces.
+//! Paths of several straight pieces.
 
 use super::{Moment, Path, Piece, largest, length_above, u};
 use crate::lanes::Rounding;
 use crate::motion::Motion;
 use glam::DVec3;
 
-/// From knot to knot, at constant velocity between two of them.
+/// A path from knot to knot, at constant velocity between two of them.
 ///
 /// ```
 /// use selvedge_core::{glam::DVec3, paths::{Path, Polyline}};
@@ -20,14 +20,15 @@ use glam::DVec3;
 pub struct Polyline<'a> {
     times: &'a [f64],
     positions: &'a [DVec3],
-    /// How far a place may be from where it is computed to be.
+    /// A bound of the rounding error of a position.
     rounding: f64,
 }
 
 impl<'a> Polyline<'a> {
-    /// Through `positions` at these `times`.
+    /// A path through `positions` at these `times`.
     ///
-    /// `None` unless there are as many of both, times ascend from 0 to 1, none twice, and all positions are finite.
+    /// Returns `None` unless there are as many times as positions, times ascend strictly from 0 to 1, and all positions are
+    /// finite.
     #[must_use]
     pub fn new(times: &'a [f64], positions: &'a [DVec3]) -> Option<Self> {
         let ascend = times.iter().zip(times.iter().skip(1)).all(|(before, after)| before < after);
@@ -37,12 +38,14 @@ impl<'a> Polyline<'a> {
         (ascend && span && are_finite && times.len() == positions.len()).then_some(Self {
             times,
             positions,
-            // The time within a piece by three operations, of a way of at most 2B along each axis, and the place by 8u of B: 35u of it in all.
+            // The time within a piece takes three operations, of a way of at most 2B along each axis, and the place adds 8u of B:
+            // 35u of it in all.
             rounding: 48.0 * u() * size + <f64 as Rounding>::UNDERFLOW,
         })
     }
 
-    /// The last knot for which `is_before` holds, as it does for the first knots, and the one after it.
+    /// Returns the last knot for which `is_before` holds, and the one after it. `is_before` must hold for a first part of the
+    /// knots only.
     fn knots(&self, is_before: impl Fn(f64) -> bool) -> [Option<(f64, DVec3)>; 2] {
         let after = self.times.partition_point(|&knot| is_before(knot));
         let knot = |index: usize| Some((*self.times.get(index)?, *self.positions.get(index)?));
@@ -70,18 +73,18 @@ impl Path for Polyline<'_> {
             .iter()
             .zip(self.positions)
             .filter(|&(&time, _)| from < time && time < to);
-        // Between knots both are straight, so that they are farthest from each other at one of them or at an end.
+        // Between knots both are straight, so they are farthest apart at a knot or at an end.
         let bent = inner.map(|(&time, &knot)| length_above(knot - motion.at((time - from) / (to - from))));
         let bent = bent.fold(0.0, f64::max);
         Piece {
             motion,
-            // The ends are off, and so is the place at the time of a knot: by as much at most. Two roundings.
+            // The ends are off by at most one rounding error, and so is the place at the time of a knot. Two roundings.
             deviation: (bent + 2.0 * self.rounding) * (1.0 + 16.0 * u()),
         }
     }
 
     fn moment(&self, time: f64) -> Moment {
-        // At a knot the way that leads to it.
+        // At a knot, the piece that leads to it.
         let (velocity, lasts) = match self.knots(|knot| knot < time || knot == 0.0).into() {
             (Some((begin, from)), Some((end, to))) => ((to - from) / (end - begin), end - begin),
             _ => (DVec3::NAN, f64::NAN),

@@ -1,4 +1,4 @@
-//! A body that turns, and the arcs on which its points move.
+//! Rotating bodies, and the arcs of their points.
 //!
 //! A point that is at p when the step begins is at time t at
 //!
@@ -6,26 +6,27 @@
 //! x(t) = c + t·τ + R(t·θ)(p − c)
 //! ```
 //!
-//! c the centre, τ the translation, R(φ) the rotation by φ about the axis, all as they stand in the [`RigidMotion`], without rounding.
+//! c is the centre, τ the translation, and R(φ) the rotation by φ about the axis, all exactly as stored in the [`RigidMotion`].
 //!
 //! # How far from straight
-//! Let r be the distance of p from the axis through c. Along any direction of length one x″ is at most θ²r in magnitude, as the translation is
-//! straight. A function with second derivative at most m is within m·h²/8 of the line between its values at two points that are h apart; so
-//! between two times that φ = θ·h lie between, x is within **r·φ²/8** of the straight motion between its places at both. Nor is it ever
-//! farther than 2r: both are within r of the moving axis.
+//! Let r be the distance of p from the axis through c. Along any direction of length one, |x″| is at most θ²r, as the translation
+//! is straight. A function with second derivative at most m is within m·h²/8 of the line between its values at two points at
+//! distance h. So between two times with φ = θ·h between them, x is within **r·φ²/8** of the straight motion between its places
+//! at both. It is also never farther than 2r: both are within r of the moving axis.
 //!
 //! # Rounding
 //! (Any direction: ε = 2u an operation.) Let H be the largest coordinate of q = p − c, C and T those of c and τ; |q| ≤ √3·H.
-//! * **Frame.** The axis of length one errs by 6ε of each component (quotient, 3 operations of a square under the root, root, quotient); q by
-//!   εH. The part along the axis errs by 30εH along each coordinate: its product 17.4ε, times the axis 12.2ε. The part across by 32.5εH, the
-//!   part sideways, axis × q, by 15.6εH.
-//! * **Sine and cosine** err by κ = 512u + 4u|θ|: the angle t·θ by ε|θ|, its remainder after whole turns, of magnitude at most 3.2, by 17u, and the
-//!   nested series by 4k + 7 operations of its term with the power 2k: 164ε of cosh(3.2), and 0.1u for what is left out.
+//! * **Frame.** The axis of length one errs by 6ε in each component (quotient, 3 operations of a square under the root, root,
+//!   quotient); q by εH. The part along the axis errs by 30εH along each coordinate: its product 17.4ε, times the axis 12.2ε. The
+//!   part across errs by 32.5εH, the part sideways, axis × q, by 15.6εH.
+//! * **Sine and cosine** err by κ = 512u + 4u|θ|. The angle t·θ errs by ε|θ|, its remainder after whole turns, of magnitude at
+//!   most 3.2, by 17u. The nested series passes its term with the power 2k through 4k + 7 operations: 164ε of cosh(3.2), and 0.1u
+//!   for the terms left out.
 //! * **Place.** The three parts, 77.7εH; the sine and cosine, 3.5κH; products and sums, 14εH and u(4C + 6T + 3.5H). Times √3: less than
 //!   u((3500 + 25|θ|)H + 16(C + T)). [`Arc`] allows u((4096 + 32|θ|)H + 16(C + T)) + η: flushed numbers are covered by η and by uH.
-//! * **Velocity**: τ and θ times a place's parts, of which sine and cosine take the other's place. θ times the place's error, 3500uH without the
-//!   centre and the translation, and the operations: 4u(T + 3.5H|θ|) of product and sum along each axis, 7uT + 25uH|θ| in all. [`Arc`] allows |θ|
-//!   times what it allows a place, and 16uT + η.
+//! * **Velocity**: τ, and θ times a place's parts with sine and cosine exchanged. It errs by θ times the place's error, 3500uH
+//!   without the centre and the translation, and by its operations: 4u(T + 3.5H|θ|) of product and sum along each axis, 7uT +
+//!   25uH|θ| in all. [`Arc`] allows |θ| times what it allows a place, and 16uT + η.
 //! * **Radius.** The part sideways, 15.6εH along each coordinate, 54u·H in all: 64u·H is added to its length.
 
 use super::{Moment, Path, Piece, largest, length_above, u};
@@ -33,13 +34,14 @@ use crate::lanes::Rounding;
 use crate::motion::Motion;
 use glam::{DQuat, DVec3};
 
-/// Most radians that a body may turn in a step; 2²⁰.
+/// The largest angle of a step in radians, 2²⁰.
 const MOST: f64 = 1_048_576.0;
 
-/// 2π in two parts, of which the first has so few digits that a multiple of it is exact.
+/// 2π in two parts. The first has so few digits that its multiples are exact.
 const TURN: [f64; 2] = [6.283_185_306_936_502_5, 2.430_840_202_602_477e-10];
 
-/// How a rigid body moves during the step: it turns about an axis at a constant rate, while the axis moves on at a constant velocity.
+/// The motion of a rigid body during the step: it turns about an axis at a constant rate, while the axis translates at a constant
+/// velocity.
 ///
 /// ```
 /// use selvedge_core::{glam::DVec3, paths::RigidMotion};
@@ -58,10 +60,11 @@ pub struct RigidMotion {
 }
 
 impl RigidMotion {
-    /// By `angle` radians, anticlockwise where the axis points at the viewer, about an axis through `centre` along `axis`, of any length; and
-    /// `translation`, in the unit of the positions.
+    /// A motion that turns by `angle` radians about an axis through `centre` along `axis`, anticlockwise where the axis points at
+    /// the viewer, and translates by `translation`, in the unit of the positions. `axis` may have any length.
     ///
-    /// `None` if a number is not finite, the axis has no length while the angle is not zero, or the angle is more than 2²⁰.
+    /// Returns `None` if a number is not finite, if the axis has no length while the angle is not zero, or if the angle exceeds
+    /// 2²⁰.
     #[must_use]
     pub fn new(centre: DVec3, axis: DVec3, angle: f64, translation: DVec3) -> Option<Self> {
         let is_finite = centre.is_finite() && axis.is_finite() && translation.is_finite();
@@ -75,11 +78,11 @@ impl RigidMotion {
         })
     }
 
-    /// From one pose to another, each a rotation and where the body's origin is: it turns the short way about an axis through its origin,
-    /// which moves straight.
+    /// A motion from one pose to another, each given by a rotation and the position of the body's origin. The body turns the
+    /// short way about an axis through its origin, which moves straight.
     ///
-    /// What the motion is, is said by the numbers that come of the poses: rounded, so that it ends a few roundings from the second one.
-    /// `None` if a number is not finite, or a quaternion is zero.
+    /// The motion is exactly that of the rounded numbers computed from the poses, so it ends a few roundings from the second
+    /// pose. Returns `None` if a number is not finite, or a quaternion is zero.
     ///
     /// ```
     /// use selvedge_core::{glam::{DQuat, DVec3}, paths::RigidMotion};
@@ -101,7 +104,7 @@ impl RigidMotion {
         Self::new(origin, axis, angle, target - origin)
     }
 
-    /// The way of the point of the body that is at `start` when the step begins.
+    /// Returns the path of the body's point that is at `start` when the step begins.
     #[must_use]
     pub fn path(&self, start: DVec3) -> Arc {
         let &Self {
@@ -130,25 +133,25 @@ impl RigidMotion {
     }
 }
 
-/// The way of a point of a body that turns: an arc, or a screw line.
+/// The path of a point of a rotating body: an arc, or a helix.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arc {
     start: DVec3,
     centre: DVec3,
     translation: DVec3,
-    /// Of the way from the centre: along the axis, across it, and what a quarter of a turn makes of that.
+    /// The parts of the way from the centre: along the axis, across it, and the latter after a quarter turn.
     along: DVec3,
     across: DVec3,
     sideways: DVec3,
     angle: f64,
-    /// From the axis, or a little more.
+    /// The distance from the axis, rounded up.
     radius: f64,
-    /// How far a place may be from where it is computed to be.
+    /// A bound of the rounding error of a position.
     rounding: f64,
 }
 
 impl Arc {
-    /// Where the point is at a time in [0, 1], within the [error](Moment::position_error) of it.
+    /// Returns the position at a time in [0, 1], within its [error](Moment::position_error).
     #[must_use]
     pub fn at(&self, time: f64) -> DVec3 {
         if time == 0.0 {
@@ -163,7 +166,7 @@ impl Arc {
 impl Path for Arc {
     fn piece(&self, from: f64, to: f64) -> Piece {
         let angle = self.angle * (to - from);
-        // Of an angle that is not a number nothing is known.
+        // The comparison is false with NaN, so the bound is NaN too.
         let bent = if angle * angle > 16.0 { 2.0 } else { angle * angle * 0.125 };
         Piece {
             motion: Motion::new(self.at(from), self.at(to)),
@@ -190,7 +193,7 @@ fn of_length_one(axis: DVec3) -> DVec3 {
     axis / axis.length()
 }
 
-/// Of an angle of at most 2²⁰.
+/// Returns the sine and cosine of an angle of at most 2²⁰.
 fn sine_and_cosine(angle: f64) -> [f64; 2] {
     let [turn, rest] = TURN;
     let turns = libm::floor(angle * (1.0 / turn) + 0.5);

@@ -10,25 +10,26 @@ use crate::scalar::Scalar;
 #[derive(Clone, Copy, Debug)]
 struct Term {
     significand: i64,
-    /// Biased by [`bias`]; [`u32::MAX`] with zero.
+    /// Biased by [`bias`]; [`u32::MAX`] for zero.
     exponent: u32,
 }
 
-/// What a biased exponent is more than the true one, so that it is never negative: the smallest subnormal has 1.
+/// Returns the bias, the difference of a biased exponent and the true one. Biased exponents are never negative: the smallest
+/// subnormal has 1.
 const fn bias<S: Scalar>() -> i32 {
     // 127 + 23 or 1023 + 52.
     ((1 << (S::EXPONENT_BITS - 1)) - 1 + S::FRACTION_BITS) as i32
 }
 
-/// A number taken apart.
+/// The parts of a number.
 struct Parts {
     term: Term,
-    /// All bits of the number are below this biased power of two.
+    /// A biased power of two above all bits of the number.
     top: u32,
     is_finite: bool,
 }
 
-/// By its encoding alone, so that no control register changes it.
+/// Takes a number apart by its encoding alone, so that no control register matters.
 #[inline(always)]
 fn take_apart<S: Scalar>(number: S) -> Parts {
     let encoding = number.encoding();
@@ -53,7 +54,7 @@ fn take_apart<S: Scalar>(number: S) -> Parts {
     }
 }
 
-/// A length as it is; `None` if it is negative, infinite or NaN.
+/// Returns a length exactly, or `None` if it is negative, infinite or NaN.
 pub(super) fn length<S: Scalar>(number: S) -> Option<Magnitude> {
     let Parts { term, is_finite, .. } = take_apart(number);
     let significand = u64::try_from(term.significand).ok()?;
@@ -77,7 +78,7 @@ struct Axis {
 }
 
 impl Axis {
-    /// `None` if a coordinate is not finite.
+    /// Returns `None` if a coordinate is not finite.
     #[inline(always)]
     fn new<S: Scalar>(coordinates: [S; 8]) -> Option<Self> {
         let parts = coordinates.map(take_apart);
@@ -95,7 +96,7 @@ impl Axis {
         })
     }
 
-    /// As significands and powers of two.
+    /// Builds the coordinates from significands and powers of two.
     #[inline(always)]
     fn integers<T>(&self, shifted: &mut impl FnMut(i64, u32) -> T) -> [T; 8] {
         self.terms
@@ -127,7 +128,7 @@ impl AlignedPair {
             Axis::new([a.y, b.y, c.y, d.y, e.y, f.y, g.y, h.y])?,
             Axis::new([a.z, b.z, c.z, d.z, e.z, f.z, g.z, h.z])?,
         ];
-        // Any unit will do where all is zero.
+        // Any unit is valid where all coordinates are zero.
         let unit = |axis: &Axis| i32::try_from(axis.unit).unwrap_or(0);
         let [x, y, z] = &axes;
         Some(Self {
@@ -137,14 +138,14 @@ impl AlignedPair {
         })
     }
 
-    /// The largest number of bits that a coordinate has.
+    /// Returns the largest number of bits of a coordinate.
     #[inline(always)]
     pub(super) fn bits(&self) -> u32 {
         let [x, y, z] = &self.axes;
         x.bits.max(y.bits).max(z.bits)
     }
 
-    /// Along each axis the four points' coordinates at the start, then those at the end, given what makes significand · 2ⁿ.
+    /// Returns the four points' coordinates along each axis, at the start, then at the end. `shifted` makes significand · 2ⁿ.
     #[inline(always)]
     pub(super) fn coordinates<T>(&self, mut shifted: impl FnMut(i64, u32) -> T) -> [[T; 8]; 3] {
         let [x, y, z] = &self.axes;

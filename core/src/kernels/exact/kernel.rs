@@ -11,12 +11,12 @@ use super::integer::{Integer, Space, Whole, Words};
 use crate::PairKind;
 use core::ops::ControlFlow;
 
-/// The widest coordinates for which `N` words serve.
+/// The number of bits of the widest coordinates that `N` words serve.
 const fn bits_in<const N: usize>() -> u32 {
     64 * N as u32 - 3
 }
 
-/// How many words a coordinate has.
+/// The number of words of a coordinate.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Width {
     Words1,
@@ -26,7 +26,7 @@ pub(super) enum Width {
 }
 
 impl Width {
-    /// The narrowest that serves.
+    /// Returns the narrowest sufficient width.
     #[inline(always)]
     pub(super) fn of(pair: &AlignedPair) -> Self {
         // f64 ranges over 2,098 bits, f32 over 277.
@@ -43,7 +43,7 @@ impl Width {
     }
 }
 
-/// The arithmetic of coordinates, of products of two and of three. Nothing is rounded.
+/// The exact arithmetic of coordinates, of products of two, and of products of three.
 pub(super) trait Arithmetic {
     /// A coordinate, or a difference of two.
     type One: Whole;
@@ -59,14 +59,14 @@ pub(super) trait Arithmetic {
     fn dot(&mut self, a: &[Self::One; 3], b: &[Self::Two; 3]) -> Self::Three;
     fn sum_of_three(&mut self, a: &Self::Three, b: &Self::Three) -> Self::Three;
 
-    /// A pair's coordinates along each axis.
+    /// Returns a pair's coordinates along each axis.
     #[inline(always)]
     fn coordinates(&mut self, pair: &AlignedPair) -> [[Self::One; 8]; 3] {
         pair.coordinates(|significand, shift| self.shifted(significand, shift))
     }
 }
 
-/// With coordinates of `N` words; `N2` = 2·`N`, `N3` = 3·`N`.
+/// Arithmetic for coordinates of `N` words; `N2` = 2·`N`, `N3` = 3·`N`.
 pub(super) struct Fixed<const N: usize, const N2: usize, const N3: usize>;
 
 impl<const N: usize, const N2: usize, const N3: usize> Arithmetic for Fixed<N, N2, N3> {
@@ -143,19 +143,19 @@ impl<'a> Arithmetic for Space<'a> {
     }
 }
 
-/// How many words of [`Space`] that takes with coordinates of `N` words: 24 coordinates and 18 edges of N + 1, 12 components of n₀, n₁
-/// and the parts of h, and 9 of sums of those, of 2·N + 1, six products of vectors of 3·N + 2, two sums of them; and what one product
-/// of vectors takes while it is computed, 12·N + 1.
+/// Returns the number of words of [`Space`] that coordinates of `N` words need: 24 coordinates and 18 edges of N + 1; 12
+/// components of n₀, n₁ and the parts of h, and 9 of sums of those, of 2·N + 1; six products of vectors of 3·N + 2 and two sums
+/// of them; and 12·N + 1 for one product of vectors while it is computed.
 pub(super) const fn space(n: usize) -> usize {
     42 * (n + 1) + 21 * (2 * n + 1) + 6 * (3 * n + 2) + 2 * (3 * n + 3) + 12 * n + 1
 }
 
-/// What is to be done with the control values.
+/// A consumer of the control values.
 pub(super) trait Judge<A: Arithmetic> {
-    /// Whether the control value of this index is to be computed.
+    /// Returns whether it needs the control value of this index.
     fn wants(&self, index: usize) -> bool;
 
-    /// A control value, and the normal that bounds it as the module's documentation says: both tripled for the middle
+    /// Receives a control value, and the normal that bounds it (see the module's documentation). Both are tripled for the middle
     /// ones, whose indices are 1 and 2.
     fn judge(
         &mut self,
@@ -173,7 +173,7 @@ struct Edges<T> {
     p: [T; 3],
 }
 
-/// At the start and at the end.
+/// Returns the edges at the start and at the end.
 #[inline(always)]
 fn edges<A: Arithmetic>(kind: PairKind, [x, y, z]: &[[A::One; 8]; 3], arithmetic: &mut A) -> [Edges<A::One>; 2] {
     let mut ends = |&[a, b, c, d, e, f, g, h]: &[A::One; 8]| {
@@ -191,7 +191,7 @@ fn edges<A: Arithmetic>(kind: PairKind, [x, y, z]: &[[A::One; 8]; 3], arithmetic
     [edges([x0, y0, z0]), edges([x1, y1, z1])]
 }
 
-/// b, c, p along one axis.
+/// Returns b, c, p along one axis.
 #[inline(always)]
 fn differences<A: Arithmetic>(kind: PairKind, points: [A::One; 4], arithmetic: &mut A) -> [A::One; 3] {
     let mut minus = |a, b| arithmetic.difference(a, b);
@@ -207,7 +207,7 @@ fn differences<A: Arithmetic>(kind: PairKind, points: [A::One; 4], arithmetic: &
     }
 }
 
-/// Hands the control values to `judge`, the cheap ones first, until it breaks off.
+/// Passes the control values to `judge`, the cheap ones first, until it stops.
 #[inline(always)]
 pub(super) fn judge<A: Arithmetic>(
     kind: PairKind,
@@ -244,7 +244,7 @@ pub(super) fn judge<A: Arithmetic>(
     ControlFlow::Continue(())
 }
 
-/// Notes the control values.
+/// Collects the control values.
 struct Noted<T>([T; 4]);
 
 impl<A: Arithmetic> Judge<A> for Noted<A::Three> {
@@ -262,11 +262,11 @@ impl<A: Arithmetic> Judge<A> for Noted<A::Three> {
     }
 }
 
-/// The control values k₀, 3k₁, 3k₂, k₃.
+/// Returns the control values k₀, 3k₁, 3k₂, k₃.
 #[inline(never)]
 pub(super) fn control_values<A: Arithmetic>(kind: PairKind, coordinates: &[[A::One; 8]; 3], arithmetic: &mut A) -> [A::Three; 4] {
     let mut values = Noted([A::Three::ZERO; 4]);
-    // It does not break off.
+    // `Noted` never stops early.
     let _ = judge(kind, coordinates, arithmetic, &mut values);
     values.0
 }
@@ -275,7 +275,7 @@ pub(super) fn control_values<A: Arithmetic>(kind: PairKind, coordinates: &[[A::O
 mod tests {
     use super::bits_in;
 
-    /// The smallest width that serves is taken: more would only take longer.
+    /// The smallest sufficient width is taken: more would only take longer.
     #[test]
     fn a_width_serves_for_all_its_bits_but_the_head_room() {
         assert_eq!([bits_in::<1>(), bits_in::<2>(), bits_in::<5>()], [61, 125, 317]);

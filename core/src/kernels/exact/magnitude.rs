@@ -1,4 +1,4 @@
-//! Magnitudes to 64 bits with an exponent that cannot overflow, rounded down or up, without floating point.
+//! Magnitudes of 64 bits with an exponent that cannot overflow, rounded down or up, without floating point.
 
 use super::integer::Words;
 
@@ -10,7 +10,7 @@ pub(super) struct Magnitude {
     exponent: i32,
 }
 
-/// On which side of the exact value the bound lies. It is off by less than 2⁻⁶³ of the value for each operation.
+/// The side of the exact value on which the bound lies. Each operation is off by less than 2⁻⁶³ of the value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Bound {
     Lower,
@@ -27,12 +27,12 @@ impl Magnitude {
         self.significand == 0
     }
 
-    /// `significand` · 2^`exponent`, exactly.
+    /// Returns `significand` · 2^`exponent`, exactly.
     pub(super) fn exact(significand: u64, exponent: i32) -> Self {
         Self::rounded(significand.into(), false, exponent, Bound::Lower)
     }
 
-    /// Of a whole number's magnitude times 2^`exponent`.
+    /// Returns a bound of a whole number's magnitude times 2^`exponent`.
     #[inline(never)]
     pub(super) fn of(number: Words<'_>, exponent: i32, bound: Bound) -> Self {
         let dropped = number.bits().saturating_sub(64);
@@ -47,7 +47,7 @@ impl Magnitude {
         Self::rounded(value, is_cut, exponent + dropped.cast_signed(), bound)
     }
 
-    /// `value` · 2^`exponent`, and a little more if `is_cut`, which needs a `value` of at least 2⁶³.
+    /// Returns a bound of `value` · 2^`exponent`, and of a little more if `is_cut`, which needs a `value` of at least 2⁶³.
     fn rounded(value: u128, is_cut: bool, exponent: i32, bound: Bound) -> Self {
         if value == 0 {
             return Self::ZERO;
@@ -78,7 +78,7 @@ impl Magnitude {
         self.times(self, bound)
     }
 
-    /// An upper bound of the sum.
+    /// Returns an upper bound of the sum.
     pub(super) fn plus(self, other: Self) -> Self {
         let (large, small) = if self.exceeds(other) { (self, other) } else { (other, self) };
         if small.is_zero() {

@@ -1,17 +1,15 @@
-//! The signs of the signed volume's control values without rounding, whether they exceed a separation, and whether a pair
-//! touches.
+//! Exact signs of the signed volume's control values, exact comparison with a separation, and the exact verdict of contact.
 //!
-//! For the pairs that floating point leaves undecided, and to compare everything else with. [`touches`] gives the whole
-//! answer; how, its own file says (`contact`). What the others decide is whether the control values k₀, 3k₁, 3k₂, k₃ of
-//! [`coplanarity`](crate::coplanarity) have one strict sign; then the four points are never coplanar in [0, 1]. The
-//! converse does not hold: the volume may have no root although signs differ.
+//! This is for pairs that floating point leaves undecided, and for comparison with everything else. [`touches`] decides contact;
+//! its file (`contact`) explains how. The other functions decide whether the control values k₀, 3k₁, 3k₂, k₃ of
+//! [`coplanarity`](crate::coplanarity) have one strict sign. Then the four points are never coplanar in [0, 1]. The converse does
+//! not hold: the volume may have no root although signs differ.
 //!
 //! # Whole numbers
-//! A finite floating-point number is a whole number times a power of two. Each monomial of the volume has one factor
-//! along x, one along y and one along z, so the eight coordinates along an axis can be counted in a unit of their own,
-//! the largest power of two that divides all of them, and no sign changes. What follows is addition and
-//! multiplication of whole numbers, in the narrowest of a few fixed widths for which `kernel` shows that nothing
-//! overflows:
+//! A finite floating-point number is a whole number times a power of two. Each monomial of the volume has one factor along x, one
+//! along y and one along z. So the eight coordinates along an axis can have their own unit, the largest power of two that divides
+//! all of them, and no sign changes. The rest is addition and multiplication of whole numbers, in the narrowest of a few fixed
+//! widths for which `kernel` shows that nothing overflows:
 //!
 //! | 64-bit words a coordinate | bits along an axis, from the highest set in any of the eight coordinates to the lowest set | serves |
 //! |---|---|---|
@@ -20,13 +18,12 @@
 //! | 5 | 317 | all of `f32`, which has 277 |
 //! | 33 | 2,109 | all of `f64`, which has 2,098 |
 //!
-//! Only the width that a pair needs takes time and stack: on x86-64 at most 7 kB for the first three, and 35 kB for all of `f64`, whose
-//! numbers are slices of one space, each of as many words as it needs.
+//! A call takes time and stack only for the width that its pair needs. On x86-64 that is at most 7 kB of stack for the first
+//! three, and 35 kB for all of `f64`, whose numbers are slices of one space, each of as many words as it needs.
 //!
-//! Not a single operation is in floating point. The answers are therefore exact for every finite input, subnormal and
-//! largest numbers included, in every floating-point environment: any rounding direction, flush-to-zero,
-//! denormals-are-zero. (The usual way, Shewchuk's expansions, is exact only when rounding to nearest, and in `f64`
-//! only while products neither underflow nor overflow.)
+//! No operation is in floating point. So the answers are exact for every finite input, subnormal and largest numbers included, in
+//! every floating-point environment. (Shewchuk's expansions, the usual method, are exact only when rounding to nearest, and in
+//! `f64` only while products neither underflow nor overflow.)
 //!
 //! # Separation
 //! With p, b, c as below and n = b × c, the distance of the vertex from the face's plane, or of the two edges' lines, is
@@ -46,12 +43,13 @@
 //!  |k₀| > s·|n₀|,   |3k₁| > s·|n₀ + h|,   |3k₂| > s·|h + n₁|,   |k₃| > s·|n₁|,   all four k of one sign
 //! ```
 //!
-//! |n₀ + h| is at most 3·max(|n₀|, |h|/2): each condition is at least as easily met as with the largest normal for all four.
+//! |n₀ + h| is at most 3·max(|n₀|, |h|/2), so each condition is at least as easily met as with the largest normal for all four.
 //!
-//! Both sides are squared, which leaves sums and products, and these are bounded with 64 bits and an exponent apart
-//! (`magnitude`), again without floating point: kᵢ² from below, s²·|nᵢ|² from above. Each step is off by less than
-//! 2⁻⁶³ of its value: cut and square kᵢ, 3 · 2⁻⁶³ of its square in all; round a component of nᵢ, square it, add twice, 5 · 2⁻⁶³
-//! (a square counts its operand's step twice); square s and multiply, 2 · 2⁻⁶³. So a pair is culled whenever
+//! Both sides are squared, which leaves sums and products. These are bounded with 64 bits and a separate exponent (`magnitude`),
+//! again without floating point: kᵢ² from below, s²·|nᵢ|² from above. Each step is off by less than 2⁻⁶³ of its value. To cut and
+//! square kᵢ costs 3 · 2⁻⁶³ of its square. To round a component of nᵢ, square it and add twice costs 5 · 2⁻⁶³ (a square counts
+//! its operand's step twice). To square s and multiply costs 2 · 2⁻⁶³. So a pair is culled whenever |kᵢ| > s·|nᵢ|·(1 + 2⁻⁶⁰), and
+//! never when |kᵢ| ≤ s·|nᵢ| for some i. With s = 0 the answer is exact.
 //! |kᵢ| > s·|nᵢ|·(1 + 2⁻⁶⁰), and never when |kᵢ| ≤ s·|nᵢ| for some i. With s = 0 the answer is exact.
 
 mod aligned;
@@ -72,26 +70,26 @@ use integer::{Space, Whole, Words};
 use kernel::{Arithmetic, Fixed, Judge, Width, control_values};
 use magnitude::{Bound, Magnitude};
 
-/// What an exact verdict rests on.
+/// The evidence of an exact verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Evidence {
-    /// The time of impact's proof that the sets stay apart, in floating point.
+    /// The floating-point proof of the time of impact that the sets stay apart.
     Separation,
-    /// The proof that one set passes through the other, in floating point.
+    /// The floating-point proof that one set passes through the other.
     Crossing,
     /// Arithmetic in whole numbers.
     WholeNumbers,
-    /// Nothing: the input is not finite.
+    /// None: the input is not finite.
     Nothing,
 }
 
-/// What a caller knows of the control values k₀, 3k₁, 3k₂, k₃ already: how some of them compare with zero.
+/// The known signs of the control values k₀, 3k₁, 3k₂, k₃.
 pub type KnownSigns = [Option<Ordering>; 4];
 
-/// Nothing is known.
+/// No sign is known.
 pub const UNKNOWN: KnownSigns = [None; 4];
 
-/// The signs that rounded control values prove: of those beyond `bounds`, their
+/// Returns the signs that rounded control values prove: those of values beyond `bounds`, their
 /// [`error_bounds`](crate::coplanarity::MovingTetrahedron::error_bounds).
 ///
 /// ```
@@ -124,9 +122,9 @@ pub fn certain_signs<S: Scalar>(values: &ControlValues<S>, bounds: [S; 4]) -> Kn
     [certain(k0, e0), certain(k1, e1), certain(k2, e2), certain(k3, e3)]
 }
 
-/// How the control values k₀, 3k₁, 3k₂, k₃ of the pair's signed volume compare with zero.
+/// Compares the control values k₀, 3k₁, 3k₂, k₃ of the pair's signed volume with zero.
 ///
-/// Exact, in every floating-point environment. `None` if a coordinate is NaN or infinite.
+/// Exact, in every floating-point environment. Returns `None` if a coordinate is NaN or infinite.
 ///
 /// ```
 /// use core::cmp::Ordering::{Equal, Greater, Less};
@@ -166,25 +164,25 @@ fn signs_in_space(pair: &AlignedPair) -> [Ordering; 4] {
     signs_by(pair, &mut Space::new(&mut [0; kernel::space(33)]))
 }
 
-/// True exactly if all four control values are positive, or all four negative. True proves that the four points are
-/// not coplanar at any time in [0, 1].
+/// Returns true exactly if all four control values are positive, or all four negative. True proves that the four points are not
+/// coplanar at any time in [0, 1].
 ///
-/// Exact, in every floating-point environment; false if a coordinate is NaN or infinite. Of the signs in `known` ([`UNKNOWN`]
-/// if there are none) none is computed again: they must be right. Stops as soon as two signs differ.
+/// Exact, in every floating-point environment; false if a coordinate is NaN or infinite. Signs in `known` must be right, and are
+/// not computed again; pass [`UNKNOWN`] if there are none. Stops as soon as two signs differ.
 #[must_use]
 pub fn is_never_coplanar<S: Scalar>(pair: &PrimitivePair<S>, known: KnownSigns) -> bool {
     one_sign(pair, known, Magnitude::ZERO)
 }
 
-/// True if all four control values are positive, or all four negative, and far enough from zero to prove that the
-/// vertex and the face's plane, or the two edges' lines, are more than `separation` apart at every time in [0, 1].
+/// Returns true if all four control values are positive, or all four negative, and far enough from zero to prove that the vertex
+/// and the face's plane, or the two edges' lines, are more than `separation` apart at every time in [0, 1].
 ///
-/// Certified in every floating-point environment, and exact but for a relative 2⁻⁶⁰ of the separation, as the module's
-/// documentation says; with `separation` 0 the same as [`is_never_coplanar`]. False if a coordinate is NaN or infinite, or
+/// Certified in every floating-point environment, and exact but for a relative 2⁻⁶⁰ of the separation (see the module's
+/// documentation). With `separation` 0 it is the same as [`is_never_coplanar`]. False if a coordinate is NaN or infinite, or if
 /// `separation` is NaN, infinite or negative.
 ///
-/// A sign in `known` promises that this control value has it and passes the condition of the module's documentation; it is
-/// not computed again.
+/// A sign in `known` asserts that this control value has it and meets the condition of the module's documentation; it is not
+/// computed again.
 ///
 /// ```
 /// use selvedge_core::{glam::DVec3, Motion, PrimitivePair};
@@ -221,7 +219,7 @@ fn one_sign<S: Scalar>(pair: &PrimitivePair<S>, known: KnownSigns, squared_separ
     AlignedPair::new(pair).is_some_and(|pair| one_sign.passes(&pair))
 }
 
-/// Breaks off at the first control value that is not of the others' strict sign or not beyond the separation.
+/// Stops at the first control value that does not have the others' strict sign, or is not beyond the separation.
 struct OneSign {
     known: KnownSigns,
     common: Option<Ordering>,
@@ -241,7 +239,7 @@ impl OneSign {
 }
 
 impl OneSign {
-    /// Whether it does not break off.
+    /// Returns whether it does not stop early.
     fn passes(&mut self, pair: &AlignedPair) -> bool {
         self.units = pair.units;
         match Width::of(pair) {
@@ -296,7 +294,7 @@ impl<A: Arithmetic> Judge<A> for OneSign {
     }
 }
 
-/// Whether k² > s²·|n|², `value` and `normal` being whole numbers in units that differ from axis to axis.
+/// Returns whether k² > s²·|n|², for whole numbers `value` and `normal` in units that differ between axes.
 #[inline(never)]
 fn is_beyond(value: Words<'_>, [x, y, z]: [Words<'_>; 3], Units([ux, uy, uz]): Units, squared_separation: Magnitude) -> bool {
     let squared = |component: Words<'_>, unit| Magnitude::of(component, unit, Bound::Upper).squared(Bound::Upper);

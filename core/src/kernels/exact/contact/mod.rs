@@ -1,4 +1,4 @@
-//! Whether a pair touches at some time in [0, 1]: the answer, without rounding and without tolerance.
+//! The exact decision whether a pair touches at some time in [0, 1], without rounding and without tolerance.
 //!
 //! # At one time
 //! The two sets touch when the hull of the pair's corners contains the origin: a triangle (VF) or a parallelogram (EE) with corners
@@ -7,38 +7,40 @@
 //! 2. along no axis do the cross products e₁×e₂, e₂×e₃, …, e_N×e₁ have components of both signs;
 //! 3. along no axis do all corners have coordinates of one strict sign.
 //!
-//! Each is necessary: a polygon that contains the origin turns around it, if at all, in one sense, in projection too; and has no side
-//! of any plane through it to itself. They suffice. Where the polygon has an area, one component of its normal is not zero, and
-//! projection along that axis loses nothing; the cross products add up to twice the projected area, so they are not all zero, and
-//! 2 puts the origin on the inner side of every edge of a convex polygon. Where it has none, the corners are on one line and the cross products add up to zero,
-//! so by 2 all of them are: either that line goes through the origin, and 3 says whether it has corners on both sides (or in it),
-//! or else neighbours are equal, all corners one point, and 3 says whether that is the origin.
+//! Each condition is necessary. A polygon that contains the origin turns around it, if at all, in one sense, in projection too;
+//! and it does not lie strictly on one side of any plane through the origin. They are also sufficient. If the polygon has an
+//! area, one component of its normal is not zero, and projection along that axis loses nothing. The cross products add up to
+//! twice the projected area, so they are not all zero, and 2 puts the origin on the inner side of every edge of a convex polygon.
+//! If it has no area, the corners are on one line and the cross products add up to zero, so by 2 all of them are zero. Then
+//! either that line passes through the origin, and 3 decides whether it has corners on both sides or at it; or neighbours are
+//! equal, all corners are one point, and 3 decides whether that is the origin.
 //!
-//! So there is no case for parallel edges, edges without length, faces without area. (If along some axis cross products are not
-//! all zero, there is an area, and 3 need not be asked.)
+//! So there are no special cases for parallel edges, edges without length, or faces without area. (If along some axis cross
+//! products are not all zero, there is an area, and 3 is not needed.)
 //!
 //! # At some time
 //! Corners are linear in time, cross products quadratic, K cubic.
-//! * Start and end are looked at first.
-//! * Where K is not zero throughout, contact in between is at one of its roots. Descartes' rule, the number of changes of sign among its
-//!   coefficients, says if there is none, or exactly one. If there may be more, the roots of the derivative divide the step into
-//!   parts where K has one root at most: one where it changes sign from end to end; and K may be zero at those roots themselves, without changing sign.
-//! * Where K is zero throughout, the times of contact are a closed set, whose first time, if it is not 0, is a root
-//!   of one of the quadratics or linear polynomials of 2 and 3, all of which are tried.
+//! * Start and end are tested first.
+//! * Where K is not zero throughout, contact in between is at one of its roots. Descartes' rule, the number of changes of sign
+//!   among its coefficients, shows if there is none, or exactly one. If there may be more, the roots of the derivative divide the
+//!   step into parts where K has at most one root: one where it changes sign from end to end. K may also be zero at those roots
+//!   themselves, without changing sign.
+//! * Where K is zero throughout, the times of contact are a closed set. Its first time, if it is not 0, is a root of one of the
+//!   quadratics or linear polynomials of 2 and 3; all of them are tried.
 //!
-//! Either way signs are needed of polynomials of degree three at most, at roots of polynomials of degree two at most: see `moment`. At
-//! a root of the cubic, the sign of a quadratic follows from where its roots are, before or after; which again are signs of the cubic, and of its derivative, at
-//! roots of quadratics. Nothing is isolated, refined, or iterated.
+//! Both need signs of polynomials of degree at most three, at roots of polynomials of degree at most two: see `moment`. At a root
+//! of the cubic, the sign of a quadratic follows from the position of its roots, before or after; and these are signs of the
+//! cubic, and of its derivative, at roots of quadratics. Nothing is isolated, refined, or iterated.
 //!
 //! # Work
-//! What takes time is a sign at a root: about 17 products of numbers of up to nine times a coordinate's words. For a contact at one time
-//! as many polynomials are asked as there are in 2 and 3, six for each corner: 24 at most. At a crossing of the cubic a quadratic has two roots to be compared
-//! with it, each by one sign, and by two more for either end of the crossing's interval, if it has any, so that a polynomial takes 10 signs; at a
-//! root, one. So there are at most
+//! The costly step is a sign at a root: about 17 products of numbers of up to nine times a coordinate's words. A contact at one
+//! time needs the polynomials of 2 and 3, six for each corner: at most 24. At a crossing of the cubic, a quadratic has two roots
+//! to compare with it. Each takes one sign, and two more for either end of the crossing's interval, if it has any, so a
+//! polynomial takes 10 signs; at a root, one. So there are at most
 //! * 3·24·10 + 2·(24 + 1) = 770 signs where K is not zero throughout (three crossings, two turning points),
 //! * 36·24 = 864 signs where it is (12 roots of linear polynomials, 24 of quadratics).
 //!
-//! Along one axis alone nearly every contact is settled, with a handful of signs. (A polynomial that is zero throughout takes none.)
+//! Nearly every contact is settled along one axis, with a handful of signs. (A polynomial that is zero throughout takes none.)
 
 mod moment;
 mod remainder;
@@ -55,11 +57,11 @@ use crate::scalar::Scalar;
 use core::cmp::Ordering;
 use moment::{Crossing, End, Moment, Root, sign_before_end};
 
-/// Whether the closed vertex and face, or the two closed edges, share a point at some time in [0, 1].
+/// Returns whether the closed vertex and face, or the two closed edges, share a point at some time in [0, 1].
 ///
-/// Exact for all finite input, in every floating-point environment; `None` if a coordinate is NaN or infinite.
+/// Exact for all finite input, in every floating-point environment. Returns `None` if a coordinate is NaN or infinite.
 ///
-/// With most pairs [`contact`](crate::elementary::contact()) has the same answer sooner.
+/// For most pairs, [`contact`](crate::elementary::contact()) returns the same answer sooner.
 ///
 /// ```
 /// use selvedge_core::{glam::DVec3, Motion, PrimitivePair};
@@ -79,9 +81,9 @@ pub fn touches<S: Scalar>(pair: &PrimitivePair<S>) -> Option<bool> {
     AlignedPair::new(pair).map(|pair| touches_aligned(&pair))
 }
 
-/// How many words are enough for the search with coordinates of `N` words, corners and volume not counted: for the derivative, what stands
-/// for the volume and the roots, nine numbers of 3·N + 2; for a cross product 10·N + 6, its roots 6·N + 6, twice a coefficient 3·N + 3;
-/// and for the largest of `moment`'s numbers 126·N + 30.
+/// Returns the number of words that the search needs with coordinates of `N` words, without corners and volume. The derivative,
+/// the polynomial in place of the volume, and the roots take nine numbers of 3·N + 2; a cross product takes 10·N + 6, its roots
+/// 6·N + 6, twice a coefficient 3·N + 3; the largest of `moment`'s numbers takes 126·N + 30.
 const fn space(n: usize) -> usize {
     9 * (3 * n + 2) + 10 * n + 6 + 6 * n + 6 + 3 * n + 3 + 126 * n + 30
 }
@@ -95,9 +97,9 @@ fn touches_aligned(pair: &AlignedPair) -> bool {
     }
 }
 
-/// With coordinates of `N` words; `N2` = 2·`N`, `N3` = 3·`N`, and `WORDS` to work with.
+/// Decides with coordinates of `N` words; `N2` = 2·`N`, `N3` = 3·`N`, and `WORDS` of space.
 ///
-/// Out of line, as the next, so that a call pays for the stack of its own width only.
+/// Out of line, like the next, so that a call takes the stack of its own width only.
 #[inline(never)]
 fn in_words<const N: usize, const N2: usize, const N3: usize, const WORDS: usize>(pair: &AlignedPair) -> bool {
     let mut arithmetic = Fixed::<N, N2, N3>;
@@ -111,7 +113,7 @@ fn in_words<const N: usize, const N2: usize, const N3: usize, const WORDS: usize
     polygon.touches(volume.each_ref().map(Whole::words), &mut Space::new(&mut [0; WORDS]))
 }
 
-/// With coordinates of 33 words, all numbers in a space: corners take 24 of 34 words.
+/// Decides with coordinates of 33 words, all numbers in a space: corners take 24 of 34 words.
 #[inline(never)]
 fn in_space(pair: &AlignedPair) -> bool {
     let mut words = [0; kernel::space(33) + 24 * 34 + space(33)];
@@ -125,15 +127,15 @@ fn in_space(pair: &AlignedPair) -> bool {
     Polygon::new(pair.kind, &corners).touches(volume, &mut space)
 }
 
-/// Whether a polynomial with coefficients of these signs is zero at no s in [0, ∞].
+/// Returns whether a polynomial with coefficients of these signs is zero at no s in [0, ∞].
 fn is_never_zero(signs: [Ordering; 4]) -> bool {
     signs == [Ordering::Less; 4] || signs == [Ordering::Greater; 4]
 }
 
-/// Corners around the polygon, the first once more after the last; a triangle has one entry less, and the last is nothing.
+/// Corners around the polygon, with the first again after the last. A triangle has one entry less, and its last is unused.
 type Around<T> = [T; 5];
 
-/// Each corner's coordinates at the start and at the end, along each axis.
+/// Returns each corner's coordinates at the start and at the end, along each axis.
 #[inline(always)]
 fn corners<A: Arithmetic>(kind: PairKind, axes: &[[A::One; 8]; 3], arithmetic: &mut A) -> [Around<[A::One; 2]>; 3] {
     axes.each_ref().map(|[a0, b0, c0, d0, a1, b1, c1, d1]| {
@@ -159,7 +161,7 @@ type Linear<'a> = [Words<'a>; 2];
 /// The moving corners of a pair, around the triangle or parallelogram, along each axis.
 struct Polygon<'a> {
     corners: [Around<Linear<'a>>; 3],
-    /// How many corners it has.
+    /// The number of corners.
     count: usize,
 }
 
@@ -192,12 +194,12 @@ impl<'a> Polygon<'a> {
         }
     }
 
-    /// All corners along each axis.
+    /// Returns all corners along each axis.
     fn coordinates(&self) -> impl Iterator<Item = &[Linear<'a>]> {
         self.corners.iter().map(|axis| axis.get(..self.count).unwrap_or_default())
     }
 
-    /// All neighbours, around the polygon, along the two other axes for each axis.
+    /// Returns all neighbours around the polygon, along the two other axes for each axis.
     fn projections(&self) -> [impl Iterator<Item = Neighbours<'a>>; 3] {
         let [x, y, z] = &self.corners;
         [[y, z], [z, x], [x, y]].map(|[y, z]| {
@@ -210,7 +212,7 @@ impl<'a> Polygon<'a> {
         })
     }
 
-    /// Conditions 2 and 3 of the module's documentation, at a time when the first is met.
+    /// Tests conditions 2 and 3 of the module's documentation, at a time when the first is met.
     fn contains_origin(&self, moment: &dyn Moment, space: &mut Space<'_>) -> bool {
         for projection in self.projections() {
             let (mut turns_left, mut turns_right) = (false, false);
@@ -233,12 +235,12 @@ impl<'a> Polygon<'a> {
         })
     }
 
-    /// In a step with several roots of the volume, or one more than once.
+    /// Decides a step with several roots of the volume, or a multiple one.
     fn touches_at_one_of_many(&self, volume: [Words<'_>; 4], space: &mut Space<'_>) -> bool {
         let mut space = space.scratch();
         let [k0, k1, k2, k3] = volume;
         let derivative = [k1, space.doubled(k2), space.tripled(k3)];
-        // 3K = s·K′ + this: where the derivative is zero it has the volume's sign.
+        // 3K = s·K′ + this: where the derivative is zero, it has the volume's sign.
         let rest = [space.tripled(k0), space.doubled(k1), k2];
         let turning_points = Root::positive(&derivative, &mut space);
         let mut crossing = Crossing::between_ends(volume);
@@ -265,7 +267,7 @@ impl<'a> Polygon<'a> {
         sign_before_end(&volume) == crossing.sign_before.reverse() && self.contains_origin(&crossing, &mut space)
     }
 
-    /// In a step throughout which the origin is in a plane with the corners.
+    /// Decides a step throughout which the origin is in a plane with the corners.
     fn touches_in_plane(&self, space: &mut Space<'_>) -> bool {
         self.coordinates()
             .flatten()
@@ -283,11 +285,11 @@ impl<'a> Polygon<'a> {
     }
 }
 
-/// The coordinates along two axes of a corner and of the next.
+/// The coordinates of a corner and of the next, along two axes.
 struct Neighbours<'a>([[Linear<'a>; 2]; 2]);
 
 impl Neighbours<'_> {
-    /// One component of their cross product, a quadratic in s.
+    /// Returns one component of their cross product, a quadratic in s.
     fn cross<'b>(&self, space: &mut Space<'b>) -> [Words<'b>; 3] {
         let Self([[[a0, a1], [b0, b1]], [[c0, c1], [d0, d1]]]) = *self;
         let (one_part, other_part) = (space.minor(a0, b0, c1, d1), space.minor(a1, b1, c0, d0));
@@ -299,7 +301,7 @@ impl Neighbours<'_> {
     }
 }
 
-/// How often the sign changes in a row of coefficients.
+/// Returns the number of changes of sign in a row of coefficients.
 fn changes_of_sign(signs: [Ordering; 4]) -> u32 {
     let (mut changes, mut last) = (0, Ordering::Equal);
     for sign in signs.into_iter().filter(|sign| sign.is_ne()) {

@@ -1,19 +1,19 @@
-//! Times, known exactly, and the signs of polynomials at them.
+//! Exact times, and the signs of polynomials at them.
 //!
-//! Times are counted by s = t/(1 − t), which takes (0, 1) to (0, ∞). A polynomial of degree n in t with Bernstein coefficients βᵢ is
-//! (1 − t)ⁿ·Σ C(n, i)βᵢ·sⁱ, so its sign is that of a polynomial in s, whose coefficients need no division, and which of
-//! its roots lie in the step is seen from their signs (Descartes). Start and end of the step are s = 0 and s = ∞. Polynomials are
-//! slices of coefficients, the constant first; the last may be zero.
+//! A time t is represented by s = t/(1 − t), which takes (0, 1) to (0, ∞). A polynomial of degree n in t with Bernstein
+//! coefficients βᵢ is (1 − t)ⁿ·Σ C(n, i)βᵢ·sⁱ. So its sign is that of a polynomial in s, whose coefficients need no division and
+//! whose signs show which of its roots lie in the step (Descartes). Start and end of the step are s = 0 and s = ∞. Polynomials
+//! are slices of coefficients, the constant first; the last may be zero.
 //!
 //! # Head-room
-//! Let coefficients of the corners be below 2ᵐ, as [`kernel`](crate::exact::kernel) has it: m = 64·N − 2 bits for coordinates of
-//! N words. Then cross products are quadratics with coefficients below 2^(2m+2). A determinant of nine numbers of magnitude one at most
-//! is 4 at most: being linear in each, it is largest where all are ±1. So the volume is a cubic with k₀, k₃ ≤ 4·2³ᵐ and, as sums of
-//! three determinants, k₁, k₂ ≤ 12·2³ᵐ; its derivatives, and the quadratic that stands for it where the first is zero, stay below
-//! 24·2³ᵐ < 2^(3m+5): all of them, with a sign, in 3·N words.
+//! Let coefficients of the corners be below 2ᵐ, as in [`kernel`](crate::exact::kernel): m = 64·N − 2 bits for coordinates of N
+//! words. Then cross products are quadratics with coefficients below 2^(2m+2). A determinant of nine numbers of magnitude at most
+//! one is at most 4: being linear in each, it is largest where all are ±1. So the volume is a cubic with k₀, k₃ ≤ 4·2³ᵐ and, as
+//! sums of three determinants, k₁, k₂ ≤ 12·2³ᵐ. Its derivatives, and the quadratic that replaces it where the first is zero, stay
+//! below 24·2³ᵐ < 2^(3m+5): all of them, with a sign, fit in 3·N words.
 //!
-//! A root's sign is that of one of the last numbers of [`terms`], the remainder l of a polynomial divided by the quadratic q, and of q
-//! divided by l. What can come together:
+//! The sign at a root is that of one of the last numbers of [`terms`]: the remainder l of a polynomial divided by the quadratic
+//! q, and of q divided by l. These combinations occur:
 //!
 //! | polynomial | q | l below | last number below |
 //! |---|---|---|---|
@@ -23,14 +23,14 @@
 //! | what stands for the volume | its derivative | 2^(6m+14) | 2^(15m+36) |
 //! | a cross product | another | 2^(4m+6) | 2^(10m+16) |
 //!
-//! (In the first row l is a sum of three or four products of two coefficients of q and one of the cubic, in the others two of
-//! two; the last number a sum of three, l² times a coefficient of q.) The largest has 16·(64·N − 2) + 26 < 1024·N bits, which is
-//! 16·N words. Where q is linear less is needed.
+//! (In the first row l is a sum of three or four products of two coefficients of q and one of the cubic, in the others of two of
+//! two. The last number is a sum of three, l² times a coefficient of q.) The largest has 16·(64·N − 2) + 26 < 1024·N bits, which
+//! is 16·N words. A linear q needs less.
 //!
-//! The space that [`terms`] take is largest in the first row, too: two numbers of 5·N words and two of 7·N for the remainder, a power of
-//! 4·N, and in the end four of 9·N, A among them, one of 14·N and three of 16·N: 126·N, and a few words for carries.
+//! The space of [`terms`] is also largest in the first row: two numbers of 5·N words and two of 7·N for the remainder, a power of
+//! 4·N, and at the end four of 9·N, A among them, one of 14·N and three of 16·N: 126·N, and a few words for carries.
 //!
-//! Before all these words are computed the same is tried with [`rounded`](super::rounded) numbers; most signs are certain from them.
+//! All this is first tried with [`rounded`](super::rounded) numbers, from which most signs are certain.
 
 use super::Neighbours;
 use super::remainder::{terms, value_at_quotient};
@@ -38,12 +38,12 @@ use super::rounded::{FixedPoint, Rounded, Scale};
 use crate::exact::integer::{Space, Whole, Words};
 use core::cmp::Ordering;
 
-/// A time at which signs can be told.
+/// A time at which signs can be computed.
 pub(super) trait Moment {
-    /// How the polynomial compares with zero then.
+    /// Compares the polynomial with zero at this time.
     fn sign(&self, polynomial: &[Words<'_>], space: &mut Space<'_>) -> Ordering;
 
-    /// The sign of one component of the cross product of neighbours.
+    /// Returns the sign of one component of the cross product of neighbours.
     fn turn(&self, neighbours: &Neighbours<'_>, space: &mut Space<'_>) -> Ordering {
         let mut space = space.scratch();
         let cross = neighbours.cross(&mut space);
@@ -51,17 +51,17 @@ pub(super) trait Moment {
     }
 }
 
-/// A polynomial's sign just after the start.
+/// Returns a polynomial's sign just after the start.
 fn sign_after_start(polynomial: &[Words<'_>]) -> Ordering {
     first_of_signs(polynomial.iter())
 }
 
-/// A polynomial's sign just before the end.
+/// Returns a polynomial's sign just before the end.
 pub(super) fn sign_before_end(polynomial: &[Words<'_>]) -> Ordering {
     first_of_signs(polynomial.iter().rev())
 }
 
-/// Of those that are not zero.
+/// Returns the first sign that is not zero.
 #[inline(always)]
 fn first_of_signs<'a>(mut coefficients: impl Iterator<Item = &'a Words<'a>>) -> Ordering {
     coefficients
@@ -76,7 +76,7 @@ pub(super) enum End {
 }
 
 impl End {
-    /// Which of a polynomial's coefficients is its value then.
+    /// Selects the polynomial's coefficient that is its value at this end.
     const fn value<T: Copy>(&self, [at_start, at_end]: [T; 2]) -> T {
         match self {
             Self::Start => at_start,
@@ -101,7 +101,7 @@ impl Moment for End {
     }
 }
 
-/// Which of a quadratic's roots.
+/// The lower or the upper root of a quadratic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Side {
     Lower,
@@ -109,7 +109,7 @@ enum Side {
 }
 
 impl Side {
-    /// The sign of l₁·√D as it is added, given that of l₁.
+    /// Returns the sign of l₁·√D as it is added, given that of l₁.
     #[inline(always)]
     const fn of_root(self, l1: Ordering) -> Ordering {
         match self {
@@ -128,7 +128,8 @@ pub(super) struct Root<'a> {
 }
 
 impl<'a> Root<'a> {
-    /// The positive roots of a polynomial of degree two at most, in ascending order, a double one twice. None for zero.
+    /// Returns the positive roots of a polynomial of degree at most two, in ascending order, a double one twice. The zero
+    /// polynomial has none.
     pub(super) fn positive(polynomial: &[Words<'a>], space: &mut Space<'a>) -> [Option<Self>; 2] {
         let mut quadratic = [Words::ZERO; 3];
         for (to, from) in quadratic.iter_mut().zip(polynomial) {
@@ -150,7 +151,7 @@ impl<'a> Root<'a> {
     }
 }
 
-/// The sign of b² − 4ac.
+/// Returns the sign of b² − 4ac.
 fn discriminant_sign([a, b, c]: [Words<'_>; 3], space: &mut Space<'_>) -> Ordering {
     let mut space = space.scratch();
     let (squared, product) = (space.times(b, b), space.times(a, c));
@@ -161,7 +162,7 @@ fn discriminant_sign([a, b, c]: [Words<'_>; 3], space: &mut Space<'_>) -> Orderi
 
 impl Moment for Root<'_> {
     fn sign(&self, polynomial: &[Words<'_>], space: &mut Space<'_>) -> Ordering {
-        // Common where corners move in a plane along an axis; and no rounded number tells that another is zero.
+        // Common where corners move in a plane along an axis. Rounded numbers cannot show that a number is zero.
         if polynomial.iter().all(|coefficient| coefficient.is_zero()) {
             return Ordering::Equal;
         }
@@ -189,13 +190,13 @@ impl Moment for Root<'_> {
 }
 
 impl Root<'_> {
-    /// Whether it is the root of a linear polynomial.
+    /// Returns whether it is the root of a linear polynomial.
     fn is_of_linear(&self) -> bool {
         let [_, _, c] = self.quadratic;
         c.is_zero()
     }
 
-    /// The sign, if rounded numbers tell.
+    /// Returns the sign, if rounded numbers prove it.
     fn estimated_sign(&self, polynomial: &[Words<'_>]) -> Option<Ordering> {
         let of_quadratic = Scale::of(&self.quadratic);
         let of_polynomial = Scale::of(polynomial);
@@ -222,8 +223,8 @@ impl Root<'_> {
 
     /// Compares two roots.
     ///
-    /// The sign of the other's quadratic here tells whether this one is between the other's two roots; if not, the sign of its
-    /// derivative tells on which side of both.
+    /// The sign of the other's quadratic here shows whether this root is between the other's two roots. If not, the sign of its
+    /// derivative shows on which side of both.
     pub(super) fn compare(&self, other: &Root<'_>, space: &mut Space<'_>) -> Ordering {
         let [_, b, c] = other.quadratic;
         let place = self.sign(&other.quadratic, space);
@@ -247,19 +248,19 @@ impl Root<'_> {
     }
 }
 
-/// Where a cubic changes sign: the only place in an interval.
+/// The only change of sign of a cubic in an interval.
 pub(super) struct Crossing<'a> {
     pub(super) cubic: [Words<'a>; 4],
-    /// The interval: open, from there, or from the start,
+    /// The beginning of the open interval, or `None` for the start.
     pub(super) after: Option<Root<'a>>,
-    /// to there, or to the end.
+    /// The end of the interval, or `None` for the end.
     pub(super) before: Option<Root<'a>>,
-    /// The cubic's sign at its beginning.
+    /// The cubic's sign at the beginning of the interval.
     pub(super) sign_before: Ordering,
 }
 
 impl<'a> Crossing<'a> {
-    /// In all of the step.
+    /// The crossing of a cubic in the whole step.
     pub(super) fn between_ends(cubic: [Words<'a>; 4]) -> Self {
         Self {
             cubic,
@@ -285,7 +286,7 @@ impl<'a> Crossing<'a> {
 }
 
 impl Moment for Crossing<'_> {
-    /// Of a polynomial of degree two at most: that before the end, unless a root is in between.
+    /// For a polynomial of degree at most two: its sign before the end, unless a root is in between.
     fn sign(&self, polynomial: &[Words<'_>], space: &mut Space<'_>) -> Ordering {
         let mut space = space.scratch();
         let mut sign = sign_before_end(polynomial);

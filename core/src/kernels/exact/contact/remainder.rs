@@ -1,16 +1,16 @@
-//! The numbers whose signs decide which sign a polynomial has at a root of another: the same formulas for whole numbers and for
-//! rounded ones.
+//! The numbers whose signs decide a polynomial's sign at a root of another: the same formulas for whole numbers and for rounded
+//! ones.
 
 use crate::exact::integer::{Space, Whole, Words};
 
-/// What whole numbers and rounded ones have in common.
+/// The common arithmetic of whole numbers and rounded ones.
 pub(super) trait Ring {
     type Number: Copy;
     const ZERO: Self::Number;
     fn plus(&mut self, a: Self::Number, b: Self::Number) -> Self::Number;
     fn minus(&mut self, a: Self::Number, b: Self::Number) -> Self::Number;
     fn times(&mut self, a: Self::Number, b: Self::Number) -> Self::Number;
-    /// a·d − b·c.
+    /// Returns a·d − b·c.
     #[inline(always)]
     fn minor(&mut self, a: Self::Number, b: Self::Number, c: Self::Number, d: Self::Number) -> Self::Number {
         let (x, y) = (self.times(a, d), self.times(b, c));
@@ -39,7 +39,7 @@ impl<'a> Ring for Space<'a> {
     }
 }
 
-/// The value v₀·b⁻ⁿ, without the last factor, that a polynomial of degree n has at −a/b, where b > 0 (Horner's rule).
+/// Returns v₀ for the value v₀·b⁻ⁿ that a polynomial of degree n has at −a/b, where b > 0 (Horner's rule).
 #[inline(never)]
 pub(super) fn value_at_quotient<R: Ring>(ring: &mut R, [a, b]: [R::Number; 2], polynomial: &[R::Number]) -> R::Number {
     let mut coefficients = polynomial.iter().rev();
@@ -54,13 +54,13 @@ pub(super) fn value_at_quotient<R: Ring>(ring: &mut R, [a, b]: [R::Number; 2], p
     value
 }
 
-/// The three numbers whose signs decide which sign a polynomial has at a root of q = a + b·s + c·s², c > 0.
+/// Returns the three numbers whose signs decide a polynomial's sign at a root of q = a + b·s + c·s², c > 0.
 ///
-/// First the remainder l₀ + l₁·s, a positive multiple of the polynomial at both roots of q, by Horner's rule: (l₀ + l₁·s)·s,
-/// times c and with c·s² = −a − b·s, is −a·l₁ + (c·l₀ − b·l₁)·s. Its value at σ = (−b ± √D)/2c, D = b² − 4ac, times 2c, is
-/// A ± l₁√D with A = 2c·l₀ − b·l₁. Where the two have opposite signs,
-/// A² − l₁²D = 4c·(c·l₀² − b·l₀l₁ + a·l₁²) says which is larger. (The number in brackets is the resultant of polynomial and q
-/// times a power of c.) Returned are l₁, A and the number in brackets.
+/// First comes the remainder l₀ + l₁·s, a positive multiple of the polynomial at both roots of q, by Horner's rule. (l₀ + l₁·s)·s
+/// times c, with c·s² = −a − b·s, is −a·l₁ + (c·l₀ − b·l₁)·s. Its value at σ = (−b ± √D)/2c, D = b² − 4ac, times 2c, is A ± l₁√D
+/// with A = 2c·l₀ − b·l₁. Where the two have opposite signs, A² − l₁²D = 4c·(c·l₀² − b·l₀l₁ + a·l₁²) shows which is larger. (The
+/// number in brackets is the resultant of the polynomial and q times a power of c.) The result is l₁, A and the number in
+/// brackets.
 #[inline(never)]
 pub(super) fn terms<R: Ring>(ring: &mut R, [a, b, c]: [R::Number; 3], polynomial: &[R::Number]) -> [R::Number; 3] {
     let mut coefficients = polynomial.iter().rev();

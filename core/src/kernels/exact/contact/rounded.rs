@@ -1,8 +1,9 @@
-//! Fixed-point numbers for a first try at signs, in 64-bit whole numbers and not in floating point: no environment changes them.
+//! Fixed-point numbers for a first attempt at signs: 64-bit whole numbers, which no floating-point environment changes.
 //!
-//! A polynomial's coefficients are divided by a power of two that none of them exceeds, and rounded down to [`FRACTION`] = 56 bits
-//! after the point; so is every product. Each of that changes a number by less than δ = 2⁻⁵⁶. What [`terms`](super::remainder) computes from them, at
-//! most a cubic and a quadratic, then has these bounds (an error in a product xy is |x|e_y + |y|e_x + δ, and something of second order):
+//! A polynomial's coefficients are divided by a power of two that none of them exceeds, and rounded down to [`FRACTION`] = 56
+//! bits after the point. Every product is rounded down as well. Each rounding changes a number by less than δ = 2⁻⁵⁶. The results
+//! of [`terms`](super::remainder), for at most a cubic and a quadratic, then have these bounds (an error in a product xy is
+//! |x|e_y + |y|e_x + δ, and something of second order):
 //!
 //! | number | magnitude ≤ | error, in δ |
 //! |---|---|---|
@@ -18,8 +19,8 @@
 //! | l₁² · a | 16 | 145 + 16 + 1 = 162 |
 //! | their sum | 37 | 384 |
 //!
-//! With 32, 64 and 512 in place of 18, 59 and 384 what is of second order, less than 2⁻⁴⁰ of it, is covered too. A polynomial of lower degree has less.
-//! No number exceeds 64·2⁵⁶ = 2⁶².
+//! 32, 64 and 512 in place of 18, 59 and 384 also cover the second order, less than 2⁻⁴⁰ of it. A polynomial of lower degree has
+//! less. No number exceeds 64·2⁵⁶ = 2⁶².
 //!
 //! At the root −a/b of a linear polynomial, [`value_at_quotient`](super::remainder) of a cubic:
 //!
@@ -30,7 +31,7 @@
 //! | k·b² − v·a | 3 | 5 + 9 = 14 |
 //! | k·b³ − v·a | 4 | 7 + 18 = 25 |
 //!
-//! Here 32 in place of 25 will do.
+//! Here 32 in place of 25 suffices.
 
 use super::remainder::Ring;
 use crate::exact::integer::Words;
@@ -43,7 +44,7 @@ const FRACTION: u32 = 56;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Rounded(pub(super) i64);
 
-/// What a polynomial is divided by: no coefficient exceeds two to this power.
+/// The power of two by which a polynomial is divided: no coefficient exceeds it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scale(u32);
 
@@ -89,7 +90,7 @@ impl Ring for FixedPoint {
 }
 
 impl Rounded {
-    /// The exact number's sign, if this is off by less than so many δ and farther than that from zero.
+    /// Returns the exact number's sign, if this number is off by less than `error` δ and farther than that from zero.
     #[inline(always)]
     pub(super) const fn sign_if_beyond(self, error: i64) -> Option<Ordering> {
         if self.0 > error {

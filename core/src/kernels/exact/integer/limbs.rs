@@ -20,8 +20,8 @@ pub(super) fn write_shifted(words: &mut [u64], significand: i64, shift: u32) {
     }
 }
 
-/// x + y + `carry` without what the word cannot hold, and whether there is such. (The standard library's `carrying_add` is younger than
-/// the oldest compiler we support.)
+/// Returns x + y + `carry` modulo 2⁶⁴, and the carry. (The standard library's `carrying_add` is newer than the oldest supported
+/// compiler.)
 #[inline(always)]
 pub(super) const fn add_with_carry(x: u64, y: u64, carry: bool) -> (u64, bool) {
     let (partial, first) = x.overflowing_add(y);
@@ -29,7 +29,7 @@ pub(super) const fn add_with_carry(x: u64, y: u64, carry: bool) -> (u64, bool) {
     (whole, first | second)
 }
 
-/// x − y − `borrow`, with 2⁶⁴ more where that is negative, and whether it is.
+/// Returns x − y − `borrow` modulo 2⁶⁴, and the borrow.
 #[inline(always)]
 pub(super) const fn subtract_with_borrow(x: u64, y: u64, borrow: bool) -> (u64, bool) {
     let (partial, first) = x.overflowing_sub(y);
@@ -37,17 +37,17 @@ pub(super) const fn subtract_with_borrow(x: u64, y: u64, borrow: bool) -> (u64, 
     (whole, first | second)
 }
 
-/// All ones if the number of these words, the lowest first, is negative, else zero.
+/// Returns all ones if the number of these words is negative, else zero.
 #[inline(always)]
 pub(super) fn sign_word(words: &[u64]) -> u64 {
     let top = words.last().copied().unwrap_or(0);
     (top.cast_signed() >> 63).cast_unsigned()
 }
 
-/// The words without those above that only repeat the sign.
+/// Returns the words without those above that only repeat the sign.
 #[inline(always)]
 pub(super) fn without_repeated_sign(mut words: &[u64]) -> &[u64] {
-    // By eights first, which the compiler makes a comparison of a few registers.
+    // Eights first: the compiler makes them a comparison of a few registers.
     while let Some((below, eight)) = words.split_last_chunk::<8>()
         && eight.iter().fold(0, |bits, word| bits | (word ^ sign_word(below))) == 0
     {
@@ -61,16 +61,16 @@ pub(super) fn without_repeated_sign(mut words: &[u64]) -> &[u64] {
     words
 }
 
-/// How many of the lowest words are zero, and the others.
+/// Returns the number of lowest words that are zero, and the other words.
 #[inline(always)]
 pub(super) fn without_zeros_below(words: &[u64]) -> (usize, &[u64]) {
     let zeros = words.iter().position(|&word| word != 0).unwrap_or(words.len());
     (zeros, words.get(zeros..).unwrap_or_default())
 }
 
-/// The product of two numbers that are not negative by their words into `product`, which has the words of both.
+/// Writes the product of two numbers, read as unsigned, to `product`, which has the words of both.
 ///
-/// It reads a negative number −x as 2^(64·words) − x: that is the other factor times 2^(64·words) too much.
+/// A negative number −x is read as 2^(64·words) − x, which adds the other factor times 2^(64·words).
 #[inline(always)]
 pub(super) fn multiply(a: &[u64], b: &[u64], product: &mut [u64]) {
     if let (Some((&x, _)), Some((row, above))) = (a.split_first(), product.split_at_mut_checked(b.len())) {
@@ -100,8 +100,9 @@ pub(super) fn multiply(a: &[u64], b: &[u64], product: &mut [u64]) {
     }
 }
 
-/// The product of any two numbers into `product`, which has the words of both: less to do where most words are zero or mere sign. Numbers
-/// have many words when one pair's coordinates differ in size by hundreds of powers of two, and then each of them has few of its own.
+/// Writes the product of any two numbers to `product`, which has the words of both. It does less where most words are zero or
+/// repeat the sign. Numbers have many words when one pair's coordinates differ in size by hundreds of powers of two, and then
+/// each has few significant words.
 #[inline(never)]
 pub(super) fn multiply_significant_words(a: &[u64], b: &[u64], product: &mut [u64]) {
     let (zeros_of_a, a) = without_zeros_below(without_repeated_sign(a));

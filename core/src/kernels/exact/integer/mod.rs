@@ -17,16 +17,16 @@ use limbs::{add_with_carry, multiply, multiply_significant_words, sign_word, sub
 
 /// A whole number of `N` words.
 ///
-/// Every result is taken modulo 2^(64·words): it is the exact one where that fits, which is for [`kernel`](super::kernel) to show.
+/// Every result is taken modulo 2^(64·words). It is exact where it fits, which [`kernel`](super::kernel) shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Integer<const N: usize>([u64; N]);
 
 impl<const N: usize> Integer<N> {
-    /// `significand` · 2^`shift`.
+    /// Returns `significand` · 2^`shift`.
     #[inline(always)]
     pub(super) fn shifted(significand: i64, shift: u32) -> Self {
         if N == 1 {
-            // The same, with less to do.
+            // The same with less work.
             return Self([(significand << (shift % 64)).cast_unsigned(); N]);
         }
         let mut words = [0; N];
@@ -51,7 +51,7 @@ impl<const N: usize> Integer<N> {
         Self(difference)
     }
 
-    /// The product, in as many words as both factors have.
+    /// Returns the product, in as many words as both factors have.
     #[inline(always)]
     pub(super) fn times<const M: usize, const R: usize>(&self, other: &Integer<M>) -> Integer<R> {
         const { assert!(R == N + M, "a product has the words of both factors") };
@@ -67,7 +67,7 @@ impl<const N: usize> Integer<N> {
                 let above = a * i128::from(b1.cast_signed()) + (below >> 64);
                 (*low, *middle, *high) = (below as u64, above as u64, (above >> 64) as u64);
             }
-            // In line is faster for a few words; for many it would only be more code.
+            // Inline code is faster for a few words; for many it would only be larger.
             (a, b, product) if N > 2 => multiply_significant_words(a, b, product),
             (a, b, product) => {
                 multiply(a, b, product);

@@ -2,9 +2,9 @@ use super::limbs::{add_with_carry, multiply_significant_words, sign_word};
 use super::words::{Whole, Words};
 use core::mem;
 
-/// Space for numbers, each of which has it as long as the space lives: nothing is given back but by [`scratch`](Self::scratch).
+/// Space for numbers. Each number keeps its words as long as the space lives; only [`scratch`](Self::scratch) gives words back.
 ///
-/// That there is enough is for `contact` to show.
+/// `contact` shows that there is enough.
 #[derive(Debug)]
 pub(in crate::kernels::exact) struct Space<'a>(&'a mut [u64]);
 
@@ -13,7 +13,7 @@ impl<'a> Space<'a> {
         Self(words)
     }
 
-    /// What is left, for as long as the borrow lasts.
+    /// Returns the remaining space, for as long as the borrow lasts.
     #[inline(always)]
     pub(in crate::kernels::exact) const fn scratch(&mut self) -> Space<'_> {
         Space(self.0)
@@ -27,7 +27,7 @@ impl<'a> Space<'a> {
         taken
     }
 
-    /// `significand` · 2^`shift`; zero whatever the shift.
+    /// Returns `significand` · 2^`shift`; zero needs no space, whatever the shift.
     #[inline(never)]
     pub(in crate::kernels::exact) fn shifted(&mut self, significand: i64, shift: u32) -> Words<'a> {
         if significand == 0 {
@@ -42,7 +42,7 @@ impl<'a> Space<'a> {
         Words::new(words)
     }
 
-    /// A number of two words.
+    /// Stores a number of two words.
     #[inline(always)]
     fn double(&mut self, number: i128) -> Words<'a> {
         let words = self.take(2);
@@ -88,7 +88,7 @@ impl<'a> Space<'a> {
         self.plus(doubled, a)
     }
 
-    /// a + b, or with all ones for `mask` a − b, which is a plus the complement of b, plus one.
+    /// Returns a + b, or, with all ones for `mask`, a − b: a plus the complement of b, plus one.
     #[inline(always)]
     fn sum(&mut self, a: &[u64], b: &[u64], mask: u64) -> Words<'a> {
         let ((long, long_mask), (short, short_mask)) = if a.len() >= b.len() {
@@ -111,7 +111,7 @@ impl<'a> Space<'a> {
         Words::new(words)
     }
 
-    /// The product.
+    /// Returns the product.
     #[inline(never)]
     pub(in crate::kernels::exact) fn times(&mut self, a: Words<'_>, b: Words<'_>) -> Words<'a> {
         match (a.0, b.0) {
@@ -124,7 +124,7 @@ impl<'a> Space<'a> {
         Words::new(words)
     }
 
-    /// The sum of three products.
+    /// Returns the sum of three products.
     #[inline(never)]
     pub(in crate::kernels::exact) fn sum_of_products(&mut self, products: [[Words<'_>; 2]; 3]) -> Words<'a> {
         let length = products.iter().map(|[a, b]| a.0.len() + b.0.len()).max().unwrap_or(0);
@@ -135,11 +135,11 @@ impl<'a> Space<'a> {
         Space(words).plus(sum, z)
     }
 
-    /// a·d − b·c.
+    /// Returns a·d − b·c.
     #[inline(never)]
     pub(in crate::kernels::exact) fn minor(&mut self, a: Words<'_>, b: Words<'_>, c: Words<'_>, d: Words<'_>) -> Words<'a> {
         if let (Some(a), Some(b), Some(c), Some(d)) = (a.single(), b.single(), c.single(), d.single()) {
-            // Less than 2¹²⁶ + 2¹²⁶: both products are 2¹²⁶ at most, and −2¹²⁶ is none.
+            // Less than 2¹²⁶ + 2¹²⁶: both products are at most 2¹²⁶, and none is −2¹²⁶.
             return self.double(a * d - b * c);
         }
         let words = self.take((a.0.len() + d.0.len()).max(b.0.len() + c.0.len()) + 1);

@@ -1,7 +1,7 @@
 use super::limbs::{sign_word, without_repeated_sign, without_zeros_below};
 use core::cmp::Ordering;
 
-/// Whatever is written down in words.
+/// A whole number in words.
 pub(in crate::kernels::exact) trait Whole: Copy {
     const ZERO: Self;
 
@@ -13,7 +13,7 @@ pub(in crate::kernels::exact) trait Whole: Copy {
     }
 }
 
-/// A whole number as its words without those above that only repeat the sign: zero has none.
+/// A whole number as its words, without those above that only repeat the sign: zero has none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::kernels::exact) struct Words<'a>(pub(super) &'a [u64]);
 
@@ -33,7 +33,7 @@ impl<'a> Words<'a> {
         Self(without_repeated_sign(words))
     }
 
-    /// How the number compares with zero.
+    /// Compares the number with zero.
     #[inline(always)]
     pub(in crate::kernels::exact) fn sign(self) -> Ordering {
         match self.0.last() {
@@ -43,7 +43,7 @@ impl<'a> Words<'a> {
         }
     }
 
-    /// The number, if it has one word at most.
+    /// Returns the number, if it has at most one word.
     #[inline(always)]
     pub(super) const fn single(self) -> Option<i128> {
         match *self.0 {
@@ -53,7 +53,7 @@ impl<'a> Words<'a> {
         }
     }
 
-    /// The number, if it has two words at most.
+    /// Returns the number, if it has at most two words.
     #[inline(always)]
     pub(super) const fn small(self) -> Option<i128> {
         match *self.0 {
@@ -67,7 +67,7 @@ impl<'a> Words<'a> {
         self.0.is_empty()
     }
 
-    /// The least number of bits beside the sign: the number is in [−2ᵇ, 2ᵇ).
+    /// Returns the least number of bits b beside the sign: the number is in [−2ᵇ, 2ᵇ).
     #[inline(always)]
     pub(in crate::kernels::exact) fn bits(self) -> u32 {
         match self.0.last() {
@@ -76,14 +76,14 @@ impl<'a> Words<'a> {
         }
     }
 
-    /// How many of the lowest bits are zero; none where the number is.
+    /// Returns the number of lowest bits that are zero; 0 for zero.
     #[inline(always)]
     pub(in crate::kernels::exact) fn trailing_zeros(self) -> u32 {
         let (zeros, above) = without_zeros_below(self.0);
         64 * zeros as u32 + above.first().map_or(0, |word| word.trailing_zeros())
     }
 
-    /// The lowest word of the number divided by 2^`dropped`, rounded down.
+    /// Returns the lowest word of the number divided by 2^`dropped`, rounded down.
     #[inline(always)]
     pub(in crate::kernels::exact) fn word_above(self, dropped: u32) -> u64 {
         let (sign, first) = (sign_word(self.0), (dropped / 64) as usize);
