@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Counts the instructions of the certified filter: the same on every run, where wall-clock time is not.
-# Needs Rust and valgrind; gets gungraun's runner into the build folder by itself.
+# Counts the instructions of the certified filter: the same on every run, unlike wall-clock time.
+# Needs Rust and valgrind; installs gungraun's runner into the build folder.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 

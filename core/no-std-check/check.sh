@@ -6,12 +6,12 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 target="${CARGO_TARGET_DIR:-$PWD/../../target}/no-std-check"
 cargo build --release --target-dir "$target"
 program="$target/release/no-std-check"
-# Drops every function that the program cannot reach; what a panic needs is there only if it can be.
+# The linker drops every function that the program cannot reach, so panic machinery remains only if a panic is possible.
 cc main.c "$target/release/libno_std_check.a" -Wl,--gc-sections -o "$program"
-"$program" || { echo "no-std-check: the program's answer $? is wrong; main.c says what it should be" >&2; exit 1; }
+"$program" || { echo "no-std-check: the program returned $?; main.c lists the expected results" >&2; exit 1; }
 
 symbols="$(nm --defined-only "$program")"
-grep -q ' T verdicts_f64$' <<<"$symbols" || { echo "no-std-check: nm lists no symbols to look at" >&2; exit 1; }
+grep -q ' T verdicts_f64$' <<<"$symbols" || { echo "no-std-check: nm lists no symbols" >&2; exit 1; }
 if panics="$(grep -iE 'panic|rust_begin_unwind|_fail(_|$)|3std' <<<"$symbols")"; then
     printf 'no-std-check: the core can panic, or uses std:\n%s\n' "$panics" >&2
     exit 1

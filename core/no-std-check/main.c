@@ -1,4 +1,4 @@
-/* Calls the static library: what it returns for a pair that touches, one that does not, and two triangles apart. */
+/* Calls the static library for a pair that touches, a pair that does not, and two triangles apart. */
 #include <stddef.h>
 #include <stdint.h>
 

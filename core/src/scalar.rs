@@ -60,9 +60,9 @@ pub trait Family {
 /// A value of a family, and its format.
 #[doc(hidden)]
 pub enum InFormat<F: Family> {
-    /// In `f32`.
+    /// A value in `f32`.
     Single(F::Of<f32>),
-    /// In `f64`.
+    /// A value in `f64`.
     Double(F::Of<f64>),
 }
 

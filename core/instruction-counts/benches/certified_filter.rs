@@ -1,6 +1,7 @@
-//! Instructions of the certified non-coplanarity filter on 32 pairs: one at a time, as tiles, gathered from rows. `../run.sh`.
+//! Counts the instructions of the certified non-coplanarity filter on 32 pairs: one at a time, as tiles, and gathered from rows.
+//! Run `../run.sh`.
 //!
-//! valgrind knows no AVX-512: the batched ones are counted with AVX2 and with what every machine of the kind has.
+//! valgrind does not support AVX-512: batches are counted with AVX2 and with the baseline instruction set.
 
 use gungraun::prelude::*;
 use selvedge_core::PairKind;

@@ -1,7 +1,7 @@
-//! A program's use of `selvedge-core` where there is no std: every culling test, exact signs, distribution and elementary
-//! test, for both number formats. `check.sh` links it into a C program and looks for the machinery of panics.
+//! A program without std that calls every culling test of `selvedge-core`, exact signs, distribution and the elementary test, for
+//! both number formats. `check.sh` links it into a C program and searches for the machinery of panics.
 //!
-//! It would not compile if anything below it used std, which brings a panic handler of its own.
+//! It would not compile if a dependency used std, which has a panic handler of its own.
 #![no_std]
 
 use core::cmp::Ordering;
@@ -32,11 +32,11 @@ fn panic(_: &PanicInfo<'_>) -> ! {
     loop {}
 }
 
-/// Positions at the start and at the end of the step of four points.
+/// The positions of four points at the start and at the end of the step.
 type Points<S> = [[[S; 3]; 2]; 4];
 
-/// Whether every tier, with a separation and without, on its own and batched in every form, keeps the pair: 0; culls it: 1; or
-/// they do not agree: 2.
+/// Returns 0 if every tier keeps the pair, 1 if every tier culls it, and 2 if they disagree. Each runs with a separation and
+/// without, on its own and batched in every form.
 fn tiers<S: Scalar>(pair: &PrimitivePair<S>) -> u32 {
     let mut masks = [0];
     let mut answers = 0;
@@ -57,7 +57,7 @@ fn tiers<S: Scalar>(pair: &PrimitivePair<S>) -> u32 {
     }
 }
 
-/// One pair's mask as a list, a tile and rows.
+/// Returns one pair's mask as a list, a tile and rows.
 fn in_every_form<S: Scalar>(test: impl BatchTest<S>, pair: &PrimitivePair<S>, masks: &mut [Mask; 1]) -> [Mask; 3] {
     let (level, kind): (Level, PairKind) = (Level::baseline(), pair.kind);
     let mut tile = Tile::unknown();
@@ -77,7 +77,7 @@ fn bit(index: u32, verdict: Verdict) -> u32 {
     u32::from(verdict.is_culled()) << index
 }
 
-/// The batched tests, each at the bit of its one-pair twin, on the instruction set that every machine of this kind has.
+/// Returns the results of the batched tests, each at the bit of its one-pair twin, on the baseline instruction set.
 fn batched<S: Scalar>(pair: &PrimitivePair<S>) -> u32 {
     fn at<S: Scalar>(index: u32, test: impl BatchTest<S>, pair: &PrimitivePair<S>) -> u32 {
         let mut mask = [0];
@@ -89,7 +89,7 @@ fn batched<S: Scalar>(pair: &PrimitivePair<S>) -> u32 {
         | at(4, Filter::new(Tier::Permanent), pair)
 }
 
-/// Exact signs: one for all, more than half a unit apart, all positive.
+/// Returns three bits from exact signs: one sign for all, more than half a unit apart, all positive.
 fn exactly<S: Scalar>(pair: &PrimitivePair<S>) -> u32 {
     let tetrahedron = MovingTetrahedron::from(pair);
     let known = exact::certain_signs(&tetrahedron.control_values(), tetrahedron.error_bounds());
@@ -106,14 +106,14 @@ fn verdicts<S: Scalar>(pair: &PrimitivePair<S>) -> u32 {
         | bit(4, filter::certified::non_coplanarity(pair))
 }
 
-/// These answers, whether the batched ones differ, and the exact ones.
+/// Returns these results, whether the batched ones differ, and the exact ones.
 fn with_batches<S: Scalar>(pair: &PrimitivePair<S>) -> u32 {
     let verdicts = verdicts(pair);
     let differ = (verdicts & 0b1_0011) != batched(pair);
     verdicts | u32::from(differ) << 9 | exactly(pair) << 10 | tiers(pair) << 13
 }
 
-/// From when on contact is not excluded, by a round in lanes, then the pair alone.
+/// Returns the time from which contact is not excluded, by a round in lanes, then for the pair alone.
 fn advanced<S: Scalar>(pair: &PrimitivePair<S>) -> Option<S> {
     let rows = pair.motions.map(VertexRow::new);
     let question = RoundQuestion {
@@ -132,8 +132,8 @@ fn advanced<S: Scalar>(pair: &PrimitivePair<S>) -> Option<S> {
     elementary::advance::time_of_impact_within(pair, &question.limits, from, S::ONE).time()
 }
 
-/// One bit where the exact verdict is that there is no contact, another where whole numbers alone, the certified time of impact, or its
-/// confirmation disagree with that.
+/// Returns one bit if the exact verdict is that there is no contact, and another if whole numbers alone, the certified time of
+/// impact, or its confirmation disagree.
 fn elementary_tests<S: Scalar>(pair: &PrimitivePair<S>) -> u32 {
     use elementary::{ContactVerdict, Limits, advance, contact};
     let touches = contact(pair) == ContactVerdict::Happens;
@@ -147,7 +147,7 @@ fn elementary_tests<S: Scalar>(pair: &PrimitivePair<S>) -> u32 {
     u32::from(!touches) << 8 | u32::from(!agree) << 10
 }
 
-/// One bit for each test that culls, another where the elementary test finds no contact.
+/// Returns one bit for each test that culls, and another if the elementary test finds no contact.
 fn all_tests<S: Scalar>(points: &Points<S>) -> [u32; 2] {
     let motions = points.map(|[start, end]| Motion::<S> {
         start: start.into(),
@@ -168,21 +168,22 @@ fn all_tests<S: Scalar>(points: &Points<S>) -> [u32; 2] {
     ]
 }
 
-/// The tests' answers: vertex–face in the low half, edge–edge in the high one.
+/// Returns the results of all tests: vertex–face in the low half, edge–edge in the high one.
 #[unsafe(no_mangle)]
 pub extern "C" fn verdicts_f64(points: &Points<f64>) -> u32 {
     let [vertex_face, edge_edge] = all_tests(points);
     vertex_face | edge_edge << 16
 }
 
-/// The same for single precision.
+/// [`verdicts_f64`] in single precision.
 #[unsafe(no_mangle)]
 pub extern "C" fn verdicts_f32(points: &Points<f32>) -> u32 {
     let [vertex_face, edge_edge] = all_tests(points);
     vertex_face | edge_edge << 16
 }
 
-/// The height of the point that a vertex and a face meet at, half of the step on, if there is a normal that points upwards.
+/// Returns the height of the point at which a vertex and a face meet in the middle of the step, if the normal points upwards; NaN
+/// otherwise.
 #[unsafe(no_mangle)]
 pub extern "C" fn height(points: &Points<f64>) -> f64 {
     let motions = points.map(|[start, end]| Motion::new(start.into(), end.into()));
@@ -194,7 +195,7 @@ pub extern "C" fn height(points: &Points<f64>) -> f64 {
     }
 }
 
-/// The lanes of a block with the first point in lane 3 and the box of the other three in lane 5 that are near the first point.
+/// Returns the lanes near the first point, for a block with the first point in lane 3 and the box of the other three in lane 5.
 #[unsafe(no_mangle)]
 pub extern "C" fn near(points: &Points<f32>) -> u32 {
     let [a, b, c, d] = points.map(|[start, end]| MovingBox::<f32>::from_motion(&Motion::new(start.into(), end.into())));
@@ -208,16 +209,16 @@ pub extern "C" fn near(points: &Points<f32>) -> u32 {
     at_start.set(3, &a.start);
     at_start.set(5, &block.get(5).start);
     let near = block.near(&a, Mask::MAX);
-    // A box is at no distance from itself, and none is farther away than that.
+    // A box is at distance zero from itself, and no box is farther away than the largest number.
     if at_start.within(&a.start, 0.0, 1 << 3) == 0 || at_start.within(&a.start, f32::MAX, near) != near {
         return u32::MAX - 1;
     }
     near.into()
 }
 
-/// What shows a vertex and a face to keep half a unit: boxes with that separation, asked for less as well, the distance at the start from
-/// below along the way between the closest points, a direction found for the step and kept for it, a clearance; and that the vertex's course
-/// has room, and its boxes are near the face's, at most one.
+/// Returns one bit for each certificate that a vertex and a face keep half a unit: boxes with that separation and a smaller one,
+/// the distance at the start from below, a direction found for the step and kept for it, and a clearance. Two more bits say that
+/// the vertex's course has room, and that its boxes come within one unit of the face's.
 #[unsafe(no_mangle)]
 pub extern "C" fn separations(points: &Points<f64>) -> u32 {
     let ends = [
@@ -264,8 +265,8 @@ pub extern "C" fn separations(points: &Points<f64>) -> u32 {
         | u32::from(are_boxes_within(kind, in_single[0], near)) << 6
 }
 
-/// A triangle that represents as many of its vertices and edges as the two digits of `features` say; the number of primitive
-/// pairs that it makes with itself and with another one.
+/// Returns the number of primitive pairs of two triangles, each of which represents as many vertices and edges as `vertices` and
+/// `edges` say.
 #[unsafe(no_mangle)]
 pub extern "C" fn distributed(corners: &[[u32; 3]; 2], vertices: u8, edges: u8) -> usize {
     use selvedge_core::{FeatureEdge, Features};

@@ -9,7 +9,7 @@ use crate::points::PairPoints;
 use crate::scalar::Scalar;
 use crate::verdict::Verdict;
 
-/// How sharp a non-coplanarity filter is. Every tier is certified.
+/// The sharpness of a non-coplanarity filter. Every tier is certified.
 ///
 /// `docs/accuracy.md` has the measured cost of each (`selvedge accuracy`). In short: take [`Permanent`](Self::Permanent) for `f64`
 /// and [`Widened`](Self::Widened) for `f32` positions; take [`Exact`](Self::Exact) where every last pair counts.

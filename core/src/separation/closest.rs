@@ -194,7 +194,7 @@ fn of_edge_edge<L: Lanes<Scalar = f64>>([a, b, c, d]: [Vector<L>; 4]) -> [L; 4] 
     [one - s, s, t - one, -t]
 }
 
-/// A quotient; zero where it is none.
+/// Returns a quotient, or zero where it is not finite.
 #[inline(always)]
 fn share<L: Lanes<Scalar = f64>>(part: L, whole: L) -> L {
     let share = part / whole;
@@ -214,7 +214,7 @@ fn clamped<L: Lanes<Scalar = f64>>(number: L) -> L {
     L::select(not_less.greater(one), one, not_less)
 }
 
-/// Of length one; zero where that is not possible.
+/// Normalises a vector; zero where that is not possible.
 #[inline(always)]
 fn normalized<L: Lanes<Scalar = f64>>(way: Vector<L>) -> Vector<L> {
     let zero = way.x.splat(0.0);

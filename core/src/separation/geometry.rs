@@ -136,7 +136,7 @@ pub(crate) fn of_instants(kind: PairKind, time: Option<f64>, at: impl Fn(f64) ->
             let direction = direction.normalize_or_zero();
             (direction, before.distance_from_below(kind, direction))
         });
-        // Of several directions, the one with the largest gap.
+        // Takes the direction with the largest gap.
         let farther = |a: (DVec3, f64), b: (DVec3, f64)| if b.1 > a.1 { b } else { a };
         let (direction, gap) = directions.into_iter().fold((DVec3::ZERO, 0.0), farther);
         (gap > 0.0).then_some((direction, earlier))

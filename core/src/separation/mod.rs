@@ -1,4 +1,5 @@
-//! How far two sets keep apart, and for how long that holds: for callers that follow the same pairs from step to step.
+//! Separations: lower bounds of the distance of two sets, and how long they hold. For callers that follow the same pairs from
+//! step to step.
 //!
 //! | module | what it bounds | rounding |
 //! |---|---|---|

@@ -1,5 +1,5 @@
-//! How far each point of a pair may go so that the pair keeps its distance, whatever the others do. A step is truncated vertex by
-//! vertex, where a time of impact would cut it for the whole mesh.
+//! Truncation: the way of each point of a pair that lets the pair keep its distance, whatever the others do. A step is truncated
+//! vertex by vertex, where a time of impact would cut it for the whole mesh.
 //!
 //! **The lemma.** Let x be where the four points start, y where they are wanted, and d a direction with |d| ≤ 1 along which the
 //! first set A is ahead of the second B by more than m at the start: min_A d·x − max_B d·x > m. Choose an offset o with max_B d·x
@@ -87,7 +87,7 @@ pub fn shares<P: Position>(
     };
     let mut shares = [one; 4];
     for corner in 0..4 {
-        // How far the point is on its side of the plane, at both ends.
+        // The distance of the point on its side of the plane, at both ends.
         let [before, after] = [from, to].map(|values| {
             if corner < of_first {
                 values[corner] - offset - kept

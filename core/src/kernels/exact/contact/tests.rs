@@ -1,4 +1,4 @@
-//! How much work an answer is. (That answers are right is checked against the oracle, in `verification/`.)
+//! The work of an answer. (`verification/` checks answers against the oracle.)
 
 extern crate std;
 

@@ -1,7 +1,7 @@
 use super::limbs::multiply_significant_words;
 use super::{Integer, Space, Whole, Words};
 
-/// Where carries and signs go wrong.
+/// Numbers at which carries and signs fail most easily.
 const NUMBERS: [i128; 13] = [
     0,
     1,
@@ -26,7 +26,7 @@ fn shifted<const N: usize>(significand: i64, shift: u32) -> Integer<N> {
     Integer::shifted(significand, shift)
 }
 
-/// The same number in more words, or the lowest of its words.
+/// Returns the same number in more words, or the lowest of its words.
 fn resized<const R: usize>(number: Words<'_>) -> Integer<R> {
     let sign = if number.sign().is_lt() { u64::MAX } else { 0 };
     let mut words = [sign; R];
@@ -36,7 +36,7 @@ fn resized<const R: usize>(number: Words<'_>) -> Integer<R> {
     Integer(words)
 }
 
-/// What `compute` makes in a space.
+/// Runs `compute` in a space.
 fn in_space<const R: usize>(compute: impl for<'a> Fn(&mut Space<'a>) -> Words<'a>) -> Integer<R> {
     // Not zero, so that no word is left to chance.
     resized(compute(&mut Space::new(&mut [0x5555; 100])))
@@ -129,7 +129,7 @@ fn for_each_number(visit: &dyn Fn(&Integer<6>)) {
     }
 }
 
-/// By rows of 32 bits, of magnitudes.
+/// Multiplies magnitudes by rows of 32 bits.
 fn slow_product(a: &Integer<6>, b: &Integer<6>) -> Integer<12> {
     let magnitude = |x: &Integer<6>| if x.sign().is_lt() { Integer::ZERO.minus(x) } else { *x };
     let halves = |x: Integer<6>| x.0.into_iter().flat_map(|word| [word & 0xffff_ffff, word >> 32]);
