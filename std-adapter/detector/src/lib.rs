@@ -37,7 +37,7 @@ pub use api::{
 };
 pub use engine::world::MeshHandle;
 pub use engine::{DEFAULT_MEMORY_LIMIT, StepStatistics};
-pub use mesh::{FeaturePair, Mesh, Topology, TopologyError, TopologyStatistics};
+pub use mesh::{FeaturePair, Mesh, Topology, TopologyError, TopologyStatistics, WeldedMesh, first_coincident};
 pub use pair_counts::PairCounts;
 #[cfg(feature = "parallel")]
 pub use parallel::{ThreadError, Threads};

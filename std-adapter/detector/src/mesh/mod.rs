@@ -5,9 +5,11 @@
 
 mod hinges;
 mod topology;
+mod weld;
 
 pub(crate) use hinges::{Hinge, Hinges};
 pub use topology::{FeaturePair, Topology, TopologyError, TopologyStatistics};
+pub use weld::{WeldedMesh, first_coincident};
 
 use selvedge_core::glam::DVec3;
 

@@ -1,7 +1,9 @@
 //! What can be wrong with a mesh file, each with a message that says where and what to do.
 
+use super::parsed::Parsed;
 use super::sequence::SequenceProblem;
-use selvedge::{Topology, TopologyError};
+use crate::excerpt::excerpt;
+use selvedge::TopologyError;
 use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -70,11 +72,22 @@ pub enum FileProblem {
     /// The system could not write the file.
     #[error("cannot be written: {0}")]
     Write(io::Error),
-    /// The text is not UTF-8.
-    #[error("line {line} is not UTF-8 text; is this the right kind of file?")]
-    NotUtf8 {
-        /// The first such line.
-        line: usize,
+    /// The text is UTF-16 or UTF-32.
+    #[error("the text is UTF-16 or UTF-32, which mesh files must not be; save it as UTF-8 or ASCII")]
+    WideText,
+    /// The file holds more with an area than the reader can read, and the caller needs it whole.
+    #[error("not all of the file can be read: {0}; export it as plain triangles")]
+    Incomplete(String),
+    /// One group is wanted of a format that has none.
+    #[error("this kind of file has no groups; only OBJ files can be read in part")]
+    NoGroups,
+    /// The file has no group or object of that name.
+    #[error("there is no group or object '{}'; {}", excerpt(name, 40), Choices(choices))]
+    NoSuchGroup {
+        /// The name that is wanted.
+        name: String,
+        /// The names of the file.
+        choices: Vec<String>,
     },
     /// A line cannot be understood.
     #[error("line {line}: {reason}")]
@@ -120,14 +133,6 @@ pub enum FileProblem {
         index: usize,
         /// What is wrong with it.
         reason: String,
-    },
-    /// The file goes on after all declared elements.
-    #[error("{}the file goes on for {bytes} bytes after the elements that its header declares; do the counts in the header match?", Place(*line))]
-    Trailing {
-        /// Where it goes on, in a file with lines.
-        line: Option<usize>,
-        /// For how many bytes.
-        bytes: usize,
     },
     /// A coordinate is NaN or infinite.
     #[error("{}the {coordinate} coordinate of vertex {vertex} is {value}, but must be finite", Place(*line))]
@@ -189,8 +194,20 @@ impl fmt::Display for Place {
     }
 }
 
-/// The first difference between the topologies of two frames.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+/// The names that there are to choose from.
+struct Choices<'a>(&'a [String]);
+
+impl fmt::Display for Choices<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            [] => f.write_str("it has none"),
+            names => write!(f, "choose from '{}'", excerpt(&names.join("', '"), 400)),
+        }
+    }
+}
+
+/// The first difference between the faces of two frames.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum FrameDifference {
     /// Different numbers of vertices.
     #[error("the first has {start} vertices, the second {end}")]
@@ -200,19 +217,19 @@ pub enum FrameDifference {
         /// At the end of the step.
         end: usize,
     },
-    /// A triangle with different vertices, or with the same in another order.
-    #[error("triangle {triangle} is {} in the first, {} in the second", Corners(*start), Corners(*end))]
-    Triangle {
-        /// Which triangle, numbered from 0 after polygons were split.
-        triangle: usize,
+    /// A face with different vertices, or with the same in another order.
+    #[error("face {face} is {} in the first, {} in the second", Corners(start), Corners(end))]
+    Face {
+        /// Which face, numbered from 0.
+        face: usize,
         /// Its vertices at the start of the step.
-        start: [u32; 3],
+        start: Vec<u32>,
         /// Its vertices at the end of the step.
-        end: [u32; 3],
+        end: Vec<u32>,
     },
-    /// Different numbers of triangles, all alike as far as both go.
-    #[error("the first has {start} triangles, the second {end}")]
-    TriangleCount {
+    /// Different numbers of faces, all alike as far as both go.
+    #[error("the first has {start} faces, the second {end}")]
+    FaceCount {
         /// At the start of the step.
         start: usize,
         /// At the end of the step.
@@ -221,34 +238,35 @@ pub enum FrameDifference {
 }
 
 impl FrameDifference {
-    /// The first difference between a topology and another mesh's vertices and triangles, if any.
-    pub(super) fn find(start: &Topology, vertices: usize, end: &[[u32; 3]]) -> Option<Self> {
-        let triangles = start.triangles();
-        if start.vertex_count() != vertices {
+    /// The first difference between the vertices and faces of two frames, if any.
+    pub(super) fn find(start: &Parsed, end: &Parsed) -> Option<Self> {
+        if start.positions.len() != end.positions.len() {
             return Some(Self::VertexCount {
-                start: start.vertex_count(),
-                end: vertices,
+                start: start.positions.len(),
+                end: end.positions.len(),
             });
         }
-        if let Some(triangle) = triangles.iter().zip(end).position(|(a, b)| a != b) {
-            return Some(Self::Triangle {
-                triangle,
-                start: triangles[triangle],
-                end: end[triangle],
+        let mut pairs = start.faces.iter().zip(end.faces.iter()).enumerate();
+        if let Some((face, (start, end))) = pairs.find(|(_, (start, end))| start != end) {
+            return Some(Self::Face {
+                face,
+                start: start.to_vec(),
+                end: end.to_vec(),
             });
         }
-        (triangles.len() != end.len()).then_some(Self::TriangleCount {
-            start: triangles.len(),
-            end: end.len(),
+        let counts = [start, end].map(|frame| frame.faces.len());
+        (counts[0] != counts[1]).then_some(Self::FaceCount {
+            start: counts[0],
+            end: counts[1],
         })
     }
 }
 
-struct Corners([u32; 3]);
+struct Corners<'a>(&'a [u32]);
 
-impl fmt::Display for Corners {
+impl fmt::Display for Corners<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [a, b, c] = self.0;
-        write!(f, "{a} {b} {c}")
+        let corners: Vec<String> = self.0.iter().take(8).map(u32::to_string).collect();
+        write!(f, "{}{}", corners.join(" "), if self.0.len() > 8 { " …" } else { "" })
     }
 }

@@ -7,22 +7,29 @@
 //! materials) is left out.
 
 mod error;
+mod findings;
+mod notes;
 mod obj;
+mod parsed;
 mod ply;
+mod polygon;
 mod sequence;
 mod step;
+mod text;
 #[cfg(test)]
 mod tests;
 
 pub use error::{FileProblem, FrameDifference, MeshError};
+pub use findings::{Findings, THIN};
+pub use notes::{FilePart, LeftOut, MeshNotes};
 pub use ply::PlyEncoding;
 pub use sequence::{MeshSequence, SequenceProblem, read_sequence};
 pub use step::{MeshStep, read_step};
 
 use crate::temporary_file;
-use selvedge::{Mesh, Topology, TopologyError, TopologyStatistics};
+use parsed::Parsed;
+use selvedge::{Mesh, Topology, TopologyError};
 use selvedge_core::glam::DVec3;
-use std::fmt;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
@@ -56,28 +63,8 @@ impl FileFormat {
 pub struct MeshFile {
     /// The mesh: all vertices finite, all triangles in range, at least one of them.
     pub mesh: Mesh,
-    /// What is worth telling the user.
+    /// A report about the file.
     pub notes: MeshNotes,
-}
-
-/// What is worth telling the user about a file that was read; `Display` says it in one line.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct MeshNotes {
-    /// Faces with more than three vertices, which were split into triangles.
-    pub polygons_triangulated: usize,
-    /// What the triangles look like after that, duplicates and degenerates included.
-    pub statistics: TopologyStatistics,
-}
-
-impl fmt::Display for MeshNotes {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.statistics)?;
-        match self.polygons_triangulated {
-            0 => Ok(()),
-            1 => write!(f, ", 1 polygon split into triangles"),
-            count => write!(f, ", {count} polygons split into triangles"),
-        }
-    }
 }
 
 /// Reads the mesh file at `path`, in the format that its extension names.
@@ -87,11 +74,8 @@ impl fmt::Display for MeshNotes {
 /// coordinate that is not finite, a face with fewer than three vertices or one that does not
 /// exist, or no face at all. The message names the file and the line, element or vertex.
 pub fn read(path: &Path) -> Result<MeshFile, MeshError> {
-    let (parsed, topology) = load(path).map_err(|problem| MeshError::file(path, problem))?;
-    Ok(MeshFile {
-        notes: parsed.notes(&topology),
-        mesh: parsed.mesh,
-    })
+    let read = load(path, &ReadOptions::default()).and_then(Parsed::into_file);
+    read.map_err(|problem| MeshError::file(path, problem))
 }
 
 /// What a file says of ropes, hair and particles: positions, and the topology of triangles, then
@@ -100,8 +84,10 @@ pub fn read(path: &Path) -> Result<MeshFile, MeshError> {
 pub struct LooseMesh {
     /// One for each vertex, all finite.
     pub positions: Vec<DVec3>,
-    /// Of triangles, loose edges and points: at least one of them.
+    /// Triangles, loose edges and points: at least one of them.
     pub topology: Topology,
+    /// A report about the file.
+    pub notes: MeshNotes,
 }
 
 /// Reads the mesh file at `path` like [`read`], and with it edges and points that belong to no triangle: the lines `l` (each piece of it an
@@ -111,11 +97,22 @@ pub struct LooseMesh {
 /// # Errors
 /// Those of [`read`], but for a file without faces that has edges or points; and if one of these names a vertex that does not exist.
 pub fn read_with_loose_features(path: &Path) -> Result<LooseMesh, MeshError> {
-    let loose = || -> Result<LooseMesh, FileProblem> {
-        let (bytes, format) = bytes_at(path)?;
-        loose_of(parsed(&bytes, format, Features::All)?)
-    };
-    loose().map_err(|problem| MeshError::file(path, problem))
+    read_with(path, &WITH_LOOSE_FEATURES)
+}
+
+const WITH_LOOSE_FEATURES: ReadOptions<'static> = ReadOptions {
+    loose_features: true,
+    only: None,
+    weld: None,
+};
+
+/// Reads the wanted parts of the mesh file at `path`, like [`read`].
+///
+/// # Errors
+/// Those of [`read`] and, on request, of [`read_with_loose_features`]; and if the file has no such group or object.
+pub fn read_with(path: &Path, options: &ReadOptions<'_>) -> Result<LooseMesh, MeshError> {
+    let read = load(path, options).and_then(Parsed::into_loose);
+    read.map_err(|problem| MeshError::file(path, problem))
 }
 
 /// Reads such a mesh from the bytes of a file, as [`read_bytes`].
@@ -132,13 +129,7 @@ pub fn read_with_loose_features(path: &Path) -> Result<LooseMesh, MeshError> {
 /// # Ok::<(), selvedge_files::mesh::FileProblem>(())
 /// ```
 pub fn read_bytes_with_loose_features(bytes: &[u8], format: FileFormat) -> Result<LooseMesh, FileProblem> {
-    loose_of(parsed(bytes, format, Features::All)?)
-}
-
-fn loose_of(parsed: Parsed) -> Result<LooseMesh, FileProblem> {
-    let Mesh { positions, triangles } = parsed.mesh;
-    let topology = Topology::with_loose_features(positions.len(), triangles, &parsed.loose_edges, &parsed.points)?;
-    Ok(LooseMesh { positions, topology })
+    parse(bytes, format, &WITH_LOOSE_FEATURES)?.into_loose()
 }
 
 /// Reads a mesh from the bytes of a file. For [`FileFormat::Ply`] the header decides on the
@@ -157,11 +148,7 @@ fn loose_of(parsed: Parsed) -> Result<LooseMesh, FileProblem> {
 /// # Ok::<(), selvedge_files::mesh::FileProblem>(())
 /// ```
 pub fn read_bytes(bytes: &[u8], format: FileFormat) -> Result<MeshFile, FileProblem> {
-    let (parsed, topology) = parse(bytes, format)?;
-    Ok(MeshFile {
-        notes: parsed.notes(&topology),
-        mesh: parsed.mesh,
-    })
+    parse(bytes, format, &ReadOptions::default())?.into_file()
 }
 
 /// Writes `mesh` to `path`, in the format that its extension names; a reader gets every bit back.
@@ -238,72 +225,40 @@ pub fn write_bytes(mesh: &Mesh, format: FileFormat) -> Result<Vec<u8>, FileProbl
     Ok(bytes)
 }
 
-/// A mesh as a parser hands it over: finite and in range, but perhaps without triangles.
-#[derive(Default)]
-struct Parsed {
-    mesh: Mesh,
-    /// Of no triangle, if they are wanted.
-    loose_edges: Vec<[u32; 2]>,
-    points: Vec<u32>,
-    polygons_triangulated: usize,
+/// The parts of a file that the caller wants.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ReadOptions<'a> {
+    /// Edges and points that belong to no triangle, besides triangles. See [`read_with_loose_features`].
+    pub loose_features: bool,
+    /// The group or object of an OBJ file whose faces are wanted; `None`: all. Vertices keep their numbers in the file.
+    pub only: Option<&'a str>,
+    /// The distance up to which vertices become one, in the file's unit, 0 for equal positions alone: triangles, edges and points name the
+    /// lowest-numbered vertex instead of the others, which stay as unused vertices, so that all keep their numbers. `None`: nothing is merged.
+    pub weld: Option<f64>,
 }
 
-impl Parsed {
-    /// Adds a face of three or more corners, as a fan from the first.
-    fn push_face(&mut self, corners: &[u32]) {
-        if corners.len() > 3 {
-            self.polygons_triangulated += 1;
-        }
-        let fan = corners.windows(2).skip(1);
-        let triangles = fan.map(|pair| [corners[0], pair[0], pair[1]]);
-        self.mesh.triangles.extend(triangles);
-    }
-
-    fn notes(&self, topology: &Topology) -> MeshNotes {
-        MeshNotes {
-            polygons_triangulated: self.polygons_triangulated,
-            statistics: topology.statistics(),
-        }
-    }
-}
-
-/// What is wanted of a file.
-#[derive(Clone, Copy, PartialEq)]
-enum Features {
-    Triangles,
-    /// Edges and points as well.
-    All,
-}
-
-fn load(path: &Path) -> Result<(Parsed, Topology), FileProblem> {
-    let (bytes, format) = bytes_at(path)?;
-    parse(&bytes, format)
-}
-
-fn bytes_at(path: &Path) -> Result<(Vec<u8>, FileFormat), FileProblem> {
+fn load(path: &Path, options: &ReadOptions<'_>) -> Result<Parsed, FileProblem> {
     let metadata = std::fs::metadata(path).map_err(FileProblem::from_read)?;
     if metadata.is_dir() {
         return Err(FileProblem::Folder);
     }
     let format = FileFormat::from_path(path).ok_or(FileProblem::UnknownExtension)?;
     let bytes = std::fs::read(path).map_err(FileProblem::from_read)?;
-    Ok((bytes, format))
+    parse(&bytes, format, options)
 }
 
-fn parse(bytes: &[u8], format: FileFormat) -> Result<(Parsed, Topology), FileProblem> {
-    let parsed = parsed(bytes, format, Features::Triangles)?;
-    let topology = parsed.mesh.topology()?;
-    Ok((parsed, topology))
-}
-
-fn parsed(bytes: &[u8], format: FileFormat, features: Features) -> Result<Parsed, FileProblem> {
+fn parse(bytes: &[u8], format: FileFormat, options: &ReadOptions<'_>) -> Result<Parsed, FileProblem> {
     if bytes.is_empty() {
         return Err(FileProblem::Empty);
     }
     match format {
-        FileFormat::Obj => obj::parse(bytes, features),
-        FileFormat::Ply(_) => ply::parse(bytes, features),
+        FileFormat::Obj => obj::parse(bytes, options),
+        FileFormat::Ply(_) => ply::parse(bytes, options),
     }
+    .map(|parsed| Parsed {
+        weld: options.weld,
+        ..parsed
+    })
 }
 
 /// Refuses what could not be read again.

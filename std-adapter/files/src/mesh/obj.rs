@@ -1,41 +1,62 @@
-//! Wavefront OBJ: the `v` and `f` lines of it, and `l` and `p` where they are wanted.
+//! Wavefront OBJ: lines `v` and `f`, and `l` and `p` on request.
 //!
 //! This reader is our own because a collision pair is reported by the numbers of its vertices, so
 //! they must be the file's, and its positions must be exact. No crate keeps both (looked at in
 //! their current versions): `tobj` renumbers vertices in the order of their first use and drops
 //! the rest; `obj`, `obj-rs` and `wobj` hold 32-bit coordinates; `wavefront_obj` numbers vertices
-//! for each object anew and refuses faces that reach into another; `wavefront-obj-io` refuses
-//! negative indices and needs a newer compiler than we promise.
+//! for each object separately and refuses faces that reach into another; `wavefront-obj-io` refuses
+//! negative indices and needs a newer compiler than we promise. None reports the lines that it skips.
 
 use super::error::FileProblem;
-use super::{Features, Parsed, check_finite};
-use crate::excerpt::excerpt;
+use super::notes::{FilePart, LeftOut};
+use super::parsed::Parsed;
+use super::text::{Lines, fields, integer, number, quoted, trim, without_byte_order_mark};
+use super::{ReadOptions, check_finite};
 use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
-use std::borrow::Cow;
 use std::io::{self, Write};
-use std::str::Lines;
 
-pub(super) fn parse(bytes: &[u8], features: Features) -> Result<Parsed, FileProblem> {
-    let text = std::str::from_utf8(bytes).map_err(|error| {
-        let valid = &bytes[..error.valid_up_to()];
-        FileProblem::NotUtf8 {
-            line: 1 + valid.iter().filter(|&&byte| byte == b'\n').count(),
+pub(super) fn parse(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Parsed, FileProblem> {
+    let mut lines = Lines::new(without_byte_order_mark(bytes)?);
+    let mut reader = Reader::new(*options);
+    let mut joined = Vec::new();
+    while let Some(line) = lines.next() {
+        let (number, mut line) = (lines.number, statement(line));
+        if line.ends_with(b"\\") && continues(line) {
+            join(line, &mut lines, &mut joined);
+            line = &joined;
         }
-    })?;
-    let mut reader = Reader::default();
-    for (line, text) in LogicalLines::new(text) {
-        let mut fields = text.split('#').next().unwrap_or_default().split_ascii_whitespace();
-        match fields.next() {
-            Some("v") => reader.vertex(line, fields)?,
-            Some("f") => reader.face(line, fields)?,
-            Some("l") if features == Features::All => reader.edges(line, fields)?,
-            Some("p") if features == Features::All => reader.points(line, fields)?,
-            // Normals, texture coordinates, groups, materials, free-form surfaces.
-            _ => {}
-        }
+        reader.line(number, line)?;
     }
     reader.finish()
+}
+
+/// Returns a line without its comment and the white space around it. A comment ends with its line, even after a backslash.
+fn statement(line: &[u8]) -> &[u8] {
+    let comment = line.iter().position(|&byte| byte == b'#');
+    trim(&line[..comment.unwrap_or(line.len())])
+}
+
+/// Returns whether a backslash at the end of a line joins it with the next. A name may end in one: `mtllib C:\textures\`.
+fn continues(line: &[u8]) -> bool {
+    match fields(line).next() {
+        Some(b"mtllib" | b"usemtl" | b"maplib" | b"usemap" | b"o" | b"g" | b"shadow_obj" | b"trace_obj" | b"call" | b"csh") => {
+            line.ends_with(b" \\") || line.ends_with(b"\t\\")
+        }
+        _ => true,
+    }
+}
+
+/// Joins a line that ends in a backslash with those after it.
+fn join(first: &[u8], lines: &mut Lines<'_>, joined: &mut Vec<u8>) {
+    joined.clear();
+    let mut part = first;
+    while let Some(text) = part.strip_suffix(b"\\") {
+        joined.extend_from_slice(text);
+        joined.push(b' ');
+        part = lines.next().map_or(&[], statement);
+    }
+    joined.extend_from_slice(part);
 }
 
 pub(super) fn write(out: &mut impl Write, mesh: &Mesh, loose_edges: &[[u32; 2]]) -> io::Result<()> {
@@ -54,13 +75,24 @@ pub(super) fn write(out: &mut impl Write, mesh: &Mesh, loose_edges: &[[u32; 2]])
     Ok(())
 }
 
-#[derive(Default)]
-struct Reader {
+struct Reader<'a> {
+    options: ReadOptions<'a>,
     parsed: Parsed,
-    faces: usize,
+    /// All faces of the file so far, whether they are wanted or not.
+    face: usize,
     corners: Vec<u32>,
-    /// Line, face and vertex where a face names a vertex that comes later, if it comes at all.
+    /// Line, owner and number of vertices that come later, if they come at all: each higher than those before.
     forward: Vec<(usize, Owner, i64)>,
+    groups: Groups,
+}
+
+/// The groups and objects of a file, if one of them alone is wanted.
+#[derive(Default)]
+struct Groups {
+    object_is_wanted: bool,
+    group_is_wanted: bool,
+    was_found: bool,
+    names: Vec<String>,
 }
 
 /// What names a vertex.
@@ -81,10 +113,84 @@ impl Owner {
     }
 }
 
-impl Reader {
+impl<'a> Reader<'a> {
+    fn new(options: ReadOptions<'a>) -> Self {
+        Self {
+            options,
+            parsed: Parsed::default(),
+            face: 0,
+            corners: Vec::new(),
+            forward: Vec::new(),
+            groups: Groups::default(),
+        }
+    }
+
+    fn line(&mut self, line: usize, text: &[u8]) -> Result<(), FileProblem> {
+        let mut fields = fields(text);
+        let Some(keyword) = fields.next() else {
+            return Ok(());
+        };
+        match keyword {
+            b"v" => self.vertex(line, fields),
+            // `fo` is an old spelling of `f`.
+            b"f" | b"fo" => self.face(line, fields),
+            b"l" if self.options.loose_features => self.edges(line, fields),
+            b"p" if self.options.loose_features => self.points(line, fields),
+            b"o" | b"g" => {
+                self.group(keyword, trim(&text[1..]));
+                Ok(())
+            }
+            // Looks, and what describes curves and surfaces that are counted by their own lines.
+            b"vn" | b"vt" | b"vp" | b"vc" | b"s" | b"mg" | b"usemtl" | b"mtllib" | b"usemap" | b"maplib" | b"bevel" | b"c_interp"
+            | b"d_interp" | b"lod" | b"shadow_obj" | b"trace_obj" | b"ctech" | b"stech" | b"cstype" | b"deg" | b"bmat" | b"step"
+            | b"parm" | b"trim" | b"hole" | b"scrv" | b"sp" | b"end" | b"con" => Ok(()),
+            b"l" | b"p" | b"curv" | b"curv2" | b"cdc" => {
+                self.leave_out(line, keyword, false);
+                Ok(())
+            }
+            // Free-form surfaces, other files, and whatever we do not know.
+            _ => {
+                self.leave_out(line, keyword, true);
+                Ok(())
+            }
+        }
+    }
+
+    fn leave_out(&mut self, line: usize, keyword: &[u8], may_have_area: bool) {
+        self.parsed.leave_out(LeftOut {
+            part: FilePart::Line,
+            name: quoted(keyword, 40),
+            count: 1,
+            line: Some(line),
+            may_have_area,
+        });
+    }
+
+    /// `g a b …` or `o name`.
+    fn group(&mut self, keyword: &[u8], names: &[u8]) {
+        let Some(only) = self.options.only else {
+            return;
+        };
+        let is_wanted = names == only.as_bytes() || keyword == b"g" && fields(names).any(|name| name == only.as_bytes());
+        if keyword == b"g" {
+            self.groups.group_is_wanted = is_wanted;
+        } else {
+            self.groups.object_is_wanted = is_wanted;
+        }
+        self.groups.was_found |= is_wanted;
+        let name = quoted(names, 40);
+        if !self.groups.names.contains(&name) && self.groups.names.len() < 100 {
+            self.groups.names.push(name);
+        }
+    }
+
+    fn is_wanted(&self) -> bool {
+        self.options.only.is_none() || self.groups.object_is_wanted || self.groups.group_is_wanted
+    }
+
     /// `v x y z`, then perhaps a weight or a colour, which are left out.
-    fn vertex<'a>(&mut self, line: usize, mut fields: impl Iterator<Item = &'a str>) -> Result<(), FileProblem> {
-        let vertex = self.parsed.mesh.positions.len();
+    fn vertex<'b>(&mut self, line: usize, mut fields: impl Iterator<Item = &'b [u8]>) -> Result<(), FileProblem> {
+        let vertex = self.parsed.positions.len();
         let mut coordinates = [0.0; 3];
         for (value, name) in coordinates.iter_mut().zip(['x', 'y', 'z']) {
             let wrong = |what: String| FileProblem::Line {
@@ -92,102 +198,114 @@ impl Reader {
                 reason: format!("vertex {vertex} {what}"),
             };
             let field = fields.next().ok_or_else(|| wrong(format!("has no {name} coordinate")))?;
-            *value = field.parse().map_err(|_| {
+            *value = number(field).ok_or_else(|| {
                 wrong(format!(
                     "has the {name} coordinate '{}', which is not a number",
-                    quoted(field)
+                    quoted(field, 40)
                 ))
             })?;
         }
+        // Two lines that a backslash has joined by mistake.
+        let is_word = |field: &&[u8]| field[0].is_ascii_alphabetic() && number(field).is_none();
+        if let Some(word) = fields.find(is_word) {
+            let reason = format!("vertex {vertex} has '{}' after its coordinates, which is not a number", quoted(word, 40));
+            return Err(FileProblem::Line { line, reason });
+        }
         let position = DVec3::from_array(coordinates);
         check_finite(vertex, position, Some(line))?;
-        self.parsed.mesh.positions.push(position);
+        self.parsed.positions.push(position);
+        Ok(())
+    }
+
+    /// Reads vertices into `corners`.
+    fn corners<'b>(&mut self, line: usize, fields: impl Iterator<Item = &'b [u8]>, owner: Owner) -> Result<(), FileProblem> {
+        self.corners.clear();
+        for field in fields {
+            let corner = self.corner(line, field, owner)?;
+            self.corners.push(corner);
+        }
         Ok(())
     }
 
     /// `f a b c …`, each corner a vertex, perhaps with `/texture/normal`, which are left out.
-    fn face<'a>(&mut self, line: usize, fields: impl Iterator<Item = &'a str>) -> Result<(), FileProblem> {
-        self.corners.clear();
-        for field in fields {
-            let corner = self.corner(line, field, Owner::Face(self.faces))?;
-            self.corners.push(corner);
-        }
+    fn face<'b>(&mut self, line: usize, fields: impl Iterator<Item = &'b [u8]>) -> Result<(), FileProblem> {
+        self.corners(line, fields, Owner::Face(self.face))?;
         if self.corners.len() < 3 {
             return Err(FileProblem::TooFewCorners {
                 line: Some(line),
-                face: self.faces,
+                face: self.face,
                 corners: self.corners.len(),
             });
         }
-        self.parsed.push_face(&self.corners);
-        self.faces += 1;
+        if self.is_wanted() {
+            self.parsed.faces.push(&self.corners);
+        }
+        self.face += 1;
         Ok(())
     }
 
     /// `l a b …`, from vertex to vertex, each perhaps with `/texture`, which is left out.
-    fn edges<'a>(&mut self, line: usize, fields: impl Iterator<Item = &'a str>) -> Result<(), FileProblem> {
-        self.corners.clear();
-        for field in fields {
-            let vertex = self.corner(line, field, Owner::Edges)?;
-            self.corners.push(vertex);
-        }
+    fn edges<'b>(&mut self, line: usize, fields: impl Iterator<Item = &'b [u8]>) -> Result<(), FileProblem> {
+        self.corners(line, fields, Owner::Edges)?;
         if self.corners.len() < 2 {
             let reason = format!("a line needs two vertices or more, but names {}", self.corners.len());
             return Err(FileProblem::Line { line, reason });
         }
-        let edges = self.corners.windows(2).map(|ends| [ends[0], ends[1]]);
-        self.parsed.loose_edges.extend(edges);
+        if self.is_wanted() {
+            let edges = self.corners.windows(2).map(|ends| [ends[0], ends[1]]);
+            self.parsed.loose_edges.extend(edges);
+        }
         Ok(())
     }
 
     /// `p a …`.
-    fn points<'a>(&mut self, line: usize, fields: impl Iterator<Item = &'a str>) -> Result<(), FileProblem> {
-        for field in fields {
-            let vertex = self.corner(line, field, Owner::Points)?;
-            self.parsed.points.push(vertex);
+    fn points<'b>(&mut self, line: usize, fields: impl Iterator<Item = &'b [u8]>) -> Result<(), FileProblem> {
+        self.corners(line, fields, Owner::Points)?;
+        if self.is_wanted() {
+            self.parsed.points.extend_from_slice(&self.corners);
         }
         Ok(())
     }
 
     /// The vertex that a corner names: from 1 for the file's first, or from −1 for the one just
     /// above the face.
-    fn corner(&mut self, line: usize, field: &str, owner: Owner) -> Result<u32, FileProblem> {
-        let name = field.split('/').next().unwrap_or_default();
-        let vertex: i64 = name.parse().map_err(|_| FileProblem::Line {
+    fn corner(&mut self, line: usize, field: &[u8], owner: Owner) -> Result<u32, FileProblem> {
+        let name = field.split(|&byte| byte == b'/').next().unwrap_or_default();
+        let vertex = integer(name).ok_or_else(|| FileProblem::Line {
             line,
             reason: format!(
                 "{} names a vertex '{}', which is not a whole number",
                 owner.words(),
-                quoted(field)
+                quoted(field, 40)
             ),
         })?;
-        let count = self.parsed.mesh.positions.len();
-        let index = if vertex < 0 {
-            vertex.checked_add(count as i64)
-        } else {
-            vertex.checked_sub(1)
+        let count = self.parsed.positions.len();
+        let index = if vertex < 0 { vertex + count as i64 } else { vertex - 1 };
+        let Ok(index) = u32::try_from(index) else {
+            return Err(self.out_of_range(line, owner, vertex));
         };
-        match index.map(u32::try_from) {
-            Some(Ok(index)) => {
-                if index as usize >= count {
-                    self.forward.push((line, owner, vertex));
-                }
-                Ok(index)
-            }
-            _ => Err(self.out_of_range(line, owner, vertex)),
+        if index as usize >= count && self.forward.last().is_none_or(|&(.., highest)| highest < vertex) {
+            self.forward.push((line, owner, vertex));
         }
+        Ok(index)
     }
 
     fn finish(self) -> Result<Parsed, FileProblem> {
-        let count = self.parsed.mesh.positions.len() as i64;
-        match self.forward.iter().find(|&&(_, _, vertex)| vertex > count) {
-            Some(&(line, owner, vertex)) => Err(self.out_of_range(line, owner, vertex)),
-            None => Ok(self.parsed),
+        let count = self.parsed.positions.len() as i64;
+        if let Some(&(line, owner, vertex)) = self.forward.iter().find(|&&(_, _, vertex)| vertex > count) {
+            return Err(self.out_of_range(line, owner, vertex));
+        }
+        match self.options.only {
+            Some(only) if !self.groups.was_found => Err(FileProblem::NoSuchGroup {
+                name: only.to_owned(),
+                choices: self.groups.names,
+            }),
+            _ => Ok(self.parsed),
         }
     }
 
     fn out_of_range(&self, line: usize, owner: Owner, vertex: i64) -> FileProblem {
-        let vertex_count = self.parsed.mesh.positions.len();
+        let vertex_count = self.parsed.positions.len();
         match owner {
             Owner::Face(face) => FileProblem::IndexOutOfRange {
                 line: Some(line),
@@ -204,50 +322,5 @@ impl Reader {
                 ),
             },
         }
-    }
-}
-
-/// A field for a message.
-fn quoted(field: &str) -> String {
-    excerpt(field, 40)
-}
-
-/// Lines with their numbers from 1; one that ends in a backslash goes on in the next.
-struct LogicalLines<'a> {
-    lines: Lines<'a>,
-    read: usize,
-}
-
-impl<'a> LogicalLines<'a> {
-    fn new(text: &'a str) -> Self {
-        // Some editors put a byte order mark in front.
-        let lines = text.strip_prefix('\u{feff}').unwrap_or(text).lines();
-        Self { lines, read: 0 }
-    }
-}
-
-impl<'a> Iterator for LogicalLines<'a> {
-    type Item = (usize, Cow<'a, str>);
-
-    fn next(&mut self) -> Option<Self::Item> {
-        let line = self.lines.next()?;
-        self.read += 1;
-        let number = self.read;
-        let Some(beginning) = line.strip_suffix('\\').filter(|_| !line.starts_with('#')) else {
-            return Some((number, line.into()));
-        };
-        let mut joined = beginning.to_owned();
-        for next in self.lines.by_ref() {
-            self.read += 1;
-            joined.push(' ');
-            match next.strip_suffix('\\') {
-                Some(middle) => joined.push_str(middle),
-                None => {
-                    joined.push_str(next);
-                    break;
-                }
-            }
-        }
-        Some((number, joined.into()))
     }
 }

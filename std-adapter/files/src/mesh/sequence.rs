@@ -1,8 +1,10 @@
 //! Numbered files as the frames of one mesh.
 
 use super::error::{FrameDifference, MeshError};
-use super::{FileFormat, load};
+use super::parsed::Parsed;
+use super::{FileFormat, ReadOptions, load};
 use crate::excerpt::excerpt;
+use selvedge::Topology;
 use selvedge_core::glam::DVec3;
 use std::path::{Path, PathBuf};
 
@@ -77,7 +79,7 @@ pub enum SequenceProblem {
 /// the lowest number to the highest, none left out.
 ///
 /// # Errors
-/// Those of [`read`](super::read) for any of the files; if there is none, a number is missing, or is there twice; or if a frame has other
+/// Those of [`read`](super::read) for any of the files; if one has parts with an area that the reader leaves out; if there is none, a number is missing, or is there twice; or if a frame has other
 /// triangles, or another number of vertices, than the first: the message names both files and the first difference.
 ///
 /// ```
@@ -101,22 +103,27 @@ pub fn read_sequence(pattern: &Path) -> Result<MeshSequence, MeshError> {
         pattern: pattern.to_owned(),
         problem,
     })?;
-    let read = |path: &Path| load(path).map_err(|problem| MeshError::file(path, problem));
+    let read = |path: &Path| {
+        let whole = load(path, &ReadOptions::default()).and_then(Parsed::whole);
+        whole.map_err(|problem| MeshError::file(path, problem))
+    };
     // There is one: sequences of none were refused.
-    let (first, topology) = read(&files[0])?;
-    let mut frames = vec![first.mesh.positions];
+    let mut first = read(&files[0])?;
+    let triangles = first.triangles().triangles;
+    let topology = Topology::new(first.positions.len(), triangles).map_err(|error| MeshError::file(&files[0], error.into()))?;
+    let mut frames = vec![Vec::new()];
     for file in &files[1..] {
-        let (frame, _) = read(file)?;
-        let (vertices, triangles) = (frame.mesh.positions.len(), &frame.mesh.triangles);
-        if let Some(difference) = FrameDifference::find(&topology, vertices, triangles) {
+        let frame = read(file)?;
+        if let Some(difference) = FrameDifference::find(&first, &frame) {
             return Err(MeshError::Frames {
                 start: files[0].clone(),
                 end: file.clone(),
                 difference,
             });
         }
-        frames.push(frame.mesh.positions);
+        frames.push(frame.positions);
     }
+    frames[0] = std::mem::take(&mut first.positions);
     Ok(MeshSequence {
         triangles: topology.triangles().to_vec(),
         frames,

@@ -1,7 +1,7 @@
 //! Two frames of one mesh: a time step from files.
 
 use super::error::{FrameDifference, MeshError};
-use super::{MeshNotes, load};
+use super::{MeshNotes, ReadOptions, load};
 use selvedge::Topology;
 use selvedge_core::glam::DVec3;
 use std::path::Path;
@@ -15,30 +15,35 @@ pub struct MeshStep {
     pub start: Vec<DVec3>,
     /// Positions at the end of the step, one for each vertex.
     pub end: Vec<DVec3>,
-    /// What is worth telling the user about the first file.
+    /// A report about the first file, and what may have an area and is left out of the second.
     pub notes: MeshNotes,
 }
 
-/// Reads two frames of one mesh, of any formats: as many vertices, and the same triangles in the
-/// same order.
+/// Reads two frames of one mesh, of any formats: as many vertices, and the same faces in the
+/// same order. Polygons are split by their shape at the start.
 ///
 /// # Errors
 /// Those of [`read`](super::read) for either file; or both files and their first difference.
 pub fn read_step(start: &Path, end: &Path) -> Result<MeshStep, MeshError> {
-    let (first, topology) = load(start).map_err(|problem| MeshError::file(start, problem))?;
-    let (last, _) = load(end).map_err(|problem| MeshError::file(end, problem))?;
-    let (vertices, triangles) = (last.mesh.positions.len(), &last.mesh.triangles);
-    match FrameDifference::find(&topology, vertices, triangles) {
-        Some(difference) => Err(MeshError::Frames {
+    let read = |path: &Path| load(path, &ReadOptions::default()).map_err(|problem| MeshError::file(path, problem));
+    let (mut first, mut last) = (read(start)?, read(end)?);
+    if let Some(difference) = FrameDifference::find(&first, &last) {
+        return Err(MeshError::Frames {
             start: start.to_owned(),
             end: end.to_owned(),
             difference,
-        }),
-        None => Ok(MeshStep {
-            notes: first.notes(&topology),
-            topology,
-            start: first.mesh.positions,
-            end: last.mesh.positions,
-        }),
+        });
     }
+    let mut split = first.triangles();
+    let triangles = std::mem::take(&mut split.triangles);
+    let topology = Topology::new(first.positions.len(), triangles).map_err(|error| MeshError::file(start, error.into()))?;
+    let mut notes = first.notes(&mut split, &topology);
+    let of_last = last.notes(&mut split, &topology).left_out;
+    notes.left_out.extend(of_last.into_iter().filter(|part| part.may_have_area));
+    Ok(MeshStep {
+        topology,
+        start: first.positions,
+        end: last.positions,
+        notes,
+    })
 }

@@ -1,0 +1,159 @@
+//! Vertices in the same place become one.
+
+use super::Mesh;
+use selvedge_core::glam::DVec3;
+use std::collections::HashMap;
+
+/// A mesh whose coincident vertices are merged, and the way back to the original's numbers.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct WeldedMesh {
+    /// The merged mesh. Each vertex has the position of the lowest-numbered vertex that was merged into it; vertices keep their order.
+    pub mesh: Mesh,
+    /// For each vertex of the original, its vertex in [`mesh`](Self::mesh).
+    pub vertex_of: Vec<u32>,
+    /// The number of triangles that named a vertex twice, then or already before, and are left out. They have no area.
+    pub collapsed_triangles: usize,
+}
+
+impl WeldedMesh {
+    /// Returns values of the merged vertices, such as positions of a later frame, for the vertices of the original: seams stay where they were.
+    ///
+    /// # Panics
+    /// If there are fewer values than merged vertices.
+    #[must_use]
+    pub fn for_original<T: Copy>(&self, values: &[T]) -> Vec<T> {
+        self.vertex_of.iter().map(|&vertex| values[vertex as usize]).collect()
+    }
+}
+
+impl Mesh {
+    /// Merges vertices that are at most `tolerance` apart, in the caller's length unit; 0 (or a negative number, or NaN) merges equal positions
+    /// alone. Merging is transitive: a chain of near vertices becomes one vertex. The tolerance should be far below the length of an edge: time
+    /// grows with the number of vertices within it.
+    ///
+    /// ```
+    /// use selvedge::{Mesh, glam::DVec3};
+    ///
+    /// // Two triangles of a square, exported with vertices of their own.
+    /// let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Y, DVec3::X, DVec3::ONE];
+    /// let mesh = Mesh { positions: corners.to_vec(), triangles: vec![[0, 1, 2], [3, 4, 5]] };
+    /// let welded = mesh.welded(0.0);
+    /// assert_eq!(welded.mesh.triangles, [[0, 1, 2], [2, 1, 3]]);
+    /// assert_eq!(welded.vertex_of, [0, 1, 2, 2, 1, 3]);
+    /// assert_eq!(welded.for_original(&welded.mesh.positions), corners);
+    /// ```
+    #[must_use]
+    pub fn welded(&self, tolerance: f64) -> WeldedMesh {
+        let first = first_coincident(&self.positions, tolerance);
+        let mut welded = WeldedMesh::default();
+        for (vertex, &first) in first.iter().enumerate() {
+            let number = if first as usize == vertex {
+                welded.mesh.positions.push(self.positions[vertex]);
+                welded.mesh.positions.len() as u32 - 1
+            } else {
+                // An earlier vertex, which has its number.
+                welded.vertex_of[first as usize]
+            };
+            welded.vertex_of.push(number);
+        }
+        let merged = |vertex: u32| welded.vertex_of.get(vertex as usize).copied().unwrap_or(vertex);
+        let triangles = self.triangles.iter().map(|corners| corners.map(merged));
+        welded.mesh.triangles = triangles.filter(|[a, b, c]| a != b && b != c && c != a).collect();
+        welded.collapsed_triangles = self.triangles.len() - welded.mesh.triangles.len();
+        welded
+    }
+}
+
+/// Returns, for each position, the lowest number of those that are merged with it: see [`Mesh::welded`].
+#[must_use]
+pub fn first_coincident(positions: &[DVec3], tolerance: f64) -> Vec<u32> {
+    let mut first: Vec<u32> = (0..positions.len() as u32).collect();
+    let mut seen = HashMap::with_capacity(positions.len());
+    for (vertex, position) in positions.iter().enumerate().filter(|(_, position)| !position.is_nan()) {
+        first[vertex] = *seen.entry(bits(*position)).or_insert(vertex as u32);
+    }
+    if tolerance.is_nan() || tolerance <= 0.0 {
+        return first;
+    }
+    // Positions at most `tolerance` apart are in the same cell or in cells next to each other.
+    let cell = |position: DVec3| (position / tolerance).floor();
+    let mut cells: HashMap<[u64; 3], Vec<u32>> = HashMap::new();
+    for (vertex, &position) in positions.iter().enumerate() {
+        if first[vertex] as usize != vertex || !position.is_finite() {
+            continue;
+        }
+        let own = cell(position);
+        for step in 0..27_i32 {
+            let step = DVec3::new((step % 3).into(), (step / 3 % 3).into(), (step / 9).into()) - 1.0;
+            for &other in cells.get(&bits(own + step)).into_iter().flatten() {
+                if positions[other as usize].distance(position) <= tolerance {
+                    let [a, b] = [root(&mut first, vertex as u32), root(&mut first, other)];
+                    first[a.max(b) as usize] = a.min(b);
+                }
+            }
+        }
+        cells.entry(bits(own)).or_default().push(vertex as u32);
+    }
+    for vertex in 0..first.len() as u32 {
+        first[vertex as usize] = root(&mut first, vertex);
+    }
+    first
+}
+
+/// Equal for equal coordinates: zero has one sign.
+fn bits(position: DVec3) -> [u64; 3] {
+    (position + 0.0).to_array().map(f64::to_bits)
+}
+
+fn root(first: &mut [u32], mut vertex: u32) -> u32 {
+    while first[vertex as usize] != vertex {
+        let above = first[vertex as usize];
+        first[vertex as usize] = first[above as usize];
+        vertex = above;
+    }
+    vertex
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn vertices_within_reach_are_one_and_those_beyond_are_not(
+            points in prop::collection::vec(prop::array::uniform3(-3..3_i32), 0..40),
+            tolerance in prop::sample::select(vec![0.0, 1.0, 1.5, 2.0]),
+        ) {
+            let positions: Vec<DVec3> = points.iter().map(|point| DVec3::from_array(point.map(f64::from)) * -1.0).collect();
+            let first = first_coincident(&positions, tolerance);
+            // By the definition: as long as anything changes.
+            let mut expected: Vec<u32> = (0..positions.len() as u32).collect();
+            loop {
+                let before = expected.clone();
+                for a in 0..positions.len() {
+                    for b in 0..positions.len() {
+                        if positions[a].distance(positions[b]) <= tolerance {
+                            expected[a] = expected[a].min(expected[b]);
+                        }
+                    }
+                }
+                if expected == before {
+                    break;
+                }
+            }
+            prop_assert_eq!(first, expected);
+        }
+    }
+
+    #[test]
+    fn a_triangle_that_collapses_is_left_out() {
+        let mesh = Mesh {
+            positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::X * 1.001],
+            triangles: vec![[0, 1, 2], [1, 3, 2]],
+        };
+        let welded = mesh.welded(0.01);
+        assert_eq!((welded.mesh.triangles, welded.collapsed_triangles), (vec![[0, 1, 2]], 1));
+        assert_eq!(mesh.welded(f64::NAN).mesh, mesh);
+    }
+}

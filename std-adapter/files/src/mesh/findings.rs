@@ -1,0 +1,181 @@
+//! What stands in a mesh's way besides intersections.
+
+use robust::{Coord, orient2d};
+use selvedge::{Topology, TopologyStatistics, first_coincident};
+use selvedge_core::glam::DVec3;
+use std::collections::HashMap;
+use std::fmt;
+
+/// Properties of a mesh that often come from its export, and stand in the way of a simulation. None of them is an intersection.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Findings {
+    /// Vertices in the same place as an earlier one, with that one: seams that an exporter has split. Welding merges them.
+    pub coincident_vertices: Vec<[u32; 2]>,
+    /// Triangles with the same vertices as an earlier one.
+    pub duplicate_triangles: usize,
+    /// Triangles whose corners lie on one line, exactly, or that name a vertex twice.
+    pub flat_triangles: Vec<u32>,
+    /// Other triangles that are lower than [`THIN`] of their longest side.
+    pub thin_triangles: Vec<u32>,
+    /// Vertices of no triangle, loose edge or point.
+    pub unused_vertices: usize,
+    /// Edges of three triangles or more.
+    pub non_manifold_edges: usize,
+    /// Edges whose two triangles run along them in the same direction: one of the two faces the wrong way.
+    pub inconsistent_edges: Vec<[u32; 2]>,
+    /// The sides of the bounding box, in the file's unit.
+    pub size: DVec3,
+}
+
+/// The height of a thin triangle over its longest side.
+pub const THIN: f64 = 1e-6;
+/// The size from which on a mesh looks as if it were not in metres.
+const LARGE: f64 = 50.0;
+
+impl Findings {
+    /// Looks at a mesh: time grows with its size alone.
+    #[must_use]
+    pub fn of(positions: &[DVec3], topology: &Topology) -> Self {
+        let TopologyStatistics {
+            duplicate_triangles,
+            isolated_vertices,
+            non_manifold_edges,
+            ..
+        } = topology.statistics();
+        let first = first_coincident(positions, 0.0);
+        let coincident = (0_u32..).zip(&first).filter(|&(vertex, &first)| vertex != first);
+        let mut findings = Self {
+            coincident_vertices: coincident.map(|(vertex, &first)| [vertex, first]).collect(),
+            duplicate_triangles,
+            unused_vertices: isolated_vertices,
+            non_manifold_edges,
+            inconsistent_edges: inconsistent_edges(topology.proper_triangles()),
+            size: size(positions),
+            ..Self::default()
+        };
+        for (triangle, corners) in (0_u32..).zip(topology.proper_triangles()) {
+            let corners = corners.map(|vertex| positions[vertex as usize]);
+            if is_flat(corners) {
+                findings.flat_triangles.push(triangle);
+            } else if is_thin(corners) {
+                findings.thin_triangles.push(triangle);
+            }
+        }
+        findings
+    }
+
+    /// Counts with the names of what they count, without those that are 0, and the remedy where there is one.
+    fn counts(&self) -> impl Iterator<Item = (usize, [&'static str; 2], &'static str)> {
+        [
+            (
+                self.coincident_vertices.len(),
+                ["vertex in the same place as another", "vertices in the same place as others"],
+                "weld merges them",
+            ),
+            (self.duplicate_triangles, ["duplicate triangle", "duplicate triangles"], ""),
+            (self.flat_triangles.len(), ["triangle without area", "triangles without area"], ""),
+            (self.thin_triangles.len(), ["very thin triangle", "very thin triangles"], ""),
+            (self.unused_vertices, ["unused vertex", "unused vertices"], ""),
+            (self.non_manifold_edges, ["edge of three triangles or more", "edges of three triangles or more"], ""),
+            (
+                self.inconsistent_edges.len(),
+                ["edge between triangles that face opposite ways", "edges between triangles that face opposite ways"],
+                "",
+            ),
+        ]
+        .into_iter()
+        .filter(|&(count, ..)| count > 0)
+    }
+
+    /// Returns whether the mesh is so large that its unit is more likely millimetres or centimetres than metres.
+    #[must_use]
+    pub fn is_large(&self) -> bool {
+        self.size.max_element() > LARGE
+    }
+}
+
+impl fmt::Display for Findings {
+    /// One line, empty if there is nothing: `2 vertices in the same place as others (weld merges them), 1 unused vertex`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut comma = "";
+        for (count, [singular, plural], remedy) in self.counts() {
+            write!(f, "{comma}{count} {}", if count == 1 { singular } else { plural })?;
+            if !remedy.is_empty() {
+                write!(f, " ({remedy})")?;
+            }
+            comma = ", ";
+        }
+        if self.is_large() {
+            let largest = self.size.max_element();
+            write!(f, "{comma}{largest:.0} long: is its unit millimetres or centimetres?")?;
+        }
+        Ok(())
+    }
+}
+
+fn size(positions: &[DVec3]) -> DVec3 {
+    let low = positions.iter().copied().reduce(DVec3::min);
+    let high = positions.iter().copied().reduce(DVec3::max);
+    low.zip(high).map_or(DVec3::ZERO, |(low, high)| high - low)
+}
+
+/// Three points lie on one line if they do in all three planes of coordinates. Exact, short of underflow.
+fn is_flat([a, b, c]: [DVec3; 3]) -> bool {
+    (0..3).all(|axis| {
+        let project = |point: DVec3| Coord {
+            x: point[(axis + 1) % 3],
+            y: point[(axis + 2) % 3],
+        };
+        orient2d(project(a), project(b), project(c)) == 0.0
+    })
+}
+
+fn is_thin([a, b, c]: [DVec3; 3]) -> bool {
+    let sides = [b - a, c - b, a - c];
+    let longest = sides.into_iter().map(DVec3::length_squared).fold(0.0, f64::max);
+    // Twice the area is the longest side times its height.
+    sides[0].cross(sides[1]).length() < THIN * longest
+}
+
+fn inconsistent_edges(triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
+    // How often triangles run along an edge upwards, and downwards.
+    let mut along: HashMap<[u32; 2], [u32; 2]> = HashMap::with_capacity(2 * triangles.len());
+    for &[a, b, c] in triangles {
+        for [from, to] in [[a, b], [b, c], [c, a]] {
+            along.entry([from.min(to), from.max(to)]).or_default()[usize::from(from > to)] += 1;
+        }
+    }
+    let wrong = along.into_iter().filter(|(_, ways)| matches!(ways, [2, 0] | [0, 2]));
+    let mut edges: Vec<[u32; 2]> = wrong.map(|(edge, _)| edge).collect();
+    edges.sort_unstable();
+    edges
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{FileFormat, read_bytes};
+    use super::*;
+
+    fn findings(text: &str) -> Findings {
+        let mesh = read_bytes(text.as_bytes(), FileFormat::Obj).unwrap().mesh;
+        Findings::of(&mesh.positions, &mesh.topology().unwrap())
+    }
+
+    #[test]
+    fn each_finding_is_counted_and_named() {
+        let clean = findings("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+        assert_eq!(clean.to_string(), "");
+        // A split seam, a triangle turned round, one on a line, a sliver, a duplicate, an unused vertex far away.
+        let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 1 0\nv -0 0 0\nf 1 2 3\nf 6 4 5\nf 1 2 4\n\
+                    v 3 3 3\nv 4 4 4\nv 5 5 5\nf 7 8 9\nv 6 0 0\nv 7 0 0\nv 6.5 1e-9 0\nf 10 11 12\nf 12 10 11\nv 90 0 0\n";
+        let all = findings(text);
+        assert_eq!(all.coincident_vertices, [[4, 2], [5, 0]]);
+        assert_eq!((all.flat_triangles, all.thin_triangles), (vec![3], vec![4, 5]));
+        assert_eq!(all.inconsistent_edges, [[0, 1], [9, 10], [9, 11], [10, 11]]);
+        assert_eq!(
+            findings(text).to_string(),
+            "2 vertices in the same place as others (weld merges them), 1 duplicate triangle, 1 triangle without area, 2 very thin triangles, \
+             1 unused vertex, 4 edges between triangles that face opposite ways, 90 long: is its unit millimetres or centimetres?"
+        );
+    }
+}

@@ -1,0 +1,152 @@
+//! What a reader reports about a file beside its mesh.
+
+use crate::excerpt::excerpt;
+use selvedge::TopologyStatistics;
+use std::fmt;
+
+/// A report about a file that was read; `Display` shows it in one line.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct MeshNotes {
+    /// The number of faces with more than three corners, which were split into triangles.
+    pub polygons_triangulated: usize,
+    /// Faces of which no triangulation without overlap was found, numbered from 0. Each is split as a fan from its first corner.
+    pub overlapping_polygons: Vec<usize>,
+    /// The number of vertices that were merged into others.
+    pub welded_vertices: usize,
+    /// The number of triangles that lost their area by that, and are left out.
+    pub collapsed_triangles: usize,
+    /// Counts of the mesh after that, duplicate and degenerate triangles included.
+    pub statistics: TopologyStatistics,
+    /// The parts of the file that are not in the mesh. Normals, colours, texture coordinates and materials are not listed.
+    pub left_out: Vec<LeftOut>,
+}
+
+impl MeshNotes {
+    /// Returns whether everything that has an area was read. If not, nothing is known about what the file holds besides the mesh.
+    #[must_use]
+    pub fn is_complete(&self) -> bool {
+        !self.left_out.iter().any(|part| part.may_have_area)
+    }
+
+    /// Returns the parts that were left out and may have an area as a phrase, such as `1 line 'surf' (line 12)`, or `None` if there are none.
+    #[must_use]
+    pub fn missing(&self) -> Option<String> {
+        missing(&self.left_out)
+    }
+}
+
+pub(super) fn missing(left_out: &[LeftOut]) -> Option<String> {
+    let parts = left_out.iter().filter(|part| part.may_have_area);
+    let parts: Vec<String> = parts.map(LeftOut::to_string).collect();
+    (!parts.is_empty()).then(|| parts.join(", "))
+}
+
+impl fmt::Display for MeshNotes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.statistics)?;
+        match self.polygons_triangulated {
+            0 => {}
+            1 => write!(f, ", 1 polygon split into triangles")?,
+            count => write!(f, ", {count} polygons split into triangles")?,
+        }
+        match self.overlapping_polygons.as_slice() {
+            [] => {}
+            [face] => write!(f, ", face {face} has no triangulation without overlap")?,
+            [face, rest @ ..] => write!(
+                f,
+                ", {} faces have no triangulation without overlap (the first is face {face})",
+                rest.len() + 1
+            )?,
+        }
+        if self.welded_vertices > 0 {
+            write!(f, ", {} merged", vertices(self.welded_vertices))?;
+        }
+        if self.collapsed_triangles > 0 {
+            write!(f, ", {} triangles collapsed by that", self.collapsed_triangles)?;
+        }
+        for part in &self.left_out {
+            write!(f, ", left out: {part}")?;
+        }
+        Ok(())
+    }
+}
+
+fn vertices(count: usize) -> String {
+    format!("{count} {}", if count == 1 { "vertex" } else { "vertices" })
+}
+
+/// A kind of part that a file has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum FilePart {
+    /// Lines of an OBJ file with one keyword.
+    Line,
+    /// Elements of a PLY file with one name.
+    Element,
+    /// Faces of an OFF file with fewer than three corners.
+    Face,
+    /// Bytes after the end that the header declares.
+    TrailingByte,
+    /// Primitives of a glTF mesh that are not triangles.
+    Primitive,
+    /// Nodes of a glTF file.
+    Node,
+    /// Channels of a glTF animation.
+    Channel,
+}
+
+/// A part of a file that is not in the mesh.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LeftOut {
+    /// Its kind.
+    pub part: FilePart,
+    /// Its keyword or name in the file; may be empty.
+    pub name: String,
+    /// How many of them there are.
+    pub count: usize,
+    /// The line of the first, in a file with lines.
+    pub line: Option<usize>,
+    /// Whether it has an area, or may have one: then contacts of the mesh are not all contacts of the file.
+    pub may_have_area: bool,
+}
+
+impl fmt::Display for LeftOut {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [singular, plural] = match self.part {
+            FilePart::Line => ["line", "lines"],
+            FilePart::Element => ["element", "elements"],
+            FilePart::Face => ["face", "faces"],
+            FilePart::TrailingByte => ["byte after the end", "bytes after the end"],
+            FilePart::Primitive => ["primitive", "primitives"],
+            FilePart::Node => ["node", "nodes"],
+            FilePart::Channel => ["channel", "channels"],
+        };
+        write!(f, "{} {}", self.count, if self.count == 1 { singular } else { plural })?;
+        if !self.name.is_empty() {
+            write!(f, " '{}'", excerpt(&self.name, 40))?;
+        }
+        match (self.line, self.count) {
+            (None, _) => Ok(()),
+            (Some(line), 1) => write!(f, " (line {line})"),
+            (Some(line), _) => write!(f, " (the first on line {line})"),
+        }
+    }
+}
+
+/// Counts parts by kind and name.
+pub(super) fn count_part(parts: &mut Vec<LeftOut>, part: LeftOut) {
+    let same = parts.iter().position(|own| own.part == part.part && own.name == part.name);
+    // A file of noise has a new keyword on each line.
+    let full = (parts.len() >= 100).then(|| parts.len() - 1);
+    match same.or(full) {
+        None => parts.push(part),
+        Some(place) => {
+            let own = &mut parts[place];
+            own.count += part.count;
+            own.may_have_area |= part.may_have_area;
+            if same.is_none() {
+                own.name.clear();
+            }
+        }
+    }
+}

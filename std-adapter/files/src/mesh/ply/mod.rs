@@ -1,0 +1,235 @@
+//! PLY in its three encodings, with faces, triangle strips, and loose edges on request.
+//!
+//! This reader is our own because `ply-rs-bw`, the crate that is kept best, refuses text that C writes and reads (`.5`, `1e5`, `nan` in a
+//! property that is not used, lines that end in CR), makes a table of names and values of each element, which takes twenty times as long, and
+//! does not check that a header's counts fit the file. `plyfile`-style crates read 32-bit coordinates, or no lists of unknown properties.
+
+mod body;
+mod header;
+mod write;
+
+pub(super) use write::write;
+
+use super::error::FileProblem;
+use super::notes::{FilePart, LeftOut};
+use super::parsed::Parsed;
+use super::{ReadOptions, check_finite};
+use body::Row;
+use header::{Element, Header, Kind, Role};
+use selvedge_core::glam::DVec3;
+
+/// How the numbers of a PLY file are written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PlyEncoding {
+    /// Text.
+    Ascii,
+    /// Binary, least significant byte first.
+    #[default]
+    LittleEndian,
+    /// Binary, most significant byte first.
+    BigEndian,
+}
+
+const COORDINATES: [&str; 3] = ["x", "y", "z"];
+/// Both names are in use for the list of a face's vertices.
+const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
+/// Of an edge.
+const ENDS: [&str; 2] = ["vertex1", "vertex2"];
+
+pub(super) fn parse(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Parsed, FileProblem> {
+    if options.only.is_some() {
+        return Err(FileProblem::NoGroups);
+    }
+    let (header, mut body) = header::read(bytes)?;
+    let vertex_count = header.vertex_count(options)?;
+    let mut reader = Reader {
+        vertex_count,
+        parsed: Parsed::default(),
+        face: 0,
+        corners: Vec::new(),
+    };
+    for element in &header.elements {
+        match element.name.as_str() {
+            "vertex" => {
+                // As many as the file has room for.
+                body.check_room(element)?;
+                reader.parsed.positions.reserve_exact(element.count);
+                body.read(element, |index, row, line| reader.vertex(index, row, line))?;
+            }
+            "face" => body.read(element, |_, row, line| reader.face(row, line))?,
+            "tristrips" => body.read(element, |index, row, line| reader.strip(index, row, line))?,
+            "edge" if options.loose_features => body.read(element, |index, row, line| reader.edge(index, row, line))?,
+            _ => {
+                body.read(element, |_, _, _| Ok(()))?;
+                reader.leave_out(element);
+            }
+        }
+    }
+    let mut parsed = reader.parsed;
+    body.finish(&mut parsed);
+    if options.loose_features && parsed.faces.len() == 0 && parsed.loose_edges.is_empty() && header.has_no_faces() {
+        // As many as the file holds, which were read.
+        parsed.points = (0..vertex_count as u32).collect();
+    }
+    Ok(parsed)
+}
+
+struct Reader {
+    vertex_count: usize,
+    parsed: Parsed,
+    face: usize,
+    corners: Vec<u32>,
+}
+
+impl Reader {
+    fn vertex(&mut self, vertex: usize, row: &Row, line: Option<usize>) -> Result<(), FileProblem> {
+        let position = DVec3::from_array(row.coordinates);
+        check_finite(vertex, position, line)?;
+        self.parsed.positions.push(position);
+        Ok(())
+    }
+
+    fn is_vertex(&self, vertex: i64) -> Option<u32> {
+        u32::try_from(vertex).ok().filter(|&index| (index as usize) < self.vertex_count)
+    }
+
+    /// Adds `corners` as a face.
+    fn push(&mut self, corners: &[i64], line: Option<usize>) -> Result<(), FileProblem> {
+        let face = self.face;
+        self.corners.clear();
+        for &vertex in corners {
+            let index = self.is_vertex(vertex).ok_or(FileProblem::IndexOutOfRange {
+                line,
+                face,
+                vertex,
+                first: 0,
+                vertex_count: self.vertex_count,
+            })?;
+            self.corners.push(index);
+        }
+        if self.corners.len() < 3 {
+            return Err(FileProblem::TooFewCorners {
+                line,
+                face,
+                corners: self.corners.len(),
+            });
+        }
+        self.parsed.faces.push(&self.corners);
+        self.face += 1;
+        Ok(())
+    }
+
+    fn face(&mut self, row: &Row, line: Option<usize>) -> Result<(), FileProblem> {
+        self.push(&row.corners, line)
+    }
+
+    /// Triangle strips, one after the other, with −1 between them. Every other triangle is turned round; those that name a vertex twice only
+    /// join two parts.
+    fn strip(&mut self, index: usize, row: &Row, line: Option<usize>) -> Result<(), FileProblem> {
+        let is_restart = |&vertex: &i64| vertex == -1 || vertex == i64::from(u32::MAX);
+        for strip in row.corners.split(is_restart).filter(|strip| !strip.is_empty()) {
+            if strip.len() < 3 {
+                let reason = format!("has a strip of {} vertices, but needs three or more", strip.len());
+                return Err(element_problem("tristrips", index, line, reason));
+            }
+            for (k, corners) in strip.windows(3).enumerate() {
+                let &[a, b, c] = corners else { continue };
+                if a == b || b == c || c == a {
+                    // Still, they must be there.
+                    if let Some(&vertex) = corners.iter().find(|&&vertex| self.is_vertex(vertex).is_none()) {
+                        let count = self.vertex_count;
+                        let reason = format!("names vertex {vertex}, but there are {count} vertices, numbered from 0");
+                        return Err(element_problem("tristrips", index, line, reason));
+                    }
+                    continue;
+                }
+                self.push(&if k % 2 == 0 { [a, b, c] } else { [b, a, c] }, line)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn edge(&mut self, edge: usize, row: &Row, line: Option<usize>) -> Result<(), FileProblem> {
+        match row.ends.map(|end| self.is_vertex(end)) {
+            [Some(from), Some(to)] => {
+                self.parsed.loose_edges.push([from, to]);
+                Ok(())
+            }
+            [first, _] => {
+                let vertex = row.ends[usize::from(first.is_some())];
+                let count = self.vertex_count;
+                let reason = format!("names vertex {vertex}, but there are {count} vertices, numbered from 0");
+                Err(element_problem("edge", edge, line, reason))
+            }
+        }
+    }
+
+    /// Lists of whole numbers may name the corners of something.
+    fn leave_out(&mut self, element: &Element) {
+        if element.count > 0 {
+            let has_list = element.properties.iter().any(|property| match property.kind {
+                Kind::List(_, number) => !number.is_float(),
+                Kind::Scalar(_) => false,
+            });
+            self.parsed.leave_out(LeftOut {
+                part: FilePart::Element,
+                name: element.name.clone(),
+                count: element.count,
+                line: None,
+                may_have_area: has_list,
+            });
+        }
+    }
+}
+
+fn element_problem(element: &str, index: usize, line: Option<usize>, reason: String) -> FileProblem {
+    match line {
+        Some(line) => FileProblem::Line {
+            line,
+            reason: format!("'{element}' element {index} {reason}"),
+        },
+        None => FileProblem::Element {
+            element: element.to_owned(),
+            index,
+            reason,
+        },
+    }
+}
+
+impl Header {
+    fn has_no_faces(&self) -> bool {
+        let is_empty = |name: &str| self.element(name).is_none_or(|element| element.count == 0);
+        is_empty("face") && is_empty("tristrips")
+    }
+
+    /// Refuses a header without vertices, faces or edges as we need them; otherwise returns the number of vertices.
+    fn vertex_count(&self, options: &ReadOptions<'_>) -> Result<usize, FileProblem> {
+        let missing = |what: String| FileProblem::Header(format!("declares no {what}"));
+        let vertex = self.element("vertex").ok_or_else(|| missing("element 'vertex'".to_owned()))?;
+        for (axis, name) in COORDINATES.into_iter().enumerate() {
+            if !vertex.has(Role::Coordinate(axis)) {
+                return Err(missing(format!("number '{name}' for the element 'vertex'")));
+            }
+        }
+        if let Some(edge) = self.element("edge").filter(|_| options.loose_features) {
+            for (end, name) in ENDS.into_iter().enumerate() {
+                if !edge.has(Role::End(end)) {
+                    return Err(missing(format!("integer '{name}' for the element 'edge'")));
+                }
+            }
+        }
+        let of_corners = ["face", "tristrips"].map(|name| self.element(name));
+        if of_corners == [None, None] && !options.loose_features {
+            return Err(missing("element 'face', so there are no triangles".to_owned()));
+        }
+        for element in of_corners.into_iter().flatten() {
+            if !element.has(Role::Corners) {
+                return Err(missing(format!(
+                    "list of integers 'vertex_indices' or 'vertex_index' for the element '{}'",
+                    element.name
+                )));
+            }
+        }
+        Ok(vertex.count)
+    }
+}
