@@ -64,7 +64,7 @@ pub enum FileProblem {
     #[error("the file is empty")]
     Empty,
     /// The extension names no format.
-    #[error("the file's extension must be .obj or .ply")]
+    #[error("the file's extension must be .obj, .ply, .stl or .off")]
     UnknownExtension,
     /// The system could not read the file.
     #[error("cannot be read: {0}")]

@@ -73,13 +73,24 @@ impl Findings {
                 "weld merges them",
             ),
             (self.duplicate_triangles, ["duplicate triangle", "duplicate triangles"], ""),
-            (self.flat_triangles.len(), ["triangle without area", "triangles without area"], ""),
+            (
+                self.flat_triangles.len(),
+                ["triangle without area", "triangles without area"],
+                "",
+            ),
             (self.thin_triangles.len(), ["very thin triangle", "very thin triangles"], ""),
             (self.unused_vertices, ["unused vertex", "unused vertices"], ""),
-            (self.non_manifold_edges, ["edge of three triangles or more", "edges of three triangles or more"], ""),
+            (
+                self.non_manifold_edges,
+                ["edge of three triangles or more", "edges of three triangles or more"],
+                "",
+            ),
             (
                 self.inconsistent_edges.len(),
-                ["edge between triangles that face opposite ways", "edges between triangles that face opposite ways"],
+                [
+                    "edge between triangles that face opposite ways",
+                    "edges between triangles that face opposite ways",
+                ],
                 "",
             ),
         ]

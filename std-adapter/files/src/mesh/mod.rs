@@ -10,14 +10,16 @@ mod error;
 mod findings;
 mod notes;
 mod obj;
+mod off;
 mod parsed;
 mod ply;
 mod polygon;
 mod sequence;
 mod step;
-mod text;
+mod stl;
 #[cfg(test)]
 mod tests;
+mod text;
 
 pub use error::{FileProblem, FrameDifference, MeshError};
 pub use findings::{Findings, THIN};
@@ -40,21 +42,26 @@ pub enum FileFormat {
     Obj,
     /// PLY, the Stanford polygon format. A reader finds the encoding in the header.
     Ply(PlyEncoding),
+    /// STL, text or binary. It is read, not written: its binary form holds 32-bit numbers.
+    Stl,
+    /// OFF, text. It is read, not written.
+    Off,
 }
 
 impl FileFormat {
-    /// The format that the extension of `path` names, in capitals or not: `.obj`, or `.ply`, which
+    /// The format that the extension of `path` names, in capitals or not: `.obj`, `.stl`, `.off`, or `.ply`, which
     /// is written as binary, little endian.
     #[must_use]
     pub fn from_path(path: &Path) -> Option<Self> {
+        const FORMATS: [(&str, FileFormat); 4] = [
+            ("obj", FileFormat::Obj),
+            ("ply", FileFormat::Ply(PlyEncoding::LittleEndian)),
+            ("stl", FileFormat::Stl),
+            ("off", FileFormat::Off),
+        ];
         let extension = path.extension()?.to_str()?;
-        if extension.eq_ignore_ascii_case("obj") {
-            Some(Self::Obj)
-        } else if extension.eq_ignore_ascii_case("ply") {
-            Some(Self::Ply(PlyEncoding::default()))
-        } else {
-            None
-        }
+        let format = FORMATS.iter().find(|(name, _)| extension.eq_ignore_ascii_case(name));
+        format.map(|&(_, format)| format)
     }
 }
 
@@ -130,6 +137,14 @@ pub fn read_with(path: &Path, options: &ReadOptions<'_>) -> Result<LooseMesh, Me
 /// ```
 pub fn read_bytes_with_loose_features(bytes: &[u8], format: FileFormat) -> Result<LooseMesh, FileProblem> {
     parse(bytes, format, &WITH_LOOSE_FEATURES)?.into_loose()
+}
+
+/// Reads the wanted parts of the bytes of a file, as [`read_with`].
+///
+/// # Errors
+/// Those of [`read_with`], without the file's name.
+pub fn read_bytes_with(bytes: &[u8], format: FileFormat, options: &ReadOptions<'_>) -> Result<LooseMesh, FileProblem> {
+    parse(bytes, format, options)?.into_loose()
 }
 
 /// Reads a mesh from the bytes of a file. For [`FileFormat::Ply`] the header decides on the
@@ -254,6 +269,8 @@ fn parse(bytes: &[u8], format: FileFormat, options: &ReadOptions<'_>) -> Result<
     match format {
         FileFormat::Obj => obj::parse(bytes, options),
         FileFormat::Ply(_) => ply::parse(bytes, options),
+        FileFormat::Stl => stl::parse(bytes, options),
+        FileFormat::Off => off::parse(bytes, options),
     }
     .map(|parsed| Parsed {
         weld: options.weld,
@@ -322,5 +339,9 @@ fn write_to(out: &mut impl Write, mesh: &Mesh, loose_edges: &[[u32; 2]], format:
     match format {
         FileFormat::Obj => obj::write(out, mesh, loose_edges),
         FileFormat::Ply(encoding) => ply::write(out, mesh, loose_edges, encoding),
+        FileFormat::Stl | FileFormat::Off => Err(io::Error::new(
+            io::ErrorKind::Unsupported,
+            "this format is only read; name the file .obj or .ply",
+        )),
     }
 }

@@ -59,20 +59,22 @@ impl fmt::Display for MeshNotes {
             )?,
         }
         if self.welded_vertices > 0 {
-            write!(f, ", {} merged", vertices(self.welded_vertices))?;
+            let plural = if self.welded_vertices == 1 { "vertex" } else { "vertices" };
+            write!(f, ", {} {plural} merged", self.welded_vertices)?;
         }
         if self.collapsed_triangles > 0 {
-            write!(f, ", {} triangles collapsed by that", self.collapsed_triangles)?;
+            let plural = if self.collapsed_triangles == 1 {
+                "triangle"
+            } else {
+                "triangles"
+            };
+            write!(f, ", {} {plural} collapsed by that", self.collapsed_triangles)?;
         }
         for part in &self.left_out {
             write!(f, ", left out: {part}")?;
         }
         Ok(())
     }
-}
-
-fn vertices(count: usize) -> String {
-    format!("{count} {}", if count == 1 { "vertex" } else { "vertices" })
 }
 
 /// A kind of part that a file has.

@@ -141,9 +141,9 @@ impl<'a> Reader<'a> {
                 Ok(())
             }
             // Looks, and what describes curves and surfaces that are counted by their own lines.
-            b"vn" | b"vt" | b"vp" | b"vc" | b"s" | b"mg" | b"usemtl" | b"mtllib" | b"usemap" | b"maplib" | b"bevel" | b"c_interp"
-            | b"d_interp" | b"lod" | b"shadow_obj" | b"trace_obj" | b"ctech" | b"stech" | b"cstype" | b"deg" | b"bmat" | b"step"
-            | b"parm" | b"trim" | b"hole" | b"scrv" | b"sp" | b"end" | b"con" => Ok(()),
+            b"vn" | b"vt" | b"vp" | b"vc" | b"s" | b"mg" | b"usemtl" | b"mtllib" | b"usemap" | b"maplib" | b"bevel"
+            | b"c_interp" | b"d_interp" | b"lod" | b"shadow_obj" | b"trace_obj" | b"ctech" | b"stech" | b"cstype" | b"deg"
+            | b"bmat" | b"step" | b"parm" | b"trim" | b"hole" | b"scrv" | b"sp" | b"end" | b"con" => Ok(()),
             b"l" | b"p" | b"curv" | b"curv2" | b"cdc" => {
                 self.leave_out(line, keyword, false);
                 Ok(())
@@ -208,7 +208,10 @@ impl<'a> Reader<'a> {
         // Two lines that a backslash has joined by mistake.
         let is_word = |field: &&[u8]| field[0].is_ascii_alphabetic() && number(field).is_none();
         if let Some(word) = fields.find(is_word) {
-            let reason = format!("vertex {vertex} has '{}' after its coordinates, which is not a number", quoted(word, 40));
+            let reason = format!(
+                "vertex {vertex} has '{}' after its coordinates, which is not a number",
+                quoted(word, 40)
+            );
             return Err(FileProblem::Line { line, reason });
         }
         let position = DVec3::from_array(coordinates);

@@ -90,7 +90,9 @@ impl Parsed {
     fn split(&self) -> Triangles {
         let mut split = Triangles::default();
         // A polygon has two triangles fewer than corners.
-        split.triangles.reserve_exact(self.faces.corners.len().saturating_sub(2 * self.faces.len()));
+        split
+            .triangles
+            .reserve_exact(self.faces.corners.len().saturating_sub(2 * self.faces.len()));
         let mut triangulator = Triangulator::default();
         for (face, corners) in self.faces.iter().enumerate() {
             if let &[a, b, c] = corners {

@@ -84,7 +84,8 @@ impl Triangulator {
     fn clip(&mut self, triangles: &mut Vec<[u32; 3]>) -> bool {
         let count = self.points.len();
         self.links.clear();
-        self.links.extend((0..count).map(|k| [(k + count - 1) % count, (k + 1) % count]));
+        self.links
+            .extend((0..count).map(|k| [(k + count - 1) % count, (k + 1) % count]));
         let (mut corner, mut remaining, mut misses) = (0, count, 0);
         while remaining >= 3 {
             let [before, after] = self.links[corner];
@@ -206,7 +207,16 @@ mod tests {
             .rev()
             .collect();
         let ring: &[[f64; 2]] = &[
-            [0., 0.], [4., 0.], [4., 4.], [0., 4.], [0., 0.], [1., 1.], [1., 3.], [3., 3.], [3., 1.], [1., 1.],
+            [0., 0.],
+            [4., 0.],
+            [4., 4.],
+            [0., 4.],
+            [0., 0.],
+            [1., 1.],
+            [1., 3.],
+            [3., 3.],
+            [3., 1.],
+            [1., 1.],
         ];
         for outline in [c_shape, arrow, straight, &comb, ring] {
             for first in 0..outline.len() {
@@ -222,7 +232,10 @@ mod tests {
                     let whole = area(&outline, 0..outline.len() as u32);
                     let parts = triangles.iter().map(|triangle| area(&outline, triangle.iter().copied()));
                     assert!(parts.clone().all(|part| part * whole > 0.0), "{outline:?}: {triangles:?}");
-                    assert!((parts.sum::<f64>() - whole).abs() < 1e-12 * whole.abs(), "{outline:?}: {triangles:?}");
+                    assert!(
+                        (parts.sum::<f64>() - whole).abs() < 1e-12 * whole.abs(),
+                        "{outline:?}: {triangles:?}"
+                    );
                 }
             }
         }
@@ -230,7 +243,9 @@ mod tests {
 
     #[test]
     fn convex_polygons_are_fans_from_their_first_corner() {
-        let outline: Vec<[f64; 2]> = [(5, 0), (4, 3), (3, 4), (0, 5), (-3, 4), (-5, 0), (0, -5)].map(|(x, y)| [x.into(), y.into()]).to_vec();
+        let outline: Vec<[f64; 2]> = [(5, 0), (4, 3), (3, 4), (0, 5), (-3, 4), (-5, 0), (0, -5)]
+            .map(|(x, y)| [x.into(), y.into()])
+            .to_vec();
         let (triangles, is_free) = triangulated(&outline);
         let corners: Vec<u32> = (0..7).collect();
         assert!(is_free && triangles.into_iter().eq(fan(&corners)));
@@ -239,7 +254,9 @@ mod tests {
     #[test]
     fn outlines_that_cross_themselves_are_reported() {
         let bow: &[[f64; 2]] = &[[0., 0.], [1., 1.], [1., 0.], [0., 1.]];
-        let star: Vec<[f64; 2]> = [0, 2, 4, 1, 3].map(|k| [[0., 3.], [-3., 1.], [-2., -3.], [2., -3.], [3., 1.]][k]).to_vec();
+        let star: Vec<[f64; 2]> = [0, 2, 4, 1, 3]
+            .map(|k| [[0., 3.], [-3., 1.], [-2., -3.], [2., -3.], [3., 1.]][k])
+            .to_vec();
         let touching: &[[f64; 2]] = &[[0., 0.], [4., 0.], [4., 4.], [2., 0.], [0., 4.]];
         let flat: &[[f64; 2]] = &[[0., 0.], [1., 0.], [2., 0.], [3., 0.]];
         for outline in [bow, &star, touching, flat] {
@@ -253,7 +270,10 @@ mod tests {
         for size in [1e-300, 1e-200, 1e300] {
             let positions = [[0., 0.], [2., -1.], [1., 0.], [2., 1.]].map(|[x, y]: [f64; 2]| DVec3::new(x, y, 0.0) * size);
             let mut triangles = Vec::new();
-            assert!(Triangulator::default().triangulate(&positions, &[0, 1, 2, 3], &mut triangles), "{size}");
+            assert!(
+                Triangulator::default().triangulate(&positions, &[0, 1, 2, 3], &mut triangles),
+                "{size}"
+            );
             assert_eq!(triangles.len(), 2);
         }
         let positions = [DVec3::ZERO, DVec3::X, DVec3::Y];

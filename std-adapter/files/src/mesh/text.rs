@@ -48,7 +48,10 @@ pub(super) fn without_byte_order_mark(bytes: &[u8]) -> Result<&[u8], FileProblem
     let is_wide = match bytes {
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => true,
         // Without a mark: a letter and a zero byte, in either order.
-        [a, b, c, d, ..] => matches!([a, b, c, d].map(|&byte| byte != 0), [true, false, true, false] | [false, true, false, true]),
+        [a, b, c, d, ..] => matches!(
+            [a, b, c, d].map(|&byte| byte != 0),
+            [true, false, true, false] | [false, true, false, true]
+        ),
         _ => false,
     };
     if is_wide {
@@ -92,7 +95,11 @@ pub(super) fn number(field: &[u8]) -> Option<f64> {
 fn not_finite(text: &str) -> Option<f64> {
     let lower = text.to_ascii_lowercase();
     let unsigned = lower.trim_start_matches(['+', '-']);
-    if unsigned.starts_with("nan(") || unsigned.starts_with("1.#qnan") || unsigned.starts_with("1.#snan") || unsigned.starts_with("1.#ind") {
+    if unsigned.starts_with("nan(")
+        || unsigned.starts_with("1.#qnan")
+        || unsigned.starts_with("1.#snan")
+        || unsigned.starts_with("1.#ind")
+    {
         return Some(f64::NAN);
     }
     unsigned.starts_with("1.#inf").then_some(f64::INFINITY)

@@ -84,7 +84,11 @@ impl<'a> Body<'a> {
             // A digit and a separator for each property, or an empty line; the last line may end
             // with the file.
             Encoding::Ascii => ((2 * properties.len()).max(1), 1, self.lines.rest().len()),
-            _ => (properties.map(|property| property.kind.smallest_size()).sum(), 0, self.rest.len()),
+            _ => (
+                properties.map(|property| property.kind.smallest_size()).sum(),
+                0,
+                self.rest.len(),
+            ),
         };
         let needed = element.count.saturating_mul(each).saturating_sub(last);
         if needed > left {
@@ -98,7 +102,12 @@ impl<'a> Body<'a> {
         Ok(())
     }
 
-    fn read_binary<const BIG: bool>(&mut self, element: &Element, index: usize, row: &mut Row) -> Result<Option<usize>, FileProblem> {
+    fn read_binary<const BIG: bool>(
+        &mut self,
+        element: &Element,
+        index: usize,
+        row: &mut Row,
+    ) -> Result<Option<usize>, FileProblem> {
         let cut_off = || truncated(element, index);
         for property in &element.properties {
             match property.kind {
@@ -120,7 +129,8 @@ impl<'a> Body<'a> {
                     let size = length.checked_mul(number.size()).ok_or_else(cut_off)?;
                     let bytes = take(&mut self.rest, size).ok_or_else(cut_off)?;
                     if property.role == Role::Corners {
-                        row.corners.extend(bytes.chunks_exact(number.size()).map(|bytes| whole::<BIG>(number, bytes)));
+                        row.corners
+                            .extend(bytes.chunks_exact(number.size()).map(|bytes| whole::<BIG>(number, bytes)));
                     }
                 }
             }
@@ -191,7 +201,12 @@ fn spelled(kind: Number, field: &[u8]) -> Option<f64> {
     match kind {
         Number::F64 => Some(value),
         // Directly, since rounding twice may differ.
-        Number::F32 => Some(std::str::from_utf8(field).ok()?.parse().map_or(value, |single: f32| f64::from(single))),
+        Number::F32 => Some(
+            std::str::from_utf8(field)
+                .ok()?
+                .parse()
+                .map_or(value, |single: f32| f64::from(single)),
+        ),
         // C reads the digits before the point; a fraction would be lost.
         _ if value.fract() == 0.0 || !value.is_finite() => Some(value),
         _ => None,
@@ -201,7 +216,10 @@ fn spelled(kind: Number, field: &[u8]) -> Option<f64> {
 /// Why a line is not the element that it should be.
 #[cold]
 fn line_problem(element: &Element, index: usize, line: usize, text: &[u8]) -> FileProblem {
-    let scalars = element.properties.iter().take_while(|property| matches!(property.kind, Kind::Scalar(_)));
+    let scalars = element
+        .properties
+        .iter()
+        .take_while(|property| matches!(property.kind, Kind::Scalar(_)));
     for (Property { role, .. }, field) in scalars.zip(fields(text)) {
         let Role::Coordinate(axis) = *role else { continue };
         match number(field) {
@@ -216,7 +234,10 @@ fn line_problem(element: &Element, index: usize, line: usize, text: &[u8]) -> Fi
             Some(_) => {}
             None => {
                 let name = COORDINATES[axis];
-                let reason = format!("vertex {index} has the {name} coordinate '{}', which is not a number", quoted(field, 40));
+                let reason = format!(
+                    "vertex {index} has the {name} coordinate '{}', which is not a number",
+                    quoted(field, 40)
+                );
                 return FileProblem::Line { line, reason };
             }
         }

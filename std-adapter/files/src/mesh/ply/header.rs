@@ -3,7 +3,7 @@
 use super::super::error::FileProblem;
 use super::super::text::{Lines, fields, integer, quoted};
 use super::body::{Body, Encoding};
-use super::{CORNERS, COORDINATES, ENDS};
+use super::{COORDINATES, CORNERS, ENDS};
 
 #[derive(Debug, Default)]
 pub(super) struct Header {
@@ -125,7 +125,9 @@ impl Element {
 pub(super) fn read(bytes: &[u8]) -> Result<(Header, Body<'_>), FileProblem> {
     let mut lines = Lines::new(bytes);
     if !lines.next().is_some_and(|line| fields(line).eq([b"ply"])) {
-        return Err(FileProblem::Header("is missing: a PLY file begins with a line 'ply'".to_owned()));
+        return Err(FileProblem::Header(
+            "is missing: a PLY file begins with a line 'ply'".to_owned(),
+        ));
     }
     let mut header = Header::default();
     let mut encoding = None;
@@ -173,7 +175,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Header, Body<'_>), FileProblem> {
                 element.properties.push(Property { name, kind, role });
             }
             [b"end_header"] => {
-                let encoding = encoding.ok_or_else(|| FileProblem::Header("has no line 'format', such as 'format ascii 1.0'".to_owned()))?;
+                let encoding =
+                    encoding.ok_or_else(|| FileProblem::Header("has no line 'format', such as 'format ascii 1.0'".to_owned()))?;
                 return Ok((header, Body::new(encoding, lines, bytes)));
             }
             _ => return Err(does_not_belong(line, text)),

@@ -90,7 +90,9 @@ impl Reader {
     }
 
     fn is_vertex(&self, vertex: i64) -> Option<u32> {
-        u32::try_from(vertex).ok().filter(|&index| (index as usize) < self.vertex_count)
+        u32::try_from(vertex)
+            .ok()
+            .filter(|&index| (index as usize) < self.vertex_count)
     }
 
     /// Adds `corners` as a face.

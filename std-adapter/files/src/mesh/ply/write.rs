@@ -5,7 +5,12 @@ use selvedge::Mesh;
 use std::io::{self, Write};
 
 /// Writes a mesh with coordinates of the type `double`.
-pub(in super::super) fn write(out: &mut impl Write, mesh: &Mesh, loose_edges: &[[u32; 2]], encoding: PlyEncoding) -> io::Result<()> {
+pub(in super::super) fn write(
+    out: &mut impl Write,
+    mesh: &Mesh,
+    loose_edges: &[[u32; 2]],
+    encoding: PlyEncoding,
+) -> io::Result<()> {
     let format = match encoding {
         PlyEncoding::Ascii => "ascii",
         PlyEncoding::LittleEndian => "binary_little_endian",

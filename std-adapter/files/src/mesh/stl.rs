@@ -1,0 +1,175 @@
+//! STL, text and binary. Vertices in exactly the same place are one, numbered by their first appearance, since the format has no numbers.
+//!
+//! This reader is our own because `stl_io` reads text as 32-bit numbers and skips lines that it does not know, and neither it nor `nom_stl`
+//! refuses a loop of other than three vertices; the binary form is fifty bytes a triangle.
+
+use super::error::FileProblem;
+use super::notes::{FilePart, LeftOut};
+use super::parsed::Parsed;
+use super::text::{Lines, fields, number, quoted, without_byte_order_mark};
+use super::{ReadOptions, check_finite};
+use selvedge::first_coincident;
+use selvedge_core::glam::DVec3;
+
+/// A text of eighty bytes, and the number of triangles.
+const HEADER: usize = 84;
+/// A normal, three corners of 32-bit numbers, and two bytes.
+const TRIANGLE: usize = 50;
+
+pub(super) fn parse(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Parsed, FileProblem> {
+    if options.only.is_some() {
+        return Err(FileProblem::NoGroups);
+    }
+    let declared = bytes
+        .get(80..HEADER)
+        .map(|count| u32::from_le_bytes([count[0], count[1], count[2], count[3]]) as usize);
+    let size = declared.map(|count| HEADER.saturating_add(count.saturating_mul(TRIANGLE)));
+    // Binary files may begin with `solid` as well, but few texts have the size that their bytes 80 to 83 say.
+    let is_text = || starts_text(without_byte_order_mark(bytes).unwrap_or(bytes));
+    let mut parsed = Parsed::default();
+    if size != Some(bytes.len()) && is_text() {
+        read_text(without_byte_order_mark(bytes)?, &mut parsed)?;
+    } else {
+        read_binary(bytes, declared, &mut parsed)?;
+    }
+    Ok(welded(parsed))
+}
+
+/// A text begins with `solid`, and the first line after it with `facet` or `endsolid`.
+fn starts_text(bytes: &[u8]) -> bool {
+    let mut lines = Lines::new(bytes).filter_map(|line| fields(line).next());
+    let is = |word: Option<&[u8]>, names: &[&str]| {
+        word.is_some_and(|word| names.iter().any(|name| word.eq_ignore_ascii_case(name.as_bytes())))
+    };
+    is(lines.next(), &["solid"]) && is(lines.next(), &["facet", "endsolid"])
+}
+
+fn read_binary(bytes: &[u8], declared: Option<usize>, parsed: &mut Parsed) -> Result<(), FileProblem> {
+    let Some(declared) = declared else {
+        return Err(FileProblem::Header(
+            "is missing: an STL file begins with 'solid' or with 84 bytes and the number of its triangles".to_owned(),
+        ));
+    };
+    let body = &bytes[HEADER..];
+    if body.len() / TRIANGLE < declared {
+        return Err(FileProblem::Truncated {
+            element: "triangle".to_owned(),
+            declared,
+            found: body.len() / TRIANGLE,
+        });
+    }
+    let (body, rest) = body.split_at(declared * TRIANGLE);
+    parsed.positions.reserve_exact(3 * declared);
+    for triangle in body.chunks_exact(TRIANGLE) {
+        let first = parsed.positions.len() as u32;
+        for corner in triangle[12..48].chunks_exact(12) {
+            let coordinate = |k: usize| f32::from_le_bytes([corner[k], corner[k + 1], corner[k + 2], corner[k + 3]]);
+            let position = DVec3::new(coordinate(0).into(), coordinate(4).into(), coordinate(8).into());
+            check_finite(parsed.positions.len(), position, None)?;
+            parsed.positions.push(position);
+        }
+        parsed.faces.push(&[first, first + 1, first + 2]);
+    }
+    if rest.iter().any(|&byte| byte != 0) {
+        parsed.leave_out(LeftOut {
+            part: FilePart::TrailingByte,
+            name: String::new(),
+            count: rest.len(),
+            line: None,
+            may_have_area: true,
+        });
+    }
+    Ok(())
+}
+
+/// What a text may say next.
+#[derive(Clone, Copy, PartialEq)]
+enum State {
+    Outside,
+    Solid,
+    Facet,
+    Loop,
+    AfterLoop,
+}
+
+fn read_text(bytes: &[u8], parsed: &mut Parsed) -> Result<(), FileProblem> {
+    let mut lines = Lines::new(bytes);
+    let mut state = State::Outside;
+    while let Some(text) = lines.next() {
+        let line = lines.number;
+        let mut words = fields(text);
+        let Some(first) = words.next() else { continue };
+        let wrong = |reason: String| FileProblem::Line { line, reason };
+        state = match (state, first.to_ascii_lowercase().as_slice()) {
+            (State::Outside, b"solid") => State::Solid,
+            (State::Solid, b"endsolid") => State::Outside,
+            (State::Solid, b"facet") => State::Facet,
+            (State::Facet, b"outer") => State::Loop,
+            (State::Loop, b"vertex") => {
+                let vertex = parsed.positions.len();
+                let mut coordinates = [0.0; 3];
+                for (value, name) in coordinates.iter_mut().zip(['x', 'y', 'z']) {
+                    let field = words.next().unwrap_or_default();
+                    *value = number(field).ok_or_else(|| {
+                        wrong(format!(
+                            "vertex {vertex} has the {name} coordinate '{}', which is not a number",
+                            quoted(field, 40)
+                        ))
+                    })?;
+                }
+                let position = DVec3::from_array(coordinates);
+                check_finite(vertex, position, Some(line))?;
+                parsed.positions.push(position);
+                State::Loop
+            }
+            (State::Loop, b"endloop") => {
+                let first = 3 * parsed.faces.len();
+                let corners = parsed.positions.len() - first;
+                if corners != 3 {
+                    let face = parsed.faces.len();
+                    return Err(wrong(format!("facet {face} has {corners} vertices, but must have three")));
+                }
+                let first = first as u32;
+                parsed.faces.push(&[first, first + 1, first + 2]);
+                State::AfterLoop
+            }
+            (State::AfterLoop, b"endfacet") => State::Solid,
+            (state, _) => {
+                let expected = match state {
+                    State::Outside => "'solid'",
+                    State::Solid => "'facet' or 'endsolid'",
+                    State::Facet => "'outer loop'",
+                    State::Loop => "'vertex' or 'endloop'",
+                    State::AfterLoop => "'endfacet'",
+                };
+                return Err(wrong(format!("here must be {expected}, not '{}'", quoted(text, 60))));
+            }
+        };
+    }
+    if state == State::Outside {
+        return Ok(());
+    }
+    Err(FileProblem::Header(
+        "has no end: the line 'endsolid' is missing; is the file complete?".to_owned(),
+    ))
+}
+
+/// Merges equal vertices.
+fn welded(parsed: Parsed) -> Parsed {
+    let first = first_coincident(&parsed.positions, 0.0);
+    let mut numbers: Vec<u32> = Vec::with_capacity(first.len());
+    let mut merged = Parsed::default();
+    for (vertex, &first) in first.iter().enumerate() {
+        if first as usize == vertex {
+            numbers.push(merged.positions.len() as u32);
+            merged.positions.push(parsed.positions[vertex]);
+        } else {
+            numbers.push(numbers[first as usize]);
+        }
+    }
+    for corners in numbers.chunks_exact(3) {
+        merged.faces.push(corners);
+    }
+    merged.left_out = parsed.left_out;
+    merged
+}

@@ -1,0 +1,216 @@
+//! Every kind of file in `zoo/` is read, or refused, as `zoo/expected.txt` says; damaged ones never panic, and no lost face goes unnoticed.
+
+use selvedge::{CollisionDetector, Topology};
+use selvedge_files::mesh::{FileFormat, Findings, LooseMesh, ReadOptions, read_bytes, read_bytes_with, write_bytes};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/zoo")
+}
+
+/// A file's name, format, bytes and what is expected of it.
+struct Animal {
+    name: String,
+    format: FileFormat,
+    bytes: Vec<u8>,
+    /// Vertices, triangles, and intersections.
+    counts: String,
+    report: String,
+}
+
+fn animals() -> Vec<Animal> {
+    let table = std::fs::read_to_string(folder().join("expected.txt")).unwrap();
+    let rows = table.lines().filter(|line| !line.starts_with('#'));
+    let animal = |row: &str| {
+        let [name, counts, report] = row.splitn(3, " | ").collect::<Vec<_>>().try_into().expect(row);
+        Animal {
+            name: name.to_owned(),
+            format: FileFormat::from_path(Path::new(name)).expect(name),
+            bytes: std::fs::read(folder().join(name)).expect(name),
+            counts: counts.to_owned(),
+            report: report.to_owned(),
+        }
+    };
+    rows.map(animal).collect()
+}
+
+fn intersections(mesh: &LooseMesh) -> usize {
+    let mut detector = CollisionDetector::<f64>::new(Arc::new(mesh.topology.clone()));
+    let mut found = Vec::new();
+    detector.intersections(&mesh.positions, &mut found).unwrap();
+    found.len()
+}
+
+#[test]
+fn every_file_is_read_or_refused_as_expected() {
+    let animals = animals();
+    let files = std::fs::read_dir(folder()).unwrap().count();
+    assert_eq!(animals.len(), files - 1, "each file has a line in expected.txt");
+    let mut wrong = Vec::new();
+    for Animal {
+        name,
+        format,
+        bytes,
+        counts,
+        report,
+    } in animals
+    {
+        let (found, said) = match read_bytes_with(&bytes, format, &ReadOptions::default()) {
+            Err(problem) => ("refused".to_owned(), problem.to_string()),
+            Ok(mesh) => {
+                let crossings = match intersections(&mesh) {
+                    0 => "0".to_owned(),
+                    _ if counts.ends_with('?') => "?".to_owned(),
+                    count => count.to_string(),
+                };
+                let [vertices, triangles] = [mesh.positions.len(), mesh.topology.triangles().len()];
+                let findings = Findings::of(&mesh.positions, &mesh.topology);
+                (
+                    format!("{vertices} {triangles} {crossings}"),
+                    format!("{}, {findings}", mesh.notes),
+                )
+            }
+        };
+        if found != counts || report != "-" && !said.contains(&report) {
+            wrong.push(format!("{name}: expected {counts} | {report}, but found {found} | {said}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn what_is_read_written_and_read_again_is_the_same_mesh() {
+    use selvedge_files::mesh::PlyEncoding::{Ascii, BigEndian, LittleEndian};
+    for animal in animals() {
+        let Ok(file) = read_bytes(&animal.bytes, animal.format) else {
+            continue;
+        };
+        for format in [
+            FileFormat::Obj,
+            FileFormat::Ply(Ascii),
+            FileFormat::Ply(LittleEndian),
+            FileFormat::Ply(BigEndian),
+        ] {
+            let written = write_bytes(&file.mesh, format).unwrap();
+            assert_eq!(
+                read_bytes(&written, format).unwrap().mesh,
+                file.mesh,
+                "{} as {format:?}",
+                animal.name
+            );
+        }
+    }
+}
+
+/// Numbers that look random, the same in every run.
+struct Numbers(u64);
+
+impl Numbers {
+    fn below(&mut self, limit: usize) -> usize {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        ((self.0 >> 33) as usize) % limit.max(1)
+    }
+}
+
+/// Changes bytes, drops or doubles a line, or cuts the end off.
+fn damage(bytes: &[u8], numbers: &mut Numbers) -> Vec<u8> {
+    let mut damaged = bytes.to_vec();
+    for _ in 0..=numbers.below(3) {
+        if damaged.is_empty() {
+            break;
+        }
+        let place = numbers.below(damaged.len());
+        match numbers.below(6) {
+            0 => damaged[place] ^= 1 << numbers.below(8),
+            1 => damaged[place] = b" \n\r\\#0-.~\xff"[numbers.below(10)],
+            2 => damaged.truncate(place),
+            3 => drop(damaged.remove(place)),
+            drop_or_double => {
+                let end = damaged[place..]
+                    .iter()
+                    .position(|&byte| byte == b'\n')
+                    .map_or(damaged.len(), |end| place + end + 1);
+                let begin = damaged[..place]
+                    .iter()
+                    .rposition(|&byte| byte == b'\n')
+                    .map_or(0, |begin| begin + 1);
+                if drop_or_double == 4 {
+                    damaged.drain(begin..end);
+                } else {
+                    let line = damaged[begin..end].to_vec();
+                    damaged.splice(begin..begin, line);
+                }
+            }
+        }
+    }
+    damaged
+}
+
+/// The faces that a file speaks of, counted in another way than the readers count: lines of text that begin like a face.
+fn face_lines(bytes: &[u8], format: FileFormat) -> Option<usize> {
+    let text = std::str::from_utf8(bytes).ok()?;
+    let word = |line: &str| line.split_whitespace().next().map(str::to_ascii_lowercase);
+    let count = |name: &str| {
+        text.split(['\n', '\r'])
+            .filter(|line| word(line).as_deref() == Some(name))
+            .count()
+    };
+    match format {
+        FileFormat::Obj if !text.contains('\\') => Some(count("f") + count("fo")),
+        FileFormat::Stl if !text.contains('\0') => Some(count("facet")),
+        _ => None,
+    }
+}
+
+#[test]
+fn damaged_files_end_in_a_mesh_or_a_message_and_no_lost_face_goes_unnoticed() {
+    let mut numbers = Numbers(51);
+    for animal in animals() {
+        for _ in 0..40 {
+            let damaged = damage(&animal.bytes, &mut numbers);
+            let read = read_bytes_with(
+                &damaged,
+                animal.format,
+                &ReadOptions {
+                    loose_features: numbers.below(2) == 0,
+                    ..ReadOptions::default()
+                },
+            );
+            let Ok(mesh) = read else { continue };
+            assert!(mesh.positions.iter().all(|position| position.is_finite()));
+            if !mesh.notes.is_complete() || mesh.notes.polygons_triangulated > 0 {
+                continue;
+            }
+            if let Some(faces) = face_lines(&damaged, animal.format) {
+                let text = || String::from_utf8_lossy(&damaged).into_owned();
+                let read = mesh.topology.proper_triangles().len();
+                // Corners that were repeated.
+                assert!(read >= faces, "{}: {read} of {faces} faces of\n{}", animal.name, text());
+            }
+        }
+    }
+}
+
+/// A file of nothing but one kind of line takes no more memory than its size allows, and no time that grows faster.
+#[test]
+fn large_files_are_read_in_proportion() {
+    let wheel: String = (0..20_000).map(|k| format!(" {}", k % 9_000 + 1)).collect();
+    let vertices: String = (0..9_000)
+        .map(|k| format!("v {} {} 0\n", k * 7 % 9_001, k * k % 9_001))
+        .collect();
+    let begin = std::time::Instant::now();
+    for text in [
+        format!("{vertices}f{wheel}\n"),
+        format!("{vertices}f{}\n", &wheel[..40_000]),
+        "f 1 2 3\n".repeat(100_000) + "v 0 0 0\nv 1 0 0\nv 0 1 0\n",
+        (0..100_000).map(|k| format!("word{k} 1\n")).collect::<String>() + "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+    ] {
+        let mesh = read_bytes(text.as_bytes(), FileFormat::Obj).unwrap();
+        let _: Topology = mesh.mesh.topology().unwrap();
+    }
+    assert!(begin.elapsed().as_secs() < 60, "{:?}", begin.elapsed());
+}
