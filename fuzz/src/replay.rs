@@ -20,6 +20,12 @@ fn replay(name: &str) {
         .expect("a target of this name");
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut paths = files(&root.join("corpus").join(name));
+    // Mesh files of every kind, which campaigns start from as well.
+    let zoo = files(&root.join("../std-adapter/files/tests/zoo"));
+    paths.extend(
+        zoo.into_iter()
+            .filter(|path| path.extension().is_some_and(|extension| extension == name)),
+    );
     assert!(paths.len() >= 10, "only {} kept inputs", paths.len());
     paths.extend(files(&root.join("regressions").join(name)));
     let mut broken = Vec::new();
@@ -70,6 +76,16 @@ fn obj_keeps_its_promises_on_the_kept_inputs() {
 #[test]
 fn ply_keeps_its_promises_on_the_kept_inputs() {
     replay("ply");
+}
+
+#[test]
+fn stl_keeps_its_promises_on_the_kept_inputs() {
+    replay("stl");
+}
+
+#[test]
+fn off_keeps_its_promises_on_the_kept_inputs() {
+    replay("off");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 use super::message;
 use selvedge::Mesh;
-use selvedge_files::mesh::{FileFormat, PlyEncoding, read_bytes, read_bytes_with_loose_features, write_bytes};
+use selvedge_files::mesh::{FileFormat, Findings, PlyEncoding, read_bytes, read_bytes_with_loose_features, write_bytes};
 
 const FORMATS: [FileFormat; 4] = [
     FileFormat::Obj,
@@ -17,6 +17,16 @@ pub fn obj(data: &[u8]) {
 /// PLY, in the encoding that the bytes declare: see `check`.
 pub fn ply(data: &[u8]) {
     check(data, FileFormat::Ply(PlyEncoding::default()));
+}
+
+/// STL, text or binary: see `check`.
+pub fn stl(data: &[u8]) {
+    check(data, FileFormat::Stl);
+}
+
+/// OFF: see `check`.
+pub fn off(data: &[u8]) {
+    check(data, FileFormat::Off);
 }
 
 /// A file is refused with a readable message, or read as a mesh whose triangles exist and whose coordinates are finite;
@@ -41,8 +51,11 @@ fn check(data: &[u8], format: FileFormat) {
     let mut vertices = triangles.iter().flatten();
     assert!(vertices.all(|&vertex| (vertex as usize) < positions.len()));
     let polygons = file.notes.polygons_triangulated;
-    assert!(2 * polygons <= triangles.len(), "a polygon is two or more");
+    assert!(polygons <= triangles.len(), "a polygon is one or more");
 
+    message::check(&file.notes);
+    let topology = file.mesh.topology().expect("it was read with one");
+    message::check(&format!("findings: {}", Findings::of(positions, &topology)));
     for format in FORMATS {
         let written = write_bytes(&file.mesh, format).expect("what was read can be written");
         let again = read_bytes(&written, format).expect("what was written can be read");

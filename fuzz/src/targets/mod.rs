@@ -17,7 +17,7 @@ pub use certified_filter::certified_filter;
 pub use distribution::distribution;
 pub use exact_signs::exact_signs;
 pub use exact_verdict::exact_verdict;
-pub use meshes::{obj, ply};
+pub use meshes::{obj, off, ply, stl};
 pub use query_csv::query_csv;
 pub use scene::scene;
 pub use time_of_impact::time_of_impact;
@@ -26,7 +26,7 @@ pub use time_of_impact::time_of_impact;
 pub type Target = (&'static str, fn(&[u8]));
 
 /// Every target there is.
-pub const ALL: [Target; 10] = [
+pub const ALL: [Target; 12] = [
     ("certified_filter", certified_filter),
     ("box_tests", box_tests),
     ("exact_signs", exact_signs),
@@ -35,6 +35,8 @@ pub const ALL: [Target; 10] = [
     ("distribution", distribution),
     ("obj", obj),
     ("ply", ply),
+    ("stl", stl),
+    ("off", off),
     ("query_csv", query_csv),
     ("scene", scene),
 ];

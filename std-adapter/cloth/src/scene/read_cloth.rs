@@ -30,12 +30,17 @@ impl Cloth {
     /// Reads a cloth without its own effects, whose tables have the names of effects.
     pub(crate) fn read(table: &Table<'_>) -> Result<Self, SceneError> {
         let shape = table.required_choice("shape", &SHAPES)?;
+        let of_file = [
+            &shapes::FILE_KEYS[..],
+            &["material", "density", "warp", LINEAR_DENSITY_OF_EDGES.name],
+        ]
+        .concat();
         let own: &[&str] = match shape {
             ClothShape::Sleeve => &["material", "density", "refinement"],
             ClothShape::Sheet => &["material", "density", "corner", "sides", "cells"],
             ClothShape::Tube => &["material", "density", "from", "to", "radius", "cells"],
             ClothShape::Rope => &["points", "segments", LINEAR_DENSITY_OF_EDGES.name],
-            ClothShape::File => &["material", "density", "file", "warp", LINEAR_DENSITY_OF_EDGES.name],
+            ClothShape::File => &of_file,
         };
         table.expect_keys(&[&["name", "shape", "velocity"], own, &effect_names()].concat())?;
         let material = table.choice("material", &Material::ALL.map(|material| (material.name, material)))?;

@@ -113,7 +113,7 @@ impl Body {
         let own: &[&str] = match shape {
             BodyShape::Capsule => &["from", "to", "radius", "around"],
             BodyShape::Ball => &["centre", "radius", "around"],
-            BodyShape::File => &["file"],
+            BodyShape::File => &shapes::FILE_KEYS,
             BodyShape::Frames => &["files", "frames_per_second", "start"],
             BodyShape::Figure => &["file", "node", "animation", "start"],
         };

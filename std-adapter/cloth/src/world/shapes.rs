@@ -1,11 +1,11 @@
 //! Meshes of simple shapes, and from files. Simple shapes have the same bits on every platform, since sines come from the `libm`
 //! crate.
 
-use crate::input::{LARGEST_COORDINATE, SceneError, Table, ValueError};
+use crate::input::{Field, LARGEST_COORDINATE, LENGTH, RATIO, SceneError, Table, ValueError};
 use libm::{cos, sin};
 use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
-use selvedge_files::mesh::{self, LooseMesh};
+use selvedge_files::mesh::{self, FileProblem, LooseMesh, MeshError, ReadOptions};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::path::PathBuf;
 
@@ -106,21 +106,61 @@ pub(crate) fn capsule([from, to]: [DVec3; 2], radius: f64, around: u32) -> Mesh 
     mesh
 }
 
+/// The keys of a shape "file" that say how the file is read.
+pub(crate) const FILE_KEYS: [&str; 5] = ["file", "group", "scale", "unit", WELD.name];
+
+const SCALE: Field = Field::new("scale", RATIO, 1e-6, 1e6);
+const WELD: Field = Field::new("weld", LENGTH, 0.0, 0.1);
+const UNITS: [(&str, f64); 6] = [
+    ("m", 1.0),
+    ("cm", 1e-2),
+    ("mm", 1e-3),
+    ("um", 1e-6),
+    ("in", 0.0254),
+    ("ft", 0.3048),
+];
+
 /// Reads the mesh of the file that `file` names.
 pub(crate) fn of_file(table: &Table<'_>) -> Result<Mesh, SceneError> {
-    let read = mesh::read(&path(table)?);
-    let mesh = read.map_err(|error| table.error("file", error.to_string()))?.mesh;
-    check(&mesh).map_err(|error| table.error("file", error.message))?;
+    let (mesh, _) = read_file(table, false)?;
     Ok(mesh)
 }
 
 /// Reads a mesh, possibly without triangles, and its loose edges.
 pub(crate) fn of_file_with_loose_edges(table: &Table<'_>) -> Result<(Mesh, Vec<[u32; 2]>), SceneError> {
+    read_file(table, true)
+}
+
+/// Reads a file whole, or the group of it that `group` names, in metres and with the vertices merged that `weld` says.
+fn read_file(table: &Table<'_>, loose_features: bool) -> Result<(Mesh, Vec<[u32; 2]>), SceneError> {
     let wrong = |message: String| table.error("file", message);
-    let read = mesh::read_with_loose_features(&path(table)?);
-    let LooseMesh { positions, topology } = read.map_err(|error| wrong(error.to_string()))?;
+    let path = path(table)?;
+    let only = table.text("group")?;
+    let options = ReadOptions {
+        loose_features,
+        only,
+        weld: None,
+    };
+    let LooseMesh {
+        positions,
+        topology,
+        notes,
+    } = mesh::read_with(&path, &options).map_err(|error| match &error {
+        MeshError::File {
+            problem: FileProblem::NoSuchGroup { .. } | FileProblem::NoGroups,
+            ..
+        } => table.error("group", error.to_string()),
+        _ => wrong(error.to_string()),
+    })?;
+    if let Some(missing) = notes.missing() {
+        let message = format!(
+            "{}: not all of the file can be read: {missing}; export it as plain triangles",
+            path.display()
+        );
+        return Err(wrong(message));
+    }
     let (edges, points) = (topology.loose_edges().collect::<Vec<_>>(), topology.points().len());
-    if edges.is_empty() || points > 0 {
+    if loose_features && (edges.is_empty() || points > 0) {
         let message = format!(
             "`linear_density` is for edges that belong to no triangle (lines `l` of an OBJ file), but the file has {} of them and {points} points",
             edges.len()
@@ -128,9 +168,37 @@ pub(crate) fn of_file_with_loose_edges(table: &Table<'_>) -> Result<(Mesh, Vec<[
         return Err(wrong(message));
     }
     let triangles = topology.proper_triangles().to_vec();
-    let mesh = Mesh { positions, triangles };
+    let scale = table.number(&SCALE)?.unwrap_or(1.0) * table.choice("unit", &UNITS)?.unwrap_or(1.0);
+    let positions = positions.into_iter().map(|position| position * scale).collect();
+    let (mesh, edges) = merged(Mesh { positions, triangles }, edges, table.number(&WELD)?, only.is_some());
     check(&mesh).map_err(|error| wrong(error.message))?;
     Ok((mesh, edges))
+}
+
+/// Merges vertices within a distance, and leaves out those of other groups.
+fn merged(mesh: Mesh, edges: Vec<[u32; 2]>, weld: Option<f64>, is_part: bool) -> (Mesh, Vec<[u32; 2]>) {
+    let (mut mesh, mut edges) = (mesh, edges);
+    if let Some(tolerance) = weld {
+        let welded = mesh.welded(tolerance);
+        let ends = |ends: [u32; 2]| ends.map(|end| welded.vertex_of[end as usize]);
+        edges = edges.into_iter().map(ends).filter(|[from, to]| from != to).collect();
+        mesh = welded.mesh;
+    }
+    if is_part {
+        let mut number = vec![u32::MAX; mesh.positions.len()];
+        let named = mesh.triangles.iter().flatten().chain(edges.iter().flatten());
+        named.for_each(|&vertex| number[vertex as usize] = 0);
+        let used = number.iter_mut().filter(|number| **number == 0);
+        used.zip(0..).for_each(|(number, new)| *number = new);
+        let kept = mesh.positions.iter().zip(&number).filter(|(_, number)| **number != u32::MAX);
+        mesh.positions = kept.map(|(&position, _)| position).collect();
+        let renumbered = |vertex: u32| number[vertex as usize];
+        mesh.triangles
+            .iter_mut()
+            .for_each(|corners| *corners = corners.map(renumbered));
+        edges.iter_mut().for_each(|ends| *ends = ends.map(renumbered));
+    }
+    (mesh, edges)
 }
 
 fn path(table: &Table<'_>) -> Result<PathBuf, SceneError> {

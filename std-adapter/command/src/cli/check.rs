@@ -5,8 +5,8 @@ use super::options::Threads;
 use super::output::{self, OutputFiles};
 use super::progress::Progress;
 use selvedge::{CollisionDetector, Topology};
-use selvedge_files::mesh;
-use selvedge_laboratory::report::{MeshCheck, coloured_ply, intersecting_triangles, mesh_checks, mesh_checks_json};
+use selvedge_files::mesh::{self, Findings, ReadOptions};
+use selvedge_laboratory::report::{FileReport, MeshCheck, coloured_ply, intersecting_triangles, mesh_checks, mesh_checks_json};
 use selvedge_laboratory::report::{intersections_csv, intersections_json};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ use std::time::Instant;
 
 /// Finds out exactly whether meshes pass through themselves
 ///
-/// Reads meshes (OBJ or PLY) and checks each at rest: which edges pass through faces or touch them, and which neighbours are
+/// Reads meshes (OBJ, PLY, STL or OFF) and checks each at rest: which edges pass through faces or touch them, and which neighbours are
 /// folded flat onto each other. Ropes and particles are checked as well: lines `l` and `p` of an OBJ file, the element `edge` of
 /// a PLY file, and all vertices of a PLY file without faces. Frames of a sequence, with the same triangles, share their
 /// hierarchies, which is faster. Features that share a vertex do not intersect there.
@@ -27,12 +27,14 @@ Examples:
   selvedge check frames/*.ply --threads 0 --list intersections.csv
   selvedge check frames/*.ply --any --json
   selvedge check tangled.ply --ply out/      writes out/tangled-intersections.ply
+  selvedge check garment.obj --weld          merges split seams first
 
 The list has mesh,kind,i0,i1,i2,i3,i4: the two vertices of the edge and the three of
 the face, numbered from 0 in the order of the file. A loose edge is a face that
 names its second vertex twice, a point one that names it three times.
 
-Exit status: 0 all meshes are free, 3 there are intersections, 1 the input is at
+Exit status: 0 all meshes are free, 3 there are intersections, 4 there are none in
+what was read, but something that may have an area was not read, 1 the input is at
 fault, 2 the command line is at fault.")]
 pub(crate) struct Check {
     /// The meshes, or the frames of a sequence in order
@@ -49,13 +51,28 @@ pub(crate) struct Check {
     /// Write each mesh that intersects itself to this folder, with the place in red
     #[arg(long, value_name = "FOLDER")]
     ply: Option<PathBuf>,
+    /// Merge vertices at most this far apart, in the file's unit, first: 0 those in the same place
+    #[arg(long, value_name = "DISTANCE", num_args = 0..=1, default_missing_value = "0", require_equals = true, value_parser = distance)]
+    weld: Option<f64>,
+    /// Check the faces of this group or object of an OBJ file alone
+    #[arg(long, value_name = "GROUP")]
+    only: Option<String>,
     /// Print one JSON document instead of a table
     #[arg(long)]
     json: bool,
 }
 
+fn distance(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(distance) if (0.0..f64::INFINITY).contains(&distance) => Ok(distance),
+        _ => Err("must be a number, 0 or more".to_owned()),
+    }
+}
+
 /// The exit status if there are intersections.
 const TANGLED: u8 = 3;
+/// The exit status if there are none in what was read, but something with an area was not read.
+const NOT_READ_WHOLE: u8 = 4;
 
 /// The format of a list.
 #[derive(Clone, Copy)]
@@ -91,9 +108,10 @@ impl Check {
         }
         files.publish()?;
         output::answer(self.json, || mesh_checks_json(&found), || mesh_checks(&found))?;
-        let are_free = found.iter().all(|check| check.is_free);
-        Ok(if are_free {
+        Ok(if found.iter().all(|check| check.is_free) {
             ExitCode::SUCCESS
+        } else if !found.iter().any(|check| check.is_tangled) {
+            ExitCode::from(NOT_READ_WHOLE)
         } else {
             ExitCode::from(TANGLED)
         })
@@ -106,7 +124,17 @@ impl Check {
         let mut found = Vec::with_capacity(self.meshes.len());
         let mut intersections = Vec::new();
         for (index, path) in self.meshes.iter().enumerate() {
-            let mesh = mesh::read_with_loose_features(path)?;
+            let options = ReadOptions {
+                loose_features: true,
+                only: self.only.as_deref(),
+                weld: self.weld,
+            };
+            let mesh = mesh::read_with(path, &options)?;
+            let findings = Findings::of(&mesh.positions, &mesh.topology);
+            let file = FileReport {
+                notes: mesh.notes,
+                findings,
+            };
             let is_next = |(topology, _): &(Arc<Topology>, _)| is_frame_of(topology, &mesh.topology);
             let (topology, mut detector) = match before.take().filter(is_next) {
                 Some(before) => before,
@@ -122,11 +150,11 @@ impl Check {
             if self.any {
                 let is_free = !detector.has_intersections(&mesh.positions)?;
                 let seconds = begin.elapsed().as_secs_f64();
-                found.push(MeshCheck::from_verdict(name, &topology, is_free, seconds));
+                found.push(MeshCheck::from_verdict(name, &topology, is_free, seconds).with_file(file));
             } else {
                 detector.intersections(&mesh.positions, &mut intersections)?;
                 let seconds = begin.elapsed().as_secs_f64();
-                found.push(MeshCheck::from_intersections(name, &topology, &intersections, seconds));
+                found.push(MeshCheck::from_intersections(name, &topology, &intersections, seconds).with_file(file));
             }
             if let Some(path) = coloured.get(index).filter(|_| !intersections.is_empty()) {
                 let red = intersecting_triangles(&topology, &intersections);

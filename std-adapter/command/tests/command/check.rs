@@ -46,7 +46,9 @@ fn json_has_counts_of_each_mesh_in_order() {
         "vertex_face",
         "edge_edge",
         "is_free",
+        "is_complete",
         "seconds",
+        "file",
     ];
     assert_eq!(keys(&meshes[0]), names);
     let counts: Vec<_> = meshes
@@ -136,6 +138,58 @@ fn meshes_with_other_triangles_may_follow_each_other() {
         .map(|mesh| &mesh["is_free"])
         .collect();
     assert_eq!(free, [true, false, true, true]);
+}
+
+#[test]
+fn a_file_that_was_not_read_whole_is_never_called_free() {
+    let place = sequence();
+    place.write("surface.obj", format!("{ABOVE}surf 0 1 0 1 1 2 3 4\n"));
+    place.write("both.obj", format!("{}surf 0 1 0 1 1 2 3 4\n", moved_by(-1.05)));
+    for any in [&["check"][..], &["check", "--any"]] {
+        let output = place.run(&[any, &["above.obj", "surface.obj"]].concat());
+        let text = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(output.status.code(), Some(4), "{text}");
+        assert!(
+            text.contains("surface.obj: not all of it was read: 1 line 'surf' (line 9)"),
+            "{text}"
+        );
+        assert!(
+            text.contains("1 of 2 meshes were not read whole") && !text.contains("free"),
+            "{text}"
+        );
+        let text = tangled(&place, &[any, &["both.obj", "surface.obj"]].concat());
+        assert!(
+            text.contains("1 of 2 meshes intersect themselves, 1 were not read whole"),
+            "{text}"
+        );
+    }
+    let output = place.run(&["check", "--json", "surface.obj"]);
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let mesh = &document["meshes"][0];
+    assert_eq!([&document["are_free"], &mesh["is_complete"]], [false, false]);
+    assert_eq!(mesh["file"]["left_out"][0]["line"], 9);
+}
+
+#[test]
+fn split_seams_are_named_and_merged_on_request() {
+    let place = Workplace::new();
+    let seam = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\ng back\nf 4 5 6\n";
+    place.write("seam.obj", seam);
+    let text = tangled(&place, &["check", "seam.obj"]);
+    assert!(
+        text.contains("seam.obj: 2 vertices in the same place as others (weld merges them)"),
+        "{text}"
+    );
+    for arguments in [&["--weld"][..], &["--weld=0"], &["--weld=1e-3"], &["--only", "back"]] {
+        let text = place.stdout(&[&["check", "seam.obj"], arguments].concat());
+        assert!(text.contains("free of intersections"), "{text}");
+    }
+    let message = place.refusal(1, &["check", "seam.obj", "--only", "front"]);
+    assert!(
+        message.contains("there is no group or object 'front'; choose from 'back'"),
+        "{message}"
+    );
+    place.refusal(2, &["check", "seam.obj", "--weld=-1"]);
 }
 
 #[test]

@@ -96,6 +96,28 @@ fn earliest_is_null_without_contact() {
 }
 
 #[test]
+fn times_of_single_precision_are_written_exactly() {
+    let place = Workplace::new();
+    place.write(
+        "start.obj",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.2 0.2 0.3\nv 3 0.2 0.3\nv 3 1 0.3\nf 1 2 3\nf 4 5 6\n",
+    );
+    place.write(
+        "end.obj",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.2 0.2 -0.4\nv 3 0.2 0.3\nv 3 1 0.3\nf 1 2 3\nf 4 5 6\n",
+    );
+    place.stdout(&["cull", "start.obj", "end.obj", "--scalar", "f32", "--pairs", "pairs.csv"]);
+    let list = place.read("pairs.csv");
+    let times: Vec<f64> = list
+        .lines()
+        .skip(1)
+        .map(|line| line.rsplit(',').next().unwrap().parse().unwrap())
+        .collect();
+    assert!(!times.is_empty());
+    assert!(times.iter().all(|&time| f64::from(time as f32) == time), "{list}");
+}
+
+#[test]
 fn contacts_are_written_with_their_vertices_and_times() {
     let place = Workplace::with_step();
     place.stdout(&with(&["--pairs", "out.csv"]));

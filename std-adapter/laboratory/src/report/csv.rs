@@ -82,7 +82,7 @@ fn comparison_record(row: &ComparisonRow) -> Vec<String> {
 
 /// Writes contacts as `kind,i0,i1,i2,i3,time`: vertex–face first, each kind in the order given. For VF, i0 is the vertex and i1
 /// to i3 are the face's. For EE, i0, i1 and i2, i3 are the two edges. Vertices count from 0 as in the mesh's file; times are in
-/// [0, 1] of the step.
+/// [0, 1] of the step, written so that they read back exactly as `f64`.
 ///
 /// # Errors
 /// Those of `out`.
@@ -92,8 +92,8 @@ pub fn contacts_csv<S: Scalar>(topology: &Topology, contacts: &[Contact<S>], out
     for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
         for contact in contacts.iter().filter(|contact| contact.kind == kind) {
             let vertices = topology.vertices_of(kind, contact.pair);
-            // The shortest text that reads back in the format's own precision.
-            writer.serialize((kind.name(), vertices, contact.time.to_string()))?;
+            // Exactly: the shortest text of an `f32`, read as an `f64`, may be later than the contact.
+            writer.serialize((kind.name(), vertices, contact.time.to_f64().to_string()))?;
         }
     }
     writer.flush()

@@ -32,7 +32,7 @@ pub use recording::{About, Added, FrameError, Knob, Measure, MeasureKind, Part, 
 pub use recording::{Recorder, Recording, Series, SeriesKind};
 pub use recording::{SimulationRecorder, Subject, costs_of_added_effects};
 pub use step::{StepQuestion, StepSummary};
-pub use tangles::{MeshCheck, intersections_csv, intersections_json, mesh_checks, mesh_checks_json};
+pub use tangles::{FileReport, MeshCheck, intersections_csv, intersections_json, mesh_checks, mesh_checks_json};
 pub use tangles::{coloured_ply, crossing_triangles, intersecting_triangles, start_sentences, tangled_start_json};
 
 use crate::methods::Stage;

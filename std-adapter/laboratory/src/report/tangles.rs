@@ -7,6 +7,7 @@ use ::csv::Writer;
 use selvedge::glam::DVec3;
 use selvedge::{Intersection, Topology};
 use selvedge_cloth::{Crossing, Simulation, Tangled, Untangled};
+use selvedge_files::mesh::{Findings, MeshNotes};
 use serde_json::{Value, json};
 use std::collections::HashSet;
 use std::io::{self, Write};
@@ -20,12 +21,25 @@ pub struct MeshCheck {
     pub vertices: usize,
     /// Its triangles, without loose edges and points.
     pub triangles: usize,
-    /// Whether it is free of intersections.
+    /// Whether it is free of intersections: the file was read whole, and its mesh has none.
     pub is_free: bool,
+    /// Whether the mesh has intersections.
+    pub is_tangled: bool,
     /// The intersections with the vertices of both features; `None` if the check ended at the first one.
     pub intersections: Option<Vec<(Intersection, Vec<u32>)>>,
     /// Duration of the check.
     pub seconds: f64,
+    /// What else there is to say about the file and its mesh.
+    pub file: FileReport,
+}
+
+/// A report about a file that was checked.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FileReport {
+    /// The parts that were not read.
+    pub notes: MeshNotes,
+    /// Properties of the mesh that stand in the way of a simulation.
+    pub findings: Findings,
 }
 
 /// Names of the kinds of intersections, as in lists.
@@ -61,9 +75,27 @@ impl MeshCheck {
             vertices: topology.vertex_count(),
             triangles: topology.triangles().len() - loose,
             is_free,
+            is_tangled: !is_free,
             intersections: None,
             seconds,
+            file: FileReport::default(),
         }
+    }
+
+    /// Adds what is known about the file. A mesh of which something with an area was not read is not free.
+    #[must_use]
+    pub fn with_file(self, file: FileReport) -> Self {
+        Self {
+            is_free: self.is_free && file.notes.is_complete(),
+            file,
+            ..self
+        }
+    }
+
+    /// Returns whether the mesh has no intersection as far as its file was read, which is not all of it.
+    #[must_use]
+    pub fn is_undecided(&self) -> bool {
+        !self.is_free && !self.is_tangled
     }
 
     /// The number of each kind, in the order of `KINDS`.
@@ -91,7 +123,7 @@ fn corners(topology: &Topology, intersection: &Intersection) -> Vec<u32> {
 #[must_use]
 pub fn mesh_checks(checks: &[MeshCheck]) -> String {
     let rows = checks.iter().map(|check| {
-        let unknown = if check.is_free { "0" } else { "?" };
+        let unknown = if check.is_tangled { "?" } else { "0" };
         let [edge_face, vertex_face, edge_edge] = check.counts().map(|count| count.map_or_else(|| unknown.to_owned(), grouped));
         [
             check.name.clone(),
@@ -103,14 +135,74 @@ pub fn mesh_checks(checks: &[MeshCheck]) -> String {
         ]
     });
     let header = ["mesh", "triangles", KINDS[0], KINDS[1], KINDS[2], "time"];
-    let tangled = checks.iter().filter(|check| !check.is_free).count();
-    let verdict = match (tangled, checks.len()) {
-        (0, 1) => "free of intersections".to_owned(),
-        (0, all) => format!("all {all} meshes are free of intersections"),
-        (1, 1) => "intersects itself".to_owned(),
-        (tangled, all) => format!("{tangled} of {all} meshes intersect themselves"),
+    let undecided = checks.iter().filter(|check| check.is_undecided()).count();
+    let tangled = checks.iter().filter(|check| check.is_tangled).count();
+    let verdict = match (tangled, undecided, checks.len()) {
+        (0, 0, 1) => "free of intersections".to_owned(),
+        (0, 0, all) => format!("all {all} meshes are free of intersections"),
+        (1, _, 1) => "intersects itself".to_owned(),
+        (0, _, 1) => "no intersections in what was read, but not all of it was read".to_owned(),
+        (0, undecided, all) => {
+            format!("no intersections in what was read, but {undecided} of {all} meshes were not read whole")
+        }
+        (tangled, 0, all) => format!("{tangled} of {all} meshes intersect themselves"),
+        (tangled, undecided, all) => {
+            format!("{tangled} of {all} meshes intersect themselves, {undecided} were not read whole")
+        }
     };
-    format!("{}\n{verdict}\n", tables::table(header, rows))
+    let reports: String = checks.iter().flat_map(report_lines).map(|line| line + "\n").collect();
+    format!("{}\n{reports}{verdict}\n", tables::table(header, rows))
+}
+
+/// What a user should know about a mesh besides its intersections: one line each.
+fn report_lines(check: &MeshCheck) -> impl Iterator<Item = String> {
+    let FileReport { notes, findings } = &check.file;
+    let missing = notes
+        .missing()
+        .map(|missing| format!("{}: not all of it was read: {missing}", check.name));
+    let overlapping = notes.overlapping_polygons.first().map(|face| {
+        let count = notes.overlapping_polygons.len();
+        let faces = if count == 1 {
+            "1 face has".to_owned()
+        } else {
+            format!("{} faces have", grouped(count))
+        };
+        format!(
+            "{}: {faces} no triangulation without overlap (the first is face {face})",
+            check.name
+        )
+    });
+    let findings = Some(findings.to_string()).filter(|findings| !findings.is_empty());
+    let findings = findings.map(|findings| format!("{}: {findings}", check.name));
+    [missing, overlapping, findings].into_iter().flatten()
+}
+
+/// The report about one file as part of a document. Lists hold the first ten.
+fn file_json(file: &FileReport) -> Value {
+    let FileReport { notes, findings } = file;
+    let left_out = notes.left_out.iter();
+    let left_out: Vec<Value> = left_out
+        .map(|part| json!({ "what": part.to_string(), "count": part.count, "line": part.line, "may_have_area": part.may_have_area }))
+        .collect();
+    fn listed<T: Clone + Into<Value>>(list: &[T]) -> Value {
+        let first: Vec<Value> = list.iter().take(10).cloned().map(Into::into).collect();
+        json!({ "count": list.len(), "first": first })
+    }
+    json!({
+        "left_out": left_out,
+        "polygons": notes.polygons_triangulated,
+        "overlapping_polygons": listed(&notes.overlapping_polygons),
+        "welded_vertices": notes.welded_vertices,
+        "collapsed_triangles": notes.collapsed_triangles,
+        "coincident_vertices": listed(&findings.coincident_vertices),
+        "duplicate_triangles": findings.duplicate_triangles,
+        "flat_triangles": listed(&findings.flat_triangles),
+        "thin_triangles": listed(&findings.thin_triangles),
+        "unused_vertices": findings.unused_vertices,
+        "non_manifold_edges": findings.non_manifold_edges,
+        "inconsistent_edges": listed(&findings.inconsistent_edges),
+        "size": findings.size.to_array(),
+    })
 }
 
 /// The document of `selvedge check --json`. Counts are null where the check ended at the first intersection.
@@ -126,7 +218,9 @@ pub fn mesh_checks_json(checks: &[MeshCheck]) -> Value {
             "vertex_face": vertex_face,
             "edge_edge": edge_edge,
             "is_free": check.is_free,
+            "is_complete": check.file.notes.is_complete(),
             "seconds": check.seconds,
+            "file": file_json(&check.file),
         })
     });
     json!({
