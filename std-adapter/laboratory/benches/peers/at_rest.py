@@ -40,7 +40,7 @@ def wavy_sheet(squares: int, path: Path) -> None:
 
 
 def ours(binary: Path, mesh: Path, threads: int) -> tuple[bool, float, float]:
-    """The answer, seconds of the first call (hierarchies built) and of the fastest of two more."""
+    """Returns the answer, the seconds of the first call, which builds hierarchies, and those of the faster of two more."""
     command = [os.fspath(binary.absolute()), "check", "--any", "--json", "--threads", str(threads)]
     done = subprocess.run([*command, *[os.fspath(mesh)] * 3], stdout=subprocess.PIPE, check=False)
     if done.returncode not in (0, 3):

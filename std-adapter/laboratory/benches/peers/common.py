@@ -1,4 +1,4 @@
-"""What the scripts of this folder share: arguments, mesh files, runs of the selvedge command."""
+"""Shared by the scripts of this folder: arguments, mesh files, runs of the selvedge command."""
 
 import argparse
 import json
@@ -20,7 +20,7 @@ def fail(message: str, status: int = 1) -> NoReturn:
 
 
 def missing_package(error: ImportError) -> NoReturn:
-    """Says in one line how to get the packages; `error` is what an import raised."""
+    """Explains in one line how to get the packages; `error` is the exception of an import."""
     venv = Path(tempfile.gettempdir()) / "selvedge-peers"
     fail(
         f"{error}; install the packages and run again with their Python:\n"
@@ -107,7 +107,7 @@ def read_mesh(path: Path) -> tuple[np.ndarray, np.ndarray]:
 def cull(
     binary: Path, start: Path, end: Path, pipeline: str, threads: int, *extra: str | Path
 ) -> Run:
-    """Runs `selvedge cull` and returns what it reports."""
+    """Runs `selvedge cull` and returns its report."""
     command = [binary, "cull", start, end, "--pipeline", pipeline]
     command += ["--threads", threads, "--json", *extra]
     command = [os.fspath(part) if isinstance(part, Path) else str(part) for part in command]

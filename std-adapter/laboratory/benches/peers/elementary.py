@@ -1,7 +1,7 @@
 """Times the tests of all candidate pairs of a step over the whole of it: selvedge against ipctk.
 
-`whole_step.py` measures what ipctk's users run, a step size, for which it cuts most tests short. Here each pair is asked about
-the whole step, as for the list of all contacts. What is timed, and what is not, is in README.md.
+`whole_step.py` measures what ipctk's users run: a step size, for which it cuts most tests short. Here each pair is tested over the
+whole step, as for a list of all contacts. README.md describes the timed work.
 """
 
 import argparse
@@ -31,13 +31,13 @@ PEERS: dict[str, Callable[[], ipctk.NarrowPhaseCCD]] = {
     "Tight-Inclusion": lambda: ipctk.TightInclusionCCD(**TIGHT_INCLUSION | WHOLE),
     "additive CCD": lambda: ipctk.AdditiveCCD(**ADDITIVE),
 }
-# What selvedge runs: a name, its pipeline and more options.
+# The runs of selvedge: a name, a pipeline and further options.
 OWN = {
     "selvedge": ("selvedge", ()),
     "selvedge, exact verdict": ("selvedge_exact", ()),
     "selvedge, f32": ("selvedge", ("--scalar", "f32")),
 }
-# So many pairs go through ipctk's loop at a time: a fraction of a second.
+# The number of pairs in one call of ipctk's loop, which takes a fraction of a second.
 BLOCK = 8192
 
 
@@ -50,12 +50,12 @@ class Pairs(NamedTuple):
 
 
 class Part(NamedTuple):
-    """What a peer took for some of the pairs that are apart, or of those in contact."""
+    """The time of a peer for some of the pairs that are apart, or of those in contact."""
 
     total: int
     pairs: int
     seconds: float
-    # Pairs in contact that it finds; of the others, blocks in which it takes one for a contact.
+    # Found pairs in contact; among the others, blocks in which it takes a pair for a contact.
     found: int
 
     @property
@@ -69,14 +69,14 @@ class Sample(NamedTuple):
 
     @property
     def whole(self) -> float:
-        """Seconds for all pairs at the rate of those that were asked."""
+        """Seconds for all pairs, at the rate of those that were tested."""
         return sum(part.total * part.nanoseconds for part in self) * 1e-9
 
 
 class Peers:
     """ipctk on the pairs that selvedge has, those apart from those in contact.
 
-    ipctk's loop over candidates, which is C++, hands the earliest impact so far to each later test as the end of its time span.
+    ipctk's loop over candidates, which is C++, passes the earliest impact so far to each later test as the end of its time span.
     Among pairs without contact there is no impact, so that the loop asks each of them about its whole step. The others are asked
     one by one from here.
     """

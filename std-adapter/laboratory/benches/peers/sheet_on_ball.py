@@ -12,7 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-# One core for all. Libraries read these when they are loaded.
+# One core for all. Libraries read these variables when they are loaded.
 for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[variable] = "1"
 
@@ -29,18 +29,18 @@ except ImportError as error:
     )
     sys.exit(1)
 
-# Of scenes/drop.toml, which all of this repeats: sizes in m, masses per area in kg/m², stiffnesses in N/m.
+# The values of scenes/drop.toml: sizes in m, masses per area in kg/m², stiffnesses in N/m.
 SIDE, HEIGHT = 0.8, 0.35
 BALL, RADIUS = np.array([0.03, 0.02, 0.0]), 0.2
 DENSITY, DRAG, FRICTION = 0.15, 0.5, 0.3
 STRETCH = 400.0
-# Seconds from state to state.
+# Seconds between states.
 INTERVAL = 0.05
 
 
 @dataclass
 class Run:
-    """What a simulator did: states every INTERVAL from the start, as far as it came."""
+    """The result of a simulator: states every INTERVAL from the start, as far as it came."""
 
     what: str
     time_step: float
@@ -56,7 +56,7 @@ def processor_seconds(who: int = resource.RUSAGE_SELF) -> float:
 
 
 def in_states(step: Callable[[], None], points: Callable[[], np.ndarray], time_step: float, options) -> tuple[int, float, list]:
-    """Does steps, and times them alone, until the simulated time or the processor's is over."""
+    """Runs steps and times them alone, until the simulated time or the processor time is used up."""
     steps, every = round(options.seconds / time_step), round(INTERVAL / time_step)
     done, taken, states = 0, 0.0, [points()]
     while done < steps and taken < options.most:
@@ -71,8 +71,8 @@ def in_states(step: Callable[[], None], points: Callable[[], np.ndarray], time_s
     return done, taken, states
 
 
-# What makes the scene of selvedge that of MuJoCo with `ipc`: without friction, as stiff in shear as a membrane of E·t = 400 N/m and a Poisson
-# number of 0.2 (E·t/(2·1.2)), and with a shorter step and a smaller limit less stretched.
+# Changes that make the scene of selvedge that of MuJoCo with `ipc`: no friction, the shear stiffness of a membrane of E·t = 400 N/m and a
+# Poisson number of 0.2 (E·t/(2·1.2)), and a shorter step and a smaller limit for less stretch.
 AS_MUJOCO = [
     ("\n[effects.friction]\ncoefficient = 0.3\n", ""),
     ('stiffness = "80 N/m"', 'stiffness = "167 N/m"'),
@@ -82,7 +82,7 @@ AS_MUJOCO = [
 
 
 def selvedge(options: argparse.Namespace, folder: Path, name: str, own: list[tuple[str, str]]) -> Run:
-    """The scene that comes with the program, with changes; the time is the whole command's, set-up, report and files included."""
+    """Runs the program's scene with changes. The time is that of the whole command, with set-up, report and files."""
     scene = (HERE / "../../../cloth/scenes/drop.toml").read_text()
     changes = [
         *own,
@@ -114,7 +114,7 @@ def mujoco(options: argparse.Namespace, _: Path, ipc: bool) -> Run:
     time_step, n = 1e-3, options.cells
     spacing = SIDE / n
     contact = 'selfcollide="auto" condim="1"' if ipc else f'selfcollide="auto" condim="3" friction="{FRICTION}"'
-    # Young's modulus and a thickness with which a membrane is as stiff as the fabric, E·t = 400 N/m, and about as soft to bend.
+    # Young's modulus and a thickness that make a membrane as stiff as the fabric, E·t = 400 N/m, and about as soft in bending.
     text = f"""<mujoco>
   <option integrator="discrete" timestep="{time_step}" solver="Newton" tolerance="1e-6" iterations="100">
     <flag ipc="{"enable" if ipc else "disable"}"/>
@@ -210,7 +210,7 @@ def newton(options: argparse.Namespace, _: Path) -> Run:
     def points() -> np.ndarray:
         return states[0].particle_q.numpy().astype(np.float64)
 
-    # Kernels are compiled in the first step, which is left out.
+    # The first step compiles kernels, and is left out.
     step()
     done, taken, found = in_states(step, points, time_step, options)
     name = f"newton {engine.__version__}, CPU, {options.iterations} iterations"

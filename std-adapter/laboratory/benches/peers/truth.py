@@ -1,8 +1,8 @@
 """Checks `selvedge cull` against the truth of the Scalable CCD sample data.
 
-For each pipeline: do the candidate pairs before the elementary test contain every pair that is
-listed as colliding, and how many of those does the elementary test then miss? Exit status 1 if a
-candidate is missing or listed twice. The data's format is in README.md.
+For each pipeline, checks that the candidate pairs before the elementary test contain every pair that
+is listed as colliding, and counts how many of those the elementary test then misses. The exit status
+is 1 if a candidate is missing or listed twice. README.md describes the data's format.
 """
 
 import argparse
@@ -22,13 +22,13 @@ except ImportError as error:
 
 KINDS = {"vertex-face": "vf", "edge-edge": "ee"}
 KEY = ["i0", "i1", "i2", "i3"]
-# What selvedge may write in the column `kind`.
+# The values of the column `kind`.
 SPELLINGS = {spelling: kind for kind, short in KINDS.items() for spelling in (kind, short)}
 SHOWN = 5
 
 
 def frames(scene: Path) -> tuple[Path, Path]:
-    """The two meshes of the step, in the order of the numbers that their names end in."""
+    """Returns the two meshes of the step, in the order of the numbers at the end of their names."""
 
     def number(path: Path) -> int:
         digits = re.search(r"(\d+)$", path.stem)
@@ -42,7 +42,7 @@ def frames(scene: Path) -> tuple[Path, Path]:
 
 
 def listed(scene: Path, kind: str) -> tuple[np.ndarray, np.ndarray]:
-    """The pairs of ids of one kind, and for each whether it collides."""
+    """Returns the pairs of ids of one kind, and for each whether it collides."""
     short = KINDS[kind]
     pairs = np.array(load(only(scene / "boxes", f"*{short}.json")), dtype=np.int64).reshape(-1, 2)
     truth = np.array(load(only(scene / "mma_bool", f"*{short}_mma_bool.json")), dtype=bool)
@@ -66,7 +66,7 @@ def load(path: Path) -> list:
 
 
 def edges_of(triangles: np.ndarray) -> np.ndarray:
-    """All edges as (larger vertex, smaller vertex), sorted, each once: the order of their ids."""
+    """Returns all edges as (larger vertex, smaller vertex), sorted, each once, in the order of their ids."""
     halves = np.vstack([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
     return np.unique(np.sort(halves, axis=1)[:, ::-1], axis=0)
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Steps a second of processor time, and crossings, of a twisting tube with self-contact: selvedge beside newton (on the CPU).
+"""Compares steps a second of processor time, and crossings, of a twisting tube with self-contact: selvedge and newton (on the CPU).
 
 See README.md.
 """
@@ -14,7 +14,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-# One core for both. Both libraries read these when they are loaded.
+# One core for both. Both libraries read these variables when they are loaded.
 for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[variable] = "1"
 
@@ -41,12 +41,12 @@ THICKNESS = 0.003
 
 
 def scene_text(scene: str, seconds: float, refinement: int) -> str:
-    """The scene of the program, three turns in two seconds instead of ten, refined."""
+    """Returns the program's scene, refined, with three turns in two seconds instead of ten."""
     text = scene.replace('time = "10 s"', f'time = "{TURN_SECONDS} s"')
     text = text.replace('duration = "10 s"', f'duration = "{seconds} s"')
     text = text.replace("frames_per_second = 12.5", "frames_per_second = 20")
     text, count = re.subn(r"cells = \[24, 28\]", f"cells = [{AROUND * refinement}, {ALONG * refinement}]", text)
-    assert count == 1 and TURN_SECONDS < 10, "this script knows twist.toml as it came with the program"
+    assert count == 1 and TURN_SECONDS < 10, "this script needs the twist.toml of this program"
     return text.replace('"3 mm"', f'"{THICKNESS * 1e3 / refinement} mm"')
 
 
@@ -56,7 +56,7 @@ def processor_seconds(who: int) -> float:
 
 
 def run_selvedge(binary: Path, text: str, folder: Path) -> tuple[dict, list[Path], float]:
-    """What it reports, its frames, and the processor's time for the whole command, set-up and writing files included."""
+    """Returns the report, the frames, and the processor time of the whole command, with set-up and writing files."""
     (folder / "twist.toml").write_text(text)
     begin = processor_seconds(resource.RUSAGE_CHILDREN)
     command = [binary.absolute(), "simulate", "twist.toml", "--json", "--frames", "ply", "--output", "out"]
@@ -68,7 +68,7 @@ def run_selvedge(binary: Path, text: str, folder: Path) -> tuple[dict, list[Path
 
 
 def pose(t: float, sign: float) -> tuple[float, float]:
-    """The end's angle and shift after `t` seconds: smooth between keyframes, as a scene says it."""
+    """Returns the end's angle and shift after `t` seconds, smooth between keyframes as in a scene."""
     s = min(max(t / TURN_SECONDS, 0.0), 1.0)
     s = s * s * (3 - 2 * s)
     return sign * ANGLE * s, -sign * SHIFT * s
@@ -89,7 +89,7 @@ class Newton:
             vertices=[wp.vec3(*point) for point in points],
             indices=triangles.reshape(-1).tolist(),
             vel=wp.vec3(0.0, 0.0, 0.0),
-            # As in the scene; bending as in newton's own example of a twist, in which it is of the same size.
+            # As in the scene; bending as in newton's own example of a twist, which has the same size.
             density=0.2,
             tri_ke=300.0,
             tri_ka=300.0,
@@ -131,7 +131,7 @@ class Newton:
         if self.step_count % rebuild == 0:
             self.solver.rebuild_bvh(self.now)
         self.now.clear_forces()
-        # On the CPU an array of warp is memory that NumPy can write to.
+        # On the CPU, NumPy can write to the memory of an array of warp.
         t = (self.step_count + 1) * h
         for end, sign in zip(self.ends, (-1.0, 1.0)):
             angle, shift = pose(t, sign)
@@ -220,7 +220,7 @@ def main() -> None:
     peer = Newton(meshes[0].points.astype(np.float64), triangles, options)
     steps, every = round(options.seconds / h), 50
     skipped, seconds, timed, crossed = round(options.newton_from / h), 0.0, 0, []
-    # Kernels are compiled in the first step.
+    # The first step compiles kernels.
     peer.step(h, options.rebuild)
     for step in range(1, steps):
         begin = processor_seconds(resource.RUSAGE_SELF)

@@ -1,7 +1,7 @@
 """Times one whole collision step of a mesh: selvedge against ipctk (the IPC Toolkit for Python).
 
-Both start from positions and triangles in memory; reading files is not timed. What is compared, and
-what is not, is in README.md.
+Both start from positions and triangles in memory; reading files is not timed. README.md describes the
+compared work.
 """
 
 import argparse
@@ -22,13 +22,13 @@ try:
 except ImportError as error:
     common.missing_package(error)
 
-# ipctk's defaults, written out so that a new version cannot change the comparison unnoticed.
+# ipctk's defaults, written out so that a new version cannot change the comparison silently.
 TIGHT_INCLUSION = {"tolerance": 1e-6, "max_iterations": 10_000_000, "conservative_rescaling": 0.8}
 ADDITIVE = {"max_iterations": 10_000_000, "conservative_rescaling": 0.9}
 MINIMUM_DISTANCE = 0.0
 
 BROAD_PHASE = "ipctk broad phase (LBVH)"
-# What `selvedge cull` is asked besides all contacts, by the pipeline selvedge: a row of the table, and its options.
+# Further runs of `selvedge cull` with the pipeline selvedge: a row of the table, and its options.
 SHORT_QUESTIONS = {
     "selvedge candidates (moving boxes)": ["--candidates-only"],
     "selvedge candidates (swept boxes)": ["--candidates-only", "--swept-boxes"],
@@ -36,7 +36,7 @@ SHORT_QUESTIONS = {
 }
 TIGHT_INCLUSION_STEP = "ipctk LBVH + Tight-Inclusion"
 ADDITIVE_STEP = "ipctk LBVH + additive CCD"
-# How each step size is asked.
+# How each step size is computed.
 TESTS = {
     TIGHT_INCLUSION_STEP: lambda: ipctk.TightInclusionCCD(**TIGHT_INCLUSION),
     ADDITIVE_STEP: lambda: ipctk.AdditiveCCD(**ADDITIVE),
@@ -127,7 +127,7 @@ class Own(NamedTuple):
             arguments.END,
             self.pipeline,
             arguments.threads,
-            # The first run builds hierarchies and makes the buffers, as ipctk's unmeasured round does.
+            # The first run builds hierarchies and allocates buffers, as ipctk's unmeasured round does.
             "--repeat",
             "3",
             *([] if self.simd is None else ["--simd", self.simd]),
@@ -261,7 +261,7 @@ def main() -> None:
     arguments = parser.parse_args()
     names = common.pipelines(arguments) if arguments.selvedge else []
 
-    # The first process that is started, so that the most of all is its own.
+    # The first process, so that the peak of all processes is its own.
     if arguments.selvedge:
         Own(names[0], None, []).run(arguments)
     selvedge_bytes = peak_bytes(resource.RUSAGE_CHILDREN)
@@ -272,7 +272,7 @@ def main() -> None:
     peer = Ipctk(step, arguments.threads, tests)
     if ipctk.get_num_threads() != arguments.threads:
         common.fail(f"ipctk runs on {ipctk.get_num_threads()} threads, not {arguments.threads}")
-    # What stands behind a row's name, and the instruction set.
+    # The meaning of a row's name, and the instruction set.
     sets = [(f", {name}", name) for name in arguments.simd.split(",")] if arguments.simd else [("", None)]
     own = {
         f"selvedge cull {name}{tail}": Own(name, simd, []) for tail, simd in sets for name in names
@@ -298,7 +298,7 @@ def main() -> None:
             )
         for row, what in short.items():
             turns.append(lambda row=row, what=what: ask_selvedge(arguments, what, rows[row]))
-        # Every other round runs backwards, so that no one always comes after the same neighbour.
+        # Every other round runs backwards, so that the neighbours in time change.
         for turn in turns if number % 2 == 0 else reversed(turns):
             turn()
 

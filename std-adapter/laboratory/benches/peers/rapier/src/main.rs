@@ -4,23 +4,23 @@
 //! selvedge-peer-rapier CELLS RADIUS TIME_STEP SECONDS MOST_PROCESSOR_SECONDS FOLDER
 //! ```
 //!
-//! RADIUS is that of the sheet's particles, in metres. Writes `triangles.u32` and, of every 50 ms, the positions in `states.f32` (little endian) to the folder, and prints how many steps
-//! were done, and the processor time that they took.
+//! RADIUS is that of the sheet's particles, in metres. Writes `triangles.u32` and the positions of every 50 ms in `states.f32` (little
+//! endian) to the folder. Prints the number of steps, and their processor time.
 
 use rapier3d::prelude::*;
 use std::error::Error;
 use std::fs::File;
 use std::io::{BufWriter, Write};
 
-/// Of the sheet, in metres.
+/// The side of the sheet, in metres.
 const SIDE: f32 = 0.8;
-/// In kg: 150 g/m².
+/// The mass of the sheet in kg: 150 g/m².
 const MASS: f32 = 0.096;
 const FRICTION: f32 = 0.3;
-/// Seconds from state to state.
+/// Seconds between states.
 const INTERVAL: f32 = 0.05;
 
-/// Of this process, in seconds.
+/// The processor time of this process, in seconds.
 fn processor_seconds() -> Result<f64, Box<dyn Error>> {
     let statistics = std::fs::read_to_string("/proc/self/schedstat")?;
     let nanoseconds: f64 = statistics.split(' ').next().unwrap_or_default().parse()?;
@@ -44,7 +44,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     world.insert(RigidBodyBuilder::fixed(), ball.friction(FRICTION));
     let spacing = SIDE / cells as f32;
     let mut material = SoftBodyMaterial::default();
-    // As stiff as its solver takes it with steps of 1/240 s, and soft to bend.
+    // As stiff as the solver allows with steps of 1/240 s, and soft in bending.
     material.edge_softness = SpringCoefficients::new(60.0, 1.0);
     material.bend_softness = SpringCoefficients::new(1.0, 1.0);
     let corner = Vector::new(-0.4, -0.4, 0.35);
