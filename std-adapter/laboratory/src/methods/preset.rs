@@ -1,7 +1,7 @@
 //! The published methods, and ours, each as a choice of stages.
 
 use super::table::table;
-use super::{CullingTest, ElementaryTest};
+use super::{CullingTest, ElementaryTest, Stage};
 use std::str::FromStr;
 
 /// The source of a method's primitive pairs, and how it avoids testing a pair twice.
@@ -31,13 +31,19 @@ pub enum Redundancy {
 pub struct Stages {
     /// The source of primitive pairs.
     pub source: Source,
-    /// The culling tests, in order; at most one for each [`Stage`](super::Stage).
+    /// The culling tests, in order; at most one for each [`Stage`].
     pub tests: &'static [CullingTest],
     /// The test of the surviving pairs.
     pub elementary: ElementaryTest,
 }
 
 impl Stages {
+    /// The stages after the broad phase of a method that distributes triangle pairs, in order.
+    pub(crate) fn names(&self) -> impl Iterator<Item = Stage> {
+        let tests = self.tests.iter().map(|test| test.stage());
+        [Stage::Distribution].into_iter().chain(tests).chain([Stage::Elementary])
+    }
+
     /// Whether the method misses nothing that touches, rounding included.
     #[must_use]
     pub fn is_certified(&self) -> bool {

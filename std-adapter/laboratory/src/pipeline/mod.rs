@@ -58,10 +58,9 @@ use crate::baselines::nine_directions::Dop18;
 use crate::broad_phase::{BroadPhase, SweptBox};
 #[cfg(doc)]
 use crate::methods::Preset;
-use crate::methods::{CullingTest, ElementaryTest, Redundancy, Source, Stage, Stages};
+use crate::methods::{CullingTest, ElementaryTest, Redundancy, Source, Stages};
 use batch::{Batch, Distributed, StepInput};
 use pairs::MovingMesh;
-use selvedge::PairCounts;
 use selvedge::PairKind;
 use selvedge::Topology;
 use selvedge::check_frames;
@@ -313,16 +312,7 @@ impl<S: Scalar> Buffers<S> {
             redundancy,
         } = distributor;
         report.broad_phase_pairs = None;
-        let names = std::iter::once(Stage::Distribution)
-            .chain(stages.tests.iter().map(|test| test.stage()))
-            .chain([Stage::Elementary]);
-        report.stages = names
-            .map(|stage| StageReport {
-                stage,
-                survivors: PairCounts::default(),
-                seconds: 0.0,
-            })
-            .collect();
+        report.stages = stages.names().map(StageReport::empty).collect();
         self.contacts.clear();
         self.candidates.iter_mut().for_each(Vec::clear);
         self.distributed.vertex_face.clear();

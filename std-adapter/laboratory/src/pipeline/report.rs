@@ -16,6 +16,17 @@ pub struct StageReport {
     pub seconds: f64,
 }
 
+impl StageReport {
+    /// A stage without counts.
+    pub(super) fn empty(stage: Stage) -> Self {
+        Self {
+            stage,
+            survivors: PairCounts::default(),
+            seconds: 0.0,
+        }
+    }
+}
+
 /// One step.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StepReport {
