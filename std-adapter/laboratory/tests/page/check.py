@@ -24,7 +24,7 @@ def expect(holds: bool, what: str) -> None:
 
 
 def colours(page: Page) -> int:
-    """How many different colours the animation has at this moment."""
+    """Returns the number of colours in the animation."""
     image = Image.open(io.BytesIO(page.locator("#view").screenshot())).convert("RGB")
     return len(image.getcolors(maxcolors=1 << 24))
 
@@ -39,7 +39,7 @@ def picture(page: Page) -> bytes:
 
 
 def use(page: Page) -> None:
-    """Everything a reader can do, with keys alone."""
+    """Uses the page as a reader would, with keys alone."""
     last = int(page.locator("#scrub").get_attribute("max") or 0)
     expect(page.locator("#no-view").is_hidden(), "the animation is not drawn: no WebGL 2")
     expect(colours(page) > 200, "the animation is blank")
@@ -100,7 +100,7 @@ def main() -> None:
             page = browser.new_page(
                 viewport={"width": width, "height": height}, color_scheme=theme, reduced_motion="reduce"
             )
-            # Rendering by software is slow on a busy machine.
+            # Software rendering is slow on a busy machine.
             page.set_default_timeout(120_000)
             page.on("console", lambda message: problems.append(f"console: {message.type}: {message.text}"))
             page.on("pageerror", lambda error: problems.append(f"script: {error}"))
@@ -122,7 +122,7 @@ def main() -> None:
             page.screenshot(path=folder / f"{name}.png", full_page=True)
             page.close()
 
-        # Without scripts, and without WebGL, the numbers must still be there.
+        # The numbers must be there without scripts and without WebGL.
         for name, arguments, settings in [
             ("without-scripts", [], {"java_script_enabled": False}),
             ("without-webgl", ["--disable-gpu", "--disable-3d-apis"], {}),

@@ -211,8 +211,8 @@ mod tests {
             .map(|([_, y], _)| y)
             .collect();
         names.sort_by(f64::total_cmp);
-        // Eleven filters, and the permanent's second time.
-        assert_eq!(names.len(), 12);
+        // Five filters, and the permanent's second time.
+        assert_eq!(names.len(), 6);
         for pair in names.windows(2) {
             assert!(pair[1] - pair[0] > 15.0, "{names:?}");
         }

@@ -16,15 +16,15 @@ function createCharts(recording, onPick) {
 }
 
 const CHARTS = {
-  pairs: { caption: "pairs left, a step; logarithmic", shape: logarithmic, height: 250 },
-  events: { caption: "count, a step; logarithmic", shape: logarithmic, height: 190 },
-  effect: { caption: "time of effects, a step; stacked", shape: stacked, height: 230 },
+  pairs: { caption: "pairs left per step; logarithmic", shape: logarithmic, height: 250 },
+  events: { caption: "count per step; logarithmic", shape: logarithmic, height: 190 },
+  effect: { caption: "time of effects per step; stacked", shape: stacked, height: 230 },
   step: { caption: "time of a whole step", shape: stacked, height: 150 },
-  stage: { caption: "time of shared stages, a step; stacked", shape: stacked, height: 200 },
+  stage: { caption: "time of shared stages per step; stacked", shape: stacked, height: 200 },
   gauge: { caption: "", shape: linear, height: 130 },
   energy: { caption: "energy, in J", shape: linear, height: 230 },
-  "effect-energy": { caption: "energy that effects hold, in J", shape: linear, height: 190 },
-  stretch: { caption: "length over that at rest", shape: linear, height: 150 },
+  "effect-energy": { caption: "energy stored by effects, in J", shape: linear, height: 190 },
+  stretch: { caption: "length relative to rest", shape: linear, height: 150 },
 };
 const MARGIN = { left: 58, right: 14, top: 12, bottom: 26 };
 const NAMESPACE = "http://www.w3.org/2000/svg";
@@ -195,7 +195,7 @@ function measured(series, recording) {
 function columnsOf(series, begin, end, most) {
   const columns = Math.max(1, Math.min(series[0].values.length, Math.floor(most)));
   const times = Array.from({ length: columns }, (_, i) => begin + ((i + 0.5) / columns) * (end - begin));
-  // The first and the last column reach to the ends.
+  // The first and the last column extend to the ends.
   if (columns > 1) [times[0], times[columns - 1]] = [begin, end];
   return { times, means: series.map((one) => columnMeans(one.values, columns)) };
 }

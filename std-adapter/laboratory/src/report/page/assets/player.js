@@ -7,7 +7,7 @@
   const [canvas, play, scrub, speed, clock] = ["view", "play", "scrub", "speed", "clock"].map(find);
   const times = recording.frameTimes;
   const last = times.length - 1;
-  // How long the end is shown before the animation begins again, in seconds.
+  // Seconds for which the end is shown before the animation restarts.
   const REST = 0.8;
 
   let frame = 0;

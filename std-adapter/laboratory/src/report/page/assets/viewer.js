@@ -14,7 +14,7 @@ function createViewer(canvas, recording, onChange) {
   const shown = { edges: false, bodies: true };
 
   const SHADOW = 2048;
-  const FIELD = 0.6; // Of view, vertically, in radians.
+  const FIELD = 0.6; // The vertical field of view, in radians.
   const SUN = normalized([-0.5, 1, 0.65]);
 
   const surface = program(gl, SURFACE_VERTEX, SURFACE_FRAGMENT);
@@ -89,7 +89,7 @@ function createViewer(canvas, recording, onChange) {
     const width = canvas.width, height = canvas.height;
     if (!width || !height || gl.isContextLost()) return;
     const eye = added(camera.target, eyeOffset());
-    // The floor ends, faded out, at 2.6 radii.
+    // The floor fades out until 2.6 radii.
     const away = Math.hypot(...eye);
     const near = Math.max(0.02 * camera.distance, away - 2.8 * scene.radius);
     const projection = perspective(FIELD, width / height, near, away + 3 * scene.radius);
@@ -161,7 +161,7 @@ function createViewer(canvas, recording, onChange) {
     camera.pitch = 0.3;
     camera.target = [0, 0, 0];
     camera.distance = 1;
-    // The eye must be so far away that every point, at its own depth, is in view.
+    // The eye is far enough away that every point, at its own depth, is in view.
     const toView = lookAt(eyeOffset(), [0, 0, 0]);
     const tall = Math.tan(FIELD / 2) * 0.9;
     const wide = tall * (canvas.width / canvas.height || 1);
@@ -240,7 +240,7 @@ function steerView(canvas, viewer) {
     }
     pointers.set(event.pointerId, to);
   });
-  // Who only scrolls past must not be held up.
+  // A reader who only scrolls past is not stopped.
   canvas.addEventListener("wheel", (event) => {
     if (document.activeElement !== canvas && !event.ctrlKey) return;
     event.preventDefault();
@@ -264,7 +264,7 @@ function steerView(canvas, viewer) {
 /** Where things are in the viewer's axes, over all frames. */
 function placeScene(recording) {
   const up = recording.up;
-  // The axis that is least upright lies across.
+  // The axis that is least upright becomes horizontal.
   const axis = [0, 1, 2].reduce((best, i) => (Math.abs(up[i]) < Math.abs(up[best]) ? i : best), 0);
   const across = normalized([0, 1, 2].map((i) => (i === axis ? 1 : 0) - up[axis] * up[i]));
   const rows = [across, up, crossed(across, up)];
@@ -290,7 +290,7 @@ function placeScene(recording) {
     }
   };
 
-  // A few thousand points of a few frames say how much there is to see.
+  // A few thousand points of a few frames determine the view.
   const points = new Float32Array(3 * recording.vertices);
   const sample = [];
   const stride = Math.max(1, Math.floor(recording.vertices / 400));
@@ -307,7 +307,7 @@ function placeScene(recording) {
     place, radius, gridSpacing,
     sample: Float32Array.from(sample),
     gridOrigin: [middle[0], middle[2]],
-    // A little below, so that what lies on the ground is not in it.
+    // A little lower, so that objects on the ground do not intersect it.
     floor: least[1] - middle[1] - 0.002 * radius,
     yaw: most[2] - least[2] > most[0] - least[0] ? Math.PI / 2 : 0,
   };
@@ -406,7 +406,7 @@ const scaled = (a, s) => [a[0] * s, a[1] * s, a[2] * s];
 const added = (a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
 const normalized = (a) => scaled(a, 1 / Math.hypot(...a));
 
-// Matrices are stored column after column.
+// Matrices are stored by columns.
 
 function multiplied(a, b) {
   const product = new Float32Array(16);
@@ -443,7 +443,7 @@ function lookAt(eye, target) {
 const SUNLIGHT = `
 uniform mediump sampler2DShadow shadowMap;
 
-// The share of sunlight that reaches a point, over a few texels around its place on the map.
+// The share of sunlight at a point, over a few texels around its place on the map.
 float sunlight(vec4 place) {
   vec3 p = place.xyz * 0.5 + 0.5;
   if (any(greaterThan(abs(p - 0.5), vec3(0.5)))) return 1.0;
@@ -467,9 +467,9 @@ out vec3 outward;
 out vec4 sunPlace;
 void main() {
   where = point;
-  // Sums of areas may be so small that their squares vanish.
+  // Sums of areas may be so small that their squares underflow.
   outward = normal / max(max(abs(normal.x), abs(normal.y)), max(abs(normal.z), 1e-30));
-  // Looked up a little off the surface, towards the sun, so that coarse triangles do not shade themselves.
+  // The lookup is a little off the surface, towards the sun, so that coarse triangles do not shade themselves.
   vec3 lifted = point + normalize(outward) * sign(dot(outward, sun)) * lift;
   sunPlace = sunMatrix * vec4(lifted, 1.0);
   gl_Position = matrix * vec4(point, 1.0);
@@ -516,7 +516,7 @@ layout(location = 0) in vec3 point;
 uniform mat4 matrix;
 uniform vec3 eye;
 uniform float lift;
-// Nearer to the eye than the triangles that the line belongs to.
+// Lines are nearer to the eye than their triangles.
 void main() { gl_Position = matrix * vec4(point + normalize(eye - point) * lift, 1.0); }`;
 
 const LINE_FRAGMENT = `#version 300 es
