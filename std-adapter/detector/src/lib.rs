@@ -1,21 +1,26 @@
-//! Finds which vertex–face and edge–edge pairs of a deforming triangle mesh can collide during a time step.
+//! Finds the vertex–face and edge–edge contacts of a deforming triangle mesh during a time step, and never misses one.
 //!
-//! **Start at [`CollisionDetector`]**: positions at the start and at the end of a step in, contacts with their times out.
-//! [`Topology`] is what it needs to know of the mesh, once.
+//! **Start at [`CollisionDetector`]**: it takes positions at the start and at the end of a step, and returns contacts with their times. [`Topology`]
+//! holds the mesh's vertices, edges and faces and is made once. [`World`] is a detector for several meshes that come and go.
 //!
-//! The tests themselves, one pair at a time and without `std`, are [`selvedge_core`](crate::core). This crate adds what a mesh
-//! needs: topology, hierarchies and threads. Mesh files are in the crate `selvedge-files`, cloth simulation in `selvedge-cloth`, the
-//! published methods and what compares them in `selvedge-laboratory`.
+//! | module | contents |
+//! |---|---|
+//! | this one | detector, world, topology, collision filters, errors |
+//! | [`coherent`] | near pairs that are followed from step to step, for solvers with contact handling of their own |
+//! | [`broad_phase`] | hierarchies of moving boxes, for stages of your own |
+//! | [`parallel`] | threads, and loops that are split between them |
+//! | [`simd`] | instruction sets |
+//!
+//! Tests of single pairs, without `std`, are in [`selvedge_core`](crate::core). Mesh files are in the crate `selvedge-files`, cloth simulation in
+//! `selvedge-cloth`, and the published methods with their comparison in `selvedge-laboratory`.
 //!
 //! # Features
-//! They only add.
-//!
-//! | feature | what it adds |
+//! | feature | effect |
 //! |---|---|
-//! | `parallel` (on by default) | [`Threads`]: steps on several threads, by rayon. Without it the calling thread does all |
-//! | `timing` | a clock for the seconds of each stage in [`StepStatistics`]. Without it no clock is read |
+//! | `parallel` (on by default) | [`Threads`]: steps on several threads, by rayon. Without it, the calling thread does everything |
+//! | `timing` | a clock for the seconds in [`StepStatistics`]. Without it, no clock is read |
 //!
-//! Without any of them the crate needs neither threads nor a clock, as on `wasm32-unknown-unknown` (where nobody has run it yet).
+//! Without features the crate needs neither threads nor a clock, as on `wasm32-unknown-unknown`.
 
 #![forbid(unsafe_code)]
 
@@ -49,7 +54,7 @@ pub use step::{
     Cancellation, CollisionFilter, Contact, Frame, Groups, Intersection, StepError, Truncation, check_frames, check_length,
 };
 
-/// The readme's examples are tests.
+/// Runs the examples of the readme as tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 mod readme {}

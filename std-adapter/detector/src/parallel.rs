@@ -1,27 +1,38 @@
-//! Threads: which ones a detector runs on, and loops that are split between them.
+//! Threads, and loops that are split between them.
 //!
-//! A loop runs on the rayon pool that it is called in when that has more than one thread, and touches no pool otherwise: rayon's global
-//! pool is never started behind a caller's back, and code that is not run in a pool allocates nothing for it. Within
-//! [`Workers::run`] of [`Threads::Calling`] there is one thread, in a pool or not. Without the feature `parallel` there is one always.
+//! [`Workers`] are threads. A loop inside [`Workers::run`] is split between them. Outside it, a loop runs on the rayon pool of the caller, if that pool
+//! has more than one thread, and otherwise on the calling thread. Rayon's global pool is never started. Without the feature `parallel` all loops run on
+//! the calling thread.
+//!
+//! ```
+//! use selvedge::parallel::{Workers, for_each};
+//!
+//! let workers = Workers::default(); // The calling thread. `Workers::new(Threads::EachCore)` starts others.
+//! let mut squares = [0; 100];
+//! workers.run(|| for_each(&mut squares, |index, square| *square = index * index));
+//! assert_eq!(squares[9], 81);
+//! ```
+//!
+//! All loops give the same results on any number of threads.
 
 #[cfg(feature = "parallel")]
 mod pool;
 
-pub use crate::buffer::add_kept;
+pub use crate::buffer::append_selected;
 
 #[cfg(feature = "parallel")]
 pub use pool::{ThreadError, Threads, Workers, has_many_threads, own_index, threads};
 #[cfg(feature = "parallel")]
 use rayon::prelude::*;
 
-/// The calling thread.
+/// The threads of a loop: the calling thread only, without the feature `parallel`.
 #[cfg(not(feature = "parallel"))]
 #[derive(Debug, Default)]
 pub struct Workers(());
 
 #[cfg(not(feature = "parallel"))]
 impl Workers {
-    /// How many threads there are.
+    /// Returns the number of threads.
     #[must_use]
     pub fn count(&self) -> usize {
         1
@@ -33,21 +44,21 @@ impl Workers {
     }
 }
 
-/// Whether work should be split between threads.
+/// Returns whether loops are split between threads.
 #[cfg(not(feature = "parallel"))]
 #[must_use]
 pub const fn has_many_threads() -> bool {
     false
 }
 
-/// The number of the thread that calls, below [`threads`].
+/// Returns the number of the calling thread, below [`threads`].
 #[cfg(not(feature = "parallel"))]
 #[must_use]
 pub const fn own_index() -> usize {
     0
 }
 
-/// How many threads work is split between.
+/// Returns the number of threads that loops are split between.
 #[cfg(not(feature = "parallel"))]
 #[must_use]
 pub const fn threads() -> usize {
@@ -66,7 +77,7 @@ pub fn for_each<T: Send>(items: &mut [T], action: impl Fn(usize, &mut T) + Sync)
     }
 }
 
-/// Replaces `output` by `make` of each input.
+/// Replaces `output` by `make(item)` for each item of `input`.
 pub fn fill<I: Sync, O: Send>(output: &mut Vec<O>, input: &[I], make: impl Fn(&I) -> O + Sync + Send) {
     #[cfg(feature = "parallel")]
     if has_many_threads() {
@@ -77,7 +88,7 @@ pub fn fill<I: Sync, O: Send>(output: &mut Vec<O>, input: &[I], make: impl Fn(&I
     output.extend(input.iter().map(make));
 }
 
-/// Replaces `output` by what `add` adds of chunks of the items, in their order.
+/// Replaces `output` by what `add` appends for chunks of the items, in their order.
 pub fn gather<I: Sync, O: Copy + Send>(output: &mut Vec<O>, items: &[I], add: impl Fn(&[I], &mut Vec<O>) + Sync + Send) {
     output.clear();
     #[cfg(feature = "parallel")]
@@ -94,7 +105,7 @@ pub fn gather<I: Sync, O: Copy + Send>(output: &mut Vec<O>, items: &[I], add: im
     add(items, output);
 }
 
-/// Calls `action` with chunks of the items and the index at which each begins; joins their results to `result` by `take`, in order.
+/// Calls `action` with each chunk of the items, the index of its first item, and a result of its own. `take` joins the results to `result`, in order.
 pub fn map_chunks<T: Send, R>(
     items: &mut [T],
     action: impl Fn(usize, &mut [T], &mut R) + Sync + Send,
@@ -120,11 +131,11 @@ pub fn map_chunks<T: Send, R>(
     action(0, items, result);
 }
 
-/// Items that one thread takes at once.
+/// Items of a chunk.
 #[cfg(feature = "parallel")]
 const CHUNK: usize = 4096;
 
-/// Calls both, in any order.
+/// Calls both functions, in any order or at the same time.
 pub fn both(one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
     #[cfg(feature = "parallel")]
     if has_many_threads() {
@@ -135,7 +146,7 @@ pub fn both(one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
     other();
 }
 
-/// Calls `action` with each item, its index, and its chunk of `others`, `size` long.
+/// Calls `action` with each item, its index, and its chunk of `others`, of `size` items.
 pub fn for_each_with_chunk<T: Send, U: Send>(
     items: &mut [T],
     others: &mut [U],
@@ -157,7 +168,7 @@ pub fn for_each_with_chunk<T: Send, U: Send>(
     }
 }
 
-/// Calls `action` with chunks of both lists, `size` long, that begin at the same index, and with that index.
+/// Calls `action` with chunks of `size` items of both lists that begin at the same index, and with that index.
 pub fn for_each_chunk_with_chunk<T: Send, U: Send>(
     items: &mut [T],
     others: &mut [U],

@@ -1,15 +1,22 @@
-//! Which instruction set the batched kernels use.
+//! Instruction sets of the batched kernels.
+//!
+//! A detector uses the best instruction set of the machine, found at run time. All of them give the same results, bit for bit.
 
 pub use selvedge_core::batch::Level;
 
-/// The widest instruction set that this machine has and the kernels know: SSE2, AVX2 or AVX-512 on x86, NEON on
-/// 64-bit Arm, else a plain loop. Detected once. All of them give the same verdicts, bit for bit.
+/// Returns the widest instruction set that the machine and the kernels have: SSE2, AVX2 or AVX-512 on x86, NEON on 64-bit Arm, otherwise a plain
+/// loop.
 #[must_use]
 pub fn best_level() -> Level {
     Level::new()
 }
 
-/// Every level that this machine has, the plainest first, with its name: for tests and studies that force each.
+/// Returns every instruction set of the machine with its name, the plainest first.
+///
+/// ```
+/// let levels = selvedge::simd::available_levels();
+/// assert!(!levels.is_empty());
+/// ```
 #[must_use]
 pub fn available_levels() -> Vec<(&'static str, Level)> {
     let best = best_level();

@@ -17,7 +17,7 @@ use super::neighbours::{are_neighbours, at_rest};
 use super::settings::{ContactSettings, MARGIN, RECOVERY, Thickness};
 use crate::model::step::{TimeStep, Touch, Touches, mobility};
 use selvedge::parallel;
-use selvedge::parallel::add_kept;
+use selvedge::parallel::append_selected;
 use selvedge::simd::Level;
 use selvedge_core::batch::LANES;
 use selvedge_core::glam::DVec3;
@@ -83,7 +83,7 @@ impl Contacts {
         parallel::map_chunks(
             pairs,
             |first, pairs, open: &mut Vec<u32>| {
-                add_kept(open, pairs, |place, pair| (is_open(pair, predicted), (first + place) as u32));
+                append_selected(open, pairs, |place, pair| (is_open(pair, predicted), (first + place) as u32));
             },
             &mut self.open,
             |all, own| all.extend(own),

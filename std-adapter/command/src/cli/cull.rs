@@ -83,6 +83,17 @@ impl Cull {
     fn run_in<S: Scalar>(&self, step: MeshStep) -> Result<(), Failure> {
         let start = positions::<S>(&step.start, &self.start)?;
         let end = positions::<S>(&step.end, &self.end)?;
+        for (exact, rounded, file) in [(&step.start, &start, &self.start), (&step.end, &end, &self.end)] {
+            let collapsed = collapsed_edges::<S>(&step.topology, exact, rounded);
+            if collapsed > 0 {
+                output::say(format_args!(
+                    "{}: rounding to {} gives both ends of {collapsed} edge{} one position; use --scalar f64, or move the mesh nearer to the origin",
+                    file.display(),
+                    S::NAME,
+                    if collapsed == 1 { "" } else { "s" },
+                ));
+            }
+        }
         for path in [&self.pairs, &self.candidates].into_iter().flatten() {
             OutputFiles::check(path)?;
         }
@@ -213,6 +224,13 @@ impl Cull {
         let candidates = [&*vertex_face, &*edge_edge];
         self.tell(summary, &fastest, detector.topology(), &contacts, candidates)
     }
+}
+
+/// Counts the edges whose ends are one position after rounding, but not before it.
+fn collapsed_edges<S: Scalar>(topology: &Topology, exact: &[DVec3], rounded: &[S::Vector]) -> usize {
+    let at = |vertex: u32| -> [S; 3] { rounded[vertex as usize].into() };
+    let collapses = |&&[a, b]: &&[u32; 2]| at(a) == at(b) && exact[a as usize] != exact[b as usize];
+    topology.edges().iter().filter(collapses).count()
 }
 
 /// Converts positions to the format `S`.

@@ -6,30 +6,30 @@ use selvedge_core::Scalar;
 use selvedge_core::elementary::Limits;
 use selvedge_core::narrowing::widened;
 
-/// What counts as a contact. Lengths are in the unit of the positions.
+/// Defines what counts as a contact. Lengths are in the unit of the positions.
 ///
 /// ```
 /// use selvedge::core::elementary::Limits;
 /// use selvedge::{CollisionDetector, Criterion, Topology};
 ///
 /// let mut detector = CollisionDetector::<f32>::new(Topology::new(3, vec![[0, 1, 2]])?);
-/// // Cloth that is to stay a millimetre away from all else, in metres.
+/// // Cloth that stays a millimetre away from everything else, in metres.
 /// let limits = Limits { separation: 1e-3, ..Limits::default() };
 /// detector.set_criterion(Criterion::Within(limits))?;
-/// // A negative length is none.
+/// // A negative length is refused.
 /// let refused = detector.set_criterion(Criterion::Touching { tolerance: -1.0 });
 /// assert!(refused.is_err());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Criterion<S> {
-    /// Pairs that cannot be proven to stay farther apart than the separation. Those that only come within the tolerance of it may be
+    /// Reports pairs that cannot be proven to stay farther apart than the separation. Pairs that come within separation and tolerance together may be
     /// among them.
     Within(Limits<S>),
-    /// Only pairs that truly touch, by the [exact verdict](mod@selvedge_core::elementary::contact). Their times are those of
-    /// [`Within`](Self::Within) this tolerance of touching.
+    /// Reports only pairs that truly touch, by the [exact verdict](mod@selvedge_core::elementary::contact). Times are those of
+    /// [`Within`](Self::Within) with this tolerance and no separation.
     Touching {
-        /// How much earlier than the contact, as a distance between the two, a time may be.
+        /// The distance between the two primitives at which a time may already count.
         tolerance: S,
     },
 }
@@ -45,7 +45,7 @@ impl<S: Scalar> Criterion<S> {
         }
     }
 
-    /// Both lengths must be finite, and not negative.
+    /// Checks that both lengths are finite and not negative.
     pub(crate) fn check(&self) -> Result<(), StepError> {
         let limits = self.limits();
         check_length(limits.separation)?;
@@ -54,20 +54,20 @@ impl<S: Scalar> Criterion<S> {
 }
 
 impl<S: Scalar> Default for Criterion<S> {
-    /// Within [`Limits::default`]: no separation.
+    /// Returns [`Within`](Self::Within) [`Limits::default`], which has no separation.
     fn default() -> Self {
         Self::Within(Limits::default())
     }
 }
 
-/// Which boxes tell candidates.
+/// Selects the bounding boxes that generate candidates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CandidateBoxes {
-    /// Those at the start and at the end of the step, that are not in one order along an axis at both: relative boxes. Fewer pairs,
-    /// in less time.
+    /// Boxes at the start and at the end of the step. A pair is a candidate unless its boxes have the same order along one axis at both. This gives
+    /// fewer pairs, in less time.
     #[default]
     Moving,
-    /// The boxes that primitives sweep, that overlap: what other systems call candidates.
+    /// Boxes that hold the whole motion of a primitive. A pair is a candidate if its boxes overlap, as in most other systems.
     Swept,
 }
 

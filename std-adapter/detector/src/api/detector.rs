@@ -10,8 +10,9 @@ use crate::step::{CollisionFilter, Contact, Step, StepError, Truncation, exactly
 use selvedge_core::{Position, Scalar};
 use std::sync::Arc;
 
-/// Finds the contacts of a mesh, one step after another. `S` is the format of the positions, `f32` or `f64`; they come as glam's vectors or
-/// as arrays of three ([`Position`]).
+/// Finds the contacts of a mesh, one step after another.
+///
+/// `S` is the format of the positions, `f32` or `f64`. Positions are glam's vectors or arrays of three ([`Position`]).
 ///
 /// ```text
 /// once per mesh   topology
@@ -50,36 +51,35 @@ use std::sync::Arc;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// # What can be asked
-/// | question | method | what it saves |
+/// # Which method to call
+/// | result | method | cost |
 /// |---|---|---|
 /// | all contacts with their times | [`contacts`](Self::contacts) | |
-/// | the earliest contact | [`earliest`](Self::earliest) | looks at a short part of the step first, and never beyond the earliest contact so far |
-/// | is the step free of contact? | [`is_free`](Self::is_free) | ends at the first contact |
-/// | how far may each vertex go? | [`truncate`](Self::truncate) | only vertices that would come into contact are held back |
-/// | where does a contact lie, and what is its normal? | [`contact_geometry`](Self::contact_geometry), [`contact_geometries`](Self::contact_geometries) | only contacts are looked at |
-/// | which pairs are near each other at rest? | [`near`](Self::near) | |
-/// | which pairs come near each other? | [`candidates`](Self::candidates) | ends after the broad phase |
-/// | which primitives meet in one state, at rest? | [`intersections`](Self::intersections), [`has_intersections`](Self::has_intersections) | exact, and passing through counts as well |
-/// | contacts of pairs that the caller has | [`contacts_of`](Self::contacts_of) | no broad phase |
+/// | the earliest contact | [`earliest`](Self::earliest) | does not look beyond the earliest contact so far |
+/// | whether the step is free of contact | [`is_free`](Self::is_free) | ends at the first contact |
+/// | how far each vertex may go | [`truncate`](Self::truncate) | holds back only vertices that would come into contact |
+/// | points and normal of a contact | [`contact_geometry`](Self::contact_geometry), [`contact_geometries`](Self::contact_geometries) | looks at contacts only |
+/// | pairs that are near each other at rest | [`near`](Self::near) | |
+/// | pairs that come near each other | [`candidates`](Self::candidates) | ends after the broad phase |
+/// | primitives that intersect in one state | [`intersections`](Self::intersections), [`has_intersections`](Self::has_intersections) | exact; finds primitives that pass through each other too |
+/// | contacts of listed pairs | [`contacts_of`](Self::contacts_of) | no broad phase |
 ///
-/// Steps that go on from one another, as a simulation's, take less time if one says so ([`set_coherent`](Self::set_coherent)).
+/// If each step starts where the last ended, as in a simulation, call [`set_coherent`](Self::set_coherent); it is faster.
 ///
-/// Vertices that rest, and meshes that never move, are named once
-/// ([`set_moving`](Self::set_moving)): pairs in which nothing moves are not looked at, and boxes of what rests
-/// are fitted once. Several meshes are one topology, the triangles of each with their own vertices.
+/// If some vertices rest, name the moving ones with [`set_moving`](Self::set_moving). The detector then skips pairs in which nothing moves, and fits the
+/// boxes of resting vertices once. To detect contacts between several meshes, put them into one topology, or use a [`World`](crate::World).
 ///
-/// # What is promised
-/// * **No contact is missed** and no time is later than the exact one, rounding included, in every floating-point environment
-///   ([`selvedge_core`](crate::core)). Pairs that come within the tolerance of the separation, or too close for
-///   rounding to tell, may count as contacts.
-/// * Positions in `f32` are computed with in `f64` where `f32` leaves a pair open: contacts are as sharp, and times, rounded
-///   down, as late as if they were given in `f64`. Positions in `f64` that are all `f32` numbers are as fast as those in `f32`.
-/// * The same contacts with the same times in the same order, on any number of threads and every instruction set. (The order is
-///   that of the hierarchies, which depends on the steps before; the set and the times do not.)
-/// * After the first step nothing is allocated, unless there are more pairs than ever or hierarchies are built anew. (With
-///   several threads rayon may still allocate for its queues; where steps go on from one another, so may what finds pairs again.)
-/// * Frames of the wrong length, and positions that are not finite, are errors.
+/// # Guarantees
+/// * **No contact is missed**, and no time is later than the exact one, rounding included, in every floating-point environment
+///   ([`selvedge_core`](crate::core)). Pairs that come within the tolerance of the separation, or too close for rounding to separate, may count as
+///   contacts.
+/// * Positions in `f32` give contacts that are as sharp as those of the same positions in `f64`: pairs that `f32` leaves open are decided in `f64`. Times
+///   are rounded down. Positions in `f64` that are all `f32` numbers take as little time as `f32`.
+/// * The contacts, their times and their order are the same on any number of threads and every instruction set. The order depends on the hierarchies,
+///   and so on earlier steps; the set of contacts and the times do not.
+/// * After the first step nothing is allocated, unless there are more pairs than before or hierarchies are built again. Rayon may still allocate for
+///   its queues, and coherent steps for pairs that are found again.
+/// * Frames of the wrong length and positions that are not finite are errors.
 #[derive(Debug)]
 pub struct CollisionDetector<S: Scalar> {
     pub(super) engine: MeshEngine,
@@ -88,7 +88,7 @@ pub struct CollisionDetector<S: Scalar> {
 }
 
 impl<S: Scalar> CollisionDetector<S> {
-    /// A detector for a mesh, on the calling thread.
+    /// Makes a detector for a mesh. It runs on the calling thread.
     #[must_use]
     pub fn new(topology: impl Into<Arc<Topology>>) -> Self {
         Self {
@@ -98,30 +98,30 @@ impl<S: Scalar> CollisionDetector<S> {
         }
     }
 
-    /// The threads that steps are split between; at first [`Threads::Calling`].
+    /// Sets the threads that share the work of a step. The default is [`Threads::Calling`].
     ///
     /// # Errors
-    /// If the operating system refuses the threads, or they are more than [`Threads::most`]. Then they stay as they were.
+    /// If the requested threads could not be started, or are more than [`Threads::most`]. The old ones then stay.
     #[cfg(feature = "parallel")]
     pub fn set_threads(&mut self, threads: Threads) -> Result<(), ThreadError> {
         self.workers = Workers::new(threads)?;
         Ok(())
     }
 
-    /// What counts as a contact; at first [`Criterion::default`].
+    /// Sets what counts as a contact. The default is [`Criterion::default`].
     ///
     /// # Errors
-    /// If a length is negative, infinite or NaN. Then it stays as it was.
+    /// If a length is negative, infinite or NaN. The old criterion then stays.
     pub fn set_criterion(&mut self, criterion: Criterion<S>) -> Result<(), StepError> {
         criterion.check()?;
         self.criterion = criterion;
         Ok(())
     }
 
-    /// Names the vertices that move, true for each that does; `None`: all of them, as at first.
+    /// Sets which vertices move, with one entry for each vertex. `None`, the default, means that all move.
     ///
-    /// From the next step on, pairs of which no vertex moves are not looked at. The positions of vertices that do
-    /// not move are taken from the next step's start and end, and **not looked at again** until this is called anew.
+    /// From the next step on, the detector skips pairs without a moving vertex. It reads the positions of resting vertices in the next step, and **not
+    /// again** until the next call of this method.
     ///
     /// # Errors
     /// If the slice's length is not the mesh's number of vertices.
@@ -139,33 +139,32 @@ impl<S: Scalar> CollisionDetector<S> {
         }
     }
 
-    /// Which pairs are looked at from the next step on; at first all.
+    /// Sets which pairs may collide, from the next step on. By default all may.
     ///
-    /// Pairs that the caller brings ([`contacts_of`](Self::contacts_of)) are looked at whatever the filter says.
+    /// Listed pairs ([`contacts_of`](Self::contacts_of)) are tested whatever the filter says.
     ///
     /// # Errors
-    /// If a list of the filter's does not have an entry for each of the mesh's vertices, or names one that is not there. Then it stays as it was.
+    /// If a list of the filter does not have an entry for each vertex, or names a vertex that does not exist. The old filter then stays.
     pub fn set_collision_filter(&mut self, filter: CollisionFilter) -> Result<(), StepError> {
         filter.check(self.topology().vertex_count())?;
         self.engine.set_filter(filter);
         Ok(())
     }
 
-    /// Whether steps go on from one another, as those of a simulation do; at first not.
+    /// Sets whether each step starts where the last ended, as in a simulation. Off by default.
     ///
-    /// Then pairs that are near each other are found for several steps at once and followed: a step mostly looks at them alone. Worth it
-    /// where a step moves vertices by much less than an edge, and not where every step is another motion.
+    /// The detector then finds near pairs for several steps at once and follows them, so that most steps look at these pairs only. This pays where
+    /// a step moves vertices by much less than an edge, and not where every step is a different motion.
     ///
-    /// The answers of [`contacts`](Self::contacts), [`earliest`](Self::earliest) and [`is_free`](Self::is_free) are those of a detector
-    /// that has seen no step before, with the same times, **whatever the steps are**: one that begins elsewhere than where the
-    /// one before has ended, or a mesh that jumps, only takes longer. Contacts come in ascending order of their pairs' numbers. (A pair that the
-    /// elementary test gives up on though it is farther apart than the tolerance, as it may with a face without area, can be left out, in
-    /// one step and not in another: only where that is proven.) Other questions are answered as ever.
+    /// [`contacts`](Self::contacts), [`earliest`](Self::earliest) and [`is_free`](Self::is_free) return what a new detector returns, with the same times,
+    /// **whatever the steps are**. A step that starts elsewhere, or a mesh that jumps, only takes longer. Contacts come in ascending order of their
+    /// pairs. There is one exception. The elementary test can give up on a pair that is farther apart than the tolerance, such as one with a face
+    /// without area. Such a pair may be left out in one step and not in another, but only where it is proven apart. Other methods do not change.
     ///
     /// ```
     /// use selvedge::{CollisionDetector, Topology, glam::DVec3};
     ///
-    /// // A triangle that slides along a larger one, at a distance, and in the end comes down.
+    /// // A triangle that slides along a larger one and comes down in the last step.
     /// let mut detector = CollisionDetector::<f64>::new(Topology::new(6, vec![[0, 1, 2], [3, 4, 5]])?);
     /// detector.set_coherent(true);
     /// let large = [DVec3::new(-5.0, -5.0, 0.0), DVec3::new(5.0, -5.0, 0.0), DVec3::new(0.0, 5.0, 0.0)];
@@ -186,11 +185,12 @@ impl<S: Scalar> CollisionDetector<S> {
         self.engine.set_coherent(coherent);
     }
 
-    /// Replaces `contacts` by all contacts of the step from `start` to `end`, one position for each vertex: vertex–face first.
+    /// Replaces `contacts` by all contacts of the step from `start` to `end`, vertex–face pairs first. There is one position for each vertex.
     ///
     /// # Errors
-    /// If a frame's length is not the mesh's number of vertices, a coordinate is NaN or infinite, or the step is cut short: by a
-    /// [`cancellation`](Self::cancellation), or by more pairs than [allowed](Self::set_pair_limit). What is in `contacts` then is of no use.
+    /// If a frame's length is not the mesh's number of vertices, or a coordinate is NaN or infinite. Also if the step is cut short: by a
+    /// [`cancellation`](Self::cancellation), or by more [pairs](Self::set_pair_limit) or [memory](Self::set_memory_limit) than allowed. `contacts` is then
+    /// incomplete.
     pub fn contacts<P: Position<Scalar = S>>(
         &mut self,
         start: &[P],
@@ -204,24 +204,22 @@ impl<S: Scalar> CollisionDetector<S> {
         self.engine.pairs.stop.result()
     }
 
-    /// The earliest contact of the step; of several at the same time the one with the smallest numbers, vertex–face first.
+    /// Returns the earliest contact of the step. Of several at the same time it returns the one with the smallest numbers, vertex–face pairs first.
     ///
-    /// It is the first of all that [`contacts`](Self::contacts) finds, with the same time. Writing s for the separation and δ for the
-    /// tolerance of the [criterion](Self::set_criterion):
-    /// * **The time is a certified lower bound.** Before it no two primitives are within s of each other, rounding included. So the
-    ///   step may be taken up to it (`start + (end − start)·time`, but for the rounding of these positions), and any step shorter
-    ///   than it is free. `None` is a proof that the whole step is.
-    /// * **How early it may be.** At that time the distance of the pair is at most s + δ and a rounding error
-    ///   ([bounded there](selvedge_core::elementary::advance#what-is-promised)). If it comes closer at a speed of v there,
-    ///   in lengths a step, and goes on to come within s, the exact time is about δ/v later. But it need not: a pair that comes within
-    ///   s + δ and turns back, a near miss, may be a contact as any other, and then the exact first contact is that of another pair, or
-    ///   there is none. A near miss at more than s + δ never is; the time may well come after it.
-    /// * **The exception**: a pair too close for rounding to tell, within some 2⁻⁴⁸ of the size of its
-    ///   differences, counts from when that cannot be excluded, which may be long before it touches, or though it never does. Of such pairs
-    ///   it may tell one that [`contacts`](Self::contacts) does not have, or another time.
+    /// It is the first contact that [`contacts`](Self::contacts) finds, with the same time. Let s be the separation and δ the tolerance of the
+    /// [criterion](Self::set_criterion):
+    /// * **The time is a certified lower bound.** Before it no two primitives are within s of each other, rounding included. So the mesh may move up to
+    ///   that time, `start + (end − start)·time` but for the rounding of these positions, and any shorter step is free. `None` proves that the whole
+    ///   step is free.
+    /// * **The time may be early.** At that time the distance of the pair is at most s + δ and a rounding error
+    ///   ([bounded there](selvedge_core::elementary::advance#what-is-promised)). If the pair approaches at a speed of v lengths per step and comes within
+    ///   s, the exact time is about δ/v later. A near miss, a pair that comes within s + δ and turns back, may also count. The exact first contact is
+    ///   then that of another pair, or there is none. A near miss at more than s + δ never counts.
+    /// * **Exception.** A pair within some 2⁻⁴⁸ of the size of its differences is too close for rounding to separate. It is reported as soon as contact
+    ///   cannot be ruled out, even if it never happens. For such pairs the result may be a pair that [`contacts`](Self::contacts) does not
+    ///   have, or another time.
     ///
-    /// So it is not a proof of contact. Where a step without contact must not be cut short,
-    /// [`elementary::contact`](selvedge_core::elementary::contact()) decides whether the pair touches, exactly.
+    /// So the result does not prove contact. [`elementary::contact`](selvedge_core::elementary::contact()) decides exactly whether a pair touches.
     ///
     /// # Errors
     /// As [`contacts`](Self::contacts).
@@ -233,7 +231,7 @@ impl<S: Scalar> CollisionDetector<S> {
         Ok(earliest.as_ref().map(in_format_of_positions))
     }
 
-    /// Whether the step is certainly free of contact.
+    /// Returns whether the step is certainly free of contact.
     ///
     /// # Errors
     /// As [`contacts`](Self::contacts).
@@ -248,19 +246,20 @@ impl<S: Scalar> CollisionDetector<S> {
         Ok(true)
     }
 
-    /// Replaces `end` by positions to which the step is free of contact, each on the way of its vertex from `start` to `wanted`: vertices that
-    /// would come into contact are held back, each as far as its own neighbourhood asks for, and all others reach where they are wanted.
+    /// Replaces `end` by positions on the way from `start` to `wanted` to which the step is free of contact.
     ///
-    /// For solvers that would else cut the whole step at its [earliest](Self::earliest) contact.
+    /// Vertices that would come into contact are held back, each as far as its own neighbourhood requires. All others reach their wanted position. Use
+    /// this in a solver instead of cutting the whole step at its [earliest](Self::earliest) contact.
     ///
-    /// * **The step from `start` to `end` is certified free**, by the same tests as [`is_free`](Self::is_free), but for pairs that are
-    ///   [in contact](Truncation::in_contact) at the start: their vertices rest.
-    /// * A vertex ends exactly where it is wanted, or in the box of its way, rounding included. Where the whole step is free, `end` is `wanted`.
-    /// * The share of its way that a vertex goes is for all of its motion, so that what slides along something, nearer than its next
-    ///   step, is held back as well: a separation between the two leaves it room.
-    /// * The same bits for any number of threads. It always ends ([how](selvedge_core::separation::truncation) shares are chosen).
+    /// * **The step from `start` to `end` is certified free**, by the tests of [`is_free`](Self::is_free). Pairs that are
+    ///   [in contact](Truncation::in_contact) at the start are the exception: their vertices rest.
+    /// * A vertex ends exactly at its wanted position, or in the box of its way, rounding included. If the whole step is free, `end` is `wanted`.
+    /// * A vertex goes a share of its whole motion. So a vertex that slides along a surface, nearer than its next step, is held back too. A separation
+    ///   leaves it room.
+    /// * The result has the same bits for any number of threads. The method always ends; core describes
+    ///   [how](selvedge_core::separation::truncation) shares are chosen.
     ///
-    /// A body that has to reach its position is held back as all others are: whoever cannot have that cuts the step at the contacts of that body.
+    /// Bodies that must reach their position are held back like all others. If that is not acceptable, cut the step at the contacts of that body.
     ///
     /// ```
     /// use selvedge::{CollisionDetector, Topology, glam::DVec3};
@@ -277,7 +276,7 @@ impl<S: Scalar> CollisionDetector<S> {
     /// let truncation = detector.truncate(&start, &wanted, &mut end)?;
     /// assert_eq!((truncation.held_back, truncation.in_contact), (3, 0));
     /// assert!(detector.is_free(&start, &end)?);
-    /// // Nearly down on it, and the other all the way.
+    /// // One is nearly down; the other goes all the way.
     /// assert!(end[3].z < 0.01 && end[6..] == wanted[6..]);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -303,8 +302,8 @@ impl<S: Scalar> CollisionDetector<S> {
         Ok(truncation)
     }
 
-    /// Replaces `vertex_face` and `edge_edge` by the pairs that boxes leave: vertex and face, or two edges, the smaller
-    /// number first. All others are certainly farther apart than the separation throughout the step.
+    /// Replaces `vertex_face` and `edge_edge` by the candidates: vertex and face, or two edges with the smaller number first. All other pairs are
+    /// certainly farther apart than the separation throughout the step.
     ///
     /// # Errors
     /// As [`contacts`](Self::contacts).
@@ -323,13 +322,13 @@ impl<S: Scalar> CollisionDetector<S> {
         self.engine.pairs.stop.result()
     }
 
-    /// Replaces `contacts` by those of the pairs given, in their order, vertex–face first: a vertex and a face, or two edges.
+    /// Replaces `contacts` by those of listed pairs, in their order, vertex–face pairs first. A pair is a vertex and a face, or two edges.
     ///
-    /// Pairs that share a vertex are in contact at time 0. Each pair goes through moving boxes first, those of all primitives of the
-    /// mesh made for the step: for a list that is much shorter than the mesh that is most of the time.
+    /// Pairs that share a vertex are in contact at time 0. The method makes boxes for all primitives of the mesh, which takes most of the time if the
+    /// list is much shorter than the mesh.
     ///
     /// # Errors
-    /// As [`contacts`](Self::contacts), and if a pair names what the mesh does not have.
+    /// As [`contacts`](Self::contacts), and if the mesh does not have a vertex, face or edge of a pair.
     pub fn contacts_of<P: Position<Scalar = S>>(
         &mut self,
         start: &[P],
@@ -346,13 +345,13 @@ impl<S: Scalar> CollisionDetector<S> {
         self.engine.pairs.stop.result()
     }
 
-    /// The mesh's vertices, edges and triangles.
+    /// Returns the mesh's vertices, edges and triangles.
     #[must_use]
     pub fn topology(&self) -> &Topology {
         self.engine.topology()
     }
 
-    /// How many threads a step uses.
+    /// Returns the number of threads that a step uses.
     #[must_use]
     pub fn threads(&self) -> usize {
         self.workers.count()

@@ -1,4 +1,4 @@
-//! What contacts are beyond their times: vertices, points, weights, normals. And what of a mesh at rest is near each other.
+//! The geometry of contacts, and the near pairs of a mesh at rest.
 
 use super::criterion::Criterion;
 use super::detector::CollisionDetector;
@@ -14,21 +14,21 @@ use selvedge_core::separation::geometry::{Geometry, geometry};
 use selvedge_core::separation::largest_coordinate;
 use selvedge_core::{Motion, Position, PrimitivePair, Scalar};
 
-/// Two primitives, their vertices, and how they lie to each other at some time. Computed in `f64`, whatever the format of the positions.
+/// Two primitives, their vertices, and their closest points at some time. Computed in `f64`, whatever the format of the positions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactGeometry {
     /// Vertex–face or edge–edge.
     pub kind: PairKind,
-    /// The vertex and the face, or the two edges, as numbered by the [`Topology`].
+    /// The vertex and the face, or the two edges, as the [`Topology`] numbers them.
     pub pair: [u32; 2],
     /// The vertex and the corners of the face, or the ends of both edges, as the mesh numbers them.
     pub vertices: [u32; 4],
-    /// Points, weights, normal, distance, speed: with what is [promised](selvedge_core::separation::geometry) of them.
+    /// Points, weights, normal, distance and speed, with [guarantees](selvedge_core::separation::geometry).
     pub geometry: Geometry,
 }
 
 impl<S: Scalar> CollisionDetector<S> {
-    /// The geometry of one contact of the step from `start` to `end`, at its time.
+    /// Returns the geometry of one contact of the step from `start` to `end`, at its time.
     ///
     /// ```
     /// use selvedge::{CollisionDetector, Topology, glam::DVec3};
@@ -50,8 +50,8 @@ impl<S: Scalar> CollisionDetector<S> {
     /// ```
     ///
     /// # Errors
-    /// If a frame's length is not the mesh's number of vertices, the pair is none of the mesh's, or the time is not in [0, 1]. Positions
-    /// that are not finite give no normal.
+    /// If a frame's length is not the mesh's number of vertices, the mesh does not have the pair, or the time is not in [0, 1]. Positions that are
+    /// not finite give no normal.
     pub fn contact_geometry<P: Position<Scalar = S>>(
         &self,
         start: &[P],
@@ -66,7 +66,7 @@ impl<S: Scalar> CollisionDetector<S> {
             }
         }
         check_contact(self.topology(), contact)?;
-        Ok(of(self.topology(), [start, end], contact))
+        Ok(geometry_of(self.topology(), [start, end], contact))
     }
 
     /// Replaces `geometries` by those of many contacts of a step, in their order, on the detector's threads.
@@ -74,7 +74,7 @@ impl<S: Scalar> CollisionDetector<S> {
     /// Nothing is allocated if `geometries` has room.
     ///
     /// # Errors
-    /// As [`contacts`](Self::contacts), and if a pair is none of the mesh's or a time is not in [0, 1].
+    /// As [`contacts`](Self::contacts), and if the mesh does not have a pair or a time is not in [0, 1].
     pub fn contact_geometries<P: Position<Scalar = S>>(
         &self,
         start: &[P],
@@ -86,15 +86,14 @@ impl<S: Scalar> CollisionDetector<S> {
         let topology = self.topology();
         contacts.iter().try_for_each(|contact| check_contact(topology, contact))?;
         self.workers
-            .run(|| parallel::fill(geometries, contacts, |contact| of(topology, [start, end], contact)));
+            .run(|| parallel::fill(geometries, contacts, |contact| geometry_of(topology, [start, end], contact)));
         Ok(())
     }
 
-    /// Replaces `near` by all pairs of a mesh at rest that are within `distance` of each other, with their closest points: what contact forces
-    /// are made of. Ascending by kind and pair, vertex–face first; pairs that share a vertex are none.
+    /// Replaces `near` by all pairs of a mesh at rest that are within `distance` of each other, with their closest points. Use them for contact forces.
     ///
-    /// **None is missed.** A pair a little farther away may be among them, by 2⁻¹⁹ of the distance and what rounding hides; each tells the
-    /// [range](Geometry::distance) that its distance is in.
+    /// Pairs ascend by kind and numbers, vertex–face pairs first. Pairs that share a vertex are left out. **No pair is missed.** A pair that is
+    /// farther away by up to 2⁻¹⁹ of the distance and a rounding error may be among them; each has the [range](Geometry::distance) of its distance.
     ///
     /// ```
     /// use selvedge::{CollisionDetector, Topology};
@@ -110,8 +109,7 @@ impl<S: Scalar> CollisionDetector<S> {
     /// ```
     ///
     /// # Errors
-    /// If there is not one position for each vertex, one is not finite, the distance is negative, infinite or NaN, or the question is
-    /// [cut short](Self::cancellation).
+    /// As [`contacts`](Self::contacts), and if the distance is negative, infinite or NaN.
     pub fn near<P: Position<Scalar = S>>(
         &mut self,
         positions: &[P],
@@ -134,7 +132,7 @@ impl<S: Scalar> CollisionDetector<S> {
         let error = GapError::from_largest_coordinate(largest_coordinate(positions).to_f64());
         let mut pairs = Vec::new();
         for (kind, candidates) in [(PairKind::VertexFace, vertex_face), (PairKind::EdgeEdge, edge_edge)] {
-            // Most are farther away than their boxes, and nobody asks for their geometry.
+            // Most pairs are farther away than their boxes, and need no geometry.
             self.workers.run(|| {
                 let is_near = |pair: &[u32; 2]| {
                     let points = topology
@@ -159,7 +157,7 @@ impl<S: Scalar> CollisionDetector<S> {
                         pair,
                         time: S::default(),
                     };
-                    of(topology, [positions; 2], &at_start)
+                    geometry_of(topology, [positions; 2], &at_start)
                 });
             });
             near.extend(found.into_iter().filter(|found| {
@@ -179,8 +177,8 @@ fn check_contact<S: Scalar>(topology: &Topology, contact: &Contact<S>) -> Result
     check_pair(topology, contact.kind, contact.pair)
 }
 
-/// Of a pair of the mesh.
-fn of<P: Position>(topology: &Topology, [start, end]: [&[P]; 2], contact: &Contact<P::Scalar>) -> ContactGeometry {
+/// Returns the geometry of a pair of the mesh.
+fn geometry_of<P: Position>(topology: &Topology, [start, end]: [&[P]; 2], contact: &Contact<P::Scalar>) -> ContactGeometry {
     let &Contact { kind, pair, time } = contact;
     let vertices = topology.vertices_of(kind, pair);
     let motions = vertices.map(|vertex| Motion::new(exactly(start[vertex as usize]), exactly(end[vertex as usize])));

@@ -1,4 +1,4 @@
-//! Which primitives of a mesh at rest meet.
+//! Primitives of a mesh at rest that meet.
 
 use super::detector::CollisionDetector;
 use crate::engine::Wanted;
@@ -6,18 +6,18 @@ use crate::step::{Intersection, StepError};
 use selvedge_core::{Position, Scalar};
 
 impl<S: Scalar> CollisionDetector<S> {
-    /// Replaces `intersections` by all edges and faces that meet where the mesh is at `positions`, and by vertices and faces, and edges, that
-    /// touch where neighbours are folded flat onto each other. Each once, in ascending order: the same list on any number of threads,
-    /// whatever was asked before.
+    /// Replaces `intersections` by all edges and faces that meet where the mesh is at `positions`.
     ///
-    /// **Exact**: touching counts, however little; what is apart by the smallest number does not. Faces without area and edges without
-    /// length are what they are, segments and points. The list is empty exactly if no two triangles have a point in common besides
-    /// the vertices, and the edge, that they share; then the mesh is a state from which steps can be certified.
+    /// Where neighbours are folded flat onto each other, the vertices and faces, and the edges, that touch are listed too. Each intersection comes
+    /// once, in ascending order. The list is the same on any number of threads and does not depend on earlier calls.
     ///
-    /// Primitives with a common vertex always meet there, and are no intersection. (Nor is a triangle that is there twice with the same
-    /// vertices. A face without area, whose corner lies on its edge, touches its neighbour at that edge with its corner: that is one.)
-    /// Vertices named by [`set_moving`](Self::set_moving) are looked at as in a step; [criterion](Self::set_criterion), separation and
-    /// [collision filter](Self::set_collision_filter) are not asked.
+    /// **The result is exact.** Touching counts; primitives that are apart by the smallest number do not. Faces without area and edges without length
+    /// are segments and points. The list is empty exactly if no two triangles have a point in common besides the vertices and the edge that they share.
+    /// Steps can be certified from such a state.
+    ///
+    /// Primitives with a common vertex always meet there; that is no intersection. Neither is a second triangle with the same vertices. But a face
+    /// without area whose corner lies on its own edge touches its neighbour at that edge, which is one. Vertices that [rest](Self::set_moving) are treated
+    /// as in a step. The [criterion](Self::set_criterion) and the [collision filter](Self::set_collision_filter) have no effect.
     ///
     /// ```
     /// use selvedge::{CollisionDetector, Intersection, Topology};
@@ -30,7 +30,7 @@ impl<S: Scalar> CollisionDetector<S> {
     /// detector.intersections(&positions, &mut found)?;
     /// assert_eq!(found, [3, 4].map(|edge| Intersection::EdgeFace { edge, face: 0 }));
     ///
-    /// // Only the vertex touches; and now not even that.
+    /// // Now only the vertex touches; then nothing does.
     /// positions[3][2] = 0.0;
     /// assert!(detector.has_intersections(&positions)?);
     /// positions[3][2] = f32::MIN_POSITIVE;
@@ -39,8 +39,7 @@ impl<S: Scalar> CollisionDetector<S> {
     /// ```
     ///
     /// # Errors
-    /// If there is not one position for each of the mesh's vertices, a coordinate is NaN or infinite (named as of the
-    /// [start](crate::Frame::Start)), or the question is cut short, as [`contacts`](Self::contacts).
+    /// As [`contacts`](Self::contacts). Errors name the frame of the positions as the [start](crate::Frame::Start).
     pub fn intersections<P: Position<Scalar = S>>(
         &mut self,
         positions: &[P],
@@ -51,7 +50,7 @@ impl<S: Scalar> CollisionDetector<S> {
         self.engine.pairs.stop.result()
     }
 
-    /// Whether there is any of the [`intersections`](Self::intersections). Ends at the first.
+    /// Returns whether there are any [`intersections`](Self::intersections). Ends at the first.
     ///
     /// # Errors
     /// As [`intersections`](Self::intersections).

@@ -7,12 +7,12 @@ use crate::step::{Contact, StepError};
 use selvedge_core::{Position, Scalar};
 
 impl<S: Scalar> CollisionDetector<S> {
-    /// Forces the instruction set; the best that the machine has is the default. Changes no result.
+    /// Forces the instruction set. The default is the best that the machine has. Changes no result.
     pub const fn set_level(&mut self, level: Level) {
         self.engine.set_level(level);
     }
 
-    /// As [`contacts`](Self::contacts), and replaces `vertex_face` and `edge_edge` by the pairs that the filter leaves.
+    /// Finds [`contacts`](Self::contacts), and replaces `vertex_face` and `edge_edge` by the pairs that the non-coplanarity filter leaves.
     ///
     /// # Errors
     /// As [`contacts`](Self::contacts).

@@ -1,4 +1,4 @@
-//! Several meshes that come and go, and move as they like.
+//! Several meshes that come and go.
 
 use super::criterion::Criterion;
 use super::world_contacts::{WorldContact, of_meshes};
@@ -18,31 +18,30 @@ use std::sync::Arc;
 /// How a mesh moves in a step.
 #[derive(Clone, Copy, Debug)]
 pub enum MeshMotion<'a, P> {
-    /// Each vertex straight, at constant velocity: cloth, soft bodies. Such a mesh can also meet itself.
+    /// Each vertex moves straight, at constant velocity: cloth and soft bodies. Such a mesh can also meet itself.
     Deforming {
-        /// One position for each vertex, at the start.
+        /// Positions at the start, one for each vertex.
         start: &'a [P],
-        /// And at the end.
+        /// Positions at the end.
         end: &'a [P],
     },
-    /// As one body, of the shape that it was [inserted](World::insert) with, from one pose to another, each a rotation and the place of the
-    /// shape's origin. It turns the short way at a constant rate, about an axis through its origin, which moves straight.
+    /// The mesh moves as one body, in the shape that it was [inserted](World::insert) with, from one pose to another. A pose is a rotation and the
+    /// position of the shape's origin. The body turns the short way at a constant rate, about an axis through its origin, and the origin moves straight.
     ///
-    /// With two rotations that are equal every vertex moves straight, from where it is at the start to where it is at the end, both rounded to
-    /// the world's format. Else vertices move on [arcs](selvedge_core::paths::RigidMotion::between), from where `f64` puts them at the start.
+    /// If the two rotations are equal, every vertex moves straight between its two positions, rounded to the world's format. Otherwise vertices move on
+    /// [arcs](selvedge_core::paths::RigidMotion::between), from their start positions in `f64`.
     Rigid {
-        /// At the start.
+        /// The pose at the start.
         start: (DQuat, DVec3),
-        /// At the end.
+        /// The pose at the end.
         end: (DQuat, DVec3),
     },
 }
 
-/// Finds the contacts of meshes that come and go: cloth and soft bodies, rigid bodies, and what never moves. `P` is the type of the
-/// positions, glam's vectors or arrays of three, in `f32` or `f64`.
+/// Finds the contacts of meshes that come and go: cloth and soft bodies, rigid bodies, and meshes that never move.
 ///
-/// A mesh rests where it was inserted. [`contacts`](Self::contacts) is told what moves in a step, and how; all else rests where its last
-/// motion ended.
+/// `P` is the type of the positions: glam's vectors or arrays of three, in `f32` or `f64`. A mesh rests where it was inserted.
+/// [`contacts`](Self::contacts) takes the motions of a step; all other meshes rest where their last motion ended.
 ///
 /// ```
 /// use selvedge::glam::{DQuat, DVec3};
@@ -64,32 +63,29 @@ pub enum MeshMotion<'a, P> {
 /// assert_eq!((first.meshes, first.pair), ([plank, floor], [2, 0]));
 /// assert!(first.time <= 0.5_f64.asin() && first.time > 0.5_f64.asin() - 1e-6);
 ///
-/// // What is removed is met no more, and its handle is good for nothing.
+/// // A removed mesh has no contacts, and its handle is invalid.
 /// world.remove(floor)?;
 /// world.contacts(&[(plank, MeshMotion::Rigid { start, end })], &mut contacts)?;
 /// assert!(contacts.is_empty() && world.remove(floor).is_err());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// # What is promised
-/// * **No contact is missed** and no time is later than the exact one, rounding included, of vertices on straight ways and on arcs, between
-///   any two meshes of which one moves, and of a deforming mesh with itself. Times are as sharp as [those of a
-///   detector](crate::CollisionDetector::earliest); on arcs a pair within s + 3δ may be a contact.
-/// * **What two meshes do does not depend on the others.** Of straight motions all contacts are those of a
-///   [`CollisionDetector`](crate::CollisionDetector) for the two as one mesh, with the same times, bit for bit. (In `f64`, far from the origin
-///   for its size, such a detector may leave out pairs between the separation and the tolerance beyond it that a world tells of: boxes of
-///   a world are about zero.)
-/// * The same contacts in the same order on any number of threads.
-/// * **A step costs what moves.** Pairs of meshes that both rest are not looked at; what rests is not refitted. To insert a mesh builds
-///   its own hierarchies, and the small one over meshes in the next step.
-/// * Where an error is told, no mesh has been lost. Only a step that was cut short has begun: what was to move rests where it would have ended
-///   unless it is told to move again.
+/// # Guarantees
+/// * **No contact is missed**, and no time is later than the exact one, rounding included. This holds for straight motion and arcs, for any two meshes of
+///   which one moves, and for a deforming mesh with itself. Times are as sharp as [those of a detector](crate::CollisionDetector::earliest). With
+///   separation s and tolerance δ, a pair within s + 3δ on arcs may be a contact.
+/// * **Contacts of two meshes do not depend on other meshes.** For straight motion they are those of a
+///   [`CollisionDetector`](crate::CollisionDetector) for the two as one mesh, with the same times, bit for bit. There is one exception: far from the
+///   origin, in `f64`, such a detector may leave out pairs between the separation and the tolerance beyond it that a world reports.
+/// * The contacts and their order are the same on any number of threads.
+/// * **The cost of a step depends on what moves.** The world skips pairs of resting meshes and does not refit them. Inserting a mesh builds its own
+///   hierarchies, and in the next step the small one over meshes.
+/// * An error loses no mesh. Only a step that was cut short has begun: its meshes rest at the end of their motions unless the next step moves them.
 ///
-/// Who moves meshes in several straight pieces asks for a step for each of them. Of a single pair core takes them
-/// [all at once](selvedge_core::paths::Polyline), also where its points have theirs at different times.
+/// For piecewise-straight motion, run one step for each segment. For a single pair, core takes [all segments at
+/// once](selvedge_core::paths::Polyline).
 ///
-/// Where one step ends and the next begins, a body that turns is put at its pose anew: a few roundings away from where the arcs of the
-/// step before end.
+/// Where one step ends and the next begins, a rotating body is placed at its pose again, a few roundings away from the ends of the last step's arcs.
 #[derive(Debug)]
 pub struct World<P: Position> {
     stage: Stage,
@@ -104,7 +100,7 @@ impl<P: Position> Default for World<P> {
 }
 
 impl<P: Position> World<P> {
-    /// Without meshes, on the calling thread.
+    /// Makes a world without meshes. It runs on the calling thread.
     #[must_use]
     pub fn new() -> Self {
         Self {
@@ -114,23 +110,23 @@ impl<P: Position> World<P> {
         }
     }
 
-    /// The threads that steps are split between; at first [`Threads::Calling`].
+    /// Sets the threads that share the work of a step. The default is [`Threads::Calling`].
     ///
     /// # Errors
-    /// If the operating system refuses the threads, or they are more than [`Threads::most`]. Then they stay as they were.
+    /// If the requested threads could not be started, or are more than [`Threads::most`]. The old ones then stay.
     #[cfg(feature = "parallel")]
     pub fn set_threads(&mut self, threads: Threads) -> Result<(), ThreadError> {
         self.workers = Workers::new(threads)?;
         Ok(())
     }
 
-    /// What counts as a contact; at first [`Criterion::default`]. Of bodies that turn there is no exact verdict: with
-    /// [`Criterion::Touching`] their contacts are those within its tolerance.
+    /// Sets what counts as a contact. The default is [`Criterion::default`].
     ///
-    /// The next step fits all boxes anew.
+    /// There is no exact verdict for rotating bodies: with [`Criterion::Touching`] their contacts are those within its tolerance. If the separation
+    /// changes, the next step fits all boxes again.
     ///
     /// # Errors
-    /// If a length is negative, infinite or NaN. Then it stays as it was.
+    /// If a length is negative, infinite or NaN. The old criterion then stays.
     pub fn set_criterion(&mut self, criterion: Criterion<P::Scalar>) -> Result<(), WorldError> {
         criterion.check()?;
         self.stage.must_fit |= criterion.limits().separation != self.criterion.limits().separation;
@@ -138,13 +134,13 @@ impl<P: Position> World<P> {
         Ok(())
     }
 
-    /// What cuts a step short from another thread.
+    /// Returns the handle that cuts steps short from another thread.
     #[must_use]
     pub fn cancellation(&self) -> Cancellation {
         self.stage.engine.stop.cancellation.clone()
     }
 
-    /// Most pairs that a step may look at, as for a [detector](crate::CollisionDetector::set_pair_limit).
+    /// Sets the most pairs that a step may look at, as for a [detector](crate::CollisionDetector::set_pair_limit).
     pub fn set_pair_limit(&mut self, limit: Option<u64>) {
         self.stage.engine.stop.set_pair_limit(limit);
     }
@@ -154,9 +150,9 @@ impl<P: Position> World<P> {
         self.stage.engine.stop.set_memory_limit(limit);
     }
 
-    /// A new mesh that rests, at these positions. `groups` say which meshes it is looked at with, itself among them.
+    /// Inserts a mesh that rests at these positions. `groups` say which meshes it collides with, itself included.
     ///
-    /// Meshes of one topology may share it (`Arc`).
+    /// Meshes may share a topology (`Arc`).
     ///
     /// # Errors
     /// If there is not one position for each vertex, one is NaN or infinite, or all meshes together would have more than 2³¹ − 1 vertices.
@@ -183,10 +179,10 @@ impl<P: Position> World<P> {
         Ok(handle)
     }
 
-    /// Takes a mesh out. Its handle then names nothing, for good.
+    /// Removes a mesh. Its handle stays invalid for good.
     ///
     /// # Errors
-    /// If there is no such mesh.
+    /// If the world does not have the mesh.
     pub fn remove(&mut self, mesh: MeshHandle) -> Result<(), WorldError> {
         let removed = self.stage.meshes.remove(mesh).ok_or(WorldError::NoSuchMesh { mesh })?;
         self.stage.vertices -= removed.shape.len();
@@ -194,10 +190,10 @@ impl<P: Position> World<P> {
         Ok(())
     }
 
-    /// Which meshes this one is looked at with from now on.
+    /// Sets which meshes a mesh collides with from now on.
     ///
     /// # Errors
-    /// If there is no such mesh.
+    /// If the world does not have the mesh.
     pub fn set_groups(&mut self, mesh: MeshHandle, groups: Groups) -> Result<(), WorldError> {
         let own = self.stage.meshes.get_mut(mesh).ok_or(WorldError::NoSuchMesh { mesh })?;
         own.groups = groups;
@@ -205,26 +201,25 @@ impl<P: Position> World<P> {
         Ok(())
     }
 
-    /// All meshes that there are, in ascending order of their handles.
+    /// Returns all meshes, in ascending order of their handles.
     pub fn meshes(&self) -> impl Iterator<Item = MeshHandle> {
         self.stage.meshes.iter().map(|(handle, _)| handle)
     }
 
-    /// A mesh's vertices, edges and triangles.
+    /// Returns a mesh's vertices, edges and triangles.
     ///
     /// # Errors
-    /// If there is no such mesh.
+    /// If the world does not have the mesh.
     pub fn topology(&self, mesh: MeshHandle) -> Result<&Topology, WorldError> {
         Ok(self.mesh(mesh)?.hierarchies.topology())
     }
 
-    /// Replaces `contacts` by all contacts of a step in which these meshes move, and all others rest. A mesh that is listed moves, even if it
-    /// ends where it starts.
+    /// Replaces `contacts` by all contacts of a step in which these meshes move and all others rest. A listed mesh counts as moving even if it ends
+    /// where it starts.
     ///
     /// # Errors
-    /// If a mesh is not there, is listed twice, or its positions or poses are not in order: then nothing has changed. Or if the step is cut
-    /// short: by a [`cancellation`](Self::cancellation), or by more pairs than [allowed](Self::set_pair_limit). What is in `contacts` then
-    /// is of no use.
+    /// If a mesh does not exist or is listed twice, or if its positions or poses are invalid. The world is then unchanged. Also if the step is cut
+    /// short: by a [`cancellation`](Self::cancellation), or by more [pairs](Self::set_pair_limit) or [memory](Self::set_memory_limit) than allowed.
     pub fn contacts(
         &mut self,
         motions: &[(MeshHandle, MeshMotion<'_, P>)],
@@ -239,8 +234,8 @@ impl<P: Position> World<P> {
         Ok(())
     }
 
-    /// The earliest contact of such a step: the step is certainly free of contact until its time, and free altogether if there is none. Of
-    /// several at the same time the first by kind, meshes and pair.
+    /// Returns the earliest contact of such a step. The step is certainly free of contact before its time, and altogether free if there is none. Of
+    /// several contacts at the same time it returns the first by kind, meshes and pair.
     ///
     /// # Errors
     /// As [`contacts`](Self::contacts).
@@ -253,7 +248,7 @@ impl<P: Position> World<P> {
         Ok(earliest.map(|(source, contact)| of_meshes(self.stage.sources[source], contact)))
     }
 
-    /// Whether such a step is certainly free of contact.
+    /// Returns whether such a step is certainly free of contact.
     ///
     /// # Errors
     /// As [`contacts`](Self::contacts).
@@ -266,7 +261,7 @@ impl<P: Position> World<P> {
         Ok(true)
     }
 
-    /// Does a step, if it is in order; then whether it was cut short.
+    /// Runs a step with valid motions. The inner result says whether it was cut short.
     fn run(&mut self, motions: &[(MeshHandle, MeshMotion<'_, P>)], wanted: Wanted) -> Result<Result<(), StepError>, WorldError> {
         self.stage.engine.stop.admits()?;
         self.check_once(motions)?;
@@ -308,7 +303,7 @@ impl<P: Position> World<P> {
     }
 }
 
-/// A mesh's motion that is in order.
+/// A valid motion of a mesh.
 enum Checked<'a, P> {
     Deforming(MeshHandle, Step<'a, P>),
     Rigid(MeshHandle, Frames, Moves),
@@ -337,7 +332,7 @@ mod tests {
         )
     }
 
-    /// How often each mesh's hierarchies were built, and where its rows are.
+    /// Returns how often the hierarchies of each mesh were built, and where its rows are.
     fn state(world: &World<DVec3>) -> BTreeMap<MeshHandle, (usize, Option<u32>)> {
         let meshes = world.stage.meshes.iter();
         let state = |mesh: &WorldMesh| {
@@ -375,7 +370,7 @@ mod tests {
         let mut after = state(&world);
         assert_eq!(after.remove(&third), Some((1, Some(300))));
         assert_eq!(after, before);
-        // More rows of nobody than of meshes: places are given anew, and hierarchies stay.
+        // Most rows belong to no mesh: rows get new places, and hierarchies stay.
         for mesh in [first, second, third] {
             world.remove(mesh).unwrap();
         }

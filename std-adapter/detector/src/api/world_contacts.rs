@@ -1,4 +1,4 @@
-//! Contacts between meshes of a world, and what they are beyond their times.
+//! Contacts between the meshes of a world, and their geometry.
 
 use super::world::World;
 use super::world_error::WorldError;
@@ -10,37 +10,36 @@ use selvedge_core::paths::{self, Path};
 use selvedge_core::separation::geometry::{Geometry, geometry};
 use selvedge_core::{PairKind, Position, PrimitivePair, Scalar};
 
-/// A pair of a [`World`] for which contact during the step is not excluded.
+/// A pair of a [`World`] that may touch during the step, with the time of its contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WorldContact<S> {
     /// Vertex–face or edge–edge.
     pub kind: PairKind,
-    /// The mesh of the vertex and that of the face; or those of the two edges, the smaller handle first. One mesh twice, if it meets itself.
+    /// The mesh of the vertex and that of the face, or those of the two edges with the smaller handle first. A mesh that meets itself comes twice.
     pub meshes: [MeshHandle; 2],
-    /// The vertex and the face, or the two edges, as their own meshes number them; of one mesh the edge with the smaller number first.
+    /// The vertex and the face, or the two edges, as their own meshes number them. Two edges of one mesh come with the smaller number first.
     pub pair: [u32; 2],
-    /// When, in [0, 1] of the step: not after the exact time, and hardly before it, as [`Contact::time`](crate::Contact::time).
+    /// The time in [0, 1] of the step. It is not after the exact time, and hardly before it, as [`Contact::time`](crate::Contact::time).
     pub time: S,
 }
 
-/// Two primitives of a [`World`], their vertices, and how they lie to each other at some time. Computed in `f64`, whatever the format of the
-/// positions.
+/// Two primitives of a [`World`], their vertices, and their closest points at some time. Computed in `f64`, whatever the format of the positions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WorldContactGeometry {
     /// Vertex–face or edge–edge.
     pub kind: PairKind,
-    /// As the [contact](WorldContact::meshes) has them.
+    /// The meshes of the [contact](WorldContact::meshes).
     pub meshes: [MeshHandle; 2],
-    /// As the [contact](WorldContact::pair) has them.
+    /// The pair of the [contact](WorldContact::pair).
     pub pair: [u32; 2],
     /// The vertex and the corners of the face, or the ends of both edges, as their own meshes number them.
     pub vertices: [u32; 4],
-    /// Points, weights, normal, distance, speed: with what is promised of [straight ways](selvedge_core::separation::geometry), and if one of
-    /// the meshes turns, of [arcs](selvedge_core::paths::geometry).
+    /// Points, weights, normal, distance and speed, with the guarantees for [straight motion](selvedge_core::separation::geometry) or, if a mesh turns,
+    /// for [arcs](selvedge_core::paths::geometry).
     pub geometry: Geometry,
 }
 
-/// A contact as callers see it.
+/// Returns a contact in the format of the positions, with its meshes.
 pub(super) fn of_meshes<S: Scalar>(meshes: [MeshHandle; 2], contact: &Contact<f64>) -> WorldContact<S> {
     WorldContact {
         kind: contact.kind,
@@ -51,11 +50,10 @@ pub(super) fn of_meshes<S: Scalar>(meshes: [MeshHandle; 2], contact: &Contact<f6
 }
 
 impl<P: Position> World<P> {
-    /// The geometry of a contact of the last step, at its time.
+    /// Returns the geometry of a contact of the last step, at its time.
     ///
-    /// The step is the last one that this world was asked about, or its end where a mesh has rested since: the geometry of an earlier
-    /// step's contacts is not known any more. Of straight motions it is what a [detector](crate::CollisionDetector::contact_geometry)
-    /// tells of the two meshes as one, bit for bit.
+    /// The world keeps the motions of the last step only. For straight motion the result is that of a
+    /// [detector](crate::CollisionDetector::contact_geometry) for the two meshes as one, bit for bit.
     ///
     /// ```
     /// use selvedge::glam::{DQuat, DVec3};
@@ -73,7 +71,7 @@ impl<P: Position> World<P> {
     /// let first = world.earliest(&[(plank, MeshMotion::Rigid { start, end })])?.expect("a contact");
     /// let found = world.contact_geometry(&first)?;
     /// assert_eq!((found.meshes, found.vertices), ([plank, floor], [2, 0, 1, 2]));
-    /// // Straight up from the floor, where the tip is: at √3 from the middle, with a speed of as much.
+    /// // Straight up from the floor at the tip, which is √3 from the middle and has a speed of √3.
     /// assert_eq!(found.geometry.normal, Some(DVec3::Z));
     /// assert!((found.geometry.points[0] - 3.0_f64.sqrt() * DVec3::X).length() < 1e-5);
     /// assert!((found.geometry.speed + 3.0_f64.sqrt()).abs() < 1e-5);
@@ -81,7 +79,7 @@ impl<P: Position> World<P> {
     /// ```
     ///
     /// # Errors
-    /// If a mesh is not there any more, the pair is none of the two, or the time is not in [0, 1].
+    /// If a mesh was removed, the two meshes do not have the pair, or the time is not in [0, 1].
     pub fn contact_geometry(&self, contact: &WorldContact<P::Scalar>) -> Result<WorldContactGeometry, WorldError> {
         let vertices = self.vertices_in_step(contact)?;
         let &WorldContact { kind, meshes, pair, .. } = contact;
@@ -106,10 +104,10 @@ impl<P: Position> World<P> {
         })
     }
 
-    /// The vertices of a contact, as their own meshes number them: the vertex and the corners of the face, or the ends of both edges.
+    /// Returns the vertices of a contact, as their own meshes number them: the vertex and the corners of the face, or the ends of both edges.
     ///
     /// # Errors
-    /// If a mesh is not there any more, or the pair is none of the two.
+    /// If a mesh was removed, or the two meshes do not have the pair.
     pub fn vertices_of(&self, contact: &WorldContact<P::Scalar>) -> Result<[u32; 4], WorldError> {
         let [first, second] = contact.meshes.map(|mesh| self.mesh(mesh));
         let hierarchies = [&first?.hierarchies, &second?.hierarchies];
@@ -122,7 +120,7 @@ impl<P: Position> World<P> {
     /// Nothing is allocated if `geometries` has room.
     ///
     /// # Errors
-    /// As [`contact_geometry`](Self::contact_geometry), of the first contact that is not in order. Then `geometries` is as it was.
+    /// As [`contact_geometry`](Self::contact_geometry), for the first invalid contact. `geometries` then stays.
     pub fn contact_geometries(
         &self,
         contacts: &[WorldContact<P::Scalar>],
@@ -131,12 +129,12 @@ impl<P: Position> World<P> {
         contacts
             .iter()
             .try_for_each(|contact| self.vertices_in_step(contact).map(drop))?;
-        let known = |contact: &WorldContact<P::Scalar>| self.contact_geometry(contact).expect("looked at above");
+        let known = |contact: &WorldContact<P::Scalar>| self.contact_geometry(contact).expect("checked above");
         self.workers.run(|| parallel::fill(geometries, contacts, known));
         Ok(())
     }
 
-    /// The vertices of a contact, if its time is one of the step as well.
+    /// Returns the vertices of a contact, and checks its time.
     fn vertices_in_step(&self, contact: &WorldContact<P::Scalar>) -> Result<[u32; 4], WorldError> {
         let vertices = self.vertices_of(contact)?;
         let time = contact.time.to_f64();

@@ -1,55 +1,55 @@
-//! Why a world refuses a question.
+//! Reasons for refusing a step of a world.
 
 use crate::engine::world::MeshHandle;
 use crate::step::StepError;
 use std::fmt;
 
-/// Why a world could not do what it was asked. Nothing was lost: it can be asked again.
+/// The reason for refusing a call to a world. The world remains usable.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum WorldError {
-    /// The mesh was removed, or never there.
+    /// The mesh was removed, or belongs to another world.
     NoSuchMesh {
-        /// What was given.
+        /// The handle.
         mesh: MeshHandle,
     },
     /// Two motions are given for one mesh.
     MovedTwice {
-        /// Which mesh.
+        /// The mesh.
         mesh: MeshHandle,
     },
-    /// The positions that a mesh is to move between are too few, too many, or not finite.
+    /// The positions of a mesh are too few, too many, or not finite.
     BadPositions {
-        /// Which mesh.
+        /// The mesh.
         mesh: MeshHandle,
-        /// What is wrong with them.
+        /// The reason.
         error: StepError,
     },
-    /// A pose is none: a number is not finite, the quaternion is zero, or the mesh would be out of the range of numbers.
+    /// A pose is invalid: a number is not finite, the quaternion is zero, or a position would overflow.
     BadPose {
-        /// Which mesh.
+        /// The mesh.
         mesh: MeshHandle,
     },
     /// All meshes together have too many vertices to be numbered.
     TooLarge {
-        /// How many they would have.
+        /// The number of vertices.
         vertices: usize,
-        /// How many they may have.
+        /// The most vertices.
         most: usize,
     },
-    /// Positions to be inserted, a length of the criterion, or why the step was cut short.
+    /// Positions to insert or a length of the criterion are invalid, or the step was cut short.
     Step(StepError),
 }
 
 impl fmt::Display for WorldError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NoSuchMesh { mesh } => write!(f, "there is no mesh {mesh}: it was removed, or is of another world"),
+            Self::NoSuchMesh { mesh } => write!(f, "there is no mesh {mesh}: it was removed, or belongs to another world"),
             Self::MovedTwice { mesh } => write!(f, "two motions are given for mesh {mesh}: give one"),
             Self::BadPositions { mesh, error } => write!(f, "mesh {mesh}: {error}"),
             Self::BadPose { mesh } => write!(
                 f,
-                "mesh {mesh} has no such pose: its numbers must be finite, its quaternion not zero, and the mesh in the range of numbers"
+                "the pose of mesh {mesh} is invalid: its numbers must be finite, its quaternion not zero, and all positions within the range of numbers"
             ),
             Self::TooLarge { vertices, most } => {
                 write!(

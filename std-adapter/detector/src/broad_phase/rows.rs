@@ -84,7 +84,7 @@ impl Rows {
     pub(crate) fn set(&mut self, motions: &dyn Motions) {
         self.clear();
         self.double
-            .extend((0..motions.len()).map(|vertex| VertexRow::new(motions.of(vertex))));
+            .extend((0..motions.len()).map(|vertex| VertexRow::new(motions.motion(vertex))));
     }
 
     /// Room for so many vertices, and these of them; what the others are does not matter. In `f32` too, if all are such numbers.
@@ -95,7 +95,7 @@ impl Rows {
         self.has_single = are_single;
         for vertex in vertices {
             let vertex = vertex as usize;
-            let own = VertexRow::new(motions.of(vertex));
+            let own = VertexRow::new(motions.motion(vertex));
             self.double[vertex] = own;
             if are_single {
                 self.has_single &= narrowed(&[own], &mut self.single[vertex..=vertex]);

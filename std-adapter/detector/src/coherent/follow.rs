@@ -210,7 +210,7 @@ fn take(motions: &dyn Motions, used: &[bool], [start, end]: &mut [Vec<DVec3>; 2]
     start.clear();
     end.clear();
     for (vertex, &is_used) in used.iter().enumerate() {
-        let motion = motions.of(vertex);
+        let motion = motions.motion(vertex);
         let is_single = |position: DVec3| position.to_array().iter().all(|&x| f32::from_f64(x).to_f64() == x);
         are_single &= !is_used || is_single(motion.start) && is_single(motion.end);
         start.push(motion.start);

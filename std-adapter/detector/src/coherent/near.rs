@@ -12,7 +12,7 @@ use super::pair::NearPair;
 use super::search::Search;
 use super::{Interest, Reach};
 use crate::PairKind;
-use crate::buffer::add_kept;
+use crate::buffer::append_selected;
 use crate::mesh::Topology;
 use crate::step::{CollisionFilter, StepError};
 use selvedge_core::glam::DVec3;
@@ -115,8 +115,8 @@ impl<I: Interest> NearPairs<I> {
         let is_marked = |vertex: u32| marked[vertex as usize];
         let has_marked = |[a, b, c, d]: [u32; 4]| is_marked(a) | is_marked(b) | is_marked(c) | is_marked(d);
         places.clear();
-        add_kept(places, &self.vertices, |place, &vertices| (has_marked(vertices), place));
-        add_kept(places, added, |place, pair| (has_marked(pair.vertices), first.len() + place));
+        append_selected(places, &self.vertices, |place, &vertices| (has_marked(vertices), place));
+        append_selected(places, added, |place, pair| (has_marked(pair.vertices), first.len() + place));
     }
 
     /// What was done so far.

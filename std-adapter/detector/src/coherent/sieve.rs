@@ -6,7 +6,7 @@
 
 use super::{CLASSES, Class, Interest, Reach};
 use crate::PairKind;
-use crate::buffer::add_kept;
+use crate::buffer::append_selected;
 use crate::mesh::Topology;
 use crate::simd::{Level, best_level};
 use selvedge_core::Motion;
@@ -80,7 +80,7 @@ impl Sieve {
             }
             let own = &vertices[..pairs.len()];
             largest_strays_from_rows(self.level, kind, &self.clearances, &self.rows, own, &classes, &mut strays);
-            add_kept(left, pairs, |place, &pair| {
+            append_selected(left, pairs, |place, &pair| {
                 let stray = strays[place];
                 // What is NaN keeps nothing apart.
                 let keeps_apart = stray >= enough;

@@ -60,7 +60,7 @@ impl PrimitiveBoxes {
     /// Makes the boxes of a step. Pairs that they show to be apart are so by more than `separation`.
     pub(super) fn fit(&mut self, topology: &Topology, motions: &dyn Motions, separation: f64) {
         let mapping = mapping_within(motions, separation);
-        let moving = (0..motions.len()).map(|vertex| motions.of(vertex));
+        let moving = (0..motions.len()).map(|vertex| motions.motion(vertex));
         self.vertex_boxes.clear();
         self.vertex_boxes
             .extend(moving.map(|motion| mapping.vertex(motion.start.into(), motion.end.into())));

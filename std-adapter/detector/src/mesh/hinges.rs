@@ -1,24 +1,25 @@
-//! What hangs together so closely that no edge of the one is free of the other's vertices.
+//! Features so closely connected that every edge of one has a vertex of the other.
 
-use super::topology::{Groups, Topology, is_degenerate};
+use super::edges::ByKey;
+use super::topology::{Topology, is_degenerate};
 
-/// Two triangles with a common edge, and the edge.
+/// Two triangles with a common edge.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Hinge {
     triangles: [u32; 2],
     edge: u32,
 }
 
-/// The hinges of a mesh, and what is loose in it.
+/// The hinges of a mesh, and its loose edges and points.
 #[derive(Debug)]
 pub(crate) struct Hinges {
-    /// The triangles of each edge, but for those that name a vertex twice.
-    triangles: Groups<u32>,
-    /// The ends of the edges of those, either end first, in ascending order.
+    /// The triangles of each edge, without those that name a vertex twice.
+    triangles: ByKey<u32>,
+    /// The ends of the loose edges, in both orders, ascending.
     loose: Vec<[u32; 2]>,
-    /// The vertices of those that name only one, in ascending order.
+    /// The vertices of points, ascending.
     points: Vec<u32>,
-    /// Loose edges that triangles have as well: a triangle's vertex opposite to it, and its ends, the smaller first. In ascending order.
+    /// For each loose edge that is also an edge of a triangle: the opposite vertex of the triangle, then the ends, the smaller first. Ascending.
     opposite: Vec<[u32; 3]>,
 }
 
@@ -40,14 +41,14 @@ impl Hinges {
         let mut loose: Vec<_> = ends.filter(|[a, b]| a != b).collect();
         loose.sort_unstable();
         loose.dedup();
-        let of_edges = Groups::new(topology.edges().len(), keyed);
+        let of_edges = ByKey::new(topology.edges().len(), keyed);
         let degenerate = topology.triangle_edges().iter().zip(triangles);
         let named = degenerate
             .filter(|(_, triangle)| is_degenerate(triangle))
             .flat_map(|(edges, _)| edges);
         let mut opposite: Vec<_> = named
             .filter(|&&edge| edge != Topology::NO_EDGE)
-            .flat_map(|&edge| of_edges.of(edge as usize).iter().map(move |&triangle| [triangle, edge]))
+            .flat_map(|&edge| of_edges.group(edge as usize).iter().map(move |&triangle| [triangle, edge]))
             .map(|[triangle, edge]| {
                 let ends @ [u, v] = topology.edges()[edge as usize];
                 [opposite_vertex(topology, triangle, ends), u, v]
@@ -63,9 +64,9 @@ impl Hinges {
         }
     }
 
-    /// Those at an edge.
+    /// Returns the hinges at an edge.
     pub(crate) fn at(&self, edge: u32) -> impl Iterator<Item = Hinge> {
-        let own = self.triangles.of(edge as usize);
+        let own = self.triangles.group(edge as usize);
         let pairs = own
             .iter()
             .enumerate()
@@ -73,13 +74,13 @@ impl Hinges {
         pairs.map(move |triangles| Hinge { triangles, edge })
     }
 
-    /// Whether there is a triangle that names a vertex twice: an edge, or a point.
+    /// Returns whether a triangle names a vertex twice: an edge or a point.
     pub(crate) fn has_loose_features(&self) -> bool {
         !self.loose.is_empty() || !self.points.is_empty()
     }
 
-    /// Whether no edge of a vertex, and no hinge, tells what of a triangle it touches: it is a point, a loose edge joins it with one of the
-    /// corners, or the triangle is a loose edge that lies on the opposite edge of a triangle of the vertex.
+    /// Returns whether neither an edge of the vertex nor a hinge shows that the vertex touches the triangle. Then the vertex is a point, a loose edge
+    /// joins it with a corner, or the triangle is a loose edge that lies on the opposite edge of a triangle of the vertex.
     pub(crate) fn must_be_looked_at(&self, vertex: u32, triangle: [u32; 3]) -> bool {
         let is_loose = |&corner: &u32| self.loose.binary_search(&[vertex, corner]).is_ok();
         let lies_opposite = || {
@@ -92,16 +93,16 @@ impl Hinges {
     }
 }
 
-/// The vertex of a triangle that is not on one of its edges.
+/// Returns the vertex of a triangle that is not on one of its edges.
 #[inline(always)]
 fn opposite_vertex(topology: &Topology, triangle: u32, [u, v]: [u32; 2]) -> u32 {
     let vertices = topology.triangles()[triangle as usize];
-    // Exactly: of three numbers, the one that is left when the edge's two are taken away.
+    // Exact: the two vertices of the edge cancel.
     vertices[0] ^ vertices[1] ^ vertices[2] ^ u ^ v
 }
 
 impl Hinge {
-    /// The vertices of the edge, and the one opposite to it of each triangle; `None` if that is the same.
+    /// Returns the ends of the edge and the opposite vertex of each triangle, or `None` if these are the same.
     #[inline(always)]
     pub(crate) fn vertices(&self, topology: &Topology) -> Option<[u32; 4]> {
         let ends @ [u, v] = topology.edges()[self.edge as usize];
@@ -109,8 +110,8 @@ impl Hinge {
         (a != b).then_some([u, v, a, b])
     }
 
-    /// The pairs of the two triangles that have no vertex in common: each opposite vertex with the other triangle; an edge of each.
-    /// The latter with the smaller number first. By kind.
+    /// Returns the pairs of the two triangles that have no vertex in common, by kind: each opposite vertex with the other triangle, and an edge of
+    /// each, with the smaller number first.
     pub(crate) fn pairs(&self, topology: &Topology) -> Option<[[[u32; 2]; 2]; 2]> {
         let [u, v, a, b] = self.vertices(topology)?;
         let [first, second] = self.triangles;

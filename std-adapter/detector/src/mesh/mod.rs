@@ -1,22 +1,27 @@
 //! Triangle meshes in memory, and their topology.
 //!
-//! A [`Mesh`] is positions and triangles, nothing else. [`Topology`] is what a mesh's triangles
-//! say about its edges; it does not change while the mesh moves, so it is built once.
+//! A [`Mesh`] is positions and triangles. A [`Topology`] holds the edges; it does not change while the mesh moves, so it is built once.
 
+mod edges;
+mod error;
+mod features;
 mod hinges;
+mod statistics;
+#[cfg(test)]
+mod tests;
 mod topology;
 mod weld;
 
+pub use error::TopologyError;
+pub use features::FeaturePair;
 pub(crate) use hinges::{Hinge, Hinges};
-pub use topology::{FeaturePair, Topology, TopologyError, TopologyStatistics};
+pub use statistics::TopologyStatistics;
+pub use topology::Topology;
 pub use weld::{WeldedMesh, first_coincident};
 
 use selvedge_core::glam::DVec3;
 
-/// A triangle mesh.
-///
-/// Nothing is promised about the triangles by the type itself: indices may be out of range until
-/// [`Mesh::topology`] has accepted them.
+/// A triangle mesh. Indices may be out of range until [`Mesh::topology`] accepts them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// Vertex positions, in the caller's length unit.
@@ -26,7 +31,7 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// The topology of this mesh.
+    /// Makes the topology of this mesh.
     ///
     /// # Errors
     /// Those of [`Topology::new`].

@@ -1,10 +1,10 @@
-//! The feature `parallel`: rayon's threads.
+//! The threads of the feature `parallel`, by rayon.
 
 use std::cell::Cell;
 use std::fmt;
 use std::num::NonZeroUsize;
 
-/// The threads that work is split between. Contacts are the same, bit for bit, for all of them.
+/// Selects the threads of a detector or world. Results are the same, bit for bit, for all of them.
 ///
 /// ```
 /// use selvedge::{CollisionDetector, Threads, Topology};
@@ -17,20 +17,20 @@ use std::num::NonZeroUsize;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Threads {
-    /// The thread that calls, and no other, even in a rayon pool.
+    /// The calling thread only, even in a rayon pool.
     #[default]
     Calling,
-    /// Those of the rayon pool that a method is called in; outside of one, the thread that calls. (The global pool is one only for code
-    /// that runs on its threads.)
+    /// The threads of the rayon pool in which a method is called, or the calling thread outside of one. The global pool counts only for code that
+    /// runs on its threads.
     CallersPool,
-    /// So many of the detector's own, at most [`most`](Self::most). With one it is the thread that calls.
+    /// This number of own threads, at most [`most`](Self::most). One is the calling thread.
     Own(NonZeroUsize),
-    /// Its own, one for each core.
+    /// One own thread for each core.
     EachCore,
 }
 
 impl Threads {
-    /// As command lines count them: 0 for one on each core, 1 for the thread that calls.
+    /// Takes a number as on command lines: 0 is one thread for each core, 1 the calling thread.
     #[must_use]
     pub const fn from_count(count: usize) -> Self {
         match NonZeroUsize::new(count) {
@@ -40,7 +40,7 @@ impl Threads {
         }
     }
 
-    /// The most threads that are started: four for each core, and on a small machine 256. More only take memory, some megabytes each.
+    /// Returns the most threads that are started: four for each core, and at least 256. More would only take memory, some megabytes each.
     #[must_use]
     pub fn most() -> usize {
         let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
@@ -48,13 +48,13 @@ impl Threads {
     }
 }
 
-/// There are no such threads: the operating system refuses them, or they are more than [`Threads::most`].
+/// The requested threads could not be started: the operating system refuses them, or they are more than [`Threads::most`].
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct ThreadError {
-    /// Those that were asked for.
+    /// The requested threads.
     pub threads: Threads,
-    /// Why the operating system refuses, if it was asked.
+    /// The error of the operating system.
     source: Option<rayon::ThreadPoolBuildError>,
 }
 
@@ -79,7 +79,7 @@ impl std::error::Error for ThreadError {
     }
 }
 
-/// Threads that have been started where they had to be.
+/// Started threads, on which loops can run. The default is the calling thread.
 #[derive(Debug, Default)]
 pub struct Workers(Kind);
 
@@ -92,17 +92,17 @@ enum Kind {
 }
 
 impl Workers {
-    /// Starts a pool, if `threads` are to be its own and more than one.
+    /// Starts these threads.
     ///
     /// # Errors
-    /// If the operating system refuses, or there are more than [`Threads::most`].
+    /// If the operating system refuses the threads, or they are more than [`Threads::most`].
     pub fn new(threads: Threads) -> Result<Self, ThreadError> {
         let count = match threads {
             Threads::Calling | Threads::Own(NonZeroUsize::MIN) => return Ok(Self(Kind::Calling)),
             Threads::CallersPool => return Ok(Self(Kind::CallersPool)),
             Threads::Own(count) if count.get() > Threads::most() => return Err(ThreadError { threads, source: None }),
             Threads::Own(count) => count.get(),
-            // For rayon that is one for each core.
+            // One for each core, in rayon.
             Threads::EachCore => 0,
         };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
@@ -113,7 +113,7 @@ impl Workers {
         Ok(Self(Kind::Own(pool)))
     }
 
-    /// How many threads [`run`](Self::run) has, called from here.
+    /// Returns the number of threads that [`run`](Self::run) has when called from here.
     #[must_use]
     pub fn count(&self) -> usize {
         match &self.0 {
@@ -123,7 +123,7 @@ impl Workers {
         }
     }
 
-    /// Runs `action`, whose loops are then split between the threads.
+    /// Runs `action`, whose loops are split between the threads.
     pub fn run<T: Send>(&self, action: impl FnOnce() -> T + Send) -> T {
         match &self.0 {
             Kind::Calling => {
@@ -137,11 +137,11 @@ impl Workers {
 }
 
 thread_local! {
-    /// Whether this thread is not to share its work.
+    /// Whether this thread shares no work.
     static IS_ALONE: Cell<bool> = const { Cell::new(false) };
 }
 
-/// As long as it lives, this thread does not share its work.
+/// While this value lives, the thread shares no work.
 struct Alone {
     before: bool,
 }
@@ -160,13 +160,13 @@ impl Drop for Alone {
     }
 }
 
-/// Whether work should be split between threads.
+/// Returns whether loops are split between threads.
 #[must_use]
 pub fn has_many_threads() -> bool {
     rayon::current_thread_index().is_some() && rayon::current_num_threads() > 1 && !IS_ALONE.get()
 }
 
-/// The number of the thread that calls, below [`threads`].
+/// Returns the number of the calling thread, below [`threads`].
 #[must_use]
 pub fn own_index() -> usize {
     if has_many_threads() {
@@ -176,7 +176,7 @@ pub fn own_index() -> usize {
     }
 }
 
-/// How many threads work is split between.
+/// Returns the number of threads that loops are split between.
 #[must_use]
 pub fn threads() -> usize {
     if has_many_threads() { rayon::current_num_threads() } else { 1 }
@@ -194,7 +194,7 @@ mod tests {
         rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap()
     }
 
-    /// The threads that a loop of these workers' runs on.
+    /// Returns the threads that a loop runs on.
     fn used(threads: Threads) -> BTreeSet<String> {
         let workers = Workers::new(threads).unwrap();
         let mut items = vec![None; 200];

@@ -1,9 +1,10 @@
-//! What cuts a step short from another thread.
+//! Cuts a step short from another thread.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Cuts a detector's steps short, from any thread: [`CollisionDetector::cancellation`] hands it out. Clones are one and the same.
+/// Cuts steps short, from any thread. [`CollisionDetector::cancellation`](crate::CollisionDetector::cancellation) returns it. All clones act on the
+/// same detector.
 ///
 /// ```
 /// use selvedge::{CollisionDetector, StepError, Topology};
@@ -13,7 +14,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// let cancellation = detector.cancellation();
 /// std::thread::spawn(move || cancellation.cancel()).join().unwrap();
 /// assert_eq!(detector.is_free(&positions, &positions), Err(StepError::Cancelled));
-/// // Until it is taken back.
+/// // All steps fail until the reset.
 /// detector.cancellation().reset();
 /// assert_eq!(detector.is_free(&positions, &positions), Ok(true));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -22,18 +23,18 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub struct Cancellation(Arc<AtomicBool>);
 
 impl Cancellation {
-    /// The question that is being answered, and each one from now on, ends with [`StepError::Cancelled`]. (One that is nearly answered may
-    /// still be.)
+    /// Ends the present step and all later ones with [`StepError::Cancelled`](crate::StepError::Cancelled). A step that is nearly complete may still
+    /// succeed.
     pub fn cancel(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Questions are answered again.
+    /// Lets steps run again.
     pub fn reset(&self) {
         self.0.store(false, Ordering::Relaxed);
     }
 
-    /// Whether questions are cancelled.
+    /// Returns whether steps are cancelled.
     #[must_use]
     pub fn is_cancelled(&self) -> bool {
         self.0.load(Ordering::Relaxed)

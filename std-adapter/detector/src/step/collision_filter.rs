@@ -1,4 +1,4 @@
-//! Pairs that are not to be looked at, whatever they do: by groups, by patches, one by one, or as the caller decides.
+//! Pairs that never collide: by groups, by patches, one by one, or by a rule of the caller.
 
 use super::error::StepError;
 use crate::PairKind;
@@ -6,8 +6,8 @@ use crate::mesh::Topology;
 use std::fmt;
 use std::sync::Arc;
 
-/// What a vertex belongs to, and what it collides with, one bit for each group, as game engines have it: two vertices collide if each is in
-/// a group that the other's filter has.
+/// The groups of a vertex and the groups that it collides with, one bit for each group, as in game engines. Two vertices collide if each is in a
+/// group of the other's filter.
 ///
 /// ```
 /// use selvedge::Groups;
@@ -16,29 +16,29 @@ use std::sync::Arc;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Groups {
-    /// The groups that it is in.
+    /// The groups of the vertex.
     pub memberships: u32,
-    /// The groups that it collides with.
+    /// The groups that the vertex collides with.
     pub filter: u32,
 }
 
 impl Groups {
-    /// In all groups, colliding with all.
+    /// Is in all groups and collides with all.
     pub const ALL: Self = Self::new(u32::MAX, u32::MAX);
 
-    /// In some groups, colliding with some.
+    /// Makes groups from memberships and a filter.
     #[must_use]
     pub const fn new(memberships: u32, filter: u32) -> Self {
         Self { memberships, filter }
     }
 
-    /// Whether each is in a group that the other collides with.
+    /// Returns whether each is in a group that the other collides with.
     #[must_use]
     pub const fn collide(self, other: Self) -> bool {
         self.memberships & other.filter != 0 && other.memberships & self.filter != 0
     }
 
-    /// Colliding with whatever one of the two does.
+    /// Returns groups that collide with whatever one of the two collides with.
     const fn either(self, other: Self) -> Self {
         Self::new(self.memberships | other.memberships, self.filter | other.filter)
     }
@@ -50,12 +50,11 @@ impl Default for Groups {
     }
 }
 
-/// Which pairs of a mesh are looked at; at first all. What it excludes is never a candidate and never a contact.
+/// Excludes pairs of a mesh. An excluded pair is never a candidate and never a contact.
 ///
-/// Vertices collide or do not: by [groups](Self::with_groups), [patches](Self::with_patches) and
-/// [pairs](Self::without_vertex_pairs), each of which may only exclude. A pair of primitives is excluded if none of the vertices of one collides
-/// with any of the other's (ipc-toolkit's rule), or if the caller's [own rule](Self::with_rule) says so. What is excluded by groups or patches as
-/// a whole costs nothing: the traversal does not go there.
+/// [Groups](Self::with_groups), [patches](Self::with_patches) and [pairs](Self::without_vertex_pairs) say which vertices do not collide. A pair of
+/// primitives is excluded if no vertex of one collides with a vertex of the other (the rule of ipc-toolkit), or if the caller's
+/// [own rule](Self::with_rule) excludes it. Groups and patches also exclude whole parts of the mesh at once, which saves their traversal.
 ///
 /// Meshes that never move need no filter: see [`set_moving`](crate::CollisionDetector::set_moving).
 ///
@@ -73,12 +72,12 @@ impl Default for Groups {
 /// let mut contacts = Vec::new();
 /// detector.contacts(&start, &end, &mut contacts)?;
 /// let all = contacts.len();
-/// // The third triangle is a ghost: only what the sheet does to itself is left.
+/// // The third triangle is a ghost: only contacts of the sheet with itself remain.
 /// let groups = [Groups::ALL; 4].into_iter().chain([Groups::new(1, 0); 3]).collect();
 /// detector.set_collision_filter(CollisionFilter::new().with_groups(groups))?;
 /// detector.contacts(&start, &end, &mut contacts)?;
 /// let own = contacts.len();
-/// // Only different components: what it does to the other.
+/// // Only pairs of different components.
 /// let components = CollisionFilter::between_components(detector.topology());
 /// detector.set_collision_filter(components)?;
 /// detector.contacts(&start, &end, &mut contacts)?;
@@ -89,12 +88,12 @@ impl Default for Groups {
 pub struct CollisionFilter {
     groups: Option<Vec<Groups>>,
     patches: Option<Vec<u32>>,
-    /// In ascending order, the smaller number first.
+    /// Ascending, the smaller number first.
     excluded: Vec<[u32; 2]>,
     rule: Option<Arc<Rule>>,
 }
 
-/// Of a kind of pair, its two primitives and its four vertices.
+/// Takes a kind of pair, its two primitives and its four vertices.
 type Rule = dyn Fn(PairKind, [u32; 2], [u32; 4]) -> bool + Send + Sync;
 
 impl fmt::Debug for CollisionFilter {
@@ -109,33 +108,33 @@ impl fmt::Debug for CollisionFilter {
 }
 
 impl CollisionFilter {
-    /// Excludes nothing.
+    /// Makes a filter that excludes nothing.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// With groups for each vertex of the mesh.
+    /// Adds groups, one entry for each vertex of the mesh.
     #[must_use]
     pub fn with_groups(mut self, groups: Vec<Groups>) -> Self {
         self.groups = Some(groups);
         self
     }
 
-    /// With a patch for each vertex of the mesh: vertices of one patch do not collide.
+    /// Adds a patch for each vertex of the mesh. Vertices of one patch do not collide.
     #[must_use]
     pub fn with_patches(mut self, patches: Vec<u32>) -> Self {
         self.patches = Some(patches);
         self
     }
 
-    /// Each connected component is a patch: no self-collision of any.
+    /// Makes a filter in which each connected component is a patch, so that no component collides with itself.
     #[must_use]
     pub fn between_components(topology: &Topology) -> Self {
         Self::new().with_patches(topology.components())
     }
 
-    /// These vertices do not collide with each other, in either order.
+    /// Excludes these pairs of vertices, in either order.
     #[must_use]
     pub fn without_vertex_pairs(mut self, pairs: impl IntoIterator<Item = [u32; 2]>) -> Self {
         self.excluded.extend(pairs.into_iter().map(|[a, b]| [a.min(b), a.max(b)]));
@@ -144,15 +143,16 @@ impl CollisionFilter {
         self
     }
 
-    /// Only pairs for which `rule` is true. It is told the kind, the two primitives and their four vertices as the mesh numbers them, on any thread,
-    /// and only of candidates. It must answer the same each time; whether it does is not looked at.
+    /// Excludes pairs for which `rule` is false. The rule gets the kind, the two primitives and their four vertices, as the mesh numbers them.
+    ///
+    /// The rule runs on any thread, and only for candidates. It must always return the same for the same pair; this is not checked.
     #[must_use]
     pub fn with_rule(mut self, rule: impl Fn(PairKind, [u32; 2], [u32; 4]) -> bool + Send + Sync + 'static) -> Self {
         self.rule = Some(Arc::new(rule));
         self
     }
 
-    /// Whether a pair of primitives is looked at. Vertices that the filter does not know collide with all.
+    /// Returns whether a pair of primitives may collide. Vertices without an entry collide with all.
     #[must_use]
     pub fn allows(&self, kind: PairKind, pair: [u32; 2], vertices: [u32; 4]) -> bool {
         let [a, b, c, d] = vertices;
@@ -164,7 +164,7 @@ impl CollisionFilter {
     }
 
     fn collide(&self, a: u32, b: u32) -> bool {
-        let [ours, theirs] = [a, b].map(|vertex| Members::of(self, vertex));
+        let [ours, theirs] = [a, b].map(|vertex| Members::of_vertex(self, vertex));
         ours.may_collide(theirs) && self.excluded.binary_search(&[a.min(b), a.max(b)]).is_err()
     }
 
@@ -172,7 +172,7 @@ impl CollisionFilter {
         self.groups.is_none() && self.patches.is_none() && self.excluded.is_empty() && self.rule.is_none()
     }
 
-    /// A list must have an entry for each vertex, and a vertex must exist.
+    /// Checks that lists have an entry for each vertex, and that all vertices exist.
     pub(crate) fn check(&self, vertices: usize) -> Result<(), StepError> {
         let lengths = [self.groups.as_ref().map(Vec::len), self.patches.as_ref().map(Vec::len)];
         if let Some(found) = lengths.into_iter().flatten().find(|&found| found != vertices) {
@@ -188,16 +188,16 @@ impl CollisionFilter {
     }
 }
 
-/// The groups and the patch of some vertices together: what decides whether any of them may collide with any of others.
+/// The groups and the patch of some vertices together. They decide whether any of the vertices may collide with others.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Members {
     groups: Groups,
-    /// `None` if they are of several.
+    /// `None` for vertices of several patches.
     patch: Option<u32>,
 }
 
 impl Members {
-    pub(crate) fn of(filter: &CollisionFilter, vertex: u32) -> Self {
+    pub(crate) fn of_vertex(filter: &CollisionFilter, vertex: u32) -> Self {
         let vertex = vertex as usize;
         let groups = filter.groups.as_ref().and_then(|groups| groups.get(vertex));
         let patch = filter.patches.as_ref().and_then(|patches| patches.get(vertex));
@@ -207,7 +207,7 @@ impl Members {
         }
     }
 
-    /// Those of a mesh as a whole.
+    /// Takes the groups of a mesh as a whole.
     pub(crate) const fn of_mesh(groups: Groups) -> Self {
         Self { groups, patch: None }
     }
@@ -219,7 +219,7 @@ impl Members {
         }
     }
 
-    /// False only if no vertex of these collides with one of the others.
+    /// Returns false only if no vertex of these collides with one of the others.
     #[inline]
     pub(crate) fn may_collide(self, other: Self) -> bool {
         let are_one_patch = self.patch.is_some() && self.patch == other.patch;

@@ -2,31 +2,34 @@
 
 use crate::PairKind;
 
-/// A pair for which contact during the step is not excluded.
+/// A pair that may touch during the step, with the time of its contact.
+///
+/// What counts as a contact is the detector's [`Criterion`](crate::Criterion).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact<S> {
     /// Vertex–face or edge–edge.
     pub kind: PairKind,
-    /// The vertex and the face, or the two edges, as numbered by the [`Topology`]. [It tells](Topology::features_of) whether the face is a
-    /// loose edge or a point.
+    /// The vertex and the face, or the two edges, as the [`Topology`](crate::Topology) numbers them.
+    /// [`features_of`](crate::Topology::features_of) says whether the face is a loose edge or a point.
     pub pair: [u32; 2],
-    /// When, in [0, 1] of the step: not after the exact time, and hardly before it ([how early](CollisionDetector::earliest)).
+    /// The time in [0, 1] of the step. It is not after the exact time, and hardly before it: see
+    /// [how early](crate::CollisionDetector::earliest).
     pub time: S,
 }
 
-/// What came of a step that was [truncated](crate::CollisionDetector::truncate).
+/// The result of a [truncated](crate::CollisionDetector::truncate) step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Truncation {
-    /// Vertices that go less than the whole of their way.
+    /// Vertices that do not go all of their way.
     pub held_back: usize,
-    /// Pairs that are in contact at the start already, by the detector's criterion. Their vertices rest. Where there are none, the
-    /// step is certainly free of contact.
+    /// Pairs that are in contact at the start, by the detector's criterion. Their vertices rest. If there are none, the step is certainly free of
+    /// contact.
     pub in_contact: usize,
-    /// How often contacts were looked for.
+    /// Searches for contacts.
     pub rounds: usize,
 }
 
-/// Two primitives of a mesh at rest that have a point in common, and no vertex. Numbered as by the [`Topology`](crate::Topology).
+/// Two primitives of a mesh at rest that have a point in common, but no vertex. The [`Topology`](crate::Topology) numbers them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Intersection {
     /// An edge passes through a face, or touches it.
@@ -36,7 +39,7 @@ pub enum Intersection {
         /// The face.
         face: u32,
     },
-    /// A vertex touches a face of which an edge belongs to a triangle of the vertex: they are folded flat onto each other. Or a
+    /// A vertex touches a face that has an edge in common with a triangle of the vertex: the two are folded flat onto each other. Or a
     /// [loose point](crate::Topology::with_loose_features) touches a face, edge or point.
     VertexFace {
         /// The vertex.
@@ -44,7 +47,7 @@ pub enum Intersection {
         /// The face.
         face: u32,
     },
-    /// Two edges touch that belong to triangles with a common edge: they are folded flat onto each other.
+    /// Two edges touch that belong to triangles with a common edge: the triangles are folded flat onto each other.
     EdgeEdge {
         /// The edges, the smaller number first.
         edges: [u32; 2],

@@ -1,4 +1,4 @@
-//! Why a step or a setting is refused.
+//! Reasons for refusing a step or a setting.
 
 use crate::PairKind;
 use std::fmt;
@@ -21,29 +21,29 @@ impl fmt::Display for Frame {
     }
 }
 
-/// Why a step could not be run, or a setting not be taken. Nothing has changed; another one can be.
+/// The reason for refusing a step or a setting. The detector is unchanged and remains usable.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum StepError {
     /// A frame has too few or too many positions.
     WrongLength {
-        /// Which frame.
+        /// The frame.
         frame: Frame,
-        /// How many positions it has.
+        /// The number of its positions.
         found: usize,
-        /// The mesh's vertices.
+        /// The number of the mesh's vertices.
         expected: usize,
     },
-    /// A list that has an entry for each vertex has too few or too many.
+    /// A list with one entry for each vertex has too few or too many entries.
     WrongCount {
-        /// How many entries there are.
+        /// The number of entries.
         found: usize,
-        /// The mesh's vertices.
+        /// The number of the mesh's vertices.
         expected: usize,
     },
-    /// A position is NaN or infinite. (Culling would keep every pair of that vertex; better to say so.)
+    /// A position is NaN or infinite. Every pair of that vertex would have to count as a contact.
     NotFinite {
-        /// Which frame.
+        /// The frame.
         frame: Frame,
         /// The first such vertex.
         vertex: usize,
@@ -52,17 +52,17 @@ pub enum StepError {
     },
     /// A separation or a tolerance is negative, infinite or NaN.
     BadLimit {
-        /// What was given.
+        /// The length.
         length: f64,
     },
-    /// A vertex is named that the mesh does not have.
+    /// The mesh does not have a vertex that is named.
     NoSuchVertex {
         /// The vertex.
         vertex: u32,
-        /// How many there are.
+        /// The number of the mesh's vertices.
         count: usize,
     },
-    /// A pair names a vertex, a face or an edge that the mesh does not have.
+    /// The mesh does not have a vertex, a face or an edge of a pair.
     NoSuchPair {
         /// Vertex–face or edge–edge.
         kind: PairKind,
@@ -71,12 +71,12 @@ pub enum StepError {
     },
     /// A contact's time is not in [0, 1] of the step.
     BadTime {
-        /// What was given.
+        /// The time.
         time: f64,
     },
-    /// Another thread has [cancelled](crate::Cancellation) the step.
+    /// Another thread [cancelled](crate::Cancellation) the step.
     Cancelled,
-    /// More pairs are near each other than the [limit](crate::CollisionDetector::set_pair_limit) allows to look at.
+    /// More pairs are near each other than the [limit](crate::CollisionDetector::set_pair_limit) allows.
     TooManyPairs {
         /// The limit.
         limit: u64,
@@ -110,9 +110,12 @@ impl fmt::Display for StepError {
             ),
             Self::BadLimit { length } => write!(
                 f,
-                "{length} is no separation, and no tolerance: it must be a finite length, not negative"
+                "the length {length} is invalid: a separation, tolerance or distance must be finite and not negative"
             ),
-            Self::NoSuchVertex { vertex, count } => write!(f, "there is no vertex {vertex} in this mesh: it has {count}"),
+            Self::NoSuchVertex { vertex, count } => write!(
+                f,
+                "there is no vertex {vertex}: the mesh has {count} vertices, numbered from 0"
+            ),
             Self::NoSuchPair {
                 kind,
                 pair: [first, second],
@@ -121,7 +124,7 @@ impl fmt::Display for StepError {
             Self::Cancelled => f.write_str("the step was cancelled"),
             Self::TooManyPairs { limit } => write!(
                 f,
-                "more than {limit} pairs are near each other, the most that may be looked at: raise the limit, or look whether the mesh has collapsed"
+                "more than {limit} pairs are near each other: check whether the mesh has collapsed, or raise the pair limit"
             ),
             Self::TooMuchMemory { limit } => write!(
                 f,

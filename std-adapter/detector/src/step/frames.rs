@@ -1,4 +1,4 @@
-//! The two frames of a step, and what can be wrong with them.
+//! The positions of a step, and checks of them.
 
 use super::error::{Frame, StepError};
 use crate::PairKind;
@@ -9,7 +9,10 @@ use selvedge_core::glam::DVec3;
 use selvedge_core::narrowing::rounded_up;
 use selvedge_core::{Motion, Position, Scalar};
 
-/// A separation or a tolerance must be a length: finite, not negative.
+/// Checks that a separation, a tolerance or a distance is finite and not negative.
+///
+/// # Errors
+/// [`StepError::BadLimit`] otherwise.
 pub fn check_length<S: Scalar>(length: S) -> Result<(), StepError> {
     if length >= S::ZERO && length.is_finite() {
         Ok(())
@@ -18,7 +21,10 @@ pub fn check_length<S: Scalar>(length: S) -> Result<(), StepError> {
     }
 }
 
-/// Both frames must have a finite position for each vertex.
+/// Checks that both frames have a finite position for each vertex.
+///
+/// # Errors
+/// [`StepError::WrongLength`] or [`StepError::NotFinite`] otherwise, for the first frame that is at fault.
 pub fn check_frames<P: Position>(start: &[P], end: &[P], vertex_count: usize) -> Result<(), StepError> {
     check_frame(Frame::Start, start, vertex_count)?;
     check_frame(Frame::End, end, vertex_count)
@@ -49,7 +55,7 @@ pub(crate) fn check_frame<P: Position>(frame: Frame, positions: &[P], expected: 
     }
 }
 
-/// A pair must be one of the mesh.
+/// Checks that the mesh has a pair.
 pub(crate) fn check_pair(topology: &Topology, kind: PairKind, pair: [u32; 2]) -> Result<(), StepError> {
     if topology.has_pair(kind, pair) {
         Ok(())
@@ -58,23 +64,23 @@ pub(crate) fn check_pair(topology: &Topology, kind: PairKind, pair: [u32; 2]) ->
     }
 }
 
-/// The same position in `f64`.
+/// Returns the same position in `f64`.
 pub(crate) fn exactly<P: Position>(position: P) -> DVec3 {
     let [x, y, z] = position.into();
     DVec3::new(x.to_f64(), y.to_f64(), z.to_f64())
 }
 
-/// A step's positions, of either format. What reads them is compiled once, not for each type that positions have.
+/// The positions of a step, in either format. Code that reads them is compiled once, not for each type of positions.
 pub(crate) trait Motions: Sync {
-    /// How many vertices there are.
+    /// Returns the number of vertices.
     fn len(&self) -> usize;
-    /// Where a vertex starts and ends, exactly.
-    fn of(&self, vertex: usize) -> Motion<f64>;
-    /// How boxes are made of them; `extent` is theirs. The arguments are those of [`Mapping::new`].
+    /// Returns where a vertex starts and ends, exactly.
+    fn motion(&self, vertex: usize) -> Motion<f64>;
+    /// Returns how boxes are made of the positions, whose extent is given. The other arguments are those of [`Mapping::new`].
     fn mapping(&self, extent: &Aabb<f64>, separation: f64, until: f64, is_swept: bool) -> Mapping;
 }
 
-/// Frames that are as long as they must be, and finite.
+/// Two frames that have a finite position for each vertex.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Step<'a, P> {
     start: &'a [P],
@@ -82,13 +88,13 @@ pub(crate) struct Step<'a, P> {
 }
 
 impl<'a, P: Position> Step<'a, P> {
-    /// Checks the frames of a mesh with so many vertices.
+    /// Checks two frames.
     pub(crate) fn checked(start: &'a [P], end: &'a [P], vertex_count: usize) -> Result<Self, StepError> {
         check_frames(start, end, vertex_count)?;
         Ok(Self::of_finite(start, end))
     }
 
-    /// Of frames that are known to be as long as they must be, and finite.
+    /// Takes two frames that are known to be valid.
     pub(crate) const fn of_finite(start: &'a [P], end: &'a [P]) -> Self {
         Self { start, end }
     }
@@ -99,7 +105,7 @@ impl<P: Position> Motions for Step<'_, P> {
         self.start.len()
     }
 
-    fn of(&self, vertex: usize) -> Motion<f64> {
+    fn motion(&self, vertex: usize) -> Motion<f64> {
         Motion::new(exactly(self.start[vertex]), exactly(self.end[vertex]))
     }
 
@@ -109,11 +115,12 @@ impl<P: Position> Motions for Step<'_, P> {
     }
 }
 
-/// A position of the caller's format.
+/// Rounds a position to the caller's format.
 pub(crate) fn nearest<P: Position>(position: DVec3) -> P {
     P::from(position.to_array().map(P::Scalar::from_f64))
 }
 
+/// Rounds a position to the caller's format, and returns it in `f64`.
 pub(crate) fn rounded<P: Position>(position: DVec3) -> DVec3 {
     exactly(nearest::<P>(position))
 }

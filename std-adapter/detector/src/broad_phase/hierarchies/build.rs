@@ -12,7 +12,7 @@ impl Hierarchies {
     pub(super) fn build(&mut self, motions: &dyn Motions) {
         let middles = Fit::default().mapping(motions, &self.extent);
         let middle = |vertex: u32| {
-            let motion = motions.of(vertex as usize);
+            let motion = motions.motion(vertex as usize);
             let moving = middles.vertex(motion.start.into(), motion.end.into());
             [0, 1, 2].map(|axis| {
                 let middle = 0.5 * moving.start.lower[axis] + 0.5 * moving.end.lower[axis];
@@ -79,7 +79,7 @@ impl Hierarchies {
 
     pub(super) fn note_members(&mut self) {
         let vertices = &self.vertices.primitives;
-        let members = |filter: &Arc<CollisionFilter>| vertices.iter().map(|&v| Members::of(filter, v)).collect();
+        let members = |filter: &Arc<CollisionFilter>| vertices.iter().map(|&v| Members::of_vertex(filter, v)).collect();
         let members: Vec<_> = self.filter.as_ref().map_or_else(Vec::new, members);
         self.vertices.note_members(&members);
         self.edges.note_members(&members);

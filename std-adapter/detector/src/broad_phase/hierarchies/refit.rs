@@ -41,7 +41,7 @@ impl Hierarchies {
             for ((own_row, moving_box), &vertex) in own {
                 let vertex = vertex as usize;
                 if moving.is_none_or(|moving| moving[vertex]) {
-                    let motion = motions.of(vertex);
+                    let motion = motions.motion(vertex);
                     *own_row = VertexRow::new(motion);
                     *moving_box = mapping.vertex(motion.start.into(), motion.end.into());
                 }
@@ -70,7 +70,7 @@ pub(crate) fn mapping_within(motions: &dyn Motions, separation: f64) -> Mapping 
 fn extent(motions: &dyn Motions) -> Aabb<f64> {
     let mut extent = Aabb::<f64>::empty();
     for vertex in 0..motions.len() {
-        let motion = motions.of(vertex);
+        let motion = motions.motion(vertex);
         for position in [motion.start, motion.end] {
             for (axis, x) in position.to_array().into_iter().enumerate() {
                 extent.lower[axis] = extent.lower[axis].min(x);

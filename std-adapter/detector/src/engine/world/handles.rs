@@ -1,10 +1,10 @@
-//! Handles of what comes and goes.
+//! Handles of meshes that come and go.
 
 use std::fmt;
 
-/// A mesh of a [`World`](super::World). Of a mesh that was removed it stays the name for good: no other mesh gets the same one.
+/// Names a mesh of a [`World`](crate::World). No other mesh gets the same handle, even after the mesh is removed.
 ///
-/// A world knows its own handles only; that of another world may be taken for one of its own.
+/// A world does not recognise handles of other worlds: it may take one for a handle of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct MeshHandle {
     index: u32,
@@ -12,20 +12,20 @@ pub struct MeshHandle {
 }
 
 impl MeshHandle {
-    /// The place that the mesh has, counted from zero: another mesh gets it once this one is removed. For a caller's own tables.
+    /// Returns the mesh's place, counted from zero, for tables of your own. Another mesh gets the place once this one is removed.
     #[must_use]
     pub const fn index(self) -> usize {
         self.index as usize
     }
 
-    /// The handle as one number, never zero, for callers who keep numbers: [`from_bits`](Self::from_bits) gives it back.
+    /// Returns the handle as one number, which is never zero. [`from_bits`](Self::from_bits) is the inverse.
     #[must_use]
     pub const fn to_bits(self) -> u64 {
         // Indices end before the last number.
         (self.generation as u64) << 32 | (self.index as u64 + 1)
     }
 
-    /// The handle that this number [stands for](Self::to_bits), of a mesh that a world has or not; `None` if it stands for none.
+    /// Returns the handle for a [number](Self::to_bits), or `None` if no handle has it. A world need not have such a mesh.
     #[must_use]
     pub const fn from_bits(bits: u64) -> Option<Self> {
         match (bits as u32).checked_sub(1) {
@@ -44,7 +44,7 @@ impl fmt::Display for MeshHandle {
     }
 }
 
-/// Things with handles, in places that are used again.
+/// Items with handles, in places that are used again.
 #[derive(Debug)]
 pub(crate) struct Places<T> {
     places: Vec<Place<T>>,
@@ -53,7 +53,7 @@ pub(crate) struct Places<T> {
 
 #[derive(Debug)]
 struct Place<T> {
-    /// Of what is in it, or of what will be.
+    /// The generation of the present or the next item.
     generation: u32,
     item: Option<T>,
 }
@@ -66,7 +66,7 @@ impl<T> Places<T> {
         }
     }
 
-    /// `None` if there is no handle left.
+    /// Inserts an item. Returns `None` if there is no handle left.
     pub(crate) fn insert(&mut self, item: T) -> Option<MeshHandle> {
         let index = match self.free.pop() {
             Some(index) => index,
@@ -108,7 +108,7 @@ impl<T> Places<T> {
         place.item.as_mut().filter(|_| place.generation == handle.generation)
     }
 
-    /// All there are, in ascending order of their places.
+    /// Returns all items, in ascending order of their places.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (MeshHandle, &T)> {
         (0..).zip(&self.places).filter_map(|(index, place)| {
             let generation = place.generation;

@@ -11,16 +11,16 @@ use selvedge_core::glam::{DQuat, DVec3};
 use selvedge_core::paths::{Path, Piece, RigidMotion, separation_of_pieces};
 use std::sync::Arc;
 
-/// What a mesh does in a step.
+/// The motion of a mesh in a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Moves {
-    /// Nothing.
+    /// Rests.
     Not,
-    /// Each vertex goes its own way: it can meet itself.
+    /// Each vertex goes its own way, so the mesh can meet itself.
     Deforming,
-    /// All vertices go one way.
+    /// All vertices move alike, straight.
     Straight,
-    /// As a body that turns. Its vertices are this far from their straight ways, at most.
+    /// Turns as a body. The number is the largest distance of a vertex from its straight way.
     Turning(RigidMotion, f64),
 }
 
@@ -43,26 +43,26 @@ impl Moves {
 #[derive(Debug)]
 pub(crate) struct WorldMesh {
     pub(crate) hierarchies: Hierarchies,
-    /// The positions that it was inserted with.
+    /// The positions of the insertion.
     pub(crate) shape: Vec<DVec3>,
     pub(crate) groups: Groups,
     pub(crate) moves: Moves,
-    /// Where its rows are among those of all.
+    /// The place of its rows among those of all meshes.
     pub(crate) rows_at: Option<RowsAt>,
 }
 
 /// A place among the rows of all meshes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RowsAt {
-    /// Places of another arrangement are none.
+    /// Places of another arrangement are invalid.
     pub(crate) arrangement: u64,
     pub(crate) first: u32,
-    /// Whether what is there is what the hierarchies hold.
+    /// Whether the rows are those of the hierarchies.
     pub(crate) are_current: bool,
 }
 
 impl WorldMesh {
-    /// Builds its hierarchies, and rests.
+    /// Builds the hierarchies of a mesh that rests.
     pub(crate) fn new(topology: Arc<Topology>, shape: Vec<DVec3>, groups: Groups, separation: f64) -> Self {
         let mut mesh = Self {
             hierarchies: Hierarchies::new(topology),
@@ -77,10 +77,10 @@ impl WorldMesh {
         mesh
     }
 
-    /// Moves in the next step, keeping `separation` from others.
+    /// Moves in the next step. Boxes hold `separation`.
     pub(crate) fn set_motion(&mut self, motions: &dyn Motions, moves: Moves, separation: f64) {
         let separation = match moves {
-            // For its half of the separation: the box is to hold the deviation on each side.
+            // A box holds half of the separation on each side, and the whole deviation.
             Moves::Turning(_, deviation) => separation_of_pieces(separation, 2.0 * deviation),
             _ => separation,
         };
@@ -96,7 +96,7 @@ impl WorldMesh {
         }
     }
 
-    /// Rests from now on where its last motion has ended.
+    /// Rests from now on where its last motion ended.
     pub(crate) fn come_to_rest(&mut self, separation: f64) {
         let motion = |vertex| self.hierarchies.motion_of(vertex).unwrap_or_default();
         let vertices = 0..self.hierarchies.topology().vertex_count();
@@ -114,7 +114,7 @@ impl Motions for Frames {
         self.0.len()
     }
 
-    fn of(&self, vertex: usize) -> Motion<f64> {
+    fn motion(&self, vertex: usize) -> Motion<f64> {
         self.0[vertex]
     }
 
@@ -123,7 +123,7 @@ impl Motions for Frames {
     }
 }
 
-/// Boxes of all meshes about one origin, zero, [so that they compare](selvedge_core::boxes::mapping#two-mappings).
+/// Makes boxes about one origin for all meshes, [so that they compare](selvedge_core::boxes::mapping#two-mappings).
 struct AboutOrigin<'a>(&'a dyn Motions);
 
 impl Motions for AboutOrigin<'_> {
@@ -131,8 +131,8 @@ impl Motions for AboutOrigin<'_> {
         self.0.len()
     }
 
-    fn of(&self, vertex: usize) -> Motion<f64> {
-        self.0.of(vertex)
+    fn motion(&self, vertex: usize) -> Motion<f64> {
+        self.0.motion(vertex)
     }
 
     fn mapping(&self, _: &Aabb<f64>, separation: f64, until: f64, is_swept: bool) -> Mapping {
@@ -140,11 +140,10 @@ impl Motions for AboutOrigin<'_> {
     }
 }
 
-/// A rotation, and where the mesh's origin is.
+/// A rotation, and the position of the mesh's origin.
 pub(crate) type Pose = (DQuat, DVec3);
 
-/// How a mesh moves from one pose to another, by vertices at positions that `rounded` leaves where it goes straight; `None` if the poses are
-/// none, or too far out.
+/// Returns how a mesh moves from one pose to another, or `None` if a pose is invalid or too far out. `rounded` rounds the positions of straight motion.
 pub(crate) fn between_poses(shape: &[DVec3], [start, end]: [Pose; 2], rounded: fn(DVec3) -> DVec3) -> Option<(Frames, Moves)> {
     let motion = RigidMotion::between(start, end)?;
     let turn = start.0.normalize();
@@ -157,7 +156,7 @@ pub(crate) fn between_poses(shape: &[DVec3], [start, end]: [Pose; 2], rounded: f
         let mut pieces: Vec<Piece> = Vec::new();
         let piece = |position: &DVec3| motion.path(turned(position) + start.1).piece(0.0, 1.0);
         parallel::fill(&mut pieces, shape, piece);
-        // A maximum may drop NaN.
+        // `max` drops NaN; the product keeps it.
         let deviations = pieces.iter().map(|piece| piece.deviation);
         let deviation = deviations.fold(0.0, |most: f64, own| most.max(own) + 0.0 * own);
         (

@@ -1,4 +1,4 @@
-//! A step of a world: what moves is refitted, meshes that are near each other are found, and their pairs decided.
+//! A step of a world: refits moving meshes, finds meshes that are near each other, and decides their pairs.
 
 use super::handles::{MeshHandle, Places};
 use super::mesh::{Moves, RowsAt, WorldMesh};
@@ -10,22 +10,22 @@ use selvedge_core::elementary::Limits;
 use selvedge_core::paths::{Path, RigidMotion, separation_of_pieces, time_of_impact};
 use std::cmp::Ordering;
 
-/// Most vertices of all meshes: rows are numbered, with as many places unused as used.
+/// The most vertices of all meshes. Rows are numbered by `u32`, and up to half of their places are unused.
 pub(crate) const MOST_VERTICES: usize = u32::MAX as usize / 2;
 
-/// All meshes, and what a step is made with.
+/// All meshes, and the buffers of a step.
 #[derive(Debug)]
 pub(crate) struct Stage {
     pub(crate) meshes: Places<WorldMesh>,
     hierarchy: MeshHierarchy,
-    /// Those in the hierarchy, in ascending order.
+    /// The meshes in the hierarchy, in ascending order.
     handles: Vec<MeshHandle>,
-    /// Whether there are other meshes than in the hierarchy, or other groups.
+    /// Whether meshes or groups differ from those in the hierarchy.
     pub(crate) are_others: bool,
     pub(crate) engine: PairEngine,
-    /// Vertices of all meshes.
+    /// The number of vertices of all meshes.
     pub(crate) vertices: usize,
-    /// Whether boxes are made for another separation.
+    /// Whether boxes were made for another separation.
     pub(crate) must_fit: bool,
     /// The meshes that moved in the last step.
     moved: Vec<MeshHandle>,
@@ -55,7 +55,7 @@ impl Stage {
         }
     }
 
-    /// Finds the contacts of a step. All meshes that are given are there, each once.
+    /// Finds the contacts of a step. The given meshes exist, and each is given once.
     pub(crate) fn run(&mut self, given: &[Given<'_>], question: &Question) -> Result<(), StepError> {
         self.set_motions(given, question.limits.separation);
         self.hierarchy.find(&mut self.near);
@@ -108,7 +108,7 @@ impl Stage {
         self.engine.stop.result()
     }
 
-    /// The earliest contact of the last step, with its source.
+    /// Returns the earliest contact of the last step, with its source.
     pub(crate) fn earliest(&self) -> Option<(usize, &Contact<f64>)> {
         let all = self.engine.contacts();
         let all = all.flat_map(|(source, found)| found.iter().map(move |contact| (source, contact)));
@@ -119,7 +119,7 @@ impl Stage {
         })
     }
 
-    /// Refits what moves, and what has come to rest.
+    /// Refits meshes that move, and meshes that have come to rest.
     fn set_motions(&mut self, given: &[Given<'_>], separation: f64) {
         for &(handle, motions, moves) in given {
             if let Some(mesh) = self.meshes.get_mut(handle) {
@@ -135,7 +135,7 @@ impl Stage {
         }
         self.moved.retain(rests);
         for &handle in &self.moved {
-            // Else it was removed.
+            // Otherwise it was removed.
             if let Some(mesh) = self.meshes.get_mut(handle) {
                 mesh.come_to_rest(separation);
             }
@@ -163,7 +163,7 @@ impl Stage {
         self.moved = listed;
     }
 
-    /// Puts the rows of meshes that are near others with those of all.
+    /// Places the rows of meshes that are near others.
     fn place_rows(&mut self) {
         let mut near: Vec<u32> = self.near.iter().flatten().copied().collect();
         near.sort_unstable();
@@ -180,7 +180,7 @@ impl Stage {
         }
     }
 
-    /// Tells hierarchies what they have cost, which decides when they are built anew.
+    /// Reports to hierarchies what their searches cost, which decides when they are built again.
     fn observe(&mut self) {
         if self.engine.stop.result().is_err() {
             return;
@@ -191,7 +191,7 @@ impl Stage {
             *own_tests += tests;
             *own_candidates += candidates;
         }
-        // Those of a mesh with itself come two by two, and first.
+        // Sources of a mesh with itself come first, two for each mesh.
         let within = self.sources.chunks(2).zip(efforts.chunks(2));
         for (handles, efforts) in within.take_while(|(handles, _)| handles[0][0] == handles[0][1]) {
             if let Some(mesh) = self.meshes.get_mut(handles[0][0]) {
@@ -203,7 +203,7 @@ impl Stage {
     }
 }
 
-/// What two meshes are to keep on the straight pieces of their ways. No exact verdict is there for what is not straight.
+/// Returns the question about the straight pieces of two meshes' paths. There is no exact verdict for arcs.
 fn question_on_pieces(question: &Question, meshes: [&WorldMesh; 2]) -> Question {
     let [first, second] = meshes.map(|mesh| mesh.moves.deviation());
     let limits = question.limits;
@@ -215,14 +215,14 @@ fn question_on_pieces(question: &Question, meshes: [&WorldMesh; 2]) -> Question 
                 ..limits
             },
             is_exact: false,
-            // What is near on the pieces may be none on the ways.
+            // A contact of the pieces may be no contact of the arcs.
             wanted: Wanted::All,
             ..*question
         },
     }
 }
 
-/// When a pair is in contact on its paths.
+/// Returns the time at which a pair is in contact on its paths.
 fn time_on_paths(
     meshes: [&Hierarchies; 2],
     motions: &[Option<RigidMotion>; 2],
@@ -230,22 +230,22 @@ fn time_on_paths(
     contact: &Contact<f64>,
 ) -> Option<f64> {
     let Some(vertices) = vertices_of(meshes, contact.kind, contact.pair) else {
-        // Not one of these meshes' pairs, so that nothing is known of it.
+        // The meshes do not have such a pair, so nothing is proven about it.
         return Some(0.0);
     };
     let ways = ways(meshes, motions, contact.kind, vertices);
     let time = time_of_impact(contact.kind, ways.each_ref().map(|way| way as &dyn Path), limits).time();
-    // Neither is after the exact time. A pair is left out by its time on pieces: one that is told a rounding earlier would be told or not by
-    // who was first.
+    // Neither time is after the exact one. Pairs are dropped by their time on pieces, so a smaller time would make the result depend on the
+    // order of the threads.
     time.map(|time| time.max(contact.time))
 }
 
-/// The rows of meshes that are, or were, near others: each keeps its place as long as there is room, so that what rests is put there once.
+/// The rows of meshes that are, or were, near others. Each mesh keeps its place as long as there is room, so resting meshes are copied once.
 #[derive(Debug, Default)]
 struct PlacedRows {
     rows: Rows,
     arrangement: u64,
-    /// Where there is room.
+    /// The first free place.
     end: usize,
 }
 
@@ -254,7 +254,7 @@ impl PlacedRows {
         mesh.rows_at.is_some_and(|place| place.arrangement == self.arrangement)
     }
 
-    /// Room for so many more rows. Where more than half of them would be of nobody, all are placed anew.
+    /// Makes room for more rows. Gives all meshes new places if more than half of the rows would belong to no mesh.
     fn make_room(&mut self, new: usize, vertices: usize) {
         if self.end + new > 2 * vertices {
             self.rows.clear();

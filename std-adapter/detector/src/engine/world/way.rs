@@ -1,11 +1,11 @@
-//! The ways of a pair's vertices in the last step.
+//! The paths of a pair's vertices in the last step.
 
 use crate::PairKind;
 use crate::broad_phase::Hierarchies;
 use selvedge_core::Motion;
 use selvedge_core::paths::{Arc, Moment, Path, Piece, RigidMotion};
 
-/// Of a vertex.
+/// The path of a vertex.
 pub(crate) enum Way {
     Straight(Motion<f64>),
     Arc(Arc),
@@ -36,8 +36,8 @@ impl Path for Way {
     }
 }
 
-/// The vertices of a pair, of which the first primitive is of the first mesh, and the second of the second; `None` if there is no such pair, or
-/// the vertex is of no primitive, and so not known to the hierarchies.
+/// Returns the vertices of a pair whose first primitive is of the first mesh and whose second is of the second mesh. Returns `None` if there is no such
+/// pair, or if the vertex belongs to no primitive, so that the hierarchies do not have it.
 pub(crate) fn vertices_of([first, second]: [&Hierarchies; 2], kind: PairKind, pair: [u32; 2]) -> Option<[u32; 4]> {
     let index = pair[1] as usize;
     match kind {
@@ -54,7 +54,7 @@ pub(crate) fn vertices_of([first, second]: [&Hierarchies; 2], kind: PairKind, pa
     }
 }
 
-/// The ways of [such a pair's vertices](vertices_of), on arcs where their mesh turns.
+/// Returns the paths of [such vertices](vertices_of): arcs where their mesh turns.
 pub(crate) fn ways(
     meshes: [&Hierarchies; 2],
     motions: &[Option<RigidMotion>; 2],
@@ -63,7 +63,7 @@ pub(crate) fn ways(
 ) -> [Way; 4] {
     let way = |side: usize, vertex: u32| {
         let straight = meshes[side].motion_of(vertex as usize).unwrap_or_default();
-        // Of the arcs whose pieces the boxes and the sweeps had: an arc is at its start without rounding.
+        // The same arcs as for boxes and sweeps: an arc has its start without rounding.
         motions[side].map_or(Way::Straight(straight), |motion| Way::Arc(motion.path(straight.start)))
     };
     let second = usize::from(kind == PairKind::VertexFace);

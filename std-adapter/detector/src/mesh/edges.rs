@@ -1,0 +1,115 @@
+//! Finds the edges of a list of triangles.
+
+use super::topology::Topology;
+use std::borrow::Cow;
+
+/// The vertices that triangles name. Where few vertices have a triangle, they are numbered again, so that a list of them is short.
+pub(super) struct Named<'a> {
+    pub(super) vertex_count: usize,
+    pub(super) triangles: Cow<'a, [[u32; 3]]>,
+    /// The mesh's own numbers of the vertices, ascending, if they are numbered again.
+    names: Option<Vec<u32>>,
+}
+
+/// With so many vertices for each corner of a triangle, most have no triangle. A usual mesh has one vertex for six corners.
+const SPARSE: usize = 4;
+
+impl<'a> Named<'a> {
+    pub(super) fn new(vertex_count: usize, triangles: &'a [[u32; 3]]) -> Self {
+        if vertex_count / SPARSE <= 3 * triangles.len() {
+            return Self {
+                vertex_count,
+                triangles: Cow::Borrowed(triangles),
+                names: None,
+            };
+        }
+        let mut names: Vec<u32> = triangles.iter().flatten().copied().collect();
+        names.sort_unstable();
+        names.dedup();
+        // Every vertex is in the list.
+        let number = |vertex: u32| names.partition_point(|&name| name < vertex) as u32;
+        Self {
+            vertex_count: names.len(),
+            triangles: triangles.iter().map(|corners| corners.map(number)).collect(),
+            names: Some(names),
+        }
+    }
+
+    /// Returns the mesh's own number of a vertex. The order is the same.
+    fn name(&self, vertex: u32) -> u32 {
+        self.names.as_ref().map_or(vertex, |names| names[vertex as usize])
+    }
+}
+
+/// Returns the edges in order, and the three edges of each triangle.
+pub(super) fn find_edges(named: &Named<'_>) -> (Vec<[u32; 2]>, Vec<[u32; 3]>) {
+    let triangles = &*named.triangles;
+    // A slot is a triangle's entry: 3 × triangle + k.
+    let ends = |slot: usize| {
+        let (triangle, k) = (triangles[slot / 3], slot % 3);
+        (triangle[k], triangle[(k + 1) % 3])
+    };
+    let slots = (0..triangles.len() * 3).filter_map(|slot| {
+        let (a, b) = ends(slot);
+        (a != b).then(|| (a.max(b), (a.min(b), slot as u32)))
+    });
+    let groups = ByKey::new(named.vertex_count, slots);
+
+    let mut edges: Vec<[u32; 2]> = Vec::with_capacity(triangles.len() * 3 / 2);
+    let mut triangle_edges = vec![[Topology::NO_EDGE; 3]; triangles.len()];
+    for (larger, group) in groups.iter() {
+        for same_edge in group.chunk_by(|a, b| a.0 == b.0) {
+            for &(_, slot) in same_edge {
+                triangle_edges[slot as usize / 3][slot as usize % 3] = edges.len() as u32;
+            }
+            edges.push([same_edge[0].0, larger].map(|end| named.name(end)));
+        }
+    }
+    (edges, triangle_edges)
+}
+
+/// Items grouped by a key below a known bound, and sorted within each group.
+///
+/// This is a counting sort by key, then a small sort of each group. A mesh has few items for each vertex, so it is much faster than one large sort.
+#[derive(Debug)]
+pub(super) struct ByKey<T> {
+    /// Group k is `items[starts[k]..starts[k + 1]]`.
+    starts: Vec<u32>,
+    items: Vec<T>,
+}
+
+impl<T: Copy + Default + Ord> ByKey<T> {
+    pub(super) fn new(key_count: usize, keyed: impl Iterator<Item = (u32, T)> + Clone) -> Self {
+        let mut starts = vec![0_u32; key_count + 1];
+        for (key, _) in keyed.clone() {
+            starts[key as usize + 1] += 1;
+        }
+        for key in 0..key_count {
+            starts[key + 1] += starts[key];
+        }
+        let mut items = vec![T::default(); starts[key_count] as usize];
+        let mut next = starts.clone();
+        for (key, item) in keyed {
+            let place = &mut next[key as usize];
+            items[*place as usize] = item;
+            *place += 1;
+        }
+        for key in 0..key_count {
+            items[starts[key] as usize..starts[key + 1] as usize].sort_unstable();
+        }
+        Self { starts, items }
+    }
+
+    /// Returns the group of a key.
+    pub(super) fn group(&self, key: usize) -> &[T] {
+        &self.items[self.starts[key] as usize..self.starts[key + 1] as usize]
+    }
+
+    /// Returns the groups in order of their keys. Some may be empty.
+    pub(super) fn iter(&self) -> impl Iterator<Item = (u32, &[T])> {
+        self.starts.windows(2).enumerate().map(|(key, bounds)| {
+            let group = &self.items[bounds[0] as usize..bounds[1] as usize];
+            (key as u32, group)
+        })
+    }
+}

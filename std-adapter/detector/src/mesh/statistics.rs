@@ -1,0 +1,150 @@
+//! Counts of what is unusual about a mesh.
+
+use super::edges::{ByKey, Named};
+use super::topology::{Topology, is_degenerate};
+use std::fmt;
+
+/// Counts of what is unusual about a mesh. None of it is an error. Everything takes part in collision except isolated vertices, which belong to no
+/// primitive.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TopologyStatistics {
+    /// Sets of triangles, loose edges and points connected through shared vertices.
+    pub components: usize,
+    /// Vertices without a triangle, and that are not loose. They keep their number.
+    pub isolated_vertices: usize,
+    /// Edges with one triangle.
+    pub boundary_edges: usize,
+    /// Edges with two triangles.
+    pub interior_edges: usize,
+    /// Edges with three triangles or more.
+    pub non_manifold_edges: usize,
+    /// Triangles with the same set of vertices as an earlier one, whatever the order.
+    pub duplicate_triangles: usize,
+    /// Triangles that name a vertex twice. A triangle of zero area with three different vertices
+    /// is not counted: that is geometry, and changes as the mesh moves.
+    pub degenerate_triangles: usize,
+    /// [Loose edges](Topology::with_loose_features) that were given.
+    pub loose_edges: usize,
+    /// Points that were given.
+    pub points: usize,
+}
+
+impl fmt::Display for TopologyStatistics {
+    /// One line that names only what is there: `1 component, 41 boundary and 1996 interior edges`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let s = |count| if count == 1 { "" } else { "s" };
+        write!(
+            f,
+            "{} component{}, {} boundary and {} interior edges",
+            self.components,
+            s(self.components),
+            self.boundary_edges,
+            self.interior_edges
+        )?;
+        for (count, singular, plural) in [
+            (self.non_manifold_edges, "non-manifold edge", "non-manifold edges"),
+            (self.isolated_vertices, "isolated vertex", "isolated vertices"),
+            (self.duplicate_triangles, "duplicate triangle", "duplicate triangles"),
+            (self.degenerate_triangles, "degenerate triangle", "degenerate triangles"),
+            (self.loose_edges, "loose edge", "loose edges"),
+            (self.points, "point", "points"),
+        ] {
+            if count > 0 {
+                write!(f, ", {count} {}", if count == 1 { singular } else { plural })?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Topology {
+    /// Counts what is unusual about the mesh. It takes about as long as [`Topology::new`].
+    #[must_use]
+    pub fn statistics(&self) -> TopologyStatistics {
+        let (components, used) = count_components(&Named::new(self.vertex_count(), &self.triangles()));
+        let [loose_edges, points] = self.loose();
+        let triangles = self.proper_triangles();
+        let mut statistics = TopologyStatistics {
+            components,
+            isolated_vertices: self.vertex_count() - used,
+            degenerate_triangles: triangles.iter().filter(|t| is_degenerate(t)).count(),
+            duplicate_triangles: count_duplicates(&Named::new(self.vertex_count(), triangles)),
+            loose_edges,
+            points,
+            ..TopologyStatistics::default()
+        };
+        for count in self.triangles_per_edge() {
+            match count {
+                // A loose edge.
+                0 => {}
+                1 => statistics.boundary_edges += 1,
+                2 => statistics.interior_edges += 1,
+                _ => statistics.non_manifold_edges += 1,
+            }
+        }
+        statistics
+    }
+
+    /// Counts the triangles of each edge. A triangle (v, v, w) counts once for its edge v-w.
+    fn triangles_per_edge(&self) -> Vec<u32> {
+        let mut counts = vec![0; self.edges().len()];
+        for &[a, b, c] in &self.triangle_edges()[..self.proper_triangles().len()] {
+            let distinct = [Some(a), Some(b).filter(|_| b != a), Some(c).filter(|_| c != a && c != b)];
+            for edge in distinct.into_iter().flatten() {
+                if edge != Self::NO_EDGE {
+                    counts[edge as usize] += 1;
+                }
+            }
+        }
+        counts
+    }
+}
+/// Counts the triangles with the same set of vertices as an earlier one.
+fn count_duplicates(named: &Named<'_>) -> usize {
+    let triangles = &*named.triangles;
+    let keys = triangles.iter().map(|&triangle| {
+        let mut key = triangle;
+        key.sort_unstable();
+        // {v, w} is one set, whether it was written (v, v, w) or (v, w, w).
+        if key[0] == key[1] {
+            key[1] = key[2];
+        }
+        (key[2], (key[0], key[1]))
+    });
+    let groups = ByKey::new(named.vertex_count, keys);
+    let distinct: usize = groups.iter().map(|(_, group)| group.chunk_by(|a, b| a == b).count()).sum();
+    triangles.len() - distinct
+}
+
+/// Counts the sets of connected triangles, and the vertices that have a triangle.
+fn count_components(named: &Named<'_>) -> (usize, usize) {
+    let mut is_used = vec![false; named.vertex_count];
+    let vertices = named.triangles.iter().flatten();
+    vertices.for_each(|&vertex| is_used[vertex as usize] = true);
+    let used = is_used.iter().filter(|&&is_used| is_used).count();
+    let own = (0..).zip(firsts(named.vertex_count, &named.triangles)).zip(is_used);
+    let components = own.filter(|&((vertex, first), is_used)| is_used && vertex == first).count();
+    (components, used)
+}
+
+/// Returns, for each vertex, the vertex with the smallest number in its component.
+pub(super) fn firsts(vertex_count: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
+    // Union-find over vertices, by path halving and the smaller number as root.
+    let mut parents: Vec<u32> = (0..vertex_count as u32).collect();
+    for &[a, b, c] in triangles {
+        for (u, v) in [(a, b), (b, c)] {
+            let (u, v) = (root(&mut parents, u), root(&mut parents, v));
+            parents[u.max(v) as usize] = u.min(v);
+        }
+    }
+    (0..vertex_count as u32).map(|vertex| root(&mut parents, vertex)).collect()
+}
+
+fn root(parents: &mut [u32], mut vertex: u32) -> u32 {
+    while parents[vertex as usize] != vertex {
+        let grandparent = parents[parents[vertex as usize] as usize];
+        parents[vertex as usize] = grandparent;
+        vertex = grandparent;
+    }
+    vertex
+}
