@@ -278,3 +278,20 @@ fn pairs_whose_swept_boxes_overlap_go_through_all_later_stages() {
     let message = place.refusal(1, &with(&["--swept-boxes", "--pipeline", "lv_2014"]));
     assert!(message.contains("--swept-boxes"), "{message}");
 }
+
+#[test]
+fn edges_that_single_precision_collapses_are_reported() {
+    let place = Workplace::new();
+    // Next to 2^24 numbers of f32 are whole.
+    let far = "v 16777216 0 0\nv 16777216.25 0 0\nv 16777216 9 0\nf 1 2 3\n";
+    place.write("start.obj", far);
+    place.write("end.obj", far);
+    let output = place.run(&with(&["--scalar", "f32", "--json"]));
+    let notes = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        notes.contains("end.obj: rounding to f32 gives both ends of 1 edge one position"),
+        "{notes}"
+    );
+    let output = place.run(&with(&["--json"]));
+    assert!(!String::from_utf8(output.stderr).unwrap().contains("one position"));
+}
