@@ -95,7 +95,7 @@ use kernels::{coplanarity, exact, lanes, points, vector};
 /// The kernels, for the project's laboratory and verification. They may change in any release.
 #[cfg(feature = "verification")]
 pub mod verification {
-    pub use crate::kernels::{advance, coplanarity, exact, lanes, points, vector};
+    pub use crate::kernels::{advance, altered, coplanarity, exact, lanes, points, vector};
     pub use crate::of_kind;
 }
 #[cfg(not(feature = "verification"))]
