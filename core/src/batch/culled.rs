@@ -9,6 +9,8 @@ use crate::filter::Filter;
 use crate::kind::PairKind;
 use crate::scalar::Scalar;
 use fearless_simd::Level;
+#[cfg(feature = "verification")]
+pub use shown::{culled, culled_from_tiles};
 
 /// A test for batches: a [`Filter`] of any tier and separation. With the feature `verification`, also a test of boxes or of the
 /// caller's own.
@@ -21,12 +23,6 @@ pub trait BatchTest<S: Scalar>: Copy + sealed::Sealed {
 mod sealed {
     pub trait Sealed {}
     impl<S> Sealed for crate::filter::Filter<S> {}
-    #[cfg(feature = "verification")]
-    impl Sealed for crate::batch::Test {}
-    #[cfg(feature = "verification")]
-    impl<T> Sealed for crate::batch::ByPoints<T> {}
-    #[cfg(feature = "verification")]
-    impl<T> Sealed for crate::batch::ByVolume<T> {}
 }
 
 impl<S: Scalar> BatchTest<S> for Filter<S> {
@@ -67,5 +63,82 @@ pub fn culled_from_rows<S: Scalar>(
                 .and_then(|padded| Some(all(&padded.indices, padded.known)? & padded.known))
                 .unwrap_or(0)
         });
+    }
+}
+
+/// The tests of the feature `verification`, and pairs that lie side by side.
+#[cfg(feature = "verification")]
+mod shown {
+    use super::{BatchTest, sealed::Sealed};
+    use crate::batch::kernels;
+    use crate::batch::lane_test::{ByPoints, ByVolume, PointsTest, Test, VolumeTest};
+    use crate::batch::mask::{LANES, Mask};
+    use crate::batch::sixteen::Sixteen;
+    use crate::batch::tile::Tile;
+    use crate::kind::PairKind;
+    use crate::motion::PrimitivePair;
+    use crate::scalar::Scalar;
+    use fearless_simd::Level;
+
+    impl Sealed for Test {}
+    impl<T> Sealed for ByPoints<T> {}
+    impl<T> Sealed for ByVolume<T> {}
+
+    impl<S: Scalar> BatchTest<S> for Test {
+        #[inline(always)]
+        fn sixteen(self, level: Level, kind: PairKind, pairs: Sixteen<'_, S>, _: Mask) -> Option<Mask> {
+            kernels::by_test(level, kind, self, pairs)
+        }
+    }
+
+    impl<S: Scalar, T: PointsTest> BatchTest<S> for ByPoints<T> {
+        #[inline(always)]
+        fn sixteen(self, level: Level, kind: PairKind, pairs: Sixteen<'_, S>, _: Mask) -> Option<Mask> {
+            kernels::by_points(level, kind, self.0, pairs)
+        }
+    }
+
+    impl<S: Scalar, T: VolumeTest> BatchTest<S> for ByVolume<T> {
+        #[inline(always)]
+        fn sixteen(self, level: Level, kind: PairKind, pairs: Sixteen<'_, S>, _: Mask) -> Option<Mask> {
+            Some(kernels::by_volume(level, kind, self.0, pairs)?.culled)
+        }
+    }
+
+    /// Writes which of `pairs`, of either kind, `test` culls, sixteen to a mask. Masks past the last pair are not changed; pairs past
+    /// the last mask are ignored.
+    pub fn culled<S: Scalar>(level: Level, test: impl BatchTest<S>, pairs: &[PrimitivePair<S>], masks: &mut [Mask]) {
+        for (pairs, mask) in pairs.chunks(LANES).zip(masks) {
+            *mask = 0;
+            for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
+                if !pairs.iter().any(|pair| pair.kind == kind) {
+                    continue;
+                }
+                // Pairs of the other kind are unknown, so that they are kept.
+                let mut tile = Tile::unknown();
+                for (lane, pair) in pairs.iter().enumerate().filter(|(_, pair)| pair.kind == kind) {
+                    tile.set(lane, pair.motions);
+                }
+                *mask |= of_tile(level, kind, test, &tile);
+            }
+        }
+    }
+
+    /// Writes which pairs of `tiles` `test` culls, a mask for each tile: the fastest form for pairs that already lie side by side.
+    pub fn culled_from_tiles<S: Scalar>(
+        level: Level,
+        kind: PairKind,
+        test: impl BatchTest<S>,
+        tiles: &[Tile<S>],
+        masks: &mut [Mask],
+    ) {
+        for (tile, mask) in tiles.iter().zip(masks) {
+            *mask = of_tile(level, kind, test, tile);
+        }
+    }
+
+    fn of_tile<S: Scalar>(level: Level, kind: PairKind, test: impl BatchTest<S>, tile: &Tile<S>) -> Mask {
+        // A tile has no indices that could be wrong.
+        test.sixteen(level, kind, Sixteen::Tile(tile), Mask::MAX).unwrap_or(0)
     }
 }

@@ -55,6 +55,8 @@ pub use advance::{Round, RoundQuestion, advance_from_rows};
 pub use closest::closest_points;
 pub use compared::{Compares, Loop, in_lanes};
 pub use culled::{BatchTest, culled_from_rows};
+#[cfg(feature = "verification")]
+pub use culled::{culled, culled_from_tiles};
 pub use fearless_simd::Level;
 #[cfg(feature = "verification")]
 pub use lane_test::{ByPoints, ByVolume, PointsTest, Test, VolumeTest};
@@ -62,4 +64,4 @@ pub use mask::{LANES, Mask};
 pub use rows::VertexRow;
 pub use strays::largest_strays_from_rows;
 #[cfg(feature = "verification")]
-pub use tile::{Tile, culled, culled_from_tiles};
+pub use tile::Tile;

@@ -1,10 +1,6 @@
-use super::culled::BatchTest;
-use super::mask::{LANES, Mask};
-use super::sixteen::Sixteen;
-use crate::kind::PairKind;
-use crate::motion::{Motion, PrimitivePair};
+use super::mask::LANES;
+use crate::motion::Motion;
 use crate::scalar::Scalar;
-use fearless_simd::Level;
 
 /// Sixteen pairs side by side: three coordinates of sixteen pairs, for each of the four points, at the start and at the end.
 ///
@@ -71,41 +67,4 @@ impl<S: Scalar> Tile<S> {
             end: position(end),
         })
     }
-}
-
-/// Writes which of `pairs`, of either kind, `test` culls, sixteen to a mask. Masks past the last pair are not changed; pairs past
-/// the last mask are ignored.
-pub fn culled<S: Scalar>(level: Level, test: impl BatchTest<S>, pairs: &[PrimitivePair<S>], masks: &mut [Mask]) {
-    for (pairs, mask) in pairs.chunks(LANES).zip(masks) {
-        *mask = 0;
-        for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
-            if !pairs.iter().any(|pair| pair.kind == kind) {
-                continue;
-            }
-            // Pairs of the other kind are unknown, so that they are kept.
-            let mut tile = Tile::unknown();
-            for (lane, pair) in pairs.iter().enumerate().filter(|(_, pair)| pair.kind == kind) {
-                tile.set(lane, pair.motions);
-            }
-            *mask |= of_tile(level, kind, test, &tile);
-        }
-    }
-}
-
-/// Writes which pairs of `tiles` `test` culls, a mask for each tile: the fastest form for pairs that already lie side by side.
-pub fn culled_from_tiles<S: Scalar>(
-    level: Level,
-    kind: PairKind,
-    test: impl BatchTest<S>,
-    tiles: &[Tile<S>],
-    masks: &mut [Mask],
-) {
-    for (tile, mask) in tiles.iter().zip(masks) {
-        *mask = of_tile(level, kind, test, tile);
-    }
-}
-
-fn of_tile<S: Scalar>(level: Level, kind: PairKind, test: impl BatchTest<S>, tile: &Tile<S>) -> Mask {
-    // A tile has no indices that could be wrong.
-    test.sixteen(level, kind, Sixteen::Tile(tile), Mask::MAX).unwrap_or(0)
 }
