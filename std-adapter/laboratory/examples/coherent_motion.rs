@@ -22,7 +22,7 @@ const PASSES: usize = 5;
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [path, first, steps, separations @ ..] = &arguments[..] else {
-        return Err("what is wanted: SCENE.toml FIRST STEPS [SEPARATION]...".into());
+        return Err("usage: SCENE.toml FIRST STEPS [SEPARATION]...".into());
     };
     let (first, steps) = (first.parse::<usize>()?, steps.parse::<usize>()?);
     let mut simulation = Simulation::new(Scene::read(path.as_ref())?, 0)?;
@@ -75,14 +75,14 @@ fn compare(topology: &Arc<Topology>, frames: &[Vec<DVec3>], separation: f64) -> 
     );
     println!("{:>10} {:>9} {:>9} {:>9}  ms a step", "", "mean", "median", "slowest");
     let mut shares = [(); 2].map(|()| [0.0; 3]);
-    for ((name, seconds), share) in ["anew", "coherent"].into_iter().zip(&mut seconds).zip(&mut shares) {
+    for ((name, seconds), share) in ["ordinary", "coherent"].into_iter().zip(&mut seconds).zip(&mut shares) {
         seconds.sort_by(f64::total_cmp);
         let mean = seconds.iter().sum::<f64>() / seconds.len() as f64;
         *share = [mean, seconds[seconds.len() / 2], seconds[seconds.len() - 1]];
         println!("{name:>10} {:>9.3} {:>9.3} {:>9.3}", share[0], share[1], share[2]);
     }
-    let [anew, coherent] = shares;
-    let share = [0, 1, 2].map(|k| coherent[k] / anew[k]);
+    let [ordinary, coherent] = shares;
+    let share = [0, 1, 2].map(|k| coherent[k] / ordinary[k]);
     println!("{:>10} {:>9.3} {:>9.3} {:>9.3}", "share", share[0], share[1], share[2]);
     Ok(())
 }

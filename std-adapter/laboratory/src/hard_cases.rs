@@ -17,7 +17,7 @@ pub struct HardCase {
     pub placement: String,
     /// The pair.
     pub pair: PrimitivePair<f64>,
-    /// Whether and when the pair first touches.
+    /// The exact answer.
     pub contact: ExactContact,
 }
 

@@ -40,7 +40,7 @@ pub struct QueryError(String);
 pub struct Query<S: Scalar = f64> {
     /// The pair: `v, f0, f1, f2` or `a0, a1, b0, b1`.
     pub pair: PrimitivePair<S>,
-    /// Whether the primitives touch at some time in [0, 1]; `None` if the file does not say.
+    /// True if the primitives touch at some time in [0, 1]; `None` if the file does not say.
     pub collides: Option<bool>,
     /// The line of the file on which the query starts, counted from 1.
     pub line: usize,

@@ -120,11 +120,11 @@ impl Cull {
         }
         let summary = StepSummary::from_pipeline(self.pipeline, &pipeline);
         let candidates = [PairKind::VertexFace, PairKind::EdgeEdge].map(|kind| pipeline.candidates(kind));
-        self.tell(summary, &fastest, pipeline.topology(), pipeline.contacts(), candidates)
+        self.report(summary, &fastest, pipeline.topology(), pipeline.contacts(), candidates)
     }
 
     /// Writes the requested files, and prints the counts of the fastest run.
-    fn tell<S: Scalar>(
+    fn report<S: Scalar>(
         &self,
         mut summary: StepSummary,
         fastest: &Fastest,
@@ -222,7 +222,7 @@ impl Cull {
         let mut summary = StepSummary::from_detector(question, &detector, StepReport::default(), earliest);
         summary.preset = self.pipeline;
         let candidates = [&*vertex_face, &*edge_edge];
-        self.tell(summary, &fastest, detector.topology(), &contacts, candidates)
+        self.report(summary, &fastest, detector.topology(), &contacts, candidates)
     }
 }
 

@@ -23,7 +23,7 @@ DEFAULT_BINARY = common.HERE / "../../../../target/release/selvedge"
 
 
 def wavy_sheet(squares: int, path: Path) -> None:
-    """A sheet of so many by so many squares that waves, and is free of intersections."""
+    """Returns a wavy sheet of `squares` by `squares` squares, free of intersections."""
     along = np.arange(squares + 1) / squares
     y, x = np.meshgrid(along, along, indexing="ij")
     z = 0.02 * (np.sin(37 * x) * np.cos(23 * y) + 0.3 * np.sin(91 * x + 53 * y))

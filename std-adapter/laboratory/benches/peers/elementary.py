@@ -77,7 +77,7 @@ class Peers:
     """ipctk on the pairs that selvedge has, those apart from those in contact.
 
     ipctk's loop over candidates, which is C++, passes the earliest impact so far to each later test as the end of its time span.
-    Among pairs without contact there is no impact, so that the loop asks each of them about its whole step. The others are asked
+    Among pairs without contact there is no impact, so that the loop tests each of them over its whole step. The others are tested
     one by one from here.
     """
 
@@ -262,7 +262,7 @@ def main() -> None:
     arguments = parser.parse_args()
     peers = [name.strip() for name in arguments.peers.split(",")]
     for name in set(peers) - set(PEERS):
-        parser.error(f"{name} is none of {', '.join(PEERS)}")
+        parser.error(f"{name} is not one of {', '.join(PEERS)}")
 
     step = common.read_step(arguments.START, arguments.END)
     ipctk.set_num_threads(arguments.threads)

@@ -192,8 +192,8 @@ def main() -> None:
     parser.add_argument("--refinement", type=int, default=1, help="this many times the cells, along each side")
     parser.add_argument("--iterations", type=int, default=4, help="of newton, each step (its example: %(default)s)")
     parser.add_argument("--margin", type=float, default=0.002, help="newton's self-contact margin in m (its example: %(default)s)")
-    parser.add_argument("--rings", type=int, default=2, help="newton leaves out pairs within so many rings (default: %(default)s)")
-    parser.add_argument("--rebuild", type=int, default=10, help="newton rebuilds its hierarchy every so many steps (its example: 10)")
+    parser.add_argument("--rings", type=int, default=2, help="newton leaves out pairs within this many rings (default: %(default)s)")
+    parser.add_argument("--rebuild", type=int, default=10, help="newton rebuilds its hierarchy at this interval of steps (its example: 10)")
     parser.add_argument("--only", choices=["selvedge", "newton"], help="run one side")
     options = parser.parse_args()
     h = 0.001

@@ -54,7 +54,7 @@ table! {
 }
 
 impl Stage {
-    /// Whether the stage compares boxes (the paper's first stage) rather than planes or directions (its second).
+    /// Returns whether the stage compares boxes (the paper's first stage) rather than planes or directions (its second).
     #[must_use]
     pub const fn is_box_test(self) -> bool {
         self.row()
@@ -68,7 +68,7 @@ impl CullingTest {
         self.row()
     }
 
-    /// Whether it never culls a pair that touches, rounding included.
+    /// Returns whether it never culls a pair that touches, rounding included.
     #[must_use]
     pub const fn is_certified(self) -> bool {
         !matches!(self, Self::PlainNonCoplanarity)

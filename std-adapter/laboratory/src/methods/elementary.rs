@@ -54,7 +54,7 @@ impl ElementaryTest {
         }
     }
 
-    /// Whether it never misses a contact and never returns a time that is too late, rounding included.
+    /// Returns whether it never misses a contact and never returns a time that is too late, rounding included.
     #[must_use]
     pub const fn is_certified(self) -> bool {
         match self {

@@ -29,7 +29,7 @@ impl MeasuredFilter {
         self.row()
     }
 
-    /// Whether a pair that it culls is proven to be free of contact.
+    /// Returns whether a pair that it culls is proven to be free of contact.
     #[must_use]
     pub const fn is_certified(self) -> bool {
         self.tier().is_some()

@@ -44,7 +44,7 @@ impl Stages {
         [Stage::Distribution].into_iter().chain(tests).chain([Stage::Elementary])
     }
 
-    /// Whether the method misses nothing that touches, rounding included.
+    /// Returns whether the method misses nothing that touches, rounding included.
     #[must_use]
     pub fn is_certified(&self) -> bool {
         self.tests.iter().all(|test| test.is_certified()) && self.elementary.is_certified()
@@ -105,13 +105,13 @@ impl Preset {
         self.row()
     }
 
-    /// Whether the original could not be read, so that the preset claims no reproduction of it.
+    /// Returns whether the original could not be read, so that the preset claims no reproduction of it.
     #[must_use]
     pub const fn is_reconstructed(self) -> bool {
         matches!(self, Self::TangC2010 | Self::TangC2011)
     }
 
-    /// Whether it is one of our own.
+    /// Returns whether it is one of our own.
     #[must_use]
     pub const fn is_ours(self) -> bool {
         matches!(self, Self::Selvedge | Self::SelvedgeExact)

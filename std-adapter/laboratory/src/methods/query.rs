@@ -48,7 +48,7 @@ impl QueryMethod {
         }
     }
 
-    /// Whether it never denies a contact, rounding included.
+    /// Returns whether it never denies a contact, rounding included.
     #[must_use]
     pub fn is_certified(self) -> bool {
         match self {

@@ -10,7 +10,7 @@ use crate::study::{Comparison, ComparisonRow};
 pub struct Finding {
     /// The sentence, with the numbers that it rests on.
     pub text: String,
-    /// Whether the numbers agree with the paper, or with what this project promises.
+    /// True if the numbers agree with the paper, or with what this project promises.
     pub as_expected: bool,
 }
 

@@ -21,7 +21,7 @@ pub enum HardAnswer {
 pub struct HardResult {
     /// The case.
     pub case: &'static HardCase,
-    /// In the order of [`QueryMethod::ALL`].
+    /// The methods' answers, in the order of [`QueryMethod::ALL`].
     pub answers: [HardAnswer; QueryMethod::ALL.len()],
 }
 

@@ -105,7 +105,7 @@ def main() -> None:
             page.on("console", lambda message: problems.append(f"console: {message.type}: {message.text}"))
             page.on("pageerror", lambda error: problems.append(f"script: {error}"))
             own = options.page.resolve().as_uri()
-            page.on("request", lambda request: expect(request.url.startswith(("data:", own)), f"asks for {request.url}"))
+            page.on("request", lambda request: expect(request.url.startswith(("data:", own)), f"requests {request.url}"))
             page.goto(own)
             page.wait_for_timeout(1000)
             overflow = page.evaluate("document.documentElement.scrollWidth - document.documentElement.clientWidth")

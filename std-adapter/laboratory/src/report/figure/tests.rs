@@ -13,7 +13,7 @@ fn decoded(png: &[u8]) -> Pixmap {
     Pixmap::decode_png(png).unwrap()
 }
 
-/// How many pixels of a panel (0: left, 1: right) are wanted, captions and legend apart.
+/// Counts the wanted pixels of a panel (0: left, 1: right), without captions and legend.
 fn count(picture: &Pixmap, panel: u32, wanted: impl Fn([u8; 3]) -> bool) -> usize {
     let half = picture.width() / 2;
     (0..MESH_ROWS)

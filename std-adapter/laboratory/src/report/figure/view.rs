@@ -23,11 +23,11 @@ pub(super) struct View {
 /// A point of the mesh in the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Seen {
-    /// In pixels, from the left.
+    /// Pixels from the left.
     pub(super) x: f32,
-    /// In pixels, from the top.
+    /// Pixels from the top.
     pub(super) y: f32,
-    /// In pixels, towards the viewer.
+    /// Pixels towards the viewer.
     pub(super) depth: f32,
 }
 

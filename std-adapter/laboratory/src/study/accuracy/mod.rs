@@ -37,7 +37,7 @@ use std::time::Duration;
 pub struct AccuracyOptions {
     /// The largest number of pairs in each set.
     pub pairs: usize,
-    /// How often each chunk goes through each filter or test; the fastest counts.
+    /// The number of runs of each chunk through each filter or test, of which the fastest counts.
     pub repeat: u32,
     /// The seed of random pairs.
     pub seed: u64,
@@ -69,7 +69,7 @@ pub struct AccuracySet {
     pub vertex_face: usize,
     /// Edge–edge pairs.
     pub edge_edge: usize,
-    /// How many pairs there were before a sample was drawn.
+    /// The number of pairs before sampling.
     pub drawn_from: usize,
     /// The number of timed pairs; all were counted.
     pub timed: usize,
@@ -112,7 +112,7 @@ impl BackendTime {
 }
 
 impl AccuracySet {
-    /// How many pairs there are.
+    /// The number of pairs.
     #[must_use]
     pub const fn pairs(&self) -> usize {
         self.vertex_face + self.edge_edge

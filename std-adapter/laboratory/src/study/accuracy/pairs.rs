@@ -21,7 +21,7 @@ pub struct PairSet {
     pub vertex_face: Vec<[u32; 4]>,
     /// Indices into `points`: first edge, second edge.
     pub edge_edge: Vec<[u32; 4]>,
-    /// How many pairs there were before a sample was drawn.
+    /// The number of pairs before sampling.
     pub drawn_from: usize,
 }
 
@@ -101,7 +101,7 @@ impl PairSet {
         motions.map(VertexRow::new).collect()
     }
 
-    /// How many pairs there are.
+    /// The number of pairs.
     #[must_use]
     pub fn pairs(&self) -> usize {
         self.vertex_face.len() + self.edge_edge.len()

@@ -1,7 +1,7 @@
 "use strict";
 
 /**
- * Fills the page's `.chart` elements; returns a function that moves all their cursors to a step. `onPick` is told the step that a
+ * Fills the page's `.chart` elements. Returns a function that moves all their cursors to a step. `onPick` gets the step that a
  * reader points at.
  */
 function createCharts(recording, onPick) {
@@ -132,7 +132,7 @@ function createChart(place, recording, kind, series, onPick) {
   return move;
 }
 
-/** A value v at log(1 + v), so that zero has its place. */
+/** Places a value v at log(1 + v), so that zero has a place. */
 function logarithmic(means) {
   const most = Math.max(1, ...means.flat().filter(Number.isFinite));
   const top = Math.log1p(most) * 1.04;
@@ -142,7 +142,7 @@ function logarithmic(means) {
   return { ticks, layers: shares.map((tops, index) => ({ index, tops, filled: 0.1 })) };
 }
 
-/** Each on top of the ones before, the largest at the bottom. A few high peaks are cut off, and the note says so. */
+/** Stacks the series, the largest at the bottom. A few high peaks are cut off, and the note says so. */
 function stacked(means) {
   const sum = (one) => one.reduce((total, value) => total + value, 0);
   const order = means.map((_, i) => i).sort((a, b) => sum(means[b]) - sum(means[a]));
@@ -166,7 +166,7 @@ function stacked(means) {
   return { layers, note, ticks: linearTicks(0, top, (value) => `${few(value / unit)} ${name}`) };
 }
 
-/** From the least to the most, or from zero where that is near. */
+/** Scales from the least to the largest value, or from zero if that is near. */
 function linear(means) {
   const values = means.flat().filter(Number.isFinite);
   let least = values.reduce((a, b) => Math.min(a, b), Infinity), most = values.reduce((a, b) => Math.max(a, b), -Infinity);
@@ -186,12 +186,12 @@ function linearTicks(from, to, label) {
   return ticks;
 }
 
-/** What was measured at frames, and when. */
+/** Returns measurements at frames, and their times. */
 function measured(series, recording) {
   return { times: series[0].steps.map((step) => step * recording.timeStep), means: series.map((one) => Array.from(one.values)) };
 }
 
-/** Means of what was recorded in each step, in so many columns at most, and the times of their middles. */
+/** Returns means of recorded values in at most `most` columns, and the times of their middles. */
 function columnsOf(series, begin, end, most) {
   const columns = Math.max(1, Math.min(series[0].values.length, Math.floor(most)));
   const times = Array.from({ length: columns }, (_, i) => begin + ((i + 0.5) / columns) * (end - begin));
@@ -200,7 +200,7 @@ function columnsOf(series, begin, end, most) {
   return { times, means: series.map((one) => columnMeans(one.values, columns)) };
 }
 
-/** Means over equal parts of the values. */
+/** Returns means over equal parts of the values. */
 function columnMeans(values, columns) {
   return Array.from({ length: columns }, (_, i) => {
     const from = Math.floor((i * values.length) / columns), to = Math.floor(((i + 1) * values.length) / columns);
@@ -208,7 +208,7 @@ function columnMeans(values, columns) {
   });
 }
 
-/** The indices of finite numbers, in unbroken runs. */
+/** Returns the indices of finite numbers, in unbroken runs. */
 function finiteRuns(numbers) {
   const runs = [[]];
   numbers.forEach((number, i) => {

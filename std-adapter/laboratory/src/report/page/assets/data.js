@@ -1,6 +1,6 @@
 "use strict";
 
-/** The page's data blocks: the header with the arrays added to it. Numbers are little endian, as is every machine with a browser. */
+/** Returns the page's data blocks: the header with the arrays added. Numbers are little endian, as on every machine with a browser. */
 function readRecording() {
   const text = (id) => document.getElementById(id).textContent;
   const buffer = (id) => {
@@ -40,7 +40,7 @@ function writeFrame(recording, frame, out) {
   }
 }
 
-/** A number with three figures or so. */
+/** Formats a number with three significant digits. */
 function few(number) {
   if (!Number.isFinite(number)) return "–";
   const size = Math.abs(number);
@@ -49,7 +49,7 @@ function few(number) {
   return String(Number(number.toPrecision(3)));
 }
 
-/** A time in the unit that fits it. */
+/** Formats a time in a suitable unit. */
 function duration(seconds) {
   const [unit, name] = timeUnit(seconds);
   return Number.isFinite(seconds) ? `${few(seconds / unit)} ${name}` : "–";
@@ -59,7 +59,7 @@ function timeUnit(seconds) {
   return [[1, "s"], [1e-3, "ms"], [1e-6, "µs"]].find(([unit]) => seconds >= unit) ?? [1e-9, "ns"];
 }
 
-/** 1, 2 or 5 times a power of ten, such that about `count` of them make `range`. */
+/** Returns 1, 2 or 5 times a power of ten, such that about `count` of them make `range`. */
 function niceStep(range, count) {
   const rough = range / Math.max(count, 1);
   const power = 10 ** Math.floor(Math.log10(rough));

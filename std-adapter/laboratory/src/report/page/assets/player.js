@@ -25,7 +25,7 @@
   }
   const moveCharts = createCharts(recording, (step) => show(nearestFrame(step * recording.timeStep)));
 
-  /** Draws again, once, before the browser shows the page next. */
+  /** Redraws once before the browser next shows the page. */
   function refresh() {
     if (!isStale) requestAnimationFrame(tick);
     isStale = true;

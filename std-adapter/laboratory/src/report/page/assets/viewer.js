@@ -1,9 +1,9 @@
 "use strict";
 
 /**
- * Draws frames on a canvas with WebGL 2, or returns null where there is none.
+ * Draws frames on a canvas with WebGL 2, or returns null without it.
  *
- * Everything is drawn in the viewer's own axes: x to the right, y up, z towards the reader, the scene's middle at 0.
+ * The viewer has its own axes: x to the right, y up, z towards the reader, the scene's middle at 0.
  */
 function createViewer(canvas, recording, onChange) {
   const gl = canvas.getContext("webgl2", { alpha: true, antialias: true });
@@ -155,7 +155,7 @@ function createViewer(canvas, recording, onChange) {
     }
   }
 
-  /** Looks at the whole of the animation, from in front, a little from above and from the side. */
+  /** Shows the whole animation from the front, a little from above and from the side. */
   function reset() {
     camera.yaw = scene.yaw - 0.45;
     camera.pitch = 0.3;
@@ -186,7 +186,7 @@ function createViewer(canvas, recording, onChange) {
     onChange();
   }
 
-  /** By shares of the canvas' height. */
+  /** Pans by shares of the canvas' height. */
   function shift(across, up) {
     const span = 2 * Math.tan(FIELD / 2) * camera.distance;
     const view = lookAt(eyeOffset(), [0, 0, 0]);
@@ -209,7 +209,7 @@ function createViewer(canvas, recording, onChange) {
   return { setFrame, draw, reset, turn, zoom, shift, resize, shown, gridSpacing: scene.gridSpacing };
 }
 
-/** Lets pointers and keys turn, zoom and shift the view. */
+/** Lets pointers and keys rotate, zoom and pan the view. */
 function steerView(canvas, viewer) {
   const pointers = new Map();
   canvas.addEventListener("contextmenu", (event) => event.preventDefault());
@@ -261,7 +261,7 @@ function steerView(canvas, viewer) {
   });
 }
 
-/** Where things are in the viewer's axes, over all frames. */
+/** Returns places in the viewer's axes, over all frames. */
 function placeScene(recording) {
   const up = recording.up;
   // The axis that is least upright becomes horizontal.
@@ -313,7 +313,7 @@ function placeScene(recording) {
   };
 }
 
-/** Vertex normals, each triangle weighted by its area. */
+/** Returns vertex normals, each triangle weighted by its area. */
 function writeNormals(triangles, points, normals) {
   normals.fill(0);
   for (let t = 0; t < triangles.length; t += 3) {
@@ -327,7 +327,7 @@ function writeNormals(triangles, points, normals) {
   }
 }
 
-/** Every edge once, the cloth's first. */
+/** Returns every edge once, the cloth's first. */
 function createEdges(gl, recording, pointBuffer) {
   const seen = new Set();
   const ends = [];
@@ -389,7 +389,7 @@ function program(gl, vertexSource, fragmentSource) {
   return { program: made, at };
 }
 
-/** The theme's colours, as linear light. */
+/** Returns the theme's colours, as linear light. */
 function themeColours(canvas) {
   const style = getComputedStyle(canvas);
   const linear = (name) => {

@@ -6,7 +6,7 @@ use selvedge_core::{PrimitivePair, Scalar};
 /// The widest enclosure of a first contact, in steps, that counts as a known time.
 pub const WIDEST: f64 = 1e-10;
 
-/// Whether a pair touches, and when first.
+/// True if a pair touches, and when first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ExactAnswer {
     /// Not at any time in [0, 1].
