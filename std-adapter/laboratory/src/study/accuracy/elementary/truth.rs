@@ -6,10 +6,10 @@ use selvedge_core::{PrimitivePair, Scalar};
 /// The widest enclosure of a first contact, in steps, that counts as a known time.
 pub const WIDEST: f64 = 1e-10;
 
-/// True if a pair touches, and when first.
+/// The exact answer about the first contact of a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ExactAnswer {
-    /// Not at any time in [0, 1].
+    /// The pair does not touch at any time in [0, 1].
     Never,
     /// It touches.
     Touches {
