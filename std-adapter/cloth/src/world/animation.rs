@@ -112,7 +112,8 @@ impl Animation {
         }))
     }
 
-    /// Makes an animation from a [figure](crate::files::animation) of a glTF file, in metres. Its first key is at time 0.
+    /// Makes an animation from a [figure](crate::files::animation) of a glTF file, in metres. Its keys are at the file's times, so that
+    /// figures of one animation stay together.
     ///
     /// # Errors
     /// If a vertex is beyond a kilometre, or not finite, at a key.
@@ -140,13 +141,14 @@ impl Animation {
             check_reach(&at, || format!("the figure at {key} s"))?;
             last_key = key;
         }
-        Ok(Self::of(Source {
+        let animation = Self::of(Source {
             length: last - first,
             vertices: figure.mesh().positions.len(),
             fingerprint: figure.fingerprint(),
             shapes: Shapes::Figure(figure),
             jumps,
-        }))
+        });
+        Ok(animation.starting_at(first))
     }
 
     fn of(source: Source) -> Self {
@@ -231,8 +233,14 @@ impl Animation {
         let fastest = larger(speed, (way.0 / time_step, way.1, way.2));
         let (speed, time, vertex) = fastest;
         if speed > FASTEST_VERTEX {
+            let unit = [("cm", 1e-2), ("mm", 1e-3), ("um", 1e-6)]
+                .into_iter()
+                .find(|(_, unit)| speed * unit <= FASTEST_VERTEX);
+            let remedy = unit.map_or(String::new(), |(name, _)| {
+                format!(" If the file is not in metres, add `unit = \"{name}\"`.")
+            });
             let message = format!(
-                "vertex {vertex} moves at {speed:.0} m/s from {time:.3} s of the animation on, but must not be faster than {FASTEST_VERTEX} m/s; is there a cut in the animation, or is its unit not the metre?"
+                "vertex {vertex} moves at {speed:.0} m/s from {time:.3} s of the animation on, but must not be faster than {FASTEST_VERTEX} m/s; is there a cut in the animation?{remedy}"
             );
             return Err(ValueError::new("animation", message));
         }

@@ -114,8 +114,8 @@ impl Body {
             BodyShape::Capsule => &["from", "to", "radius", "around"],
             BodyShape::Ball => &["centre", "radius", "around"],
             BodyShape::File => &shapes::FILE_KEYS,
-            BodyShape::Frames => &["files", "frames_per_second", "start"],
-            BodyShape::Figure => &["file", "node", "animation", "start"],
+            BodyShape::Frames => &["files", "frames_per_second", "start", "scale", "unit"],
+            BodyShape::Figure => &["file", "node", "animation", "start", "scale", "unit"],
         };
         let motion: &[&str] = match shape {
             BodyShape::Frames | BodyShape::Figure => &[],
@@ -148,7 +148,11 @@ impl Body {
         let files = table.required_text("files", "\"frames/body-####.ply\"")?;
         let rate = table.required_number(&RATE)?;
         let read = mesh::read_sequence(&table.folder().join(files));
-        let MeshSequence { triangles, frames, .. } = read.map_err(|error| table.error("files", error.to_string()))?;
+        let MeshSequence {
+            triangles, mut frames, ..
+        } = read.map_err(|error| table.error("files", error.to_string()))?;
+        let scale = shapes::scale(table)?;
+        frames.iter_mut().flatten().for_each(|position| *position *= scale);
         let animation = Animation::from_frames(frames, rate);
         Self::read_animated(name, table, time_step, triangles, animation, "files")
     }
@@ -159,15 +163,23 @@ impl Body {
         let choice = Choice {
             node: table.text("node")?,
             animation: table.text("animation")?,
+            at_rest: false,
         };
         let figure = animation::read(&table.folder().join(file), &choice).map_err(|error| {
             let key = match error.problem {
-                AnimationProblem::NoSuchNode { .. } => "node",
-                AnimationProblem::NoSuchAnimation { .. } => "animation",
+                AnimationProblem::NoSuchNode { .. } | AnimationProblem::SeveralNodes { .. } => "node",
+                AnimationProblem::NoSuchAnimation { .. } | AnimationProblem::SeveralAnimations { .. } => "animation",
                 _ => "file",
             };
             table.error(key, error.to_string())
         })?;
+        if let Some(part) = figure.left_out().iter().find(|part| part.may_have_area) {
+            return Err(table.error(
+                "file",
+                format!("{file}: not all of the file can be read: {part}; export it as plain triangles"),
+            ));
+        }
+        let figure = figure.scaled(shapes::scale(table)?);
         let triangles = figure.mesh().triangles.clone();
         Self::read_animated(name, table, time_step, triangles, Animation::from_figure(figure), "file")
     }
@@ -181,9 +193,14 @@ impl Body {
         animation: Result<Animation, ValueError>,
         key: &str,
     ) -> Result<Self, SceneError> {
-        let start = table.number(&START)?.unwrap_or_default();
+        let start = table.number(&START)?;
         let of_file = |error: ValueError| table.error(key, error.message);
-        let body = Self::animated(name, triangles, animation.map_err(of_file)?.starting_at(start));
+        let animation = animation.map_err(of_file)?;
+        let animation = match start {
+            None => animation,
+            Some(start) => animation.starting_at(start),
+        };
+        let body = Self::animated(name, triangles, animation);
         body.check(time_step).map_err(of_file)?;
         Ok(body)
     }

@@ -168,11 +168,16 @@ fn read_file(table: &Table<'_>, loose_features: bool) -> Result<(Mesh, Vec<[u32;
         return Err(wrong(message));
     }
     let triangles = topology.proper_triangles().to_vec();
-    let scale = table.number(&SCALE)?.unwrap_or(1.0) * table.choice("unit", &UNITS)?.unwrap_or(1.0);
+    let scale = scale(table)?;
     let positions = positions.into_iter().map(|position| position * scale).collect();
     let (mesh, edges) = merged(Mesh { positions, triangles }, edges, table.number(&WELD)?, only.is_some());
     check(&mesh).map_err(|error| wrong(error.message))?;
     Ok((mesh, edges))
+}
+
+/// Reads the length of the file's unit in metres.
+pub(super) fn scale(table: &Table<'_>) -> Result<f64, SceneError> {
+    Ok(table.number(&SCALE)?.unwrap_or(1.0) * table.choice("unit", &UNITS)?.unwrap_or(1.0))
 }
 
 /// Merges vertices within a distance, and leaves out those of other groups.

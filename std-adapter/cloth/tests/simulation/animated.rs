@@ -258,6 +258,7 @@ fn a_figure_of_code_is_that_of_the_file() {
         &Choice {
             node: Some("figure"),
             animation: Some("walk"),
+            at_rest: false,
         },
     )
     .unwrap();
@@ -327,7 +328,7 @@ fn animations_that_cannot_be_are_refused_where_they_are_made() {
     let cut = Animation::from_frames(vec![frame(0.0), frame(0.1), frame(5.1)], 24.0).unwrap();
     assert_eq!(
         refusal(cut),
-        "leaf: vertex 2 moves at 120 m/s from 0.042 s of the animation on, but must not be faster than 100 m/s; is there a cut in the animation, or is its unit not the metre?"
+        "leaf: vertex 2 moves at 120 m/s from 0.042 s of the animation on, but must not be faster than 100 m/s; is there a cut in the animation? If the file is not in metres, add `unit = \"cm\"`."
     );
     let early = Animation::from_frames(vec![frame(0.0)], 24.0).unwrap().starting_at(-1.0);
     assert!(refusal(early).starts_with("leaf: `start` is -1 s"));

@@ -8,6 +8,7 @@ mod blocked;
 mod determinism;
 mod drape;
 mod energy;
+mod files;
 mod from_code;
 mod garments;
 mod materials;

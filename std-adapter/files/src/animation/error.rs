@@ -1,4 +1,4 @@
-//! What can be wrong with the file of a moving figure.
+//! Problems of files of moving figures.
 
 use crate::excerpt::excerpt;
 use crate::mesh::FileProblem;
@@ -24,11 +24,11 @@ impl AnimationError {
     }
 }
 
-/// What is wrong with a file of a moving figure. Vertices, triangles and keys are numbered from 0, names are the file's.
+/// A problem of a file of a moving figure. Vertices, triangles and keys are numbered from 0, names are the file's.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum AnimationProblem {
-    /// It cannot be read, or its mesh is none.
+    /// It cannot be read, or its mesh is invalid.
     #[error(transparent)]
     File(#[from] FileProblem),
     /// The reader was left out of this program.
@@ -39,7 +39,7 @@ pub enum AnimationProblem {
     /// It is no glTF 2.0 file, or one that contradicts itself.
     #[error("is not a valid glTF 2.0 file: {0}")]
     NotGltf(String),
-    /// A buffer's bytes are not there.
+    /// The bytes of a buffer are missing.
     #[error("buffer {buffer} {reason}")]
     Buffer {
         /// Which buffer.
@@ -47,7 +47,7 @@ pub enum AnimationProblem {
         /// What is wrong with it.
         reason: String,
     },
-    /// Numbers are not as they should be.
+    /// Numbers are wrong.
     #[error("{what}: {reason}")]
     Values {
         /// Whose they are, in words.
@@ -61,43 +61,38 @@ pub enum AnimationProblem {
     /// No node with a mesh has this name.
     #[error("no node '{name}' has a mesh; those that have: {choices}")]
     NoSuchNode {
-        /// What was asked for.
+        /// The name that is wanted.
         name: String,
-        /// What there is.
+        /// The names of the file.
         choices: Choices,
     },
-    /// Several nodes have a mesh, and none was chosen.
-    #[error("{} nodes have a mesh; say with `node` which is meant: {choices}", choices.0.len())]
+    /// Several nodes with a mesh have the name.
+    #[error("{} nodes of this name have a mesh; name one by its path: {choices}", choices.0.len())]
     SeveralNodes {
-        /// What there is.
+        /// The paths of these nodes.
         choices: Choices,
     },
-    /// Nothing in the file moves.
-    #[error("has no animation; a mesh that keeps its shape can be read as OBJ or PLY")]
-    NoAnimation,
-    /// No animation has this name.
-    #[error("there is no animation '{name}'; choose from {choices}")]
-    NoSuchAnimation {
-        /// What was asked for.
+    /// The file requires an extension without which its shapes or motion are not known.
+    #[error("it requires the extension '{name}', which is not read; {remedy}")]
+    Extension {
+        /// The extension's name.
         name: String,
-        /// What there is.
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// No animation has this name.
+    #[error("there is no animation '{name}'; {}", if choices.0.is_empty() { "there is none".to_owned() } else { format!("choose from {choices}") })]
+    NoSuchAnimation {
+        /// The name that is wanted.
+        name: String,
+        /// The names of the file.
         choices: Choices,
     },
     /// There are several animations, and none was chosen.
-    #[error("there are {} animations; say with `animation` which is meant: {choices}", choices.0.len())]
+    #[error("there are {} animations; choose one with `animation`: {choices}", choices.0.len())]
     SeveralAnimations {
-        /// What there is.
+        /// The names of the file.
         choices: Choices,
-    },
-    /// The mesh stays as it is: neither its node nor a joint of its skin moves, nor a weight of its morph targets changes.
-    #[error(
-        "the animation '{animation}' does not move '{node}': it has no channel of its node, of a joint of its skin, or of its morph targets"
-    )]
-    NothingMoves {
-        /// The animation.
-        animation: String,
-        /// The node.
-        node: String,
     },
 }
 

@@ -1,10 +1,12 @@
 //! A mesh that a skeleton, morph targets or its own node move.
 
 use super::track::{Interpolation, Property, Track};
+use crate::bytes::Fingerprint;
+use crate::mesh::LeftOut;
 use selvedge::Mesh;
 use selvedge_core::glam::{DAffine3, DQuat, DVec3};
 
-/// A mesh, and where an animation takes its vertices: read from a [file](super::read).
+/// A mesh, and where an animation moves its vertices: read from a [file](super::read).
 ///
 /// ```no_run
 /// use selvedge_files::animation::{Choice, read};
@@ -21,19 +23,29 @@ pub struct Figure {
     /// At its first key.
     pub(super) mesh: Mesh,
     pub(super) shape: Shape,
+    pub(super) left_out: Vec<LeftOut>,
     pub(super) fingerprint: u64,
 }
 
-/// What moves the vertices.
+/// The meshes of nodes, and what moves their vertices.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Shape {
     /// Parents before children.
     pub(super) nodes: Vec<Node>,
     pub(super) tracks: Vec<Track>,
-    /// Of each vertex, before it is moved.
+    pub(super) parts: Vec<Part>,
+    /// The times of the first and of the last key of the whole animation: nodes that share it share its clock.
+    pub(super) span: [f64; 2],
+    /// The length of the file's unit.
+    pub(super) scale: f64,
+}
+
+/// The mesh of one node.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Part {
+    /// The position of each vertex before anything moves it.
     pub(super) rest: Vec<DVec3>,
     pub(super) targets: Vec<Target>,
-    /// The mesh's node.
     pub(super) node: usize,
     /// `None`: the mesh follows its node.
     pub(super) skin: Option<Skin>,
@@ -77,44 +89,64 @@ pub(super) struct Skin {
 }
 
 impl Figure {
-    /// Its triangles, and where its vertices are at its first key and before, in the file's unit (glTF: metres, y is up).
+    /// The triangles, and the positions of vertices at the first key and before, in the file's unit (glTF: metres, y is up), or
+    /// [scaled](Self::scaled).
     #[must_use]
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
     }
 
-    /// The times of its first and of its last key, in seconds.
+    /// The parts of the file that were left out.
     #[must_use]
-    pub fn span(&self) -> [f64; 2] {
-        let ends = |track: &Track| [track.times[0], track.times[track.times.len() - 1]];
-        let all = self.shape.tracks.iter().map(ends);
-        all.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).unwrap_or_default()
+    pub fn left_out(&self) -> &[LeftOut] {
+        &self.left_out
     }
 
-    /// The times of all its keys, in seconds, ascending, each once.
+    /// Multiplies all positions by a number: 0.01 for a file in centimetres.
+    #[must_use]
+    pub fn scaled(mut self, scale: f64) -> Self {
+        self.shape.scale *= scale;
+        self.shape.positions_at(self.shape.span[0], &mut self.mesh.positions);
+        self
+    }
+
+    /// The times of the first and of the last key of the animation, in seconds, whichever nodes they move; zeros if nothing moves.
+    #[must_use]
+    pub fn span(&self) -> [f64; 2] {
+        self.shape.span
+    }
+
+    /// The times of all keys that move the figure, and both ends of the [span](Self::span), in seconds, ascending, each once.
     #[must_use]
     pub fn key_times(&self) -> Vec<f64> {
         let mut times: Vec<f64> = self.shape.tracks.iter().flat_map(|track| &track.times).copied().collect();
+        times.extend(self.shape.span);
         times.sort_unstable_by(f64::total_cmp);
         times.dedup();
         times
     }
 
-    /// Whether some of it jumps from key to key (`STEP`), instead of going there.
+    /// Returns whether a part of the figure jumps from key to key (`STEP`), instead of moving there.
     #[must_use]
     pub fn has_steps(&self) -> bool {
         let jumps = |track: &Track| track.interpolation == Interpolation::Step && track.times.len() > 1;
         self.shape.tracks.iter().any(jumps)
     }
 
-    /// Tells figures of different files, or of different parts of one, from each other.
+    /// A number that differs for figures of different files, or of different parts of one.
     #[must_use]
     pub fn fingerprint(&self) -> u64 {
-        self.fingerprint
+        if self.shape.scale == 1.0 {
+            return self.fingerprint;
+        }
+        let mut fingerprint = Fingerprint::default();
+        fingerprint.take(&self.fingerprint.to_le_bytes());
+        fingerprint.take(&self.shape.scale.to_le_bytes());
+        fingerprint.value()
     }
 
-    /// Replaces `positions` by those of all vertices at a time, in seconds: before the first key they are where they are there, after the
-    /// last as well. The same bits for the same time, on every platform.
+    /// Replaces `positions` by those of all vertices at a time, in seconds. Before the first key vertices are where they are at that key, after
+    /// the last key likewise. The result has the same bits for the same time on every platform.
     pub fn positions_at(&self, time: f64, positions: &mut Vec<DVec3>) {
         self.shape.positions_at(time, positions);
     }
@@ -122,31 +154,39 @@ impl Figure {
 
 impl Shape {
     pub(super) fn positions_at(&self, time: f64, positions: &mut Vec<DVec3>) {
-        let mut weights: Vec<f64> = self.targets.iter().map(|target| target.weight).collect();
+        let default = |part: &Part| part.targets.iter().map(|target| target.weight).collect();
+        let mut weights: Vec<Vec<f64>> = self.parts.iter().map(default).collect();
         let places = self.places(time, &mut weights);
         positions.clear();
-        positions.extend_from_slice(&self.rest);
-        for (target, &weight) in self.targets.iter().zip(&weights).filter(|(_, weight)| **weight != 0.0) {
-            let moves = positions.iter_mut().zip(&target.moves);
-            moves.for_each(|(position, &by)| *position += by * weight);
-        }
-        match &self.skin {
-            None => {
-                let place = places[self.node];
-                positions.iter_mut().for_each(|p| *p = place.transform_point3(*p));
+        for (part, weights) in self.parts.iter().zip(&weights) {
+            let first = positions.len();
+            positions.extend_from_slice(&part.rest);
+            let own = &mut positions[first..];
+            for (target, &weight) in part.targets.iter().zip(weights).filter(|(_, weight)| **weight != 0.0) {
+                let moves = own.iter_mut().zip(&target.moves);
+                moves.for_each(|(position, &by)| *position += by * weight);
             }
-            Some(skin) => skin.apply(&places, positions),
+            match &part.skin {
+                None => {
+                    let place = places[part.node];
+                    own.iter_mut().for_each(|p| *p = place.transform_point3(*p));
+                }
+                Some(skin) => skin.apply(&places, own),
+            }
+        }
+        if self.scale != 1.0 {
+            positions.iter_mut().for_each(|position| *position *= self.scale);
         }
     }
 
-    /// Where each node is at a time. Writes to `weights` those that tracks change.
-    fn places(&self, time: f64, weights: &mut [f64]) -> Vec<DAffine3> {
+    /// Returns where each node is at a time. Writes to `weights` those of each part that tracks change.
+    fn places(&self, time: f64, weights: &mut [Vec<f64>]) -> Vec<DAffine3> {
         let mut locals: Vec<Local> = self.nodes.iter().map(|node| node.local).collect();
         let mut values = Vec::new();
         for track in &self.tracks {
             track.sample(time, &mut values);
             if track.property == Property::Weights {
-                weights.copy_from_slice(&values);
+                weights[track.node].copy_from_slice(&values);
             } else if let Local::Parts {
                 translation,
                 rotation,

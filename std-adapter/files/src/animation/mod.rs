@@ -1,13 +1,15 @@
-//! Figures that move: a skinned or morphing mesh of a glTF 2.0 file (`.gltf`, `.glb`), and where one of the file's animations takes its
+//! Figures of glTF 2.0 files (`.gltf`, `.glb`): meshes of one node or of a whole scene, and where one of the file's animations moves their
 //! vertices.
 //!
-//! Of a file are read: the triangles of one node's mesh, all its primitives one after the other, with their morph targets; the node's skin;
-//! and one animation's channels of translation, rotation, scale and weights, with interpolation `STEP`, `LINEAR` (rotations along the shorter
-//! arc) and `CUBICSPLINE`. What a file holds of surfaces, cameras and lights is left out. Compressed meshes (Draco, meshopt) are refused.
+//! The reader takes the triangles of each mesh (lists, strips and fans), all its primitives one after the other, with their morph targets; the
+//! node's skin; and one animation's channels of translation, rotation, scale and weights, with interpolation `STEP`, `LINEAR` (rotations along
+//! the shorter arc) and `CUBICSPLINE`. A file without animations is a figure that rests. Looks, lights and cameras are ignored, also where the
+//! file requires extensions for them; points, lines and other channels are [listed](Figure::left_out). Compressed meshes (Draco, meshopt) are
+//! refused with the command that converts them.
 //!
 //! Positions are computed in `f64` from the file's numbers, by the same operations on every platform: they are the same bits everywhere.
 //!
-//! Reading needs the feature `gltf`; without it [`read`] says so.
+//! Reading needs the feature `gltf`; without it [`read`] returns [`AnimationProblem::NotBuiltIn`].
 
 mod error;
 #[cfg_attr(
@@ -31,21 +33,23 @@ pub use figure::Figure;
 use crate::mesh::FileProblem;
 use std::path::Path;
 
-/// Which part of a file is wanted.
+/// The part of a file that the caller wants.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Choice<'a> {
-    /// The name of a node that has a mesh, or of its mesh; `None`: the only one there is.
+    /// The name of a node that has a mesh, the name of its mesh, or its path, such as `figure/arm`; `None`: all nodes of the scene as one mesh.
     pub node: Option<&'a str>,
-    /// The name of an animation; `None`: the only one there is.
+    /// The name of an animation; `None`: the only one, if there is one.
     pub animation: Option<&'a str>,
+    /// Whether the figure rests in the pose of its nodes, whatever animations there are.
+    pub at_rest: bool,
 }
 
 /// Reads a moving figure from the glTF file at `path`, with the files beside it that it names.
 ///
 /// # Errors
-/// If a file cannot be read, is no glTF 2.0 or says more than it holds; if it has no such mesh or animation, or several and none was
-/// chosen; if the animation does not move the mesh; if a number is not finite, or a vertex names a joint or a vertex that does not exist. The message
-/// names the file, and the node, channel or vertex.
+/// If a file cannot be read, is no glTF 2.0 or declares more than it holds; if it has no such node or animation, or several; if it requires an
+/// extension that changes shapes; if a number is not finite, or a vertex names a joint or a vertex that does not exist. The message names the
+/// file, and the node, channel or vertex.
 pub fn read(path: &Path, choice: &Choice<'_>) -> Result<Figure, AnimationError> {
     let bytes = std::fs::read(path).map_err(|error| AnimationError::of(path, FileProblem::from_read(error).into()))?;
     read_bytes(&bytes, path, choice)
@@ -57,12 +61,13 @@ pub fn read(path: &Path, choice: &Choice<'_>) -> Result<Figure, AnimationError> 
 /// # Errors
 /// Those of [`read`].
 pub fn read_bytes(bytes: &[u8], path: &Path, choice: &Choice<'_>) -> Result<Figure, AnimationError> {
-    #[cfg(any(feature = "gltf", test))]
-    let read = gltf::parse(bytes, path, choice);
-    #[cfg(not(any(feature = "gltf", test)))]
-    let read = {
-        let _ = (bytes, choice);
-        Err(AnimationProblem::NotBuiltIn)
-    };
-    read.map_err(|problem| AnimationError::of(path, problem))
+    parse(bytes, path, choice).map_err(|problem| AnimationError::of(path, problem))
+}
+
+#[cfg(any(feature = "gltf", test))]
+pub(crate) use gltf::parse;
+
+#[cfg(not(any(feature = "gltf", test)))]
+pub(crate) fn parse(_bytes: &[u8], _path: &Path, _choice: &Choice<'_>) -> Result<Figure, AnimationProblem> {
+    Err(AnimationProblem::NotBuiltIn)
 }

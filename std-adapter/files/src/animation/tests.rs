@@ -1,6 +1,6 @@
 //! What the reader of figures promises.
 
-use super::figure::{Local, Node, Shape, Skin};
+use super::figure::{Local, Node, Part, Shape, Skin};
 use super::track::{Interpolation, Property, Track};
 use super::*;
 use base64::Engine;
@@ -129,7 +129,14 @@ fn vertices_go_with_their_joints_and_their_morph_targets_and_rest_before_and_aft
 #[test]
 fn a_figure_is_chosen_by_the_name_of_its_node_or_its_mesh() {
     let text = text(|text| text);
-    let choose = |node, animation| read_text(&text, &Choice { node, animation }).map(|figure| figure.fingerprint());
+    let choose = |node, animation| {
+        let choice = Choice {
+            node,
+            animation,
+            at_rest: false,
+        };
+        read_text(&text, &choice).map(|figure| figure.fingerprint())
+    };
     let only = choose(None, None).unwrap();
     assert_eq!(choose(Some("strip"), Some("bend")).unwrap(), only);
     assert_eq!(choose(Some("ribbon"), None).unwrap(), only);
@@ -212,11 +219,6 @@ fn files_that_are_wrong_or_lie_are_refused_with_the_place_named() {
             r#""path":"scale""#,
             "channel 0 of the animation (Scale of 'upper'), values: are of type Vec4",
         ),
-        (
-            r#""children":[1]"#,
-            r#""children":[1],"mesh":0"#,
-            "2 nodes have a mesh; say with `node` which is meant: 'root', 'strip'",
-        ),
         (r#","mesh":0,"skin":0"#, "", "no node of the file has a mesh"),
         (
             r#"{"name":"upper","#,
@@ -224,14 +226,19 @@ fn files_that_are_wrong_or_lie_are_refused_with_the_place_named() {
             "is not a valid glTF 2.0 file: node ",
         ),
         (
-            r#""indices":7"#,
-            r#""indices":7,"mode":1"#,
-            "primitive 0 of the mesh: is of Lines, but must be of triangles",
+            r#"{"asset""#,
+            r#"{"extensionsRequired":["KHR_draco_mesh_compression"],"asset""#,
+            "it requires the extension 'KHR_draco_mesh_compression', which is not read; decompress it: `npx gltf-pipeline",
         ),
         (
             r#"{"asset""#,
-            r#"{"extensionsRequired":["KHR_draco_mesh_compression"],"asset""#,
-            "is not a valid glTF 2.0 file: ",
+            r#"{"extensionsRequired":["EXT_meshopt_compression"],"asset""#,
+            "it requires the extension 'EXT_meshopt_compression', which is not read; decompress it: `gltfpack",
+        ),
+        (
+            r#"{"asset""#,
+            r#"{"extensionsRequired":["KHR_lights_punctual","OWN_shapes"],"asset""#,
+            "it requires the extension 'OWN_shapes', which is not read; export it without",
         ),
         (
             r#""translation":[0,1,0]"#,
@@ -253,18 +260,153 @@ fn files_that_are_wrong_or_lie_are_refused_with_the_place_named() {
             "{found}\nis not\n{expected}"
         );
     }
-    // An animation of something else, and none.
+}
+
+#[test]
+fn a_figure_without_an_animation_of_its_own_rests() {
     let text = text(|text| text);
-    let begin = text.find(r#""channels":["#).unwrap();
-    let end = begin + text[begin..].find("}]").unwrap() + 2;
-    let without = [&text[..begin], r#""channels":[]"#, &text[end..]].concat();
-    let found = read_text(&without, &Choice::default()).unwrap_err().to_string();
-    assert!(found.contains("does not move 'strip'"), "{found}");
-    let begin = text.find(r#""animations""#).unwrap();
-    let end = text.find(r#""accessors""#).unwrap();
-    let without = [&text[..begin], &text[end..]].concat();
-    let error = read_text(&without, &Choice::default()).unwrap_err();
-    assert!(matches!(error.problem, AnimationProblem::NoAnimation), "{error}");
+    let between = |from: &str, to: &str, by: &str| {
+        let begin = text.find(from).unwrap();
+        let end = begin + text[begin..].find(to).unwrap();
+        [&text[..begin], by, &text[end..]].concat()
+    };
+    let moving = read_text(&text, &Choice::default()).unwrap();
+    for still in [
+        between(r#""animations""#, r#""accessors""#, ""),
+        between(r#""channels":["#, r#"}],"#, r#""channels":["#).replacen(r#""channels":[}],"#, r#""channels":[]}],"#, 1),
+    ] {
+        let figure = read_text(&still, &Choice::default()).unwrap();
+        assert_eq!((figure.span(), figure.key_times()), ([0.0; 2], vec![0.0]));
+        assert_eq!(figure.mesh(), moving.mesh());
+    }
+    let choice = Choice {
+        at_rest: true,
+        ..Choice::default()
+    };
+    assert_eq!(read_text(&text, &choice).unwrap().span(), [0.0; 2]);
+    let file = crate::mesh::read_bytes(text.as_bytes(), crate::mesh::FileFormat::Gltf).unwrap();
+    assert_eq!(&file.mesh, moving.mesh());
+}
+
+#[test]
+fn looks_and_other_channels_are_ignored_even_where_they_are_required() {
+    let text = text(|text| text);
+    let plain = read_text(&text, &Choice::default()).unwrap();
+    for (passage, by) in [
+        (
+            r#"{"asset""#,
+            r#"{"extensionsRequired":["KHR_materials_unlit","KHR_texture_transform","KHR_lights_punctual","KHR_mesh_quantization"],"asset""#,
+        ),
+        (
+            r#"{"asset""#,
+            r#"{"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":77}}}],"images":[{"uri":7}],"asset""#,
+        ),
+        (
+            r#"{"POSITION":0"#,
+            r#"{"TEXCOORD_0":55,"COLOR_9":1,"Custom":3,"_OWN":2,"NORMAL":44,"POSITION":0"#,
+        ),
+        (r#""targets":[{"#, r#""material":9,"targets":[{"NORMAL":66,"#),
+        (
+            r#""channels":["#,
+            r#""channels":[{"sampler":1,"target":{"path":"pointer","extensions":{"KHR_animation_pointer":{"pointer":"/materials/0"}}}},"#,
+        ),
+        (r#","min":[0,0,0],"max":[1,2,0]"#, ""),
+        (
+            r#""name":"root","#,
+            r#""name":"root","camera":8,"extensions":{"KHR_lights_punctual":{"light":3}},"#,
+        ),
+        (
+            r#""targets":[{"POSITION":5}]}"#,
+            r#""targets":[{"POSITION":5}]},{"attributes":{"POSITION":0},"mode":0}"#,
+        ),
+    ] {
+        assert!(text.contains(passage), "{passage}");
+        let figure = read_text(&text.replacen(passage, by, 1), &Choice::default()).unwrap();
+        assert_eq!((at(&figure, 1.7), figure.mesh()), (at(&plain, 1.7), plain.mesh()), "{by}");
+        let said: Vec<String> = figure.left_out().iter().map(ToString::to_string).collect();
+        match by {
+            by if by.contains("pointer") => assert_eq!(said, ["1 channel 'of something other than nodes'"]),
+            by if by.contains("mode") => assert_eq!(said, ["1 primitive 'Points'"]),
+            _ => assert!(said.is_empty(), "{said:?}"),
+        }
+    }
+}
+
+#[test]
+fn strips_fans_and_accessors_without_bytes_are_read() {
+    let text = text(|text| text);
+    let triangles = |by: &str| {
+        let figure = read_text(&text.replacen(r#""indices":7"#, by, 1), &Choice::default()).unwrap();
+        figure.mesh().triangles.clone()
+    };
+    // The indices are 0 1 2 1 3 2.
+    assert_eq!(triangles(r#""mode":5"#), [[0, 1, 2], [2, 1, 3]]);
+    assert_eq!(triangles(r#""mode":6"#), [[0, 1, 2], [0, 2, 3]]);
+    assert_eq!(triangles(r#""indices":7,"mode":5"#), [[0, 1, 2], [2, 1, 3], [3, 1, 2]]);
+    let sparse = r#""sparse":{"count":1,"indices":{"bufferView":8,"componentType":5121},"values":{"bufferView":0}}"#;
+    let replaced = text.replacen(
+        r#"{"bufferView":0,"componentType":5126,"type":"VEC3","count":4"#,
+        &format!(r#"{{{sparse},"componentType":5126,"type":"VEC3","count":4"#),
+        1,
+    );
+    let figure = read_text(
+        &replaced,
+        &Choice {
+            at_rest: true,
+            ..Choice::default()
+        },
+    )
+    .unwrap();
+    assert_near(&figure.mesh().positions, &[[0.0; 3]; 4]);
+}
+
+/// Two nodes with the strip's mesh, one below the other.
+#[test]
+fn all_nodes_of_the_scene_are_one_figure_and_one_is_chosen_by_its_path() {
+    let text = text(|text| text);
+    let two = text.replacen(r#"{"name":"upper","#, r#"{"name":"upper","children":[3],"#, 1);
+    let two = two.replacen(
+        r#""skin":0}]"#,
+        r#""skin":0},{"name":"strip","mesh":0,"translation":[5,0,0]},{"name":"unseen","mesh":0}]"#,
+        1,
+    );
+    let all = read_text(&two, &Choice::default()).unwrap();
+    assert_eq!(
+        (all.mesh().positions.len(), all.mesh().triangles[2..].to_vec()),
+        (8, vec![[4, 5, 6], [5, 7, 6]])
+    );
+    let choose = |node| {
+        let choice = Choice {
+            node: Some(node),
+            ..Choice::default()
+        };
+        read_text(&two, &choice)
+    };
+    assert_eq!(
+        choose("root/upper/strip").unwrap().mesh().positions,
+        all.mesh().positions[4..]
+    );
+    assert_eq!(choose("unseen").unwrap().mesh().positions.len(), 4);
+    let message = choose("strip").unwrap_err().to_string();
+    assert_eq!(
+        message,
+        "strip.gltf: 2 nodes of this name have a mesh; name one by its path: 'strip', 'root/upper/strip'"
+    );
+    // The lower node turns with the joint, and its vertices are scaled last.
+    assert_near(&at(&all.clone().scaled(2.0), 2.0)[4..5], &[[0.0, 12.0, 0.0]]);
+}
+
+/// One animation moves the joint from 1 to 2 s and the weights from 0 to 1 s, which another figure would not have.
+#[test]
+fn all_nodes_of_an_animation_share_its_clock() {
+    let text = text(|text| text);
+    // Rotations alone, from 1 s on; the times of weights are the weights: 0 and 1.
+    let shifted = text.replacen(r#"{"input":3,"output":6}"#, r#"{"input":6,"output":6}"#, 1);
+    let figure = read_text(&shifted, &Choice::default()).unwrap();
+    assert_eq!((figure.span(), figure.key_times()), ([0.0, 2.0], vec![0.0, 1.0, 2.0]));
+    let without_weights = shifted.replacen(r#""targets":[{"POSITION":5}]"#, r#""targets":[]"#, 1);
+    let figure = read_text(&without_weights, &Choice::default()).unwrap();
+    assert_eq!((figure.span(), figure.key_times()), ([0.0, 2.0], vec![0.0, 1.0, 2.0]));
 }
 
 #[test]
@@ -340,18 +482,23 @@ fn turning(interpolation: Interpolation, values: Vec<f64>) -> Figure {
             values,
             width: 4,
         }],
-        rest: vec![DVec3::X],
-        targets: Vec::new(),
-        node: 0,
-        skin: Some(Skin {
-            joints: vec![(0, DAffine3::IDENTITY)],
-            ends: vec![1],
-            influences: vec![(0, 1.0)],
-        }),
+        parts: vec![Part {
+            rest: vec![DVec3::X],
+            targets: Vec::new(),
+            node: 0,
+            skin: Some(Skin {
+                joints: vec![(0, DAffine3::IDENTITY)],
+                ends: vec![1],
+                influences: vec![(0, 1.0)],
+            }),
+        }],
+        span: [0.0, 1.0],
+        scale: 1.0,
     };
     Figure {
         mesh: Default::default(),
         shape,
+        left_out: Vec::new(),
         fingerprint: 0,
     }
 }

@@ -28,6 +28,7 @@ pub(super) enum Interpolation {
 /// One property of one node, on keys.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Track {
+    /// The node, or the part of the figure whose weights change.
     pub(super) node: usize,
     pub(super) property: Property,
     pub(super) interpolation: Interpolation,

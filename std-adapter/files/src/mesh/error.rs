@@ -2,6 +2,7 @@
 
 use super::parsed::Parsed;
 use super::sequence::SequenceProblem;
+use crate::animation::AnimationProblem;
 use crate::excerpt::excerpt;
 use selvedge::TopologyError;
 use std::fmt;
@@ -64,7 +65,7 @@ pub enum FileProblem {
     #[error("the file is empty")]
     Empty,
     /// The extension names no format.
-    #[error("the file's extension must be .obj, .ply, .stl or .off")]
+    #[error("the file's extension must be .obj, .ply, .stl, .off, .gltf or .glb")]
     UnknownExtension,
     /// The system could not read the file.
     #[error("cannot be read: {0}")]
@@ -79,7 +80,7 @@ pub enum FileProblem {
     #[error("not all of the file can be read: {0}; export it as plain triangles")]
     Incomplete(String),
     /// One group is wanted of a format that has none.
-    #[error("this kind of file has no groups; only OBJ files can be read in part")]
+    #[error("this kind of file has no groups; only OBJ and glTF files can be read in part")]
     NoGroups,
     /// The file has no group or object of that name.
     #[error("there is no group or object '{}'; {}", excerpt(name, 40), Choices(choices))]
@@ -170,6 +171,9 @@ pub enum FileProblem {
         /// How many vertices it has.
         corners: usize,
     },
+    /// A problem of a glTF file.
+    #[error(transparent)]
+    Figure(Box<AnimationProblem>),
     /// The triangles have no topology: there are none, or too many.
     #[error(transparent)]
     Topology(#[from] TopologyError),

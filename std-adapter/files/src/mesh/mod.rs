@@ -8,6 +8,7 @@
 
 mod error;
 mod findings;
+mod gltf;
 mod notes;
 mod obj;
 mod off;
@@ -46,18 +47,23 @@ pub enum FileFormat {
     Stl,
     /// OFF, text. It is read, not written.
     Off,
+    /// glTF, text or binary (`.glb`): the meshes of the whole scene, at rest. It is read, not written, and needs the feature `gltf`. For
+    /// animations see [`animation`](crate::animation).
+    Gltf,
 }
 
 impl FileFormat {
-    /// The format that the extension of `path` names, in capitals or not: `.obj`, `.stl`, `.off`, or `.ply`, which
-    /// is written as binary, little endian.
+    /// The format that the extension of `path` names, in capitals or not: `.obj`, `.stl`, `.off`, `.gltf`, `.glb`, or `.ply`,
+    /// which is written as binary, little endian.
     #[must_use]
     pub fn from_path(path: &Path) -> Option<Self> {
-        const FORMATS: [(&str, FileFormat); 4] = [
+        const FORMATS: [(&str, FileFormat); 6] = [
             ("obj", FileFormat::Obj),
             ("ply", FileFormat::Ply(PlyEncoding::LittleEndian)),
             ("stl", FileFormat::Stl),
             ("off", FileFormat::Off),
+            ("gltf", FileFormat::Gltf),
+            ("glb", FileFormat::Gltf),
         ];
         let extension = path.extension()?.to_str()?;
         let format = FORMATS.iter().find(|(name, _)| extension.eq_ignore_ascii_case(name));
@@ -245,7 +251,8 @@ pub fn write_bytes(mesh: &Mesh, format: FileFormat) -> Result<Vec<u8>, FileProbl
 pub struct ReadOptions<'a> {
     /// Edges and points that belong to no triangle, besides triangles. See [`read_with_loose_features`].
     pub loose_features: bool,
-    /// The group or object of an OBJ file whose faces are wanted; `None`: all. Vertices keep their numbers in the file.
+    /// The group or object of an OBJ file whose faces are wanted, or the node of a glTF file; `None`: all. Vertices of OBJ files keep their
+    /// numbers.
     pub only: Option<&'a str>,
     /// The distance up to which vertices become one, in the file's unit, 0 for equal positions alone: triangles, edges and points name the
     /// lowest-numbered vertex instead of the others, which stay as unused vertices, so that all keep their numbers. `None`: nothing is merged.
@@ -259,10 +266,15 @@ fn load(path: &Path, options: &ReadOptions<'_>) -> Result<Parsed, FileProblem> {
     }
     let format = FileFormat::from_path(path).ok_or(FileProblem::UnknownExtension)?;
     let bytes = std::fs::read(path).map_err(FileProblem::from_read)?;
-    parse(&bytes, format, options)
+    parse_at(&bytes, path, format, options)
 }
 
 fn parse(bytes: &[u8], format: FileFormat, options: &ReadOptions<'_>) -> Result<Parsed, FileProblem> {
+    parse_at(bytes, Path::new(""), format, options)
+}
+
+/// Parses a file; the path is where it looks for others.
+fn parse_at(bytes: &[u8], path: &Path, format: FileFormat, options: &ReadOptions<'_>) -> Result<Parsed, FileProblem> {
     if bytes.is_empty() {
         return Err(FileProblem::Empty);
     }
@@ -271,6 +283,7 @@ fn parse(bytes: &[u8], format: FileFormat, options: &ReadOptions<'_>) -> Result<
         FileFormat::Ply(_) => ply::parse(bytes, options),
         FileFormat::Stl => stl::parse(bytes, options),
         FileFormat::Off => off::parse(bytes, options),
+        FileFormat::Gltf => gltf::parse(bytes, path, options),
     }
     .map(|parsed| Parsed {
         weld: options.weld,
@@ -339,7 +352,7 @@ fn write_to(out: &mut impl Write, mesh: &Mesh, loose_edges: &[[u32; 2]], format:
     match format {
         FileFormat::Obj => obj::write(out, mesh, loose_edges),
         FileFormat::Ply(encoding) => ply::write(out, mesh, loose_edges, encoding),
-        FileFormat::Stl | FileFormat::Off => Err(io::Error::new(
+        FileFormat::Stl | FileFormat::Off | FileFormat::Gltf => Err(io::Error::new(
             io::ErrorKind::Unsupported,
             "this format is only read; name the file .obj or .ply",
         )),

@@ -36,7 +36,7 @@ fn bytes_of(mesh: &Mesh, format: FileFormat) -> Vec<u8> {
     match format {
         FileFormat::Obj => obj::write(&mut bytes, mesh, &[]).unwrap(),
         FileFormat::Ply(encoding) => ply::write(&mut bytes, mesh, &[], encoding).unwrap(),
-        FileFormat::Stl | FileFormat::Off => unreachable!("only read"),
+        FileFormat::Stl | FileFormat::Off | FileFormat::Gltf => unreachable!("only read"),
     }
     bytes
 }
@@ -383,7 +383,10 @@ fn paths_that_are_no_mesh_file_are_refused_by_name() {
     for (name, expected) in [
         ("none.obj", "there is no such file"),
         ("folder.obj", "this is a folder; name a mesh file in it"),
-        ("mesh.step", "the file's extension must be .obj, .ply, .stl or .off"),
+        (
+            "mesh.step",
+            "the file's extension must be .obj, .ply, .stl, .off, .gltf or .glb",
+        ),
         ("empty.ply", "the file is empty"),
     ] {
         let error = read(&at(name)).unwrap_err().to_string();
@@ -547,7 +550,10 @@ fn one_group_or_object_alone_can_be_read() {
     let ply = read_bytes_with(&bytes_of(&triangle(), PLY), PLY, &options)
         .unwrap_err()
         .to_string();
-    assert_eq!(ply, "this kind of file has no groups; only OBJ files can be read in part");
+    assert_eq!(
+        ply,
+        "this kind of file has no groups; only OBJ and glTF files can be read in part"
+    );
 }
 
 #[test]

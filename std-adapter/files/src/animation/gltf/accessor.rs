@@ -41,9 +41,11 @@ impl<'a> File<'a> {
                 let run = self.run(&view, accessor.offset(), view.stride(), accessor.size(), accessor.count());
                 read(run.map_err(wrong)?, accessor.count(), data, width)
             }
-            // Zeros: as many as somebody else has said and has the bytes for.
-            None if count.is_some() => vec![0.0; accessor.count() * width],
-            None => return Err(wrong("have no bytes in the file".to_owned())),
+            // Zeros: as many as something else has the bytes for, or the whole file.
+            None if count.is_some() || accessor.count() <= self.buffers.iter().map(Vec::len).sum() => {
+                vec![0.0; accessor.count() * width]
+            }
+            None => return Err(wrong(format!("are {} zeros, more than the file has bytes", accessor.count()))),
         };
         if let Some(sparse) = accessor.sparse() {
             let (indices, values) = (sparse.indices(), sparse.values());

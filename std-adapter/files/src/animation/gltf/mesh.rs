@@ -2,7 +2,7 @@
 
 use super::{File, wrong};
 use crate::animation::error::AnimationProblem;
-use crate::mesh::FileProblem;
+use crate::mesh::{FilePart, FileProblem, LeftOut};
 use gltf::accessor::Dimensions;
 use gltf::mesh::{Mode, Primitive, Semantic};
 use selvedge_core::glam::DVec3;
@@ -24,13 +24,19 @@ impl<'a> File<'a> {
         primitive: &Primitive<'a>,
         skin: Option<&gltf::Skin<'a>>,
         parts: &mut Parts,
+        left_out: &mut Vec<LeftOut>,
     ) -> Result<(), AnimationProblem> {
         let what = format!("primitive {} of the mesh", primitive.index());
-        if primitive.mode() != Mode::Triangles {
-            return Err(wrong(
-                &what,
-                format!("is of {:?}, but must be of triangles", primitive.mode()),
-            ));
+        let mode = primitive.mode();
+        if !matches!(mode, Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
+            left_out.push(LeftOut {
+                part: FilePart::Primitive,
+                name: format!("{mode:?}"),
+                count: 1,
+                line: None,
+                may_have_area: false,
+            });
+            return Ok(());
         }
         let positions = primitive
             .get(&Semantic::Positions)
@@ -41,25 +47,26 @@ impl<'a> File<'a> {
             None => (0..count as u32).map(f64::from).collect(),
             Some(indices) => self.numbers(&indices, Dimensions::Scalar, None, &format!("{what}, indices"))?,
         };
-        if indices.len() % 3 != 0 {
+        if mode == Mode::Triangles && indices.len() % 3 != 0 {
             return Err(wrong(&what, format!("has {} indices, no multiple of three", indices.len())));
         }
-        for (face, corners) in indices.chunks_exact(3).enumerate() {
-            if let Some(&vertex) = corners.iter().find(|&&vertex| vertex >= count as f64) {
-                let problem = FileProblem::IndexOutOfRange {
-                    line: None,
-                    face: parts.triangles.len() + face,
-                    vertex: vertex as i64,
-                    first: 0,
-                    vertex_count: count,
-                };
-                return Err(problem.into());
-            }
+        if let Some(place) = indices.iter().position(|&vertex| vertex >= count as f64) {
+            let problem = FileProblem::IndexOutOfRange {
+                line: None,
+                face: parts.triangles.len()
+                    + if mode == Mode::Triangles {
+                        place / 3
+                    } else {
+                        place.saturating_sub(2)
+                    },
+                vertex: indices[place] as i64,
+                first: 0,
+                vertex_count: count,
+            };
+            return Err(problem.into());
         }
-        let corners = indices
-            .chunks_exact(3)
-            .map(|t| [t[0], t[1], t[2]].map(|vertex| first as u32 + vertex as u32));
-        parts.triangles.extend(corners);
+        let indices: Vec<u32> = indices.iter().map(|&vertex| first as u32 + vertex as u32).collect();
+        push_triangles(mode, &indices, &mut parts.triangles);
         let targets: Vec<_> = primitive.morph_targets().collect();
         if first > 0 && targets.len() != parts.targets.len() {
             return Err(wrong(&what, "has another number of morph targets than the first"));
@@ -130,5 +137,24 @@ impl<'a> File<'a> {
             parts.ends.push(parts.influences.len() as u32);
         }
         Ok(())
+    }
+}
+
+/// Appends the triangles of a list, a strip or a fan of vertices. Those of a strip or fan that name a vertex twice only join two parts.
+fn push_triangles(mode: Mode, indices: &[u32], triangles: &mut Vec<[u32; 3]>) {
+    let is_proper = |[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
+    match mode {
+        Mode::TriangleStrip => {
+            let turned = |(k, corners): (usize, &[u32])| match k % 2 {
+                0 => [corners[0], corners[1], corners[2]],
+                _ => [corners[1], corners[0], corners[2]],
+            };
+            triangles.extend(indices.windows(3).enumerate().map(turned).filter(is_proper));
+        }
+        Mode::TriangleFan => {
+            let pairs = indices.windows(2).skip(1);
+            triangles.extend(pairs.map(|pair| [indices[0], pair[0], pair[1]]).filter(is_proper));
+        }
+        _ => triangles.extend(indices.chunks_exact(3).map(|corners| [corners[0], corners[1], corners[2]])),
     }
 }

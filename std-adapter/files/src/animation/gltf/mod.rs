@@ -4,6 +4,7 @@
 mod accessor;
 mod buffers;
 mod choose;
+mod lenient;
 mod mesh;
 mod skeleton;
 mod tracks;
@@ -11,21 +12,31 @@ mod trusted;
 
 use super::Choice;
 use super::error::AnimationProblem;
-use super::figure::{Figure, Shape, Skin, Target};
+use super::figure::{Figure, Part, Shape, Skin, Target};
 use crate::bytes::Fingerprint;
-use crate::mesh::{FileProblem, check_finite};
+use crate::mesh::{FileProblem, LeftOut, check_finite};
 use mesh::Parts;
 use selvedge::Mesh;
+use std::borrow::Cow;
 use std::path::Path;
 
-pub(super) fn parse(bytes: &[u8], path: &Path, choice: &Choice<'_>) -> Result<Figure, AnimationProblem> {
+pub(crate) fn parse(bytes: &[u8], path: &Path, choice: &Choice<'_>) -> Result<Figure, AnimationProblem> {
     if bytes.is_empty() {
         return Err(FileProblem::Empty.into());
     }
     trusted::check_length(bytes)?;
     let invalid = |error: gltf::Error| AnimationProblem::NotGltf(error.to_string());
-    let gltf::Gltf { document, blob } = gltf::Gltf::from_slice_without_validation(bytes).map_err(invalid)?;
-    let root = document.into_json();
+    let not_json = |error: serde_json::Error| AnimationProblem::NotGltf(error.to_string());
+    let (json, blob) = if bytes.starts_with(b"glTF") {
+        let glb = gltf::binary::Glb::from_slice(bytes).map_err(invalid)?;
+        (glb.json, glb.bin.map(Cow::into_owned))
+    } else {
+        let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        (Cow::Borrowed(text), None)
+    };
+    let mut root: serde_json::Value = serde_json::from_slice(&json).map_err(not_json)?;
+    let mut left_out = lenient::reduce(&mut root)?;
+    let root: gltf::json::Root = serde_json::from_value(root).map_err(not_json)?;
     trusted::check_indices(&root)?;
     let document = gltf::Document::from_json(root).map_err(invalid)?;
     let buffers = buffers::read(&document, blob, path)?;
@@ -37,17 +48,19 @@ pub(super) fn parse(bytes: &[u8], path: &Path, choice: &Choice<'_>) -> Result<Fi
         document: &document,
         buffers: &buffers,
     };
-    let node = file.choose_node(choice.node)?;
-    let animation = file.choose_animation(choice.animation)?;
-    fingerprint.take(&node.index().to_le_bytes());
-    fingerprint.take(&animation.index().to_le_bytes());
-    let (shape, triangles) = file.shape(&node, &animation)?;
+    let nodes = file.choose_nodes(choice.node)?;
+    let animation = file.choose_animation(choice)?;
+    nodes.iter().for_each(|node| fingerprint.take(&node.index().to_le_bytes()));
+    let number = animation.as_ref().map_or(usize::MAX, gltf::Animation::index);
+    fingerprint.take(&number.to_le_bytes());
+    let (shape, triangles) = file.shape(&nodes, animation.as_ref(), &mut left_out)?;
     let mut figure = Figure {
         mesh: Mesh {
             positions: Vec::new(),
             triangles,
         },
         shape,
+        left_out,
         fingerprint: fingerprint.value(),
     };
     let [first, _] = figure.span();
@@ -59,7 +72,7 @@ pub(super) fn parse(bytes: &[u8], path: &Path, choice: &Choice<'_>) -> Result<Fi
     Ok(figure)
 }
 
-/// A file that is looked into, with all its bytes.
+/// A file with all its bytes.
 struct File<'a> {
     document: &'a gltf::Document,
     nodes: Vec<gltf::Node<'a>>,
@@ -67,62 +80,84 @@ struct File<'a> {
 }
 
 impl<'a> File<'a> {
-    fn shape(&self, node: &gltf::Node<'a>, animation: &gltf::Animation<'a>) -> Result<(Shape, Vec<[u32; 3]>), AnimationProblem> {
+    fn shape(
+        &self,
+        wanted: &[gltf::Node<'a>],
+        animation: Option<&gltf::Animation<'a>>,
+        left_out: &mut Vec<LeftOut>,
+    ) -> Result<(Shape, Vec<[u32; 3]>), AnimationProblem> {
+        let mut needed: Vec<usize> = wanted.iter().map(gltf::Node::index).collect();
+        let skins = wanted.iter().filter_map(gltf::Node::skin);
+        needed.extend(skins.flat_map(|skin| skin.joints().map(|joint| joint.index()).collect::<Vec<_>>()));
+        let (nodes, places) = self.skeleton(needed)?;
+        let (mut triangles, mut parts, mut first) = (Vec::new(), Vec::new(), 0);
+        for node in wanted {
+            let mut read = Parts::default();
+            let part = self.part(node, &places, &mut read, left_out)?;
+            triangles.extend(read.triangles.iter().map(|corners| corners.map(|vertex| vertex + first)));
+            first += part.rest.len() as u32;
+            parts.push(part);
+        }
+        let mut shape = Shape {
+            nodes,
+            tracks: Vec::new(),
+            parts,
+            span: [0.0; 2],
+            scale: 1.0,
+        };
+        if let Some(animation) = animation {
+            let targets = wanted
+                .iter()
+                .zip(&shape.parts)
+                .map(|(node, part)| (node.index(), part.targets.len()));
+            shape.tracks = self.tracks(animation, &targets.collect::<Vec<_>>(), &places)?;
+            shape.span = self.span(animation)?;
+        }
+        Ok((shape, triangles))
+    }
+
+    /// Reads the mesh of one node.
+    fn part(
+        &self,
+        node: &gltf::Node<'a>,
+        places: &[Option<usize>],
+        parts: &mut Parts,
+        left_out: &mut Vec<LeftOut>,
+    ) -> Result<Part, AnimationProblem> {
         let Some(mesh) = node.mesh() else {
             return Err(AnimationProblem::NoMesh);
         };
-        let mut parts = Parts::default();
         let skin = node.skin();
         for primitive in mesh.primitives() {
-            self.add(&primitive, skin.as_ref(), &mut parts)?;
+            self.add(&primitive, skin.as_ref(), parts, left_out)?;
         }
         let weights = node.weights().or(mesh.weights()).unwrap_or_default();
         if !weights.iter().all(|weight| weight.is_finite()) {
             return Err(wrong("the weights of the morph targets", "one is not finite"));
         }
-        let targets = parts.targets.into_iter().enumerate().map(|(index, moves)| Target {
+        let targets = std::mem::take(&mut parts.targets).into_iter().enumerate();
+        let targets = targets.map(|(index, moves)| Target {
             weight: weights.get(index).map_or(0.0, |&weight| f64::from(weight)),
             moves,
         });
-        let targets: Vec<Target> = targets.collect();
-        let joints: Vec<usize> = skin
-            .iter()
-            .flat_map(|skin| skin.joints())
-            .map(|joint| joint.index())
-            .collect();
-        let (nodes, places) = self.skeleton(if joints.is_empty() {
-            vec![node.index()]
-        } else {
-            joints.clone()
-        })?;
         let skin = match &skin {
             None => None,
             Some(skin) => Some(Skin {
-                joints: self.joints(skin, &joints, &places)?,
-                ends: parts.ends,
-                influences: parts.influences,
+                joints: self.joints(skin, places)?,
+                ends: std::mem::take(&mut parts.ends),
+                influences: std::mem::take(&mut parts.influences),
             }),
         };
-        let tracks = self.tracks(animation, node.index(), targets.len(), &places)?;
-        if tracks.is_empty() {
-            return Err(AnimationProblem::NothingMoves {
-                animation: short(animation.name().unwrap_or("without a name")),
-                node: short(&label(node)),
-            });
-        }
-        let shape = Shape {
-            nodes,
-            tracks,
-            rest: parts.positions,
-            targets,
+        Ok(Part {
+            targets: targets.collect(),
+            rest: std::mem::take(&mut parts.positions),
             node: places[node.index()].unwrap_or_default(),
             skin,
-        };
-        Ok((shape, parts.triangles))
+        })
     }
 }
 
-/// Numbers that are not as they should be, of whom.
+/// Numbers that are wrong, and whose they are.
 fn wrong(what: &str, reason: impl Into<String>) -> AnimationProblem {
     AnimationProblem::Values {
         what: what.to_owned(),

@@ -46,9 +46,9 @@ impl<'a> File<'a> {
     pub(super) fn joints(
         &self,
         skin: &gltf::Skin<'a>,
-        joints: &[usize],
         places: &[Option<usize>],
     ) -> Result<Vec<(usize, DAffine3)>, AnimationProblem> {
+        let joints: Vec<usize> = skin.joints().map(|joint| joint.index()).collect();
         let inverses = match skin.inverse_bind_matrices() {
             None => vec![DAffine3::IDENTITY; joints.len()],
             Some(accessor) => {

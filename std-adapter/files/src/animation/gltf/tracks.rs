@@ -8,18 +8,47 @@ use gltf::scene::Transform;
 use selvedge_core::glam::DQuat;
 
 impl<'a> File<'a> {
-    /// The channels that move one of the nodes that are there, or the weights of the mesh's node.
+    /// The times of the first and the last key of an animation, whatever it moves.
+    pub(super) fn span(&self, animation: &gltf::Animation<'a>) -> Result<[f64; 2], AnimationProblem> {
+        let mut span: Option<[f64; 2]> = None;
+        for (index, channel) in animation.channels().enumerate() {
+            let times = self.times(&channel, &format!("channel {index} of the animation"))?;
+            let [first, last] = [times[0], times[times.len() - 1]];
+            span = Some(span.map_or([first, last], |[low, high]| [low.min(first), high.max(last)]));
+        }
+        Ok(span.unwrap_or_default())
+    }
+
+    /// The times of a channel's keys, one or more.
+    fn times(&self, channel: &gltf::animation::Channel<'a>, what: &str) -> Result<Vec<f64>, AnimationProblem> {
+        let times = self.numbers(
+            &channel.sampler().input(),
+            Dimensions::Scalar,
+            None,
+            &format!("{what}, times"),
+        )?;
+        if times.is_empty() || times[0] < 0.0 || !times.is_sorted_by(|a, b| a < b) {
+            return Err(wrong(
+                what,
+                "its times must be zero or more, each later than the one before, and one at least",
+            ));
+        }
+        Ok(times)
+    }
+
+    /// The channels that move one of the nodes in `places`, or the weights of one of `parts`: nodes with their numbers of morph targets.
     pub(super) fn tracks(
         &self,
         animation: &gltf::Animation<'a>,
-        mesh_node: usize,
-        target_count: usize,
+        parts: &[(usize, usize)],
         places: &[Option<usize>],
     ) -> Result<Vec<Track>, AnimationProblem> {
         let mut tracks: Vec<Track> = Vec::new();
         for (index, channel) in animation.channels().enumerate() {
             let target = channel.target();
             let node = target.node();
+            let part = parts.iter().position(|&(own, targets)| own == node.index() && targets > 0);
+            let target_count = part.map_or(0, |part| parts[part].1);
             let (property, dimensions, width) = match target.property() {
                 gltf::animation::Property::Translation => (Property::Translation, Dimensions::Vec3, 3),
                 gltf::animation::Property::Rotation => (Property::Rotation, Dimensions::Vec4, 4),
@@ -27,13 +56,10 @@ impl<'a> File<'a> {
                 gltf::animation::Property::MorphTargetWeights => (Property::Weights, Dimensions::Scalar, target_count),
             };
             let place = match property {
-                Property::Weights if node.index() == mesh_node && target_count > 0 => 0,
-                Property::Weights => continue,
-                _ => match places[node.index()] {
-                    Some(place) => place,
-                    None => continue,
-                },
+                Property::Weights => part,
+                _ => places[node.index()],
             };
+            let Some(place) = place else { continue };
             let what = format!(
                 "channel {index} of the animation ({property:?} of '{}')",
                 short(&label(&node))
@@ -48,20 +74,14 @@ impl<'a> File<'a> {
                 return Err(wrong(&what, "there is another channel of the same"));
             }
             let sampler = channel.sampler();
-            let times = self.numbers(&sampler.input(), Dimensions::Scalar, None, &format!("{what}, times"))?;
-            let (interpolation, parts) = match sampler.interpolation() {
+            let times = self.times(&channel, &what)?;
+            let (interpolation, of_key) = match sampler.interpolation() {
                 gltf::animation::Interpolation::Step => (Interpolation::Step, 1),
                 gltf::animation::Interpolation::Linear => (Interpolation::Linear, 1),
                 gltf::animation::Interpolation::CubicSpline => (Interpolation::Cubic, 3),
             };
-            if times.is_empty() || times[0] < 0.0 || !times.is_sorted_by(|a, b| a < b) {
-                return Err(wrong(
-                    &what,
-                    "its times must be zero or more, each later than the one before, and one at least",
-                ));
-            }
             let each = if property == Property::Weights { width } else { 1 };
-            let count = times.len().saturating_mul(parts).saturating_mul(each);
+            let count = times.len().saturating_mul(of_key).saturating_mul(each);
             let mut values = self.numbers(&sampler.output(), dimensions, Some(count), &format!("{what}, values"))?;
             if property == Property::Rotation && interpolation != Interpolation::Cubic {
                 for (key, value) in values.chunks_exact_mut(4).enumerate() {

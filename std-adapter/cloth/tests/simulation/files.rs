@@ -1,0 +1,120 @@
+//! Meshes of files in scenes: their groups, units and seams, and figures that share an animation.
+
+use selvedge_cloth::{BodyMotion, Scene};
+use std::fs;
+use std::path::Path;
+use tempfile::TempDir;
+
+/// Two triangles of a square in centimetres with a split seam, each a group, and a small one apart from them.
+const SQUARE: &str = "v 0 0 0\nv 100 0 0\nv 100 100 0\nv 0 0 0\nv 100 100 1e-5\nv 0 100 0\nv 0 0 9\nv 50 0 9\nv 0 50 9\n\
+                      g lower\nf 1 2 3\ng upper\nf 4 5 6\ng pocket\nf 7 8 9\n";
+
+fn folder() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("square.obj"), SQUARE).unwrap();
+    folder
+}
+
+fn scene(folder: &TempDir, cloth: &str, bodies: &str) -> Result<Scene, String> {
+    let text = format!("time_step = 0.002\nduration = 1\n[cloth]\ndensity = 0.2\n{cloth}\n{bodies}\n[effects.gravity]\n");
+    let path = folder.path().join("scene.toml");
+    let found = |error: selvedge_cloth::SceneError| error.to_string().replace(&*folder.path().to_string_lossy(), "F");
+    Scene::parse(&text, Path::new(&path)).map_err(found)
+}
+
+#[test]
+fn a_file_is_read_in_its_unit_with_its_seams_merged_and_a_group_alone() {
+    let folder = folder();
+    let size = |keys: &str| {
+        let scene = scene(&folder, &format!("shape = \"file\"\nfile = \"square.obj\"\n{keys}"), "").unwrap();
+        let mesh = scene.cloths[0].mesh();
+        let far = mesh
+            .positions
+            .iter()
+            .map(|position| position.max_element())
+            .fold(0.0, f64::max);
+        (mesh.positions.len(), mesh.triangles.len(), far)
+    };
+    assert_eq!(size(""), (9, 3, 100.0));
+    assert_eq!(size("unit = \"cm\""), (9, 3, 1.0));
+    assert_eq!(size("unit = \"cm\"\nscale = 2"), (9, 3, 2.0));
+    // In metres: after it is scaled.
+    assert_eq!(size("unit = \"cm\"\nweld = 0"), (8, 3, 1.0));
+    assert_eq!(size("unit = \"cm\"\nweld = \"1 um\""), (7, 3, 1.0));
+    assert_eq!(size("unit = \"cm\"\ngroup = \"upper\""), (3, 1, 1.0));
+    assert_eq!(size("group = \"pocket\"\nweld = 0"), (3, 1, 50.0));
+
+    let refused = |keys: &str| scene(&folder, &format!("shape = \"file\"\nfile = \"square.obj\"\n{keys}"), "").unwrap_err();
+    let message = "F/scene.toml:7:9: F/square.obj: there is no group or object 'hood'; choose from 'lower', 'upper', 'pocket'";
+    assert_eq!(refused("group = \"hood\""), message);
+    assert!(refused("unit = \"yard\"").starts_with("F/scene.toml:7:8: `unit` cannot be 'yard'"));
+    assert!(refused("weld = \"1 m\"").starts_with("F/scene.toml:7:8: `weld` is 1 m, but must be from 0 m to"));
+    fs::write(folder.path().join("square.obj"), format!("{SQUARE}surf 0 1 0 1 1 2 3\n")).unwrap();
+    assert_eq!(
+        refused(""),
+        "F/scene.toml:6:8: F/square.obj: not all of the file can be read: 1 line 'surf' (line 16); export it as plain triangles"
+    );
+}
+
+/// A triangle that two nodes move along x by a metre, the one from 0 to 1 s, the other from 0.5 to 1.5 s.
+fn two_nodes(folder: &TempDir) {
+    let numbers: [f32; 19] = [
+        0., 0., 0., 1., 0., 0., 0., 1., 0., /* times */ 0., 1., 0.5, 1.5, /* x y z, twice */ 0., 0., 0., 1., 0., 0.,
+    ];
+    let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
+    fs::write(folder.path().join("two.bin"), bytes).unwrap();
+    let accessor = |offset: usize, kind: &str, count: usize| {
+        format!(r#"{{"bufferView":0,"byteOffset":{offset},"componentType":5126,"type":"{kind}","count":{count}}}"#)
+    };
+    let accessors = [
+        accessor(0, "VEC3", 3),
+        accessor(36, "SCALAR", 2),
+        accessor(44, "SCALAR", 2),
+        accessor(52, "VEC3", 2),
+    ];
+    let json = format!(
+        r#"{{"asset":{{"version":"2.0"}},"buffers":[{{"uri":"two.bin","byteLength":76}}],"bufferViews":[{{"buffer":0,"byteLength":76}}],
+"accessors":[{}],"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],"nodes":[{{"name":"A","mesh":0}},{{"name":"B","mesh":0}}],
+"animations":[{{"samplers":[{{"input":1,"output":3}},{{"input":2,"output":3}}],"channels":[{{"sampler":0,"target":{{"node":0,"path":"translation"}}}},
+{{"sampler":1,"target":{{"node":1,"path":"translation"}}}}]}}]}}"#,
+        accessors.join(",")
+    );
+    fs::write(folder.path().join("two.gltf"), json).unwrap();
+}
+
+#[test]
+fn nodes_of_one_animation_keep_one_clock() {
+    let folder = folder();
+    two_nodes(&folder);
+    let along = |keys: &str| {
+        let sheet = "shape = \"sheet\"\nsides = { first = [1, 0, 0], second = [0, 0, 1] }\ncells = [2, 2]";
+        let body = format!("[[body]]\nname = \"body\"\nshape = \"gltf\"\nfile = \"two.gltf\"\n{keys}");
+        let scene = scene(&folder, sheet, &body).unwrap();
+        let BodyMotion::Animated(animation) = &scene.bodies[0].motion else {
+            panic!("it is animated");
+        };
+        let animation = animation.clone();
+        move |time: f64| -> Vec<f64> {
+            animation
+                .positions_at(time)
+                .iter()
+                .step_by(3)
+                .map(|position| position.x)
+                .collect()
+        }
+    };
+    let (a, b, both) = (along("node = \"A\""), along("node = \"B\""), along(""));
+    for (time, expected) in [
+        (0.0, [0.0, 0.0]),
+        (0.5, [0.5, 0.0]),
+        (1.0, [1.0, 0.5]),
+        (1.5, [1.0, 1.0]),
+        (9.0, [1.0, 1.0]),
+    ] {
+        assert_eq!([a(time), b(time)].concat(), expected, "{time}");
+        assert_eq!(both(time), expected, "{time}");
+    }
+    let later = [along("node = \"A\"\nstart = 1"), along("node = \"B\"\nstart = 1")];
+    assert_eq!([later[0](1.75), later[1](1.75)].concat(), [0.75, 0.25]);
+    assert_eq!(along("unit = \"cm\"")(1.0), [0.01, 0.005]);
+}

@@ -1,0 +1,149 @@
+//! What a file may hold besides shapes and motion is taken out of its JSON half before the `gltf` crate validates it: looks, lights, cameras,
+//! attributes of an application's own, and extensions for these, even where the file requires them.
+
+use super::short;
+use crate::animation::error::AnimationProblem;
+use crate::mesh::{FilePart, LeftOut};
+use serde_json::{Map, Value};
+
+/// Beginnings of the names of extensions that do not change where vertices are.
+const IGNORED: [&str; 17] = [
+    "KHR_materials_",
+    "KHR_texture_",
+    "KHR_lights_",
+    "KHR_xmp",
+    "KHR_audio",
+    "KHR_animation_pointer",
+    "KHR_mesh_quantization",
+    "KHR_techniques_webgl",
+    "EXT_texture_",
+    "EXT_lights_",
+    "EXT_mesh_features",
+    "EXT_mesh_manifold",
+    "EXT_structural_metadata",
+    "MSFT_texture_dds",
+    "MSFT_packing_",
+    "VRM",
+    "ADOBE_materials_",
+];
+
+/// The attributes that are read; others are normals, colours, texture coordinates, or an application's own.
+fn is_read(attribute: &str) -> bool {
+    attribute == "POSITION" || attribute.starts_with("JOINTS_") || attribute.starts_with("WEIGHTS_")
+}
+
+/// Takes out what is not read, and lists what of it may matter.
+///
+/// # Errors
+/// If the file requires an extension without which its shapes or motion are not known.
+pub(super) fn reduce(root: &mut Value) -> Result<Vec<LeftOut>, AnimationProblem> {
+    let required = root.get("extensionsRequired").and_then(Value::as_array);
+    for name in required.into_iter().flatten().filter_map(Value::as_str) {
+        if !IGNORED.iter().any(|ignored| name.starts_with(ignored)) {
+            return Err(AnimationProblem::Extension {
+                name: short(name),
+                remedy: remedy(name),
+            });
+        }
+    }
+    let Some(root) = root.as_object_mut() else {
+        return Ok(Vec::new());
+    };
+    for key in [
+        "extensionsRequired",
+        "extensionsUsed",
+        "extensions",
+        "materials",
+        "textures",
+        "images",
+        "samplers",
+        "cameras",
+    ] {
+        root.remove(key);
+    }
+    let mut left_out = Vec::new();
+    let mut leave_out = |part, name: &str, count: usize, may_have_area| {
+        if count > 0 {
+            left_out.push(LeftOut {
+                part,
+                name: name.to_owned(),
+                count,
+                line: None,
+                may_have_area,
+            });
+        }
+    };
+    let instances = objects(root, "nodes").filter(|node| {
+        node.get("extensions")
+            .and_then(|all| all.get("EXT_mesh_gpu_instancing"))
+            .is_some()
+    });
+    leave_out(FilePart::Node, "EXT_mesh_gpu_instancing", instances.count(), true);
+    for node in objects(root, "nodes") {
+        node.remove("camera");
+        node.remove("extensions");
+    }
+    let mut shapes = Vec::new();
+    for mesh in objects(root, "meshes") {
+        mesh.remove("extensions");
+        for primitive in objects(mesh, "primitives") {
+            primitive.remove("material");
+            primitive.remove("extensions");
+            if let Some(attributes) = primitive.get_mut("attributes").and_then(Value::as_object_mut) {
+                attributes.retain(|name, _| is_read(name));
+                shapes.extend(attributes.get("POSITION").and_then(Value::as_u64));
+            }
+            for target in objects(primitive, "targets") {
+                target.retain(|name, _| name == "POSITION");
+            }
+        }
+    }
+    // Bounds are required of positions, and not used.
+    let accessors = root.get_mut("accessors").and_then(Value::as_array_mut);
+    for accessor in accessors.into_iter().flatten().filter_map(Value::as_object_mut) {
+        accessor.remove("extensions");
+    }
+    for shape in shapes {
+        let accessor = root
+            .get_mut("accessors")
+            .and_then(|all| all.get_mut(usize::try_from(shape).unwrap_or(usize::MAX)));
+        if let Some(accessor) = accessor.and_then(Value::as_object_mut) {
+            for bound in ["min", "max"] {
+                accessor.insert(bound.to_owned(), serde_json::json!([0.0, 0.0, 0.0]));
+            }
+        }
+    }
+    let mut channels = 0;
+    for animation in objects(root, "animations") {
+        animation.remove("extensions");
+        if let Some(own) = animation.get_mut("channels").and_then(Value::as_array_mut) {
+            let before = own.len();
+            own.retain(moves_a_node);
+            channels += before - own.len();
+        }
+    }
+    leave_out(FilePart::Channel, "of something other than nodes", channels, false);
+    Ok(left_out)
+}
+
+/// A channel without a node, or of a pointer, moves something else.
+fn moves_a_node(channel: &Value) -> bool {
+    let target = channel.get("target");
+    let path = target.and_then(|target| target.get("path")).and_then(Value::as_str);
+    path != Some("pointer") && target.is_none_or(|target| target.get("node").is_some())
+}
+
+/// The objects in a list of an object.
+fn objects<'a>(of: &'a mut Map<String, Value>, list: &str) -> impl Iterator<Item = &'a mut Map<String, Value>> {
+    let list = of.get_mut(list).and_then(Value::as_array_mut);
+    list.into_iter().flatten().filter_map(Value::as_object_mut)
+}
+
+/// How a file is converted that needs an extension.
+fn remedy(name: &str) -> &'static str {
+    match name {
+        "KHR_draco_mesh_compression" => "decompress it: `npx gltf-pipeline -i in.glb -o out.glb`",
+        "EXT_meshopt_compression" | "KHR_meshopt_compression" => "decompress it: `gltfpack -i in.glb -o out.glb -noq`",
+        _ => "export it without",
+    }
+}
