@@ -1,43 +1,55 @@
-//! When a hierarchy that is only refitted should be built anew.
+//! Decides when a refitted hierarchy is worth building again.
 
-/// What builds and items cost.
+/// Prices of builds and items, in box tests.
 #[derive(Clone, Copy, Debug)]
 pub struct Prices {
-    /// What a build costs for each item and halving, in block tests.
+    /// The price of a build for each item and halving, in box tests.
     pub build: f64,
-    /// What an item costs in block tests, in units of what a pair costs.
+    /// The price of an item in a search, in units of the price of a pair.
     pub item: f64,
 }
 
-/// How much more the traversals since the last build have cost than one just after a build would have.
+/// Sums what searches cost more than they would just after a build.
+///
+/// ```
+/// use selvedge::broad_phase::{Degradation, Prices};
+///
+/// let prices = Prices { build: 0.65, item: 16.0 };
+/// let mut degradation = Degradation::default();
+/// // Just after the build 1,000 items and 100 pairs take 5,000 box tests; later they take 20,000.
+/// degradation.observe(prices, 5_000, 1_000, 100, true);
+/// assert!(!degradation.is_worth_a_build(prices, 1_000));
+/// degradation.observe(prices, 20_000, 1_000, 100, false);
+/// assert!(degradation.is_worth_a_build(prices, 1_000));
+/// ```
 #[derive(Debug, Default)]
 pub struct Degradation {
-    /// Block tests for each unit of size (items at their price, and pairs) just after the build, if it was measured then.
+    /// Box tests for each unit of size just after the build, if a search was measured then. The size is that of items, at their price, and pairs.
     fresh: Option<f64>,
-    /// The same of traversals that look for something else.
+    /// The same for other searches.
     fresh_of_others: Option<f64>,
-    /// Block tests above that, summed over the steps since.
+    /// Box tests beyond that, summed since the build.
     excess: f64,
 }
 
-/// Block tests for each unit of size where hierarchies are as good as new: 0.22 on a flat sheet of 20,000 triangles, 0.31 to 0.33 on the same
-/// crumpled until nine tenths of it are pairs. It stands for what was not measured just after the build.
+/// Box tests for each unit of size of good hierarchies, where none were measured just after the build. A flat sheet of 20,000 triangles takes 0.22, and
+/// the same sheet crumpled takes 0.31 to 0.33.
 const TYPICAL: f64 = 0.5;
 
 impl Degradation {
-    /// A traversal has found so many pairs of so many items; `is_new`: with the boxes of the step of the build.
-    pub fn observe(&mut self, prices: Prices, block_tests: u64, items: usize, pairs: usize, is_new: bool) {
+    /// Notes a search that found `pairs` among `items` in this number of box tests. `is_new` says that it is the first one after the build.
+    pub fn observe(&mut self, prices: Prices, box_tests: u64, items: usize, pairs: usize, is_new: bool) {
         let size = size(prices, items, pairs);
-        self.excess += excess(&mut self.fresh, 0.0, block_tests as f64, size, is_new);
+        self.excess += excess(&mut self.fresh, 0.0, box_tests as f64, size, is_new);
     }
 
-    /// The same of a traversal with boxes of another kind, or for pairs of another kind. They may be of several kinds: the first one says less.
-    pub fn observe_another(&mut self, prices: Prices, block_tests: u64, items: usize, pairs: usize, is_new: bool) {
+    /// Notes a search with other boxes, or for other pairs. Such searches may be of several kinds, so the first one says less.
+    pub fn observe_another(&mut self, prices: Prices, box_tests: u64, items: usize, pairs: usize, is_new: bool) {
         let size = size(prices, items, pairs);
-        self.excess += excess(&mut self.fresh_of_others, TYPICAL, block_tests as f64, size, is_new);
+        self.excess += excess(&mut self.fresh_of_others, TYPICAL, box_tests as f64, size, is_new);
     }
 
-    /// Whether the traversals since the build have cost more, beyond what they would have just after it, than another build.
+    /// Returns whether searches since the build cost more, beyond their cost just after it, than another build.
     #[must_use]
     pub fn is_worth_a_build(&self, prices: Prices, items: usize) -> bool {
         let items = items as f64;
@@ -49,10 +61,10 @@ fn size(prices: Prices, items: usize, pairs: usize) -> f64 {
     prices.item * items.max(1) as f64 + pairs as f64
 }
 
-/// Block tests above those that hierarchies take that are as good as new, and such take `least` for each unit of size.
-fn excess(fresh: &mut Option<f64>, least: f64, block_tests: f64, size: f64, is_new: bool) -> f64 {
+/// Returns the box tests beyond those of new hierarchies, which take at least `least` for each unit of size.
+fn excess(fresh: &mut Option<f64>, least: f64, box_tests: f64, size: f64, is_new: bool) -> f64 {
     if is_new {
-        fresh.get_or_insert(block_tests / size);
+        fresh.get_or_insert(box_tests / size);
     }
-    (block_tests - fresh.unwrap_or(TYPICAL).max(least) * size).max(0.0)
+    (box_tests - fresh.unwrap_or(TYPICAL).max(least) * size).max(0.0)
 }

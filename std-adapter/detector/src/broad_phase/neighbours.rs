@@ -1,34 +1,34 @@
-//! Pairs that are near each other at rest already: nearly all that boxes leave on a fine mesh.
+//! Pairs that are near each other at rest: nearly all candidates of a fine mesh.
 //!
-//! Their caller may ask less of them than of other pairs. A hierarchy of boxes that holds who lies where at rest tells them many at a time,
-//! and leaves out those that keep what is asked of them.
+//! The caller may give neighbours a smaller separation than other pairs. Hierarchies know the shapes at rest, so they leave out many neighbours at a
+//! time that keep that separation.
 
 use crate::PairKind;
 use selvedge_core::glam::{DVec3, Vec3A};
 use selvedge_core::separation::clearance::{are_boxes_within, nearness};
 use selvedge_core::separation::largest_coordinate;
 
-/// Which pairs are neighbours: those within a part of a mesh whose boxes come within a distance of that part's at rest.
+/// Decides which pairs are neighbours: pairs within a part of the mesh whose boxes at rest are within that part's distance.
 #[derive(Debug)]
 pub struct Neighbours {
-    /// Where vertices are at rest, in `f32`, NaN for those that have no neighbours.
+    /// Positions at rest, in `f32`; NaN for vertices without neighbours.
     rest: Vec<Vec3A>,
-    /// Of each part: the vertex after its last one, and how near boxes of neighbours are at rest, rounded down.
+    /// For each part the vertex after its last one, and its distance, rounded down.
     parts: Vec<(u32, f32)>,
 }
 
-/// What makes neighbours of a vertex.
+/// A vertex at rest.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct AtRest {
     pub(crate) position: [f32; 3],
     pub(crate) part: u32,
-    /// How near boxes of neighbours are in its part.
+    /// The distance of neighbours in its part.
     pub(crate) within: f32,
 }
 
 impl Neighbours {
-    /// Pairs in one of the parts, of each of which is told the vertex after its last one, whose boxes come within its distance at rest.
-    /// Vertices after those of the last part have no neighbours.
+    /// Makes neighbours from positions at rest and parts of consecutive vertices. Each part has the vertex after its last one, and the distance of its
+    /// neighbours at rest. Vertices after the last part have no neighbours.
     #[must_use]
     pub fn new(rest: &[DVec3], parts: impl Iterator<Item = (u32, f64)>) -> Self {
         let largest = largest_coordinate(rest);
@@ -47,20 +47,20 @@ impl Neighbours {
         }
     }
 
-    /// Whether two primitives of these vertices are neighbours.
+    /// Returns whether two primitives with these vertices are neighbours.
     ///
     /// # Panics
-    /// If one of the vertices is none of those at rest.
+    /// If a vertex has no position at rest.
     #[inline(always)]
     #[must_use]
     pub fn are(&self, kind: PairKind, vertices: [u32; 4]) -> bool {
-        // Written out: `map` would not be inlined here.
+        // Written out, since `map` is not inlined here.
         let rest = |corner: usize| self.rest[vertices[corner] as usize];
         let rest = [rest(0), rest(1), rest(2), rest(3)];
         are_boxes_within(kind, rest, self.within(vertices[0], vertices[3]))
     }
 
-    /// How near two vertices' boxes are if they are neighbours': of no distance in different parts.
+    /// Returns the distance of neighbours for two vertices. In different parts no distance is small enough.
     #[inline(always)]
     fn within(&self, one: u32, other: u32) -> f32 {
         if let [(_, only)] = self.parts.as_slice() {
@@ -76,10 +76,10 @@ impl Neighbours {
         self.parts.partition_point(|&(end, _)| end <= vertex)
     }
 
-    /// What makes neighbours of a vertex.
+    /// Returns a vertex at rest.
     ///
     /// # Panics
-    /// If it is none of those at rest.
+    /// If the vertex has no position at rest.
     pub(crate) fn at_rest(&self, vertex: u32) -> AtRest {
         let part = self.part_of(vertex);
         AtRest {

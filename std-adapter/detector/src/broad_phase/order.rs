@@ -1,24 +1,34 @@
-//! An order in which consecutive items lie close together.
+//! Orders items so that consecutive ones lie close together.
 
 use crate::parallel;
 
-/// Items in a group of the lowest level.
+/// The number of items in a group of the lowest level.
 pub const LEAF: usize = 16;
 
-/// Slices shorter than this are not split between threads.
+/// Shorter slices are not split between threads.
 const SEQUENTIAL: usize = 4096;
 
-/// An item and where it is.
+/// An item and its position.
 #[derive(Clone, Copy, Debug)]
 pub struct Centre {
-    /// Where it is; finite.
+    /// The position; finite.
     pub position: [f32; 3],
-    /// Its number.
+    /// The number of the item.
     pub item: u32,
 }
 
-/// Splits at the median along the longest axis, again and again, but always between two groups of the
-/// largest size that fits in more than once. Sizes are LEAF · BRANCHESᵏ.
+/// Orders items so that groups of LEAF · BRANCHESᵏ consecutive ones lie close together.
+///
+/// It splits at the median along the longest axis, recursively, but always between two groups of the largest size of which more than one fits.
+///
+/// ```
+/// use selvedge::broad_phase::{Centre, order};
+///
+/// let mut centres: Vec<_> = (0..64).map(|item| Centre { position: [(item % 8) as f32, (item / 8) as f32, 0.0], item }).collect();
+/// order::<16>(&mut centres);
+/// // The first sixteen are a quarter of the square.
+/// assert!(centres[..16].iter().all(|centre| centre.position[0] < 4.0 && centre.position[1] < 4.0));
+/// ```
 pub fn order<const BRANCHES: usize>(centres: &mut [Centre]) {
     if centres.len() <= LEAF {
         return;
@@ -49,7 +59,7 @@ fn longest_axis(centres: &[Centre]) -> usize {
             upper[axis] = if x > upper[axis] { x } else { upper[axis] };
         }
     }
-    // Halved, so that the difference of finite numbers is finite.
+    // Halves, so that the difference of finite numbers is finite.
     let extent = |axis: usize| 0.5 * upper[axis] - 0.5 * lower[axis];
     (1..3).fold(0, |longest, axis| if extent(axis) > extent(longest) { axis } else { longest })
 }

@@ -1,4 +1,4 @@
-//! The hierarchy over the meshes of a world: which of them are near each other.
+//! The hierarchy over the meshes of a world: finds the meshes that are near each other.
 
 use super::degradation::Degradation;
 use super::hierarchies::PRICES;
@@ -9,15 +9,15 @@ use crate::simd::best_level;
 use crate::step::{Groups, Members};
 use selvedge_core::boxes::moving::MovingBox;
 
-/// Boxes of meshes in blocks of sixteen, as those of primitives are.
+/// The boxes of meshes, in blocks of sixteen like those of primitives.
 #[derive(Debug)]
 pub(crate) struct MeshHierarchy {
     tree: Tree<1>,
-    /// Of each mesh, by its index.
+    /// The box of each mesh, by its index.
     boxes: Vec<MovingBox<f32>>,
     groups: Vec<Groups>,
     moves: Vec<bool>,
-    /// Those whose boxes are others than in the tree.
+    /// Whether the box of each mesh differs from that in the tree.
     are_changed: Vec<bool>,
     stack: Vec<BlockPair>,
     tasks: Vec<BlockPair>,
@@ -42,7 +42,7 @@ impl MeshHierarchy {
         }
     }
 
-    /// From here on there are these meshes: bounds, whether they move, and groups.
+    /// Replaces all meshes: bounds, whether they move, and groups.
     pub(crate) fn replace(&mut self, meshes: impl Iterator<Item = (MovingBox<f32>, bool, Groups)>) {
         self.boxes.clear();
         self.moves.clear();
@@ -55,7 +55,7 @@ impl MeshHierarchy {
         self.must_build = true;
     }
 
-    /// The mesh with this index has these bounds now.
+    /// Sets the bounds of a mesh, and whether it moves.
     pub(crate) fn set(&mut self, index: usize, bounds: MovingBox<f32>, moves: bool) {
         self.boxes[index] = bounds;
         self.moves[index] = moves;
@@ -64,8 +64,8 @@ impl MeshHierarchy {
         }
     }
 
-    /// Replaces `pairs` by those of meshes, the smaller index first, that come near each other, of which one moves at least, and whose
-    /// groups collide; in ascending order.
+    /// Replaces `pairs` by the pairs of meshes that come near each other, of which at least one moves and whose groups collide. The smaller index comes
+    /// first, and pairs ascend.
     pub(crate) fn find(&mut self, pairs: &mut Vec<[u32; 2]>) {
         pairs.clear();
         if self.must_build || self.degradation.is_worth_a_build(PRICES, self.boxes.len()) {
@@ -91,7 +91,7 @@ impl MeshHierarchy {
             pairs,
         };
         let tests = trees.pairs(level, &self.tasks, &mut self.scratch, &mut near).unwrap_or(0);
-        // Every search is observed: the first one just after the build.
+        // Only the first search after a build sets the reference.
         self.degradation
             .observe(PRICES, above + tests, self.boxes.len(), pairs.len(), true);
         pairs.sort_unstable();
@@ -106,7 +106,7 @@ impl MeshHierarchy {
             })
         };
         self.tree.build(0..self.boxes.len() as u32, centre, None);
-        // A mesh stands for its one vertex.
+        // Each mesh is its own only vertex.
         self.tree.connect(|mesh| [mesh]);
         let members: Vec<_> = self.groups.iter().map(|&groups| Members::of_mesh(groups)).collect();
         self.tree.note_members(&members);
@@ -117,7 +117,7 @@ impl MeshHierarchy {
     }
 }
 
-/// Takes pairs of meshes.
+/// Collects pairs of meshes.
 struct Near<'a> {
     tree: &'a Tree<1>,
     groups: &'a [Groups],
@@ -128,7 +128,7 @@ impl Sink for Near<'_> {
     fn take(&mut self, pairs: &[[u32; 2]]) -> bool {
         for pair in pairs {
             let [a, b] = pair.map(|position| self.tree.primitives[position as usize]);
-            // Groups of a block are those of all that it holds.
+            // The groups of a block are those of all its meshes, so each pair needs the test.
             if self.groups[a as usize].collide(self.groups[b as usize]) {
                 self.pairs.push([a.min(b), a.max(b)]);
             }

@@ -9,7 +9,7 @@ use crate::step::CollisionFilter;
 
 /// Primitives of one mesh and of another, or of the same: vertices of the first and faces of the second, or edges of both.
 ///
-/// Two meshes' boxes must be comparable: made by one [mapping](selvedge_core::boxes::mapping), or by several about one origin.
+/// The boxes of two meshes must be comparable: made by one [mapping](selvedge_core::boxes::mapping), or by several about one origin.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pairing<'a> {
     pub(crate) kind: PairKind,
@@ -27,12 +27,12 @@ impl<'a> Pairing<'a> {
         }
     }
 
-    /// Both kinds of pairs of a mesh with itself.
+    /// Returns both kinds of pairs of a mesh with itself.
     pub(crate) fn all_within(mesh: &'a Hierarchies) -> [Self; 2] {
         [PairKind::VertexFace, PairKind::EdgeEdge].map(|kind| Self::within(kind, mesh))
     }
 
-    /// Between two meshes: vertices of the first and faces of the second, the other way round, edges of both.
+    /// Returns the pairs of two meshes: vertices of the first and faces of the second, the other way round, and edges of both.
     pub(crate) fn all_between(first: &'a Hierarchies, second: &'a Hierarchies) -> [Self; 3] {
         let between = |kind, meshes| Self {
             kind,
@@ -46,7 +46,7 @@ impl<'a> Pairing<'a> {
         ]
     }
 
-    /// Appends where to look for pairs to `tasks`. Returns the number of tests.
+    /// Appends where to look for pairs to `tasks`. Returns the number of box tests.
     pub(crate) fn find_tasks(&self, stack: &mut Vec<BlockPair>, tasks: &mut Vec<BlockPair>) -> u64 {
         let level = self.meshes[0].level();
         match self.kind {
@@ -102,7 +102,7 @@ impl<'a> Pairing<'a> {
         }
     }
 
-    /// The rows of a pair's four vertices, given the first row of each of two meshes.
+    /// Returns the rows of a pair's four vertices, given the first row of each of two meshes.
     #[inline(always)]
     pub(crate) fn rows_of(&self, [first, second]: [u32; 2], first_rows: [u32; 2]) -> [u32; 4] {
         let [mesh, other] = self.meshes;
@@ -119,7 +119,7 @@ impl<'a> Pairing<'a> {
         }
     }
 
-    /// A pair of two meshes as each of them numbers its own.
+    /// Returns a pair of two meshes as each mesh numbers its primitives.
     pub(crate) fn in_meshes(&self, [first, second]: [u32; 2]) -> [u32; 2] {
         let [mesh, other] = self.meshes;
         let (first, second) = (first as usize, second as usize);

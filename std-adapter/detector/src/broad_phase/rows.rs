@@ -1,8 +1,7 @@
 //! The motion of each vertex, as the lanes read it.
 //!
-//! In `f64` always, which holds positions of either format exactly; and in `f32` where that is exact for all of them: then what
-//! lanes of `f32` prove, sixteen in a register, holds for the positions themselves, and `f64` is for the pairs that they leave
-//! open.
+//! There are always rows in `f64`, which hold positions of either format exactly. If all positions are `f32` numbers, there are rows in `f32` too.
+//! Proofs in `f32`, with sixteen pairs in a register, then hold for the positions themselves, and only open pairs need `f64`.
 
 use crate::parallel;
 use crate::step::Motions;
@@ -18,7 +17,7 @@ pub(crate) struct Rows {
     has_single: bool,
 }
 
-/// Rows to read: of all vertices, exactly; and the same in `f32`, if that is exact too.
+/// Rows to read: those of all vertices, and the same in `f32` if that is exact.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RowSlices<'a> {
     pub(crate) double: &'a [VertexRow<f64>],
@@ -26,7 +25,7 @@ pub(crate) struct RowSlices<'a> {
 }
 
 impl Rows {
-    /// To read.
+    /// Returns the rows to read.
     pub(crate) fn slices(&self) -> RowSlices<'_> {
         RowSlices {
             double: self.double(),
@@ -34,17 +33,17 @@ impl Rows {
         }
     }
 
-    /// All vertices, exactly.
+    /// Returns the rows of all vertices.
     pub(crate) fn double(&self) -> &[VertexRow<f64>] {
         &self.double
     }
 
-    /// The same in `f32`, if that is exact too and [`narrow`](Self::narrow) has looked.
+    /// Returns the same in `f32`, if [`narrow`](Self::narrow) found that exact.
     pub(crate) fn single(&self) -> Option<&[VertexRow<f32>]> {
         self.has_single.then_some(&self.single)
     }
 
-    /// Puts all rows of `other` at `first` and after it, in `f32` too if it has such.
+    /// Copies all rows of `other` to `first` and after it, with those in `f32` if there are any.
     pub(crate) fn put(&mut self, first: usize, other: &Self) {
         let end = first + other.double.len();
         if self.double.len() < end {
@@ -58,7 +57,7 @@ impl Rows {
         }
     }
 
-    /// To read those that were [put](Self::put), in `f32` too if all that are asked for have come so.
+    /// Returns the rows that were [put](Self::put), with those in `f32` if the caller says that all have them.
     pub(crate) fn put_slices(&self, are_single: bool) -> RowSlices<'_> {
         RowSlices {
             double: self.double(),
@@ -66,13 +65,13 @@ impl Rows {
         }
     }
 
-    /// Forgets all.
+    /// Removes all rows.
     pub(crate) fn clear(&mut self) {
         self.double.clear();
         self.has_single = false;
     }
 
-    /// Room for so many vertices, those that are new at the origin, for the caller to fill.
+    /// Makes room for this number of vertices and returns the rows to fill. New ones are at the origin.
     pub(crate) fn resize(&mut self, vertices: usize) -> &mut [VertexRow<f64>] {
         let unknown = Motion::resting(Default::default());
         self.double.resize(vertices, VertexRow::new(unknown));
@@ -80,14 +79,14 @@ impl Rows {
         &mut self.double
     }
 
-    /// Replaces all by these.
+    /// Replaces all rows.
     pub(crate) fn set(&mut self, motions: &dyn Motions) {
         self.clear();
         self.double
             .extend((0..motions.len()).map(|vertex| VertexRow::new(motions.motion(vertex))));
     }
 
-    /// Room for so many vertices, and these of them; what the others are does not matter. In `f32` too, if all are such numbers.
+    /// Replaces the rows of some vertices; the other rows have no meaning. Makes rows in `f32` too if all are such numbers.
     pub(crate) fn set_some(&mut self, motions: &dyn Motions, vertices: impl Iterator<Item = u32>, are_single: bool) {
         self.resize(motions.len());
         self.single
@@ -103,7 +102,7 @@ impl Rows {
         }
     }
 
-    /// Looks whether all positions are `f32` numbers, and makes their rows if so.
+    /// Makes rows in `f32` if all positions are such numbers.
     pub(crate) fn narrow(&mut self) {
         let are_exact = AtomicBool::new(true);
         let nowhere = VertexRow::new(Motion::resting(Default::default()));
@@ -117,11 +116,10 @@ impl Rows {
     }
 }
 
-/// Vertices that one thread narrows in one go.
+/// Vertices that one thread narrows at a time.
 const VERTICES: usize = 4096;
 
-/// Replaces `single` by `double`, as long as it is exact: returns whether it always was. (Where a thread flushes subnormal numbers, it
-/// is not exact for those.)
+/// Replaces `single` by `double` as long as that is exact. Returns whether all rows are. On a thread that flushes subnormal numbers, these are not.
 fn narrowed(double: &[VertexRow<f64>], single: &mut [VertexRow<f32>]) -> bool {
     double.iter().zip(single).all(|(double, single)| {
         let motion = double.motion();

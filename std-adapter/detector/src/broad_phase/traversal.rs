@@ -1,13 +1,12 @@
-//! Which primitives of two trees are near each other.
+//! Finds the primitives of two trees that are near each other.
 //!
-//! Pairs of blocks are taken apart from the top: of two blocks of the same level, each box of the first is compared with all
-//! sixteen of the second at once; of two of different levels, the higher one's boxes with the bounds of the other. What is
-//! near goes on a stack, or, at the lowest level, to the caller, each pair once: a tree against itself looks at a pair of
-//! blocks in one order only, and inside one block at the lanes after each lane.
+//! A traversal splits pairs of blocks from the top. For two blocks of one level, it compares each box of the first with all sixteen of the second at
+//! once. For two blocks of different levels, it compares the boxes of the higher one with the bounds of the other. Near blocks go on a stack; near
+//! primitives go to the caller, each pair once. A tree against itself takes a pair of blocks in one order only, and inside one block the lanes after
+//! each lane.
 //!
-//! Of neighbours with a separation of their own, boxes that are near are asked for that one: a box that is
-//! [drawn in](selvedge_core::boxes::mapping::Inset) against the same sixteen. Those that are apart then are left out if they are neighbours,
-//! which the boxes at rest tell in the same way.
+//! Neighbours may have a smaller separation. A box that is [drawn in](selvedge_core::boxes::mapping::Inset) is then compared with the same sixteen. Pairs
+//! that are apart in this test are left out if they are neighbours. The boxes at rest decide that in the same way.
 
 use super::hubs::NO_HUB;
 use super::pairs::{PairBuffer, Sink};
@@ -17,19 +16,19 @@ use selvedge_core::boxes::mapping::Inset;
 use selvedge_core::boxes::moving::MovingBlock;
 use std::array;
 
-/// Two blocks that are near each other: the level and the number of each.
+/// Two blocks that are near each other, by level and number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct BlockPair {
     levels: [u8; 2],
     blocks: [u32; 2],
 }
 
-/// What two trees have in common.
+/// The primitives that two trees share.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Common {
-    /// All: it is one tree, of which each pair is looked at once.
+    /// All: it is one tree, and each pair comes once.
     Tree,
-    /// The mesh: primitives that share a vertex are no pair.
+    /// Vertices of one mesh: primitives that share a vertex are no pair.
     Mesh,
     /// Nothing.
     Nothing,
@@ -41,20 +40,20 @@ pub(super) struct Trees<'a, const N: usize, const M: usize> {
     pub(super) first: &'a Tree<N>,
     pub(super) second: &'a Tree<M>,
     pub(super) common: Common,
-    /// Whether it matters who is in a block.
+    /// Whether there is a collision filter.
     pub(super) are_filtered: bool,
-    /// By how much boxes are drawn in to ask for the separation of neighbours, if they have one of their own.
+    /// How boxes are drawn in for the separation of neighbours, if they have a smaller one.
     pub(super) of_neighbours: Option<Inset>,
 }
 
-/// What a traversal keeps from step to step.
+/// The buffers of a traversal.
 #[derive(Debug)]
 pub(crate) struct Scratch {
     stack: Vec<BlockPair>,
     found: PairBuffer,
-    /// Pairs that a collision filter leaves.
+    /// The pairs that a collision filter allows.
     pub(super) allowed: Vec<[u32; 2]>,
-    /// How many neighbours the last traversal left out.
+    /// The number of neighbours that the last traversal left out.
     pub(super) left_out: u64,
 }
 
@@ -70,8 +69,8 @@ impl Scratch {
 }
 
 impl<const N: usize, const M: usize> Trees<'_, N, M> {
-    /// Appends to `tasks` the pairs of blocks of a level, or below, that are near each other, in the order in which a
-    /// traversal of the whole comes to them. Returns the number of tests, each of one box against sixteen.
+    /// Appends to `tasks` the near pairs of blocks of a level or below, in the order of a whole traversal. Returns the number of tests, each of one box
+    /// against sixteen.
     pub(super) fn tasks(&self, level: Level, floor: usize, stack: &mut Vec<BlockPair>, tasks: &mut Vec<BlockPair>) -> u64 {
         let (Some(top), Some(other_top)) = (self.first.top(), self.second.top()) else {
             return 0;
@@ -90,8 +89,8 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
         in_lanes(level, down_to)
     }
 
-    /// Gives `sink` the pairs of primitives of `tasks` that are near each other and have no vertex in common. Returns the
-    /// number of tests, or `None` if the sink has had enough.
+    /// Gives `sink` the near pairs of primitives of `tasks` that have no vertex in common. Returns the number of tests, or `None` if the sink stops the
+    /// traversal.
     pub(super) fn pairs(&self, level: Level, tasks: &[BlockPair], scratch: &mut Scratch, sink: &mut dyn Sink) -> Option<u64> {
         let Scratch {
             stack, found, left_out, ..
@@ -123,9 +122,9 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
         have_one_hub || self.are_filtered && !first.members[a].may_collide(second.members[b])
     }
 
-    /// Puts the pairs of blocks that two blocks hold on the stack.
+    /// Puts the near pairs of the blocks in two blocks on the stack.
     #[inline(always)]
-    fn take_apart(&self, lanes: impl Compares, pair: BlockPair, stack: &mut Vec<BlockPair>) -> u64 {
+    fn split(&self, lanes: impl Compares, pair: BlockPair, stack: &mut Vec<BlockPair>) -> u64 {
         if self.are_excluded(pair.levels, pair.blocks) {
             return 0;
         }
@@ -186,7 +185,7 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
         tests
     }
 
-    /// Puts the pairs of primitives that two blocks hold with those that are found.
+    /// Appends the near pairs of the primitives in two blocks to those found.
     #[inline(always)]
     fn compare_primitives(&self, lanes: impl Compares, [a, b]: [u32; 2], found: &mut PairBuffer, left_out: &mut u64) -> u64 {
         if self.are_excluded([0, 0], [a, b]) {
@@ -206,7 +205,7 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
             own = lanes.near(block_a, &node_b.bounds, own);
             tests += 1;
         }
-        // Counted all the same: how good the hierarchies are does not depend on who takes part.
+        // Lanes without a partner count too: the quality of the hierarchies does not depend on what moves.
         tests += u64::from((own & !with_partners(node_a, others & node_b.moving)).count_ones());
         own &= with_partners(node_a, others & node_b.moving);
         let inset = self.of_neighbours.map(|inset| inset.for_bounds(&node_a.bounds));
@@ -238,7 +237,7 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
         tests
     }
 
-    /// The lanes `among` these of the second of two blocks that are neighbours of a lane of the first.
+    /// Returns the lanes `among` these of the second of two blocks that are neighbours of a lane of the first.
     #[inline(always)]
     fn neighbours_among(&self, lanes: impl Compares, [a, b]: [u32; 2], lane: u32, among: Mask) -> Mask {
         let (own, others) = (&self.first.rest[a as usize], &self.second.rest[b as usize]);
@@ -248,7 +247,7 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
     }
 }
 
-/// The pairs of blocks of a level, or below.
+/// Finds the pairs of blocks of a level or below.
 struct DownTo<'a, const N: usize, const M: usize> {
     trees: &'a Trees<'a, N, M>,
     floor: usize,
@@ -266,14 +265,14 @@ impl<const N: usize, const M: usize> Loop for DownTo<'_, N, M> {
             if pair.levels.iter().all(|&level| usize::from(level) <= self.floor) {
                 self.tasks.push(pair);
             } else {
-                tests += self.trees.take_apart(lanes, pair, self.stack);
+                tests += self.trees.split(lanes, pair, self.stack);
             }
         }
         tests
     }
 }
 
-/// The pairs of primitives of some pairs of blocks.
+/// Finds the pairs of primitives of some pairs of blocks.
 struct AllPairs<'a, const N: usize, const M: usize> {
     trees: &'a Trees<'a, N, M>,
     tasks: &'a [BlockPair],
@@ -310,7 +309,7 @@ impl<const N: usize, const M: usize> Loop for AllPairs<'_, N, M> {
                         found.clear();
                     }
                 } else {
-                    tests += trees.take_apart(lanes, pair, stack);
+                    tests += trees.split(lanes, pair, stack);
                 }
             }
         }
@@ -324,19 +323,19 @@ fn part<const N: usize>(tree: &Tree<N>, level: u8, block: u32) -> (&MovingBlock,
     (&level.blocks[block as usize], &level.nodes[block as usize])
 }
 
-/// The lanes that take part in pairs with something that moves, or does not.
+/// Returns the possible partners of a primitive that moves or rests, given the moving ones.
 #[inline(always)]
 fn partners(is_moving: bool, moving: Mask) -> Mask {
     if is_moving { Mask::MAX } else { moving }
 }
 
-/// The lanes of a block that have any partner there, of which these move.
+/// Returns the lanes of a block that have a partner in another block, given the moving lanes of that block.
 #[inline(always)]
 fn with_partners(node: &Node, moving: Mask) -> Mask {
     if moving == 0 { node.moving } else { Mask::MAX }
 }
 
-/// The lowest set lane, which is then cleared.
+/// Clears the lowest set lane and returns it.
 #[inline(always)]
 fn next_lane(lanes: &mut Mask) -> u32 {
     let lane = lanes.trailing_zeros();

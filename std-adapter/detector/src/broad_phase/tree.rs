@@ -1,9 +1,9 @@
 //! A hierarchy of moving boxes over the vertices, the edges or the faces of a mesh.
 //!
-//! The primitives are put into an [order](super::order) in which any 16 (256, 4096, …) consecutive ones from a multiple
-//! of that number lie close together. A *block* holds the moving boxes of sixteen of them side by side; a block of the next
-//! level holds the boxes of sixteen blocks, and so on up to the one block that holds all. So the tree is arrays alone: the
-//! children of block b are the blocks, or primitives, from 16b on, and no block but the last of a level has an empty lane.
+//! The primitives have an [order](super::order) in which 16 (256, 4096, …) consecutive ones lie close together, counted from a multiple of that
+//! number. A *block* holds the moving boxes of sixteen of them side by side. A block of the next level holds the boxes of sixteen blocks, and so on up
+//! to one block that holds all. So the tree is only arrays: the children of block b are the blocks, or primitives, from 16b on. No block but the last of
+//! a level has an empty lane.
 
 use super::hubs::{NO_HUB, order_by_hub};
 use super::neighbours::AtRest;
@@ -15,26 +15,26 @@ use selvedge_core::boxes::Aabb;
 use selvedge_core::boxes::block::BoxBlock;
 use selvedge_core::boxes::moving::{MovingBlock, MovingBox};
 
-const _: () = assert!(LEAF == LANES, "the order's groups are the blocks");
+const _: () = assert!(LEAF == LANES, "a group of the order is a block");
 
-/// All blocks of a level.
+/// The blocks of a level.
 #[derive(Debug, Default)]
-pub(super) struct Level {
+pub(super) struct TreeLevel {
     pub(super) blocks: Vec<MovingBlock>,
     pub(super) nodes: Vec<Node>,
-    /// Who is in each block, if that matters.
+    /// The groups and patches in each block, if there is a collision filter.
     pub(super) members: Vec<Members>,
 }
 
-/// What is known of a block as a whole.
+/// A block as a whole.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub(super) bounds: MovingBox<f32>,
-    /// The lanes that hold something.
+    /// The lanes that hold a box.
     pub(super) present: Mask,
-    /// The lanes that hold something that takes part in every pair, not only in those with such a partner.
+    /// The lanes that hold a moving primitive. Others are paired with moving partners only.
     pub(super) moving: Mask,
-    /// The hub that all primitives in it have, or [`NO_HUB`].
+    /// The hub of all primitives in the block, or [`NO_HUB`].
     pub(super) hub: u32,
 }
 
@@ -45,28 +45,28 @@ pub(super) struct Tree<const N: usize> {
     pub(super) primitives: Vec<u32>,
     /// The positions of its vertices in the tree of vertices.
     pub(super) vertices: Vec<[u32; N]>,
-    /// The same side by side for each block of primitives, [`NONE`] in lanes that hold nothing.
+    /// The same side by side for each block of primitives, with [`NONE`] in empty lanes.
     pub(super) corners: Vec<[[u32; LANES]; N]>,
-    /// Of each block of primitives: where they are at rest, if that matters.
+    /// The shape at rest of each block of primitives, if there are [neighbours](super::Neighbours).
     pub(super) rest: Vec<RestBlock>,
-    /// Blocks of primitives first.
-    pub(super) levels: Vec<Level>,
+    /// The lowest level first, whose blocks hold primitives.
+    pub(super) levels: Vec<TreeLevel>,
     /// Whether nodes may have a hub.
     pub(super) has_hubs: bool,
     centres: Vec<Centre>,
 }
 
-/// What makes neighbours of sixteen primitives.
+/// The shapes at rest of sixteen primitives, which decide who are neighbours.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RestBlock {
     pub(super) boxes: BoxBlock,
-    /// Of the mesh.
+    /// The part of the mesh.
     pub(super) parts: [u32; LANES],
-    /// How near boxes of neighbours are.
+    /// The largest distance of the boxes of neighbours.
     pub(super) within: [f32; LANES],
 }
 
-/// No vertex.
+/// Stands for no vertex.
 const NONE: u32 = u32::MAX;
 
 impl<const N: usize> Tree<N> {
@@ -74,7 +74,7 @@ impl<const N: usize> Tree<N> {
         self.primitives.len()
     }
 
-    /// The level of the one block that holds all; `None` if there is nothing.
+    /// Returns the highest level, whose one block holds all, or `None` if the tree is empty.
     pub(super) fn top(&self) -> Option<usize> {
         self.levels.len().checked_sub(1)
     }
@@ -103,7 +103,7 @@ impl<const N: usize> Tree<N> {
         let mut height = 0;
         while size > 0 {
             if self.levels.len() == height {
-                self.levels.push(Level::default());
+                self.levels.push(TreeLevel::default());
             }
             let level = &mut self.levels[height];
             let blocks = size.div_ceil(LANES);
@@ -139,7 +139,7 @@ impl<const N: usize> Tree<N> {
         }
     }
 
-    /// Notes the vertices of each primitive, by their positions.
+    /// Sets the vertices of each primitive, by their positions.
     pub(super) fn connect(&mut self, vertices_of: impl Fn(u32) -> [u32; N]) {
         self.vertices.clear();
         let of_primitives = self.primitives.iter();
@@ -164,7 +164,7 @@ impl<const N: usize> Tree<N> {
                 let is_moving = |lane: usize| {
                     let child = block * LANES + lane;
                     match height {
-                        // All are asked: nobody could foretell the answer of any.
+                        // Without a branch, since each answer is unpredictable.
                         0 => self.vertices[child].iter().fold(false, |any, &vertex| any | moves(vertex)),
                         _ => below[child].moving != 0,
                     }
@@ -176,7 +176,7 @@ impl<const N: usize> Tree<N> {
         }
     }
 
-    /// Notes who is in each block, given that of each vertex by its position; nothing of nobody.
+    /// Sets the members of each block from those of each vertex, by its position. An empty slice removes them.
     pub(super) fn note_members(&mut self, of_vertices: &[Members]) {
         self.levels.iter_mut().for_each(|level| level.members.clear());
         if of_vertices.is_empty() {
@@ -194,7 +194,7 @@ impl<const N: usize> Tree<N> {
         }
     }
 
-    /// Notes where primitives are at rest, given that of each vertex by its position; nothing of nobody.
+    /// Sets the shapes at rest from that of each vertex, by its position. An empty slice removes them.
     pub(super) fn note_rest(&mut self, of_vertices: &[AtRest]) {
         self.rest.clear();
         if of_vertices.is_empty() {
@@ -226,7 +226,7 @@ impl<const N: usize> Tree<N> {
         nodes.for_each(|node| node.moving = node.present);
     }
 
-    /// Gives all blocks the boxes of what they hold; with `only_moving`, those in which something moves.
+    /// Gives all blocks new boxes; with `only_moving`, only blocks in which a primitive moves.
     pub(super) fn refit(&mut self, boxes: &[MovingBox<f32>], only_moving: bool) {
         let Some((leaves, upper)) = self.levels.split_first_mut() else {
             return;
@@ -235,11 +235,8 @@ impl<const N: usize> Tree<N> {
         refit_level(leaves, only_moving, |position| {
             let own = &vertices[position];
             let mut moving = boxes[own[0] as usize];
-            // No `for`, here and below: in builds without optimisation its iterator takes longer than what it is for.
-            let mut k = 1;
-            while k < N {
-                moving.merge(&boxes[own[k] as usize]);
-                k += 1;
+            for &vertex in &own[1..] {
+                moving.merge(&boxes[vertex as usize]);
             }
             moving
         });
@@ -251,10 +248,10 @@ impl<const N: usize> Tree<N> {
     }
 }
 
-/// Blocks that one thread refits in one go.
+/// Blocks that one thread refits at a time.
 const BLOCKS: usize = 64;
 
-fn refit_level(level: &mut Level, only_moving: bool, child: impl Fn(usize) -> MovingBox<f32> + Sync) {
+fn refit_level(level: &mut TreeLevel, only_moving: bool, child: impl Fn(usize) -> MovingBox<f32> + Sync) {
     let blocks = &mut level.blocks;
     parallel::for_each_chunk_with_chunk(&mut level.nodes, blocks, BLOCKS, |first, nodes, blocks| {
         for (index, (node, block)) in nodes.iter_mut().zip(blocks).enumerate() {
@@ -262,12 +259,10 @@ fn refit_level(level: &mut Level, only_moving: bool, child: impl Fn(usize) -> Mo
                 continue;
             }
             let mut bounds = MovingBox::empty();
-            let (mut lane, lanes) = (0, node.present.count_ones() as usize);
-            while lane < lanes {
+            for lane in 0..node.present.count_ones() as usize {
                 let moving = child((first + index) * LANES + lane);
                 block.set(lane, &moving);
                 bounds.merge(&moving);
-                lane += 1;
             }
             node.bounds = bounds;
         }

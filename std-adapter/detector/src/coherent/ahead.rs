@@ -1,27 +1,25 @@
-//! How many steps to look ahead: what costs least.
+//! Chooses the number of steps to look ahead that costs least.
 //!
-//! Far ahead, pairs are looked for seldom, but more are found, and all of them have to be looked at in every step; and more vertices stray. What that
-//! costs depends on the motion: on a sheet of 130 thousand triangles that falls two steps take 1.3 times as long as four or eight, and a fifth less than
-//! eight while it lands. So now and then twice as many steps are tried, or half as many, and kept if a step costs less than just before.
+//! A search that looks far ahead is needed seldom. But it finds more pairs, each of which costs something in every step, and more vertices stray. The
+//! best number depends on the motion. So now and then the search tries twice as many steps, or half as many, and keeps them if a step then costs less.
 //!
-//! Costs are counts, not times, so that they are the same on every machine and every number of threads.
+//! Costs are counts, not times, so they are the same on every machine and every number of threads.
 
-/// For how many steps a number of them is kept before others are tried. Measured: after eight choices each a sleeve takes 2 to 4 % longer than with
-/// the best number, after twenty a sheet that lands takes as long as with one number always, after so many steps neither.
+/// The number of steps before another choice is tried. Trials that are much more frequent cost 2 to 4 % of a step; rarer ones miss changes of the motion.
 const PATIENCE: f64 = 32.0;
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ahead {
-    /// At most.
+    /// The most steps.
     farthest: u32,
     steps: u32,
-    /// What was spent since the last choice.
+    /// The cost since the last choice.
     work: f64,
-    /// Whether more steps are tried next, or fewer.
+    /// Whether the next trial is with more steps or fewer.
     tries_more: bool,
-    /// After how many steps.
+    /// The number of steps until the next trial.
     patience: f64,
-    /// If the present number is a trial: the one before, and what a step cost then.
+    /// During a trial, the number of steps before it, and the cost of a step then.
     before: Option<(u32, f64)>,
 }
 
@@ -32,7 +30,7 @@ impl Default for Ahead {
 }
 
 impl Ahead {
-    /// One step at first.
+    /// Starts with one step.
     pub(super) fn new(farthest: u32) -> Self {
         Self {
             farthest,
@@ -44,7 +42,7 @@ impl Ahead {
         }
     }
 
-    /// Learns nothing from the past; half as far as it may at first.
+    /// Forgets the past. Starts with half of the most steps.
     pub(super) fn forget(&mut self) {
         *self = Self {
             steps: self.farthest.div_ceil(2),
@@ -56,23 +54,23 @@ impl Ahead {
         self.steps
     }
 
-    /// Something was done that costs so much, in any unit.
+    /// Adds a cost, in any unit.
     pub(super) fn spend(&mut self, work: f64) {
         self.work += work;
     }
 
-    /// Chooses anew, after so many steps of those that were to come.
+    /// Makes the next choice, after the pairs have lasted for this number of steps.
     pub(super) fn choose(&mut self, lasted: f64) {
         let cost = std::mem::take(&mut self.work) / lasted.max(1.0);
         if 2.0 * lasted < f64::from(self.steps) {
-            // Most of the way was for nothing.
+            // Most of the steps ahead were wasted.
             self.steps = (self.steps / 2).max(1);
             self.before = None;
             self.patience = PATIENCE;
             return;
         }
         match self.before.take() {
-            // Better than before: perhaps even more so farther on.
+            // Better than before: the next trial goes farther in the same direction.
             Some((_, cost_before)) if cost < cost_before => {}
             Some((steps_before, _)) => {
                 self.steps = steps_before;
@@ -109,7 +107,7 @@ impl Ahead {
 mod tests {
     use super::*;
 
-    /// The share of so many horizons that were of so many steps, where a step costs what is given for that number.
+    /// Returns the share of horizons of the wanted number of steps, given the cost of a step for each number.
     fn share_of(wanted: u32, horizons: u32, cost: impl Fn(u32) -> f64) -> f64 {
         let mut ahead = Ahead::new(8);
         let mut found = 0;

@@ -1,9 +1,8 @@
-//! The near pairs of a detector's steps, and those of them that a step cannot settle by what is remembered: all that are left for the
-//! elementary test.
+//! The near pairs of a detector's steps. Pairs that remembered directions do not settle go to the elementary test.
 //!
-//! **No step is missed.** Whatever is no near pair keeps its distance while no vertex strays too far ([`near`](super::near)), and how far each
-//! has strayed is looked at in every step, at its end; at its start as well, unless it begins where the step before has ended, bit by bit.
-//! The distance is the separation and twice the tolerance, so that what is settled here is no contact of the elementary test's either.
+//! **No contact is missed.** A pair outside the list keeps its distance while no vertex strays too far ([`near`](super::near)). Every step measures the
+//! strays at its end, and at its start too unless it starts exactly where the last step ended. The distance is the separation and twice the tolerance,
+//! so a pair that is settled here is no contact of the elementary test either.
 
 use super::{CLASSES, Class, Interest, NearPairs, Reach};
 use crate::PairKind;
@@ -17,19 +16,18 @@ use selvedge_core::separation::gap::GapError;
 use selvedge_core::separation::largest_coordinate;
 use std::sync::Arc;
 
-/// How far beyond their distance pairs are looked for, in mean edges: more makes longer lists that last longer.
+/// The length beyond their distance within which pairs are looked for, in mean edges. More gives longer lists that last longer.
 const BEYOND: f64 = 0.1;
-/// Most steps to look ahead. Measured on a whole drop and a sleeve that bends: with 6 it searches a third more often, with 12 it finds the pairs of
-/// strayed vertices again nearly twice as often; both take longer.
+/// The most steps to look ahead. With 6 there are a third more searches, and with 12 nearly twice as many for strayed vertices; both take longer.
 const FARTHEST: u32 = 8;
 
-/// What a pair of the list costs in a step, in units of what finding one costs that boxes leave. An estimate: most of the list need no attention.
+/// The cost of a listed pair in a step, in units of the cost of finding a pair: an estimate, since most pairs need no attention.
 const UPKEEP: f64 = 0.1;
 
-/// No distance that pairs are followed within, and no edge: sums of such might overflow.
+/// Distances and edges from here on are not used, since sums of them might overflow.
 pub(crate) const ENORMOUS: f64 = 1e100;
 
-/// Pairs of vertices of which one moves.
+/// Takes pairs with a moving vertex.
 #[derive(Debug)]
 struct OfMoving(Option<Vec<bool>>);
 
@@ -47,30 +45,30 @@ impl Interest for OfMoving {
     }
 }
 
-/// See the [module](self). Step by step; what it answers for one does not depend on those before.
+/// The near pairs of one step after another; see the [module](self). The answers for a step do not depend on earlier steps.
 #[derive(Debug)]
 pub(crate) struct Followed {
     moving: Option<Vec<bool>>,
     filter: Option<Arc<CollisionFilter>>,
-    /// Which vertices have a triangle.
+    /// Whether each vertex has a triangle.
     used: Vec<bool>,
-    /// Once there has been a step.
+    /// Made in the first step.
     near: Option<NearPairs<OfMoving>>,
-    /// What pairs in the list are looked for within.
+    /// The distance of the pairs in the list.
     distance: f64,
-    /// The step before.
+    /// The last step.
     before: [Vec<DVec3>; 2],
     /// This one.
     step: [Vec<DVec3>; 2],
-    /// Pairs that may come within the distance, VF and EE.
+    /// The pairs that may come within the distance, VF and EE.
     pub(crate) open: [Vec<[u32; 2]>; 2],
     /// Whether all positions of vertices that have a triangle are `f32` numbers.
     pub(crate) is_single: bool,
 }
 
-/// What came of looking at pairs.
+/// The open pairs of a chunk.
 #[derive(Default)]
-struct Open {
+struct OpenPairs {
     pairs: [Vec<[u32; 2]>; 2],
 }
 
@@ -97,8 +95,8 @@ impl Followed {
         self.near.as_ref().map_or(0, |near| near.list.len())
     }
 
-    /// Finds the pairs of the step from `start` to `end`, finite positions, that may come within `distance`, as far as directions tell, and
-    /// within `separation`, no more than that, as far as the boxes tell which a detector has that has seen no step before.
+    /// Finds the pairs of a step that may come within `distance` by directions, and within `separation` by the boxes of a new detector. The separation is
+    /// not larger than the distance, and positions are finite.
     pub(crate) fn find(&mut self, topology: &Arc<Topology>, motions: &dyn Motions, distance: f64, separation: f64) {
         std::mem::swap(&mut self.before, &mut self.step);
         if self.used.is_empty() {
@@ -156,17 +154,17 @@ impl Followed {
         near.find_strays(end, 1.0);
         let strays = std::mem::take(&mut near.strays);
 
-        // Four times what is needed: the elementary test gives up on what is nearer than 20u of its size, and calls it a contact.
+        // Four times what is needed: the elementary test gives up on pairs nearer than 20u of their size, and reports a contact.
         let largest = largest_coordinate(start).max(largest_coordinate(end));
         let error = GapError::from_largest_coordinate(4.0 * largest);
         let mapping = mapping_within(motions, separation);
-        let mut open = Open {
+        let mut open = OpenPairs {
             pairs: std::mem::take(&mut self.open),
         };
         open.pairs.iter_mut().for_each(Vec::clear);
         parallel::map_chunks(
             &mut near.list,
-            |_, pairs, open: &mut Open| {
+            |_, pairs, open: &mut OpenPairs| {
                 for pair in pairs {
                     if !pair.needs_attention(&strays) {
                         if pair.gap() > f32::NEG_INFINITY {
@@ -198,13 +196,13 @@ impl Followed {
             },
         );
         near.strays = strays;
-        // What was added to the list comes after the others.
+        // Pairs that were added to the list come after the others.
         open.pairs.iter_mut().for_each(|pairs| pairs.sort());
         self.open = open.pairs;
     }
 }
 
-/// Replaces `own` by the positions. Returns whether all that are used are `f32` numbers.
+/// Replaces both lists by the positions. Returns whether those of all used vertices are `f32` numbers.
 fn take(motions: &dyn Motions, used: &[bool], [start, end]: &mut [Vec<DVec3>; 2]) -> bool {
     let mut are_single = true;
     start.clear();

@@ -1,40 +1,39 @@
-//! For how long candidates stay good.
+//! The motion for which near pairs were found, and how long they stay good.
 //!
-//! Candidates are found for a motion straight on from the present one, several steps ahead: whatever is no candidate keeps more
-//! than a distance along some direction, on all of that way. As long as every vertex stays within some room of it along each axis, a
-//! pair that is no candidate keeps the rest of that distance ([`near`](super::near)).
+//! A search extends the present motion straight ahead for several steps. Every pair that it does not find keeps more than a distance along some direction
+//! on all of that way. As long as each vertex stays within some room of its way along each axis, the pair keeps the rest of that distance
+//! ([`near`](super::near)).
 //!
-//! Where few vertices leave that room, as in a crease, they alone get a [new way](Horizon::lead_back) for the rest of the time, and
-//! candidates are looked for with what they belong to.
+//! If few vertices leave that room, as in a crease, only they get a [new way](Horizon::lead_back), and only their pairs are found again.
 
 use super::ahead::Ahead;
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::course::{expected, has_room, is_certain, joined, room, time_after};
 use selvedge_core::separation::largest_coordinate;
 
-/// The motion that candidates were found for.
+/// The motion for which near pairs were found.
 #[derive(Debug, Default)]
 pub(super) struct Horizon {
-    /// Where the motion began; of a vertex with a new way, where that would have.
+    /// The start of each vertex. For a new way, the point where it would have started.
     origin: Vec<DVec3>,
-    /// In metres a second.
+    /// The velocity of each vertex.
     drift: Vec<DVec3>,
-    /// The end of the motion.
+    /// The end of each vertex.
     far: Vec<DVec3>,
-    /// Of `origin` and `far`.
+    /// The largest coordinate of `origin` and `far`.
     largest: f64,
-    /// In seconds; zero if there is no motion.
+    /// The duration; zero if there is no motion.
     span: f64,
-    /// Since it began, in seconds.
+    /// The time since the start.
     elapsed: f64,
-    /// How many steps the span is meant to last.
+    /// The number of steps in the span.
     pub(super) ahead: Ahead,
-    /// By how much the way of each vertex in a step differs from that in the step before; empty if nobody has told.
+    /// The difference between the way of each vertex in a step and its way in the last one; empty if unknown.
     pub(super) bends: Vec<DVec3>,
 }
 
 impl Horizon {
-    /// Looks no more than so many steps ahead.
+    /// Looks at most this number of steps ahead.
     pub(super) fn new(farthest: u32) -> Self {
         Self {
             ahead: Ahead::new(farthest),
@@ -42,16 +41,16 @@ impl Horizon {
         }
     }
 
-    /// Begins anew, and learns nothing from the past: looks half as far ahead as it may.
+    /// Forgets the motion and the past. Looks half as far ahead as allowed.
     pub(super) fn forget(&mut self) {
         self.span = 0.0;
         self.ahead.forget();
         self.bends.clear();
     }
 
-    /// Begins with the step from `start` to `end` in `h` seconds. Returns the motion to find candidates for.
+    /// Begins a motion with the step from `start` to `end` in a time of `h`. Returns the motion to find pairs for.
     ///
-    /// Looks as many steps [ahead](Ahead) as cost least. Vertices are to stay within `room` of it.
+    /// Looks as many steps [ahead](Ahead) as cost least. Vertices have to stay within `room` of the motion.
     pub(super) fn begin<'a>(&'a mut self, start: &'a [DVec3], end: &[DVec3], h: f64, room: f64) -> [&'a [DVec3]; 2] {
         if self.span > 0.0 {
             let lasted = self.elapsed / self.span * f64::from(self.ahead.steps());
@@ -72,25 +71,25 @@ impl Horizon {
         self.far.extend(ways.map(|(&from, &drift)| expected(from, drift, span)));
         self.largest = largest_coordinate(start).max(largest_coordinate(&self.far));
         if !is_certain(room, self.largest) {
-            // Rounding is too coarse to tell who strays: for this step only, and exactly for it.
+            // Rounding is too coarse to measure strays: the motion is exactly this step.
             self.span = h;
             self.far.copy_from_slice(end);
         }
         [start, &self.far]
     }
 
-    /// Whether, `h` seconds on, all vertices are within `room` of the motion along each axis, and it has not ended.
+    /// Returns whether the motion lasts for a time of `h` more, and all vertices are then within `room` of it along each axis.
     #[cfg(test)]
     pub(super) fn covers(&self, end: &[DVec3], h: f64, room: f64) -> bool {
         self.lasts(h) && self.find_strayed(end, h, room, &mut Vec::new()) == 0
     }
 
-    /// Whether the motion lasts for another `h` seconds.
+    /// Returns whether the motion lasts for a time of `h` more.
     pub(super) fn lasts(&self, h: f64) -> bool {
         time_after(self.elapsed, h, self.span).is_some()
     }
 
-    /// Sets in `strayed` which vertices are not certainly within `room` of the motion, `h` seconds on; returns how many. All, if the
+    /// Finds the vertices that are not certainly within `room` of the motion, a time of `h` later. Returns their number. These are all vertices if the
     /// motion has ended.
     pub(super) fn find_strayed(&self, end: &[DVec3], h: f64, room: f64, strayed: &mut Vec<bool>) -> usize {
         strayed.clear();
@@ -104,9 +103,8 @@ impl Horizon {
         strayed.iter().filter(|&&strayed| strayed).count()
     }
 
-    /// Gives the vertices that have strayed the way from `start` to `end`, on which they are now, for the rest of the motion. Returns
-    /// the motion that all vertices have now, as if the new ways had been theirs from its beginning: that of the others stays. `None` if
-    /// rounding is too coarse for that; then the motion is over.
+    /// Gives strayed vertices a new way for the rest of the motion, in the direction from `start` to `end`. Returns the motion of all vertices, with new
+    /// ways extended back to its beginning. Returns `None` if rounding is too coarse for that; the motion is then over.
     pub(super) fn lead_back(
         &mut self,
         strayed: &[bool],
@@ -127,8 +125,8 @@ impl Horizon {
         is_certain(room, self.largest).then_some([&self.origin, &self.far])
     }
 
-    /// Sets how far each vertex strays from the motion, `h` seconds on, as [`Reach::beyond`](super::Reach::beyond) has it: no less than was
-    /// set before, and infinite if that cannot be told.
+    /// Raises the stray of each vertex to that from the motion, a time of `h` later, in the measure of [`Reach::beyond`](super::Reach::beyond). The stray
+    /// is infinite where it cannot be measured.
     pub(super) fn find_strays(&self, end: &[DVec3], h: f64, beyond: f64, strays: &mut [f32]) {
         let time = time_after(self.elapsed, h, self.span).unwrap_or(f64::NAN);
         let mut grades = [(f64::NEG_INFINITY, f32::INFINITY); GRADES];
@@ -136,7 +134,7 @@ impl Horizon {
         for grade in &mut grades {
             let room = room(stray, 0.0);
             if is_certain(room, self.largest) {
-                // A little more than it is: what takes it for the stray allows for more.
+                // The stray is rounded up, which is safe.
                 *grade = (room, stray as f32);
             }
             stray *= 0.5;
@@ -149,18 +147,19 @@ impl Horizon {
         }
     }
 
-    /// A step of `h` seconds was made.
+    /// Ends a step that took a time of `h`.
     pub(super) fn advance(&mut self, h: f64) {
         self.elapsed += h;
     }
 }
 
-/// How many grades of strays there are: each half of the one before.
+/// The number of grades of strays, each half of the one before.
 const GRADES: usize = 6;
 
-/// What to add to a drift that is to last for so many steps of `h` seconds, of a vertex whose way bends by so much a step: half of what
-/// leads to the end of its parabola, as bends do not last, and so little that it stays within half of its room in the first step. Measured
-/// on the arm sleeve: vertices stray half as far in eight steps; on a sheet that drops on a ball, as far as without it.
+/// Returns the correction of a drift for a vertex whose way bends in each step.
+///
+/// It is half of what leads to the end of the vertex's parabola, since bends do not last. It is limited so that the vertex stays within half of its room
+/// in the first step. On a bending sleeve this halves the strays.
 fn bent(bend: DVec3, steps: f64, h: f64, room: f64) -> DVec3 {
     let most = 0.5 * room;
     (bend * (0.25 * (steps - 1.0).max(0.0))).clamp(DVec3::splat(-most), DVec3::splat(most)) / h
@@ -170,7 +169,7 @@ fn bent(bend: DVec3, steps: f64, h: f64, room: f64) -> DVec3 {
 mod tests {
     use super::*;
 
-    /// One that looks so many steps ahead.
+    /// Makes a horizon that looks this number of steps ahead.
     fn looking(steps: u32) -> Horizon {
         let mut horizon = Horizon::new(2 * steps);
         horizon.forget();

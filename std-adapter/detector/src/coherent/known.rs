@@ -1,18 +1,18 @@
-//! What is known of pairs that are found again.
+//! Looks up pairs that are found again.
 
 use super::pair::NearPair;
 use crate::PairKind;
 
-/// Pairs that are known, in two runs that each ascend by key, from the next ones that may be asked for on.
+/// Known pairs, in two runs that each ascend by key. Look-ups ascend too, and drop the pairs that they pass.
 pub(super) struct Known<'a, D>([&'a [NearPair<D>]; 2]);
 
 impl<'a, D: Copy> Known<'a, D> {
-    /// The second run begins at `first`.
-    pub(super) fn of(list: &'a [NearPair<D>], first: usize) -> Self {
+    /// Takes a list whose second run begins at `first`.
+    pub(super) fn new(list: &'a [NearPair<D>], first: usize) -> Self {
         Self(list.split_at(first).into())
     }
 
-    /// The pair with this key, which comes after all that were asked for.
+    /// Returns the pair with this key, which must be larger than all earlier ones.
     #[inline(always)]
     pub(super) fn find(&mut self, key: (PairKind, [u32; 2])) -> Option<&'a NearPair<D>> {
         let [first, added] = &mut self.0;
@@ -22,7 +22,7 @@ impl<'a, D: Copy> Known<'a, D> {
     }
 }
 
-/// The pair of this order in a run, which begins with it or what comes after it then.
+/// Returns the pair of this order in a run. The run then begins with it, or with the pair after it.
 #[inline(always)]
 fn find_in<'a, D: Copy>(run: &mut &'a [NearPair<D>], order: u128) -> Option<&'a NearPair<D>> {
     let mut passed = 0;
@@ -36,10 +36,10 @@ fn find_in<'a, D: Copy>(run: &mut &'a [NearPair<D>], order: u128) -> Option<&'a 
     run.first().filter(|first| order_of(first.key()) == order)
 }
 
-/// So many are passed over one by one: mostly it is none.
+/// Pairs that are passed one by one. Mostly it is none.
 const SINGLY: usize = 8;
 
-/// How many come before, in a time that grows with the logarithm of their number.
+/// Returns how many pairs come before, in a time that grows with the logarithm of their number.
 #[cold]
 fn how_many_before<D: Copy>(run: &[NearPair<D>], order: u128) -> usize {
     let comes_before = |other: &NearPair<D>| order_of(other.key()) < order;
@@ -51,7 +51,7 @@ fn how_many_before<D: Copy>(run: &[NearPair<D>], order: u128) -> usize {
     start + run[start..run.len().min(end)].partition_point(comes_before)
 }
 
-/// The key of a pair as one number.
+/// Returns the key of a pair as one number.
 #[inline(always)]
 fn order_of((kind, pair): (PairKind, [u32; 2])) -> u128 {
     let [first, second] = pair.map(u128::from);

@@ -1,10 +1,10 @@
-//! The near pairs of the steps to come, found for several at once, each with what is known of it.
+//! The list of near pairs, found for several steps at once.
 //!
-//! **What they hold.** Whatever is none keeps, along a direction d of length one, h + b·(|d₁| + |d₂| + |d₃|) on the motion that they were
-//! found for ([`horizon`](super::horizon)), h the distance of its class and b what is looked for [beyond](Reach::beyond) it
-//! ([`sieve`](super::sieve)). While no vertex strays from that motion by more than b/2 along any axis, they hold every pair within h; while
-//! none strays farther than b/2 + (h − m)/(2√3), which along d is at most half of b·(|d₁| + |d₂| + |d₃|) + h − m, every pair that may come
-//! within m. If few stray farther, the pairs of these are found again and added; else all are found anew.
+//! **Guarantee.** Let h be the distance of a class and b the length [beyond](Reach::beyond) it. On the motion that the list was found for
+//! ([`horizon`](super::horizon)), a pair that is not in the list keeps h + b·(|d₁| + |d₂| + |d₃|) along a direction d of length one
+//! ([`sieve`](super::sieve)). While no vertex strays from that motion by more than b/2 along an axis, the list holds every pair within h. While none
+//! strays farther than b/2 + (h − m)/(2√3), it holds every pair that may come within m, since the stray along d is at most half of
+//! b·(|d₁| + |d₂| + |d₃|) + h − m. If few vertices stray farther, their pairs are found again and added; otherwise all pairs are found again.
 
 use super::horizon::Horizon;
 use super::known::Known;
@@ -19,51 +19,51 @@ use selvedge_core::glam::DVec3;
 use selvedge_core::separation::course::room;
 use std::sync::Arc;
 
-/// If one vertex in so many or more has strayed, all pairs are found anew.
+/// All pairs are found again if one vertex in this number has strayed.
 const MANY: usize = 4;
 
-/// Pairs near each other, followed from step to step. Times are in any unit, positions finite.
+/// Near pairs that are followed from step to step; see the [module](super). Times may be in any unit. Positions must be finite.
 ///
-/// On the rayon pool in which it is called; outside of one on the calling thread.
+/// Searches run on the rayon pool of the caller, if there is one, and otherwise on the calling thread.
 #[derive(Debug)]
 pub struct NearPairs<I: Interest> {
-    /// Those of the last search for all of them, then those that were added since: each in ascending order of their keys. What is added moves
-    /// none of the first, of which there may be millions.
+    /// The pairs of the last full search, then those that were added since. Both parts ascend by [key](NearPair::key). Adding pairs does not move the
+    /// first part, which may have millions.
     pub list: Vec<NearPair<I::Data>>,
-    /// How many were found by the last search for all of them.
+    /// The number of pairs of the last full search.
     first: usize,
-    /// Of these, once they have been asked for: their vertices side by side, 16 bytes to read of each for a look at all of them instead of some 56.
+    /// The vertices of these pairs side by side, once they are needed: 16 bytes to read for each pair instead of some 56.
     vertices: Vec<[u32; 4]>,
-    /// Vertices that were [found](Self::find_strayed) to have strayed.
+    /// Which vertices have [strayed](Self::find_strayed).
     strayed: Vec<bool>,
     search: Search<I>,
     horizon: Horizon,
     reach: Reach,
-    /// How far vertices may stray along each axis, for the list to hold every pair within its distance.
+    /// The largest stray along an axis for which the list holds every pair within its distance.
     slack: f64,
-    /// The same for every pair that may come within what is to be kept of it.
+    /// The same for every pair that may come closer than it has to keep.
     room: f64,
-    /// How far each vertex has strayed, as the reach has it.
+    /// The stray of each vertex, in the measure of [`Reach::beyond`].
     pub(super) strays: Vec<f32>,
-    /// Where new ones are put.
+    /// New pairs.
     found: Vec<NearPair<I::Data>>,
     statistics: NearStatistics,
 }
 
-/// What [`NearPairs`] have done so far.
+/// Counts of [`NearPairs`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct NearStatistics {
-    /// How often all pairs were found anew.
+    /// Full searches.
     pub searches: u64,
-    /// How often only those of vertices that had strayed.
+    /// Searches for the pairs of strayed vertices only.
     pub joined: u64,
 }
 
 impl<I: Interest> NearPairs<I> {
-    /// Of a mesh: pairs with a vertex that is `wanted`, one entry for each, that are of `interest`.
+    /// Makes an empty list for a mesh. It will hold pairs of `interest` that have a `wanted` vertex; there is one entry for each vertex.
     ///
     /// # Errors
-    /// If `reach` is no length.
+    /// If a length in `reach` is negative or not finite.
     ///
     /// # Panics
     /// If there are fewer entries than vertices.
@@ -86,24 +86,24 @@ impl<I: Interest> NearPairs<I> {
         })
     }
 
-    /// Only pairs that the filter allows are found from here on.
+    /// Finds only pairs that the filter allows from here on.
     pub(super) fn set_filter(&mut self, filter: Option<Arc<CollisionFilter>>) {
         self.search.set_filter(filter);
     }
 
-    /// What it was made with.
+    /// Returns the interest that the list was made with.
     pub const fn interest(&self) -> &I {
         self.search.interest()
     }
 
-    /// Where in the list a pair is.
+    /// Returns the place of a pair in the list.
     pub fn place_of(&self, key: (PairKind, [u32; 2])) -> Option<usize> {
         let of_run = |run: &[NearPair<I::Data>]| run.binary_search_by_key(&key, NearPair::key).ok();
         let (first, added) = self.list.split_at(self.first);
         of_run(first).or_else(|| Some(first.len() + of_run(added)?))
     }
 
-    /// Replaces `places` by those in the list, in order, of the pairs with a `marked` vertex; of these there is one entry for each vertex.
+    /// Replaces `places` by those of all listed pairs with a `marked` vertex, in order. There is one mark for each vertex.
     ///
     /// # Panics
     /// If there are fewer entries than vertices.
@@ -119,18 +119,18 @@ impl<I: Interest> NearPairs<I> {
         append_selected(places, added, |place, pair| (has_marked(pair.vertices), first.len() + place));
     }
 
-    /// What was done so far.
+    /// Returns counts of the searches so far.
     pub const fn statistics(&self) -> NearStatistics {
         self.statistics
     }
 
-    /// Vertices that were found to have strayed.
+    /// Returns which vertices have [strayed](Self::find_strayed).
     pub fn strayed(&self) -> &[bool] {
         &self.strayed
     }
 
-    /// Forgets the steps before: from here on all is as it would be if there had been none, and the next one were expected to go from
-    /// `start` to `end`.
+    /// Forgets all earlier steps, as if there had been none, and finds the pairs for a motion that begins with the step from `start` to `end`, which takes
+    /// a time of `h`.
     ///
     /// # Panics
     /// As [`cover`](Self::cover).
@@ -141,18 +141,19 @@ impl<I: Interest> NearPairs<I> {
         self.find(start, end, h);
     }
 
-    /// A step that took a time of `h` was made.
+    /// Ends a step that took a time of `h`.
     pub fn advance(&mut self, h: f64) {
         self.horizon.advance(h);
         self.horizon.ahead.spend(self.reach.upkeep * self.list.len() as f64);
     }
 
-    /// Finds which vertices have strayed so far that pairs which are not in the list may come within what is to be kept; how many.
+    /// Finds the vertices that stray so far that a pair outside the list may come closer than it has to keep, a time of `h` later at `end`. Returns their
+    /// number.
     pub fn find_strayed(&mut self, end: &[DVec3], h: f64) -> usize {
         self.horizon.find_strayed(end, h, self.room, &mut self.strayed)
     }
 
-    /// Adds the pairs of vertices that have strayed. Returns whether that was possible: not if many have, or the motion has ended.
+    /// Adds the pairs of vertices that have strayed. Returns false if that is impossible, because too many have strayed or the motion has ended.
     ///
     /// # Panics
     /// As [`cover`](Self::cover).
@@ -160,7 +161,7 @@ impl<I: Interest> NearPairs<I> {
         strayed < end.len() / MANY && self.horizon.lasts(h) && self.find_of_strayed(start, end, h)
     }
 
-    /// Sees to it that the list is good for the step from `start`, where the one before has ended, to `end`.
+    /// Makes the list good for the step from `start`, where the last step ended, to `end`, which takes a time of `h`.
     ///
     /// # Panics
     /// If a position is not finite.
@@ -172,13 +173,13 @@ impl<I: Interest> NearPairs<I> {
         self.cover_strayed(strayed, start, end, h);
     }
 
-    /// Tells by how much the way of each vertex in the step to come differs from that in the step before.
+    /// Sets the difference between the way of each vertex in the next step and its way in the last one.
     pub fn set_bends(&mut self, bends: impl Iterator<Item = DVec3>) {
         self.horizon.bends.clear();
         self.horizon.bends.extend(bends);
     }
 
-    /// The same where the step before has ended elsewhere, or there is no saying how the mesh came to be at `start`.
+    /// Makes the list [good](Self::cover) for a step from `start` to `end` where the last step may have ended elsewhere.
     ///
     /// # Panics
     /// If a position is not finite.
@@ -207,7 +208,7 @@ impl<I: Interest> NearPairs<I> {
         }
     }
 
-    /// Adds the pairs that vertices have which have strayed. Returns whether it is so; else all were found anew.
+    /// Adds the pairs of vertices that have strayed. Returns false if it had to find all pairs again.
     fn find_of_strayed(&mut self, start: &[DVec3], end: &[DVec3], h: f64) -> bool {
         self.statistics.joined += 1;
         let Some(motion) = self.horizon.lead_back(&self.strayed, [start, end], h, self.slack) else {
@@ -223,7 +224,7 @@ impl<I: Interest> NearPairs<I> {
             found,
             ..
         } = self;
-        search.pairs_of(strayed, reach, motion, Known::of(list, *first), found);
+        search.pairs_of(strayed, reach, motion, Known::new(list, *first), found);
         self.horizon.ahead.spend(self.search.work());
         if self.reach.is_graded {
             self.drop_strayed();
@@ -232,7 +233,7 @@ impl<I: Interest> NearPairs<I> {
         true
     }
 
-    /// Takes the pairs with a vertex that has strayed out of the list.
+    /// Removes the pairs with a vertex that has strayed.
     fn drop_strayed(&mut self) {
         let Self {
             list, strayed, first, ..
@@ -255,13 +256,13 @@ impl<I: Interest> NearPairs<I> {
         self.vertices.clear();
     }
 
-    /// Finds how far each vertex strays up to `positions`, `h` later, if the list [covers](Self::cover) them: that decides which pairs
+    /// Finds how far each vertex strays up to `positions`, a time of `h` later, if the list [covers](Self::cover) them. This decides which pairs
     /// [need attention](NearPair::needs_attention).
     pub(super) fn find_strays(&mut self, positions: &[DVec3], h: f64) {
         self.horizon.find_strays(positions, h, self.reach.beyond, &mut self.strays);
     }
 
-    /// Finds all pairs anew, for a motion that begins with the step from `start` to `end`.
+    /// Finds all pairs for a motion that begins with the step from `start` to `end`, which takes a time of `h`.
     ///
     /// # Panics
     /// As [`cover`](Self::cover).
@@ -270,22 +271,22 @@ impl<I: Interest> NearPairs<I> {
         self.strays.clear();
         self.strays.resize(end.len(), 0.0);
         let motion = self.horizon.begin(start, end, h, self.slack);
-        let known = Known::of(&self.list, self.first);
+        let known = Known::new(&self.list, self.first);
         self.search.pairs(&self.reach, motion, known, &mut self.found);
         self.horizon.ahead.spend(self.search.work());
         std::mem::swap(&mut self.list, &mut self.found);
         self.set_first(self.list.len());
     }
 
-    /// The pairs have moved in a way that was not looked at.
+    /// Forgets all gaps, because the pairs have moved without a test.
     pub fn forget_gaps(&mut self) {
         self.list.iter_mut().for_each(NearPair::forget_gap);
     }
 }
 
-/// Adds to the pairs from `first` on those of `found`, none of which is there yet. Both ascend by key, and do so afterwards.
+/// Merges `found` into the pairs from `first` on. Both ascend by key, and have no pair in common.
 fn add<D: Copy>(pairs: &mut Vec<NearPair<D>>, first: usize, found: &mut Vec<NearPair<D>>) {
-    // From the end, so that every pair is moved at most once, and those before the first new one not at all.
+    // From the end, so that every pair moves at most once, and pairs before the first new one do not move.
     let mut known = pairs.len();
     pairs.extend_from_slice(found);
     while let Some(&new) = found.last() {
@@ -313,7 +314,7 @@ mod tests {
         keys.iter().map(pair).collect()
     }
 
-    /// All pairs, each with a number that the caller may write over.
+    /// Takes all pairs, each with a number that the caller may replace.
     struct Numbered;
 
     impl Interest for Numbered {
@@ -376,7 +377,7 @@ mod tests {
             let mut all = pairs(&first, 1);
             all.extend(pairs(&added, 2));
             let mut new = pairs(&found, 3);
-            let mut known = Known::of(&all, first.len());
+            let mut known = Known::new(&all, first.len());
             new.retain(|pair| known.find(pair.key()).is_none());
             add(&mut all, first.len(), &mut new);
             let keys = |pairs: &[NearPair<u32>]| pairs.iter().map(|pair| pair.pair).collect::<Vec<_>>();
@@ -387,7 +388,7 @@ mod tests {
             prop_assert!(of_added.iter().all(|pair| (pair.data == 2) == added.contains(&pair.pair)));
         }
 
-        /// Of layers of triangles, one of which strays towards another.
+        /// Layers of triangles, one of which strays towards another.
         #[test]
         fn places_are_those_of_all_pairs_with_a_marked_vertex(
             marked in prop::collection::vec(any::<bool>(), 15),

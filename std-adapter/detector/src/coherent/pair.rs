@@ -1,6 +1,6 @@
 //! A pair that is followed from step to step, and the direction that last kept its two sets apart.
 //!
-//! What a direction proves, and how far rounding can move it, is [core's](selvedge_core::separation::gap).
+//! Proofs by directions, and their rounding errors, are [core's](selvedge_core::separation::gap).
 
 use crate::PairKind;
 use selvedge_core::glam::DVec3;
@@ -9,25 +9,27 @@ use selvedge_core::separation::gap::{GapError, SeparatingDirection, distance_fro
 use selvedge_core::separation::truncation::most_shares;
 
 /// A vertex and a face, or two edges, that may come near each other.
+///
+/// The pair remembers a direction that keeps its two sets apart, and a lower bound of their gap along it.
 #[derive(Clone, Copy, Debug)]
 pub struct NearPair<D> {
     /// The vertex and the face, or the two edges, the smaller number first.
     pub pair: [u32; 2],
-    /// Its four vertices.
+    /// The four vertices of the pair.
     pub vertices: [u32; 4],
-    /// What kept the sets apart at the end of the last step that was looked at.
+    /// The direction that kept the sets apart at the end of the last tested step.
     separating: SeparatingDirection,
-    /// How far vertices of both sets may stray together, twice along each axis, before the pair needs attention; less than zero if it does
-    /// at once.
+    /// The length by which vertices of both sets may stray together, twice along each axis, before the pair needs attention. Negative if it needs
+    /// attention at once.
     pub(super) stray: f32,
-    /// What the caller keeps with it.
+    /// The caller's data.
     pub data: D,
     /// Vertex–face or edge–edge.
     pub kind: PairKind,
 }
 
 impl<D: Copy> NearPair<D> {
-    /// A pair of which nothing is known.
+    /// Makes a pair that remembers nothing.
     pub fn new(kind: PairKind, pair: [u32; 2], vertices: [u32; 4], data: D) -> Self {
         Self {
             pair,
@@ -39,19 +41,19 @@ impl<D: Copy> NearPair<D> {
         }
     }
 
-    /// The same pair, whose vertices may [stray](Self::stray) so far.
+    /// Returns the same pair with another [stray](Self::stray).
     #[inline(always)]
     pub(super) const fn with_stray(self, stray: f32) -> Self {
         Self { stray, ..self }
     }
 
-    /// Ascends along a list of pairs.
+    /// Returns the key by which lists of pairs ascend.
     #[inline(always)]
     pub fn key(&self) -> (PairKind, [u32; 2]) {
         (self.kind, self.pair)
     }
 
-    /// Whether its vertices, which stray so far, may have come within its distance: false proves that they have not.
+    /// Returns whether the pair may have come within its distance, given how far all vertices stray. False proves that it has not.
     #[inline(always)]
     pub(super) fn needs_attention(&self, strays: &[f32]) -> bool {
         let [a, b, c, d] = self.vertices.map(|vertex| strays[vertex as usize]);
@@ -59,15 +61,15 @@ impl<D: Copy> NearPair<D> {
             PairKind::VertexFace => (a, b.max(c).max(d)),
             PairKind::EdgeEdge => (a.max(b), c.max(d)),
         };
-        // What is NaN proves nothing.
+        // NaN proves nothing.
         let is_settled = 0.5 * (first + second) <= self.stray;
         !is_settled
     }
 
-    /// Where its vertices are.
+    /// Returns the positions of the pair's vertices.
     #[inline(always)]
     pub fn points(&self, positions: &[DVec3]) -> [DVec3; 4] {
-        // Written out: `map` with a closure is not always inlined.
+        // Written out, since `map` with a closure is not always inlined.
         let [a, b, c, d] = self.vertices;
         [
             positions[a as usize],
@@ -77,47 +79,46 @@ impl<D: Copy> NearPair<D> {
         ]
     }
 
-    /// Its closest points at rest.
+    /// Returns the closest points at rest.
     pub fn closest(&self, positions: &[DVec3]) -> ClosestPoints {
         ClosestPoints::from_points(self.kind, self.points(positions))
     }
 
-    /// A lower bound of the distance at the end of the last step that was looked at; −∞ if there is none.
+    /// Returns a lower bound of the distance at the end of the last tested step, or −∞ if there is none.
     #[inline(always)]
     pub const fn gap(&self) -> f32 {
         self.separating.gap()
     }
 
-    /// Whether no direction has been found yet: then it is [kept](Self::is_kept_at) at no distance.
+    /// Returns whether no direction has been found yet. The pair is then [kept](Self::is_kept_at) at no distance.
     #[inline(always)]
     pub fn remembers_nothing(&self) -> bool {
         self.separating == SeparatingDirection::NONE
     }
 
-    /// The pair has moved in a way that was not looked at.
+    /// Forgets the gap, because the pair has moved without a test.
     pub const fn forget_gap(&mut self) {
         self.separating = self.separating.without_gap();
     }
 
-    /// A lower bound of the distance; zero where rounding hides it.
+    /// Returns a lower bound of the distance, or zero where rounding hides it.
     pub fn distance_from_below(&self, positions: &[DVec3], error: GapError<f64>) -> f64 {
         let direction = self.closest(positions).direction;
         distance_from_below(self.kind, self.points(positions), direction, error)
     }
 
-    /// Remembers another direction, with its gap at the start of a step, if it proves more there.
+    /// Remembers another direction, with its gap at the start of a step, if that gap is larger.
     pub fn refresh(&mut self, direction: DVec3, start: &[DVec3], error: GapError<f64>) {
         self.separating = self.separating.or_better(self.kind, direction, self.points(start), error);
     }
 
-    /// Whether the remembered direction keeps the pair at a distance there. Plain floating point.
+    /// Returns whether the remembered direction keeps the pair at a distance. This is plain floating point, not a proof.
     #[inline(always)]
     pub fn is_kept_at(&self, distance: f64, positions: &[DVec3]) -> bool {
         self.separating.gap_at(self.kind, self.points(positions)) > distance
     }
 
-    /// Whether the direction that the pair remembers keeps it apart at the end of the step too, given that its gap is right at
-    /// the start.
+    /// Returns whether the remembered direction also keeps the pair apart at the end of the step. The remembered gap must hold at the start.
     #[inline(always)]
     pub fn stays_apart(&mut self, end: &[DVec3], separation: f64, error: GapError<f64>) -> bool {
         let later = self.separating.lasts(self.kind, self.points(end), separation, error);
@@ -127,8 +128,8 @@ impl<D: Copy> NearPair<D> {
         later.is_some()
     }
 
-    /// Whether the direction that the pair remembers, or that of its closest points at the end or at the start, certainly keeps it more
-    /// than `separation` apart on the way from `start` to `end`. Remembers the one that does.
+    /// Returns whether a direction certainly keeps the pair more than `separation` apart on the way from `start` to `end`, and remembers it. Tries the
+    /// remembered direction, then those of the closest points at the end and at the start.
     #[inline]
     pub fn keeps_apart(&mut self, path: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> bool {
         let [_, end] = path;
@@ -136,14 +137,15 @@ impl<D: Copy> NearPair<D> {
             || self.keeps_apart_along(self.closest(end).direction, path, separation, error)
     }
 
-    /// The first part of [`keeps_apart`](Self::keeps_apart): whether the direction that the pair remembers does.
+    /// Tries the remembered direction only: the first part of [`keeps_apart`](Self::keeps_apart).
     #[inline]
     pub fn keeps_apart_as_before(&mut self, [start, end]: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> bool {
         let points = [self.points(start), self.points(end)];
         self.remember_if(self.separating.keeps(self.kind, points, separation, error))
     }
 
-    /// The rest of it, given the direction of the closest points at the end: forgets the gap if neither does.
+    /// Tries the direction of the closest points at the end, which is given, and that at the start: the second part of
+    /// [`keeps_apart`](Self::keeps_apart). Forgets the gap if neither keeps the pair apart.
     #[inline]
     pub fn keeps_apart_along(
         &mut self,
@@ -170,10 +172,11 @@ impl<D: Copy> NearPair<D> {
         kept.is_some()
     }
 
-    /// How far each of its vertices may go from `base` towards `wanted`, for the pair to keep `separation` on the way from `start` to where they
-    /// end ([core's truncation](selvedge_core::separation::truncation)): by the direction that the pair remembers or one of its closest points,
-    /// which it remembers then, without a gap. None of its way each if no direction keeps the pair apart both at `start` and at
-    /// `base`.
+    /// Returns the share of the way from `base` to `wanted` that each vertex may go, so that the pair keeps `separation` on the way from `start`
+    /// ([core's truncation](selvedge_core::separation::truncation)).
+    ///
+    /// It tries the remembered direction and those of the closest points, and remembers the best one, without a gap. The shares are zero if no direction
+    /// keeps the pair apart both at `start` and at `base`.
     pub fn shares(&mut self, start: &[DVec3], [base, wanted]: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> [f64; 4] {
         let (kind, [start, base, wanted]) = (self.kind, [self.points(start), self.points(base), self.points(wanted)]);
         let directions = [start, base, wanted].map(|points| ClosestPoints::from_points(kind, points).direction);

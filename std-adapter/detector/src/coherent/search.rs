@@ -1,9 +1,8 @@
-//! Which pairs may come near each other on a motion: from [hierarchies of moving boxes](crate::broad_phase), through a
-//! [sieve](super::sieve).
+//! Finds the pairs that may come near each other on a motion, by [hierarchies of moving boxes](crate::broad_phase) and a [sieve](super::sieve).
 
 use super::known::Known;
 use super::pair::NearPair;
-use super::sieve::{Left, Sieve};
+use super::sieve::{Sieve, SievedPair};
 use super::{Interest, Reach};
 use crate::PairKind;
 use crate::broad_phase::MovingBroadPhase;
@@ -13,27 +12,27 @@ use crate::step::{CollisionFilter, StepError};
 use selvedge_core::glam::DVec3;
 use std::sync::Arc;
 
-/// Finds near pairs, with buffers that it keeps.
+/// Finds near pairs, with buffers that last.
 #[derive(Debug)]
 pub(super) struct Search<I> {
     topology: Arc<Topology>,
     interest: I,
-    /// Vertices without which a pair is of no interest.
+    /// The vertices of which a pair of interest has at least one.
     wanted: Vec<bool>,
-    /// Whether the broad phase looks for pairs of a few vertices only.
+    /// Whether the broad phase finds pairs of few vertices only.
     is_narrowed: bool,
     broad_phase: MovingBroadPhase,
     sieve: Sieve,
     vertex_face: Vec<[u32; 2]>,
     edge_edge: Vec<[u32; 2]>,
-    /// Of them, what the sieve leaves.
-    left: Vec<Left>,
-    by_first: Vec<Left>,
+    /// The pairs that the sieve leaves.
+    left: Vec<SievedPair>,
+    by_first: Vec<SievedPair>,
     places: Vec<u32>,
 }
 
 impl<I: Interest> Search<I> {
-    /// Only pairs with a vertex that is `wanted` are found, one entry for each vertex.
+    /// Makes a search for pairs with a `wanted` vertex. There is one entry for each vertex.
     pub(super) fn new(topology: Arc<Topology>, interest: I, wanted: Vec<bool>) -> Self {
         let mut broad_phase = MovingBroadPhase::new(Arc::clone(&topology));
         broad_phase.set_wanted(wanted.clone());
@@ -61,17 +60,17 @@ impl<I: Interest> Search<I> {
         &self.interest
     }
 
-    /// Pairs that come within a distance of `reach` and what is looked for beyond it, along every direction, will be found.
+    /// Sets the reach of the search.
     ///
     /// # Errors
-    /// If it is no length. Then it stays as it was.
+    /// If a length is negative or not finite. The old reach then stays.
     pub(super) fn set_reach(&mut self, reach: &Reach) -> Result<(), StepError> {
         let largest = reach.classes.iter().map(|class| class.distance).fold(0.0, f64::max);
         self.broad_phase.set_separation(largest + reach.beyond)
     }
 
-    /// Replaces `pairs` by those of the motion from `start` to `end`, in ascending order of their keys: not that in which the hierarchies
-    /// find them, which is all that depends on the steps before. What is `known` of them is remembered.
+    /// Replaces `pairs` by those of a motion, in ascending order of their keys, so that they do not depend on earlier steps. Keeps what is `known` of
+    /// each.
     ///
     /// # Panics
     /// If a position is not finite.
@@ -89,8 +88,8 @@ impl<I: Interest> Search<I> {
         self.find(reach, None, known, pairs);
     }
 
-    /// Replaces `pairs` by those with a vertex that is in `only`, the only ones whose motion is not that of the last search; those that are
-    /// not `known` yet, unless all are to be found out anew how far their vertices may stray.
+    /// Replaces `pairs` by those with a vertex in `only`. The other vertices must have the motion of the last search. Leaves out `known` pairs, unless
+    /// strays are graded.
     ///
     /// # Panics
     /// If a position is not finite.
@@ -108,13 +107,13 @@ impl<I: Interest> Search<I> {
         self.find(reach, Some(only), known, pairs);
     }
 
-    /// How many pairs were near each other by their boxes in the last search, neighbours that were left out included: about what it cost.
+    /// Returns the number of near boxes of the last search, including neighbours that were left out: about its cost.
     pub(super) fn work(&self) -> f64 {
         let left_out = self.broad_phase.neighbours_left_out();
         (self.vertex_face.len() + self.edge_edge.len()) as f64 + left_out as f64
     }
 
-    /// Does what the next search need not do then; a step that does not search has the time.
+    /// Builds degraded hierarchies in a step without a search, so that the next search need not.
     pub(super) fn build_if_degraded(&mut self, [start, end]: [&[DVec3]; 2]) {
         self.broad_phase.build_if_degraded(start, end);
     }
@@ -123,7 +122,7 @@ impl<I: Interest> Search<I> {
         let certain_gap = self.sieve.set_motion(reach, [start, end], only);
         self.broad_phase.set_separation_of_neighbours(certain_gap);
         let updated = self.broad_phase.update(start, end);
-        updated.expect("the caller keeps every position finite");
+        updated.expect("positions are finite");
     }
 
     fn find(&mut self, reach: &Reach, only: Option<&[bool]>, mut known: Known<'_, I::Data>, pairs: &mut Vec<NearPair<I::Data>>) {
@@ -151,10 +150,10 @@ impl<I: Interest> Search<I> {
             parallel::gather(left, found, |pairs, left| {
                 sieve.leave(topology, interest, enough, (kind, pairs), left);
             });
-            for_each_in_order(left, count, by_first, places, |Left { pair, stray }| {
+            for_each_in_order(left, count, by_first, places, |SievedPair { pair, stray }| {
                 let found = match known.find((kind, pair)) {
                     Some(_) if only_new => None,
-                    // What it is about is still the same.
+                    // The caller's data stay.
                     Some(same) => Some(*same),
                     None => {
                         let vertices = topology.vertices_of(kind, pair);
@@ -168,16 +167,17 @@ impl<I: Interest> Search<I> {
     }
 }
 
-/// Visits pairs, no two of which are alike and whose first numbers are below `count`, in ascending order: unless they are few, by counting how many
-/// have which first number, then each few with the same one.
+/// Visits different pairs in ascending order. Their first numbers are below `count`.
+///
+/// Unless they are few, a counting sort orders them by the first number, then each group by the second.
 fn for_each_in_order(
-    pairs: &mut [Left],
+    pairs: &mut [SievedPair],
     count: usize,
-    by_first: &mut Vec<Left>,
+    by_first: &mut Vec<SievedPair>,
     places: &mut Vec<u32>,
-    mut visit: impl FnMut(Left),
+    mut visit: impl FnMut(SievedPair),
 ) {
-    // Counting looks at all that there are to count.
+    // Counting takes a time in proportion to `count`.
     if pairs.len() < count / 16 {
         pairs.sort_unstable_by_key(|left| left.pair);
         return pairs.iter().copied().for_each(visit);
@@ -190,21 +190,21 @@ fn for_each_in_order(
     for first in 0..count {
         places[first + 1] += places[first];
     }
-    // All of them are written over.
-    by_first.resize(pairs.len(), Left::default());
+    // All entries are written over.
+    by_first.resize(pairs.len(), SievedPair::default());
     for left in &*pairs {
         let place = &mut places[left.pair[0] as usize];
         by_first[*place as usize] = *left;
         *place += 1;
     }
-    let mut in_order = [Left::default(); FEW];
+    let mut in_order = [SievedPair::default(); FEW];
     for same in by_first.chunk_by_mut(|a, b| a.pair[0] == b.pair[0]) {
         if same.len() > FEW {
             same.sort_unstable_by_key(|left| left.pair[1]);
             same.iter().copied().for_each(&mut visit);
             continue;
         }
-        // By how many come before it: without a branch that nobody could foretell, and side by side.
+        // By the number of smaller ones, side by side and without unpredictable branches.
         let mut seconds = [u32::MAX; FEW];
         seconds
             .iter_mut()
@@ -219,8 +219,7 @@ fn for_each_in_order(
     }
 }
 
-/// So many, a multiple of eight, are compared each with each, which takes as long as the square of them: mostly it is fewer than ten.
-/// Where cloth is jammed a step takes a sixtieth less time than with 24.
+/// The most pairs of a group that are compared each with each: a multiple of eight. Most groups have fewer than ten.
 const FEW: usize = 64;
 
 #[cfg(test)]
@@ -230,7 +229,7 @@ mod tests {
     use crate::broad_phase::Neighbours;
     use proptest::prelude::*;
 
-    /// Every pair; of neighbours less is asked.
+    /// Takes every pair; neighbours have a smaller distance.
     struct Told {
         neighbours: Arc<Neighbours>,
         at_once: bool,
@@ -254,12 +253,12 @@ mod tests {
 
     const CELLS: u32 = 12;
 
-    /// A vertex of a sheet of so many cells a side: its number, by row and column.
+    /// Returns the number of a vertex of a sheet, by row and column.
     fn vertex(row: u32, column: u32) -> u32 {
         row * (CELLS + 1) + column
     }
 
-    /// Two sheets of two triangles a cell.
+    /// Makes two sheets with two triangles for each cell.
     fn two_sheets() -> Arc<Topology> {
         let cells = (0..CELLS).flat_map(|row| (0..CELLS).map(move |column| [row, column]));
         let of_one = cells.flat_map(|[row, column]| {
@@ -272,7 +271,7 @@ mod tests {
         Arc::new(Topology::new(2 * count as usize, triangles.collect()).unwrap())
     }
 
-    /// Rolled up, each sheet with this radius at its place, waves upon it.
+    /// Rolls both sheets up, with waves.
     fn rolled(radius: f64, waves: f64, phase: f64) -> Vec<DVec3> {
         let at = |place: u32| {
             let (sheet, own) = (place / (vertex(CELLS, CELLS) + 1), place % (vertex(CELLS, CELLS) + 1));
@@ -287,7 +286,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(60))]
 
-        /// Whether sheets are one part or two; where all are looked for, and then those of some.
+        /// Searches for all pairs, then for those of some vertices, with sheets as one part or two.
         #[test]
         fn neighbours_that_are_told_at_once_are_left_out_as_if_one_by_one(
             radius in 0.6..8.0_f64,
@@ -318,17 +317,17 @@ mod tests {
                 let mut search = Search::new(Arc::clone(&topology), interest, vec![true; count]);
                 search.set_reach(&reach).unwrap();
                 let [mut all, mut of_some] = [Vec::new(), Vec::new()];
-                search.pairs(&reach, [&start, &end], Known::of(&[], 0), &mut all);
+                search.pairs(&reach, [&start, &end], Known::new(&[], 0), &mut all);
                 let candidates = search.broad_phase.statistics().candidates;
                 let work = search.work();
-                search.pairs_of(&strayed, &reach, [&other_start, &other_end], Known::of(&[], 0), &mut of_some);
+                search.pairs_of(&strayed, &reach, [&other_start, &other_end], Known::new(&[], 0), &mut of_some);
                 let keys = [all, of_some].map(|list| list.iter().map(NearPair::key).collect::<Vec<_>>());
                 (keys, candidates, [work, search.work()])
             };
             let (one_by_one, told) = (found(false), found(true));
             prop_assert!(told.0 == one_by_one.0);
             prop_assert_eq!(told.2, one_by_one.2, "what it cost is counted as before");
-            // Cells side by side are a cell apart, which is more than what is asked of neighbours.
+            // Cells side by side are a cell apart, which is more than the distance of neighbours.
             let leaves_out = at_rest > 1.5 && radius > 2.0 && distance < 0.5;
             prop_assert!(told.1 < one_by_one.1 || !leaves_out, "{} of {}", told.1, one_by_one.1);
         }
@@ -340,12 +339,12 @@ mod tests {
             pairs in prop::collection::btree_set([0..4_u32, 0..99_u32], 0..350).prop_map(Vec::from_iter).prop_shuffle(),
             count in prop::sample::select(vec![4, 3000]),
         ) {
-            let of_pair = |&pair: &[u32; 2]| Left { pair, stray: pair[1] as f32 };
+            let of_pair = |&pair: &[u32; 2]| SievedPair { pair, stray: pair[1] as f32 };
             let mut expected = pairs.clone();
             expected.sort_unstable();
             let expected: Vec<_> = expected.iter().map(of_pair).collect();
             let mut pairs: Vec<_> = pairs.iter().map(of_pair).collect();
-            // Of a search before.
+            // Buffers of an earlier search.
             let (mut by_first, mut places) = (vec![of_pair(&[9, 9]); 150], vec![9; 50]);
             let mut visited = Vec::new();
             for_each_in_order(&mut pairs, count, &mut by_first, &mut places, |left| visited.push(left));

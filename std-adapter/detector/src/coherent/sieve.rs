@@ -1,8 +1,7 @@
-//! Candidates that keep apart until candidates are looked for again, and so need no attention until then.
+//! Drops candidates that keep apart until the next search.
 //!
-//! Boxes along three axes leave many pairs that are farther apart than their reach: nearly all pairs of triangles side by side. What
-//! they keep though their vertices stray, by half of what is looked for beyond their distance, is their
-//! [clearance](selvedge_core::separation::clearance).
+//! Boxes along three axes leave many pairs that are farther apart than their reach, such as most pairs of triangles side by side. The distance that a
+//! pair keeps while its vertices stray is its [clearance](selvedge_core::separation::clearance).
 
 use super::{CLASSES, Class, Interest, Reach};
 use crate::PairKind;
@@ -15,29 +14,29 @@ use selvedge_core::glam::{DVec3, Vec3};
 use selvedge_core::separation::clearance::Clearance;
 use selvedge_core::separation::largest_coordinate;
 
-/// What is asked of every pair of vertices that boxes leave, rounded to `f32`.
+/// Tests the clearance of pairs that boxes leave, in `f32`.
 #[derive(Debug)]
 pub(super) struct Sieve {
     level: Level,
     /// The motion of each vertex.
     rows: Vec<VertexRow<f32>>,
-    /// What pairs of each class are to keep.
+    /// The clearance that pairs of each class have to keep.
     clearances: [Clearance; CLASSES],
 }
 
 /// A pair that the sieve leaves.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Left {
+pub(super) struct SievedPair {
     pub(super) pair: [u32; 2],
-    /// How far its vertices may [stray](super::NearPair::stray).
+    /// The length by which its vertices may stray.
     pub(super) stray: f32,
 }
 
-/// Pairs that are looked at in one go: their vertices and strays are some kilobytes.
+/// Pairs that are tested at a time: their vertices and strays are some kilobytes.
 const AT_ONCE: usize = 128;
 
 impl Sieve {
-    /// For so many vertices.
+    /// Makes a sieve for this number of vertices.
     pub(super) fn new(vertices: usize) -> Self {
         Self {
             level: best_level(),
@@ -46,10 +45,10 @@ impl Sieve {
         }
     }
 
-    /// From here on all is asked about this motion, which is the last one but for vertices that are in `only`, if there are any.
+    /// Sets the motion. If there is an `only`, vertices outside of it keep the last motion.
     ///
-    /// Returns a gap along an axis between the boxes of a pair of the first class, throughout the motion, from which on
-    /// [`leave`](Self::leave) certainly does not add it.
+    /// Returns a gap between boxes: [`leave`](Self::leave) certainly drops a pair of the first class whose boxes keep that gap along one axis throughout the
+    /// motion.
     pub(super) fn set_motion(&mut self, reach: &Reach, [start, end]: [&[DVec3]; 2], only: Option<&[bool]>) -> f64 {
         let largest = largest_coordinate(start).max(largest_coordinate(end));
         let clearance = |class: Class| Clearance::new(class.distance, largest, class.margin);
@@ -62,15 +61,15 @@ impl Sieve {
         self.clearances[0].certain_gap(reach.beyond, largest)
     }
 
-    /// Adds to `left` the pairs that do not certainly keep what is asked of their class, though their vertices stray by `enough`
-    /// ([`Reach::beyond`]), in the motion that was set.
+    /// Appends to `left` the pairs that do not certainly keep the clearance of their class while their vertices stray by `enough`
+    /// ([`Reach::beyond`]).
     pub(super) fn leave(
         &self,
         topology: &Topology,
         interest: &impl Interest,
         enough: f32,
         (kind, pairs): (PairKind, &[[u32; 2]]),
-        left: &mut Vec<Left>,
+        left: &mut Vec<SievedPair>,
     ) {
         let (mut vertices, mut classes, mut strays) = ([[0; 4]; AT_ONCE], [0; AT_ONCE], [0.0; AT_ONCE]);
         for pairs in pairs.chunks(AT_ONCE) {
@@ -82,9 +81,9 @@ impl Sieve {
             largest_strays_from_rows(self.level, kind, &self.clearances, &self.rows, own, &classes, &mut strays);
             append_selected(left, pairs, |place, &pair| {
                 let stray = strays[place];
-                // What is NaN keeps nothing apart.
+                // NaN keeps nothing apart.
                 let keeps_apart = stray >= enough;
-                (!keeps_apart, Left { pair, stray })
+                (!keeps_apart, SievedPair { pair, stray })
             });
         }
     }
@@ -120,7 +119,7 @@ mod tests {
         }
     }
 
-    /// Of a pair of all four, in each class.
+    /// Returns whether a pair of all four vertices is dropped, in each class.
     fn left_out(kind: PairKind, reach: &Reach, motion: [&[DVec3]; 2]) -> [bool; CLASSES] {
         let mut sieve = Sieve::new(4);
         sieve.set_motion(reach, motion, None);
@@ -140,7 +139,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(4000))]
 
-        /// Though its vertices stray towards each other, as far as they may.
+        /// The vertices stray towards each other, as far as they may.
         #[test]
         fn only_what_keeps_the_distance_of_its_class_is_left_out(
             start in prop::array::uniform4(point()),
@@ -187,7 +186,7 @@ mod tests {
             prop_assert!(left_out(kind, &reach, [&far(asked + 1e-4), &far(asked + 1.0)])[0]);
         }
 
-        /// Then boxes may leave it out as well.
+        /// Boxes may then leave the pair out as well.
         #[test]
         fn what_has_the_certain_gap_between_its_boxes_is_left_out(
             start in prop::array::uniform4(point()),
@@ -206,14 +205,14 @@ mod tests {
                 [0, 1, 2, 3].map(|k| points[k] + DVec3::AXES[axis] * if first(kind, k) { 0.0 } else { by })
             };
             let reach = reach([distance, 1.0, 1.0], 0.5, beyond);
-            // No farther away than this.
+            // No coordinate is larger.
             let gap = Sieve::new(4).set_motion(&reach, [&[DVec3::splat(8.0); 4]; 2], None);
             let gap = gap * (1.0 + 1e-14) + 1e-14;
             prop_assert!(gap < (distance + beyond) * 1.0001 + 1e-4);
             prop_assert!(left_out(kind, &reach, [&ahead(start, gap), &ahead(end, gap)])[0]);
         }
 
-        /// Two triangles side by side, in any position: boxes along the axes may overlap, but the sets keep nearly a height apart.
+        /// Two triangles side by side, in any position. Boxes may overlap, but the sets are nearly a height apart.
         #[test]
         fn pairs_of_triangles_side_by_side_are_left_out(
             turn in prop::array::uniform4(-1.0..1.0_f64),
@@ -233,7 +232,7 @@ mod tests {
                 [above, left, right, below]
             };
             let points = points.map(|point| turn.normalize() * point);
-            // The cloth's margin.
+            // A margin as in cloth simulation.
             let reach = reach([0.16; CLASSES], 2.0 / 3.0, 0.05);
             prop_assert!(left_out(kind(is_edge), &reach, [&points, &points])[1]);
         }

@@ -36,30 +36,30 @@ use selvedge_core::filter::{Filter, Tier};
 use selvedge_core::narrowing::rounded_up;
 use selvedge_core::{PrimitivePair, Scalar};
 
-/// So many sweeps in `f64`, then one by one. Measured on cloth-ball: 5 sweeps take 20 ms more than 16, of 60; 12 take 2 more.
+/// Sweeps in `f64` before pairs are decided one by one. On a large cloth, 5 sweeps take a third more time than 16, and 12 take 3 % more.
 const SWEEPS: usize = 16;
 
-/// So many sweeps in `f32` before those, where it is exact. Measured on cloth-ball: 4, 6 and 8 take the same time, 12 a tenth more.
+/// Sweeps in `f32` before those in `f64`, where `f32` is exact. On a large cloth, 4, 6 and 8 take the same time, and 12 take a tenth more.
 const SINGLE_SWEEPS: usize = 4;
 
-/// Whose numbers pairs have.
+/// Says how pairs are numbered.
 #[derive(Clone, Copy)]
 pub(super) enum Numbers<'a> {
     /// Positions in the hierarchies.
     Positions(&'a Hierarchies),
-    /// The mesh's own.
+    /// The mesh's own numbers.
     Mesh(&'a Topology),
-    /// The mesh's own, in rows by their positions in the hierarchies.
+    /// The mesh's own numbers, with rows by positions in the hierarchies.
     Placed(&'a Hierarchies),
-    /// Faces and edges by their positions in the hierarchies. An edge is a vertex that goes from one of its ends to the other; its row
-    /// comes after those of all vertices.
+    /// Positions of faces and edges in the hierarchies. An edge is a vertex that moves from one end to the other; its row comes after those of all
+    /// vertices.
     FacesAndEdges(&'a Hierarchies),
-    /// Positions in the hierarchies of two meshes, whose rows begin at these.
+    /// Positions in the hierarchies of two meshes, with the first row of each.
     Between(Pairing<'a>, [u32; 2]),
 }
 
 impl Numbers<'_> {
-    /// The rows of a pair's vertices.
+    /// Returns the rows of a pair's vertices.
     #[inline(always)]
     fn vertices(&self, kind: PairKind, pair: [u32; 2]) -> [u32; 4] {
         match self {
@@ -78,7 +78,7 @@ impl Numbers<'_> {
         }
     }
 
-    /// The same of many pairs of a kind.
+    /// Replaces `rows` by those of many pairs of one kind.
     fn vertices_of_all(&self, kind: PairKind, pairs: &[[u32; 2]], rows: &mut [[u32; 4]]) {
         match self {
             Self::Positions(hierarchies) => hierarchies.vertices_of_all(kind, pairs, rows),
@@ -100,14 +100,14 @@ impl Numbers<'_> {
     }
 }
 
-/// What all chunks of a step read.
+/// The input of all chunks of a source.
 #[derive(Clone, Copy)]
 pub(super) struct StepInput<'a> {
     pub(super) level: Level,
     pub(super) numbers: Numbers<'a>,
     pub(super) rows: RowSlices<'a>,
     pub(super) question: Question,
-    /// The earliest contact so far, of all threads.
+    /// The latest time of interest.
     pub(super) bound: &'a Bound,
     pub(super) stop: &'a Stop,
 }
@@ -131,7 +131,7 @@ impl<'a> StepInput<'a> {
         }
     }
 
-    /// The pair of four vertices.
+    /// Returns the pair of four vertices.
     #[inline(always)]
     fn primitives(&self, kind: PairKind, rows: [u32; 4]) -> PrimitivePair<f64> {
         PrimitivePair {
@@ -141,17 +141,17 @@ impl<'a> StepInput<'a> {
     }
 }
 
-/// One thread's chunk.
+/// The chunk of one thread.
 #[derive(Debug)]
 pub(super) struct Chunk {
-    /// Pairs that the filter has kept, and the rows of their vertices.
+    /// Pairs that the filter keeps, and the rows of their vertices.
     pairs: Vec<[u32; 2]>,
     indices: Vec<[u32; 4]>,
     masks: Vec<Mask>,
-    /// Those that are open, in sweeps of either format.
+    /// The pairs that are open, in the sweeps of either format.
     single: Open<f32>,
     double: Open<f64>,
-    /// When contact is not excluded, for each of `pairs`; [`NEVER`] where it is.
+    /// For each of `pairs` the time from which contact is possible; [`NEVER`] if it is excluded.
     impacts: Vec<f64>,
 }
 
@@ -173,13 +173,13 @@ impl Chunk {
         }
     }
 
-    /// Forgets what was left when a traversal ended early.
+    /// Removes the pairs that an early end of a traversal leaves.
     pub(super) fn clear(&mut self) {
         self.pairs.clear();
         self.indices.clear();
     }
 
-    /// Takes candidates. Returns whether to go on.
+    /// Takes candidates. Returns whether to continue.
     pub(super) fn take(
         &mut self,
         step: &StepInput<'_>,
@@ -210,7 +210,7 @@ impl Chunk {
         self.pairs.len() < CHUNK || self.finish(step, kind, findings)
     }
 
-    /// Decides all pairs that there are. Returns whether to go on.
+    /// Decides all pairs of the chunk. Returns whether to continue.
     pub(super) fn finish(&mut self, step: &StepInput<'_>, kind: PairKind, findings: &mut Findings) -> bool {
         let begin = Clock::now();
         let until = step.bound.get();
@@ -247,7 +247,7 @@ impl Chunk {
         !(step.question.wanted == Wanted::Any && step.bound.is_lowered()) && !step.stop.has_stopped()
     }
 
-    /// Leaves to `f64` what `f32` does not prove to be apart until the end, from when on it does not. Returns the number of sweeps.
+    /// Sweeps in `f32`. Pairs that this does not prove apart until the end continue in `f64` from the proven time. Returns the number of sweeps.
     fn sweep_in_single(&mut self, step: &StepInput<'_>, kind: PairKind, until: f64, rows: &[VertexRow<f32>]) -> usize {
         let Self { single, double, .. } = self;
         single.fill(&self.indices);
@@ -258,7 +258,7 @@ impl Chunk {
             kind,
             rows,
             limits: Limits {
-                // This one proves nothing: it only tells when to leave a pair to `f64`.
+                // No part of a proof: it only decides when a pair goes to `f64`.
                 tolerance: f32::from_f64(limits.tolerance),
                 separation: rounded_up(limits.separation),
             },
@@ -275,7 +275,7 @@ impl Chunk {
         SINGLE_SWEEPS
     }
 
-    /// Decides what is open in `f64`, after so many sweeps.
+    /// Decides the open pairs in `f64`, after this number of sweeps.
     fn sweep_in_double(&mut self, step: &StepInput<'_>, kind: PairKind, until: f64, sweeps: usize) {
         let Self { double, impacts, .. } = self;
         let sweep = Sweep {
@@ -299,7 +299,7 @@ impl Chunk {
     }
 }
 
-/// Drops the pairs from `first` on that are never coplanar, with their rows.
+/// Drops pairs from `first` on that are never coplanar, with their rows.
 pub(super) fn drop_never_coplanar(
     step: &StepInput<'_>,
     kind: PairKind,
@@ -311,7 +311,7 @@ pub(super) fn drop_never_coplanar(
     masks.clear();
     masks.resize((indices.len() - first).div_ceil(LANES), 0);
     let (level, own, separation) = (step.level, &indices[first..], step.question.limits.separation);
-    // A separation that the format has no number for excludes nothing.
+    // A separation beyond the range of the format excludes no pair.
     match step.rows.single {
         Some(rows) => {
             if let Some(filter) = Filter::new(Tier::Widened).with_separation(rounded_up(separation)) {
@@ -335,14 +335,14 @@ pub(super) fn drop_never_coplanar(
     indices.truncate(kept);
 }
 
-/// One pair alone, from the time up to which it is proven to be apart. [`NEVER`] if it is so until the end.
+/// Decides one pair, from the time up to which it is proven apart. Returns the time of contact, or [`NEVER`].
 fn advanced(step: &StepInput<'_>, kind: PairKind, indices: [u32; 4], from: f64, until: f64) -> f64 {
     let limits = &step.question.limits;
     let impact = time_of_impact_within(&step.primitives(kind, indices), limits, from, until);
     impact.time().unwrap_or(NEVER)
 }
 
-/// Whether a pair for which contact is not excluded from `time` on truly touches.
+/// Returns whether a pair truly touches that may be in contact from `time` on.
 fn touches(step: &StepInput<'_>, kind: PairKind, pair: [u32; 2], time: f64) -> bool {
     let impact = Impact::Possible {
         time,
@@ -352,7 +352,7 @@ fn touches(step: &StepInput<'_>, kind: PairKind, pair: [u32; 2], time: f64) -> b
     settled(&pair, &impact) != Verdict::Never
 }
 
-/// A chunk that takes what a traversal finds.
+/// Takes the pairs of a traversal into a chunk.
 pub(super) struct ChunkSink<'a> {
     pub(super) chunk: &'a mut Chunk,
     pub(super) findings: &'a mut Findings,

@@ -1,4 +1,4 @@
-//! Moving boxes for pairs that the caller has: the first test of each, as for those that hierarchies find.
+//! Moving boxes for listed pairs: the first test of each, as in the hierarchies.
 //!
 //! ```text
 //! once a step   the f32 box of each vertex, edge and face at the start and at the end      64 bytes, one cache line
@@ -9,8 +9,8 @@
 //!               apart if the second is above the first in one of the six at the start, and in the same at the end
 //! ```
 //!
-//! In place of the rows of four vertices that any other test gathers, each pair takes two cache lines, and no branch. That it is
-//! certified to drop a pair is derived with the [boxes](selvedge_core::boxes::moving) and their [mapping](selvedge_core::boxes::mapping).
+//! Other tests gather the rows of four vertices; this one reads two cache lines for each pair, without a branch. A dropped pair is certainly apart: see
+//! [boxes](selvedge_core::boxes::moving) and their [mapping](selvedge_core::boxes::mapping).
 
 use crate::PairKind;
 use crate::broad_phase::mapping_within;
@@ -26,7 +26,7 @@ use selvedge_core::boxes::moving::MovingBox;
 struct Row([f32; 16]);
 
 impl Row {
-    /// As the second of a pair.
+    /// Makes the row of the second primitive of a pair.
     fn second(moving: &MovingBox<f32>) -> Self {
         let [a, b, c] = moving.start.lower;
         let [d, e, f] = moving.start.upper;
@@ -36,7 +36,7 @@ impl Row {
         Self([a, b, c, -d, -e, -f, none, none, g, h, i, -j, -k, -l, none, none])
     }
 
-    /// As the first of a pair: what the second must be above.
+    /// Makes the row of the first primitive of a pair: the limits that the second must exceed.
     fn first(moving: &MovingBox<f32>) -> Self {
         let [a, b, c] = moving.start.lower;
         let [d, e, f] = moving.start.upper;
@@ -51,13 +51,13 @@ impl Row {
 #[derive(Debug, Default)]
 pub(super) struct PrimitiveBoxes {
     vertex_boxes: Vec<MovingBox<f32>>,
-    /// Of VF, EE pairs.
+    /// For VF and EE pairs.
     firsts: [Vec<Row>; 2],
     seconds: [Vec<Row>; 2],
 }
 
 impl PrimitiveBoxes {
-    /// Makes the boxes of a step. Pairs that they show to be apart are so by more than `separation`.
+    /// Makes the boxes of a step. Pairs whose boxes are apart are farther apart than `separation`.
     pub(super) fn fit(&mut self, topology: &Topology, motions: &dyn Motions, separation: f64) {
         let mapping = mapping_within(motions, separation);
         let moving = (0..motions.len()).map(|vertex| motions.motion(vertex));
@@ -134,7 +134,7 @@ mod tests {
     use crate::simd::available_levels;
     use crate::step::Step;
 
-    /// A triangle, and a vertex of a second one above it or beside it, at both ends of the step.
+    /// Tests a triangle and a vertex of a second one, at both ends of the step.
     fn is_near(start: DVec3, end: DVec3, separation: f64) -> bool {
         let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
         let far = [DVec3::splat(50.0), DVec3::splat(51.0)];

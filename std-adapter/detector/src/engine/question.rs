@@ -1,35 +1,34 @@
-//! What a step is asked for, and how late a contact may be to matter.
+//! What the caller wants of a step.
 
 use selvedge_core::elementary::Limits;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// What of a step is wanted.
+/// Which contacts the caller wants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Wanted {
     /// Every contact.
     All,
-    /// The earliest; of several at the same time, all are found.
+    /// The earliest contact.
     Earliest,
-    /// Whether there is one.
+    /// Any contact, if there is one.
     Any,
 }
 
-/// What is asked of a step.
+/// A question about a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Question {
     pub(crate) limits: Limits<f64>,
     pub(crate) wanted: Wanted,
-    /// Whether pairs that the filter keeps are wanted as well.
+    /// Whether the caller also wants the pairs that the filter keeps.
     pub(crate) keeps_filtered: bool,
-    /// Whether only pairs that truly touch are contacts, by the exact verdict.
+    /// Whether the exact verdict decides on contact.
     pub(crate) is_exact: bool,
 }
 
-/// How late a contact may be to be of interest: shared by all threads, lowered by each contact where only the earliest is wanted.
+/// The latest time at which a contact is of interest. All threads share it, and each contact lowers it if only the earliest is wanted.
 ///
-/// A time is as its bits, which are in the same order, times being no less than zero. In which order threads lower it changes
-/// no answer: a pair is dropped only if it is proven to be apart until *after* the bound, which never is before the earliest
-/// contact.
+/// A time is stored as its bits, which have the same order since times are not negative. The order in which threads lower it changes no result: a pair
+/// is dropped only if it is proven apart until *after* the bound, which is never before the earliest contact.
 #[derive(Debug)]
 pub(crate) struct Bound(AtomicU64);
 
@@ -42,12 +41,12 @@ impl Bound {
         f64::from_bits(self.0.load(Ordering::Relaxed))
     }
 
-    /// There is a contact at `time`.
+    /// Takes note of a contact at `time`.
     pub(super) fn lower(&self, wanted: Wanted, time: f64) {
         match wanted {
             Wanted::All => {}
             Wanted::Earliest => {
-                // Adding zero makes a negative zero positive.
+                // The sum makes a negative zero positive.
                 let bits = (time + 0.0).to_bits();
                 self.0.fetch_min(bits, Ordering::Relaxed);
             }
@@ -55,7 +54,7 @@ impl Bound {
         }
     }
 
-    /// Whether any contact was found, of which the caller wants one.
+    /// Returns whether a contact was found, if any will do.
     pub(super) fn is_lowered(&self) -> bool {
         self.0.load(Ordering::Relaxed) == 0
     }

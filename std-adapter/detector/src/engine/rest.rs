@@ -1,12 +1,12 @@
-//! A mesh at rest: which of its primitives meet.
+//! Finds the primitives of a mesh at rest that meet.
 //!
-//! An edge is the way of a vertex from one of its ends to the other. So whether it meets a face is asked as of any vertex and face
-//! during a step, of the same filter, sweeps and exact verdict:
+//! An edge is the way of a vertex from one of its ends to the other. So an edge and a face are tested like a vertex and a face during a step, by the
+//! same filter, sweeps and exact verdict:
 //!
 //! ```text
 //! edges and faces without a common vertex     traversal of their hierarchies
 //! triangles with a common edge ("hinges")     those that are not wide open, and may be coplanar: their four pairs without a common vertex
-//! ends of loose edges, points                 vertices and faces that the edge ties together; all of a point's
+//! ends of loose edges, points                 vertices and faces that the edge connects; all faces with a point
 //!   │  chunk by chunk, as in a step           filter, sweeps, exact verdict
 //!   ▼
 //! intersections
@@ -14,17 +14,17 @@
 //!
 //! # Why these are enough
 //! Two triangles have a point in common, besides the vertices that they share, exactly if one of these pairs meets:
-//! * **No common vertex.** The hull of three points is the union of its edges where it has no area; elsewhere a segment in which two such
-//!   hulls meet ends where an edge of one meets the other, and coplanar ones overlap in a polygon whose corners do.
-//! * **One common vertex v**, and x another common point. The ray from v through x leaves each triangle at a point of the edge opposite
-//!   to v, or in an end of it; where it leaves the first of them it still is in the other, which is convex.
-//! * **A common edge, v u**, and x a common point beside it. Then both lie in a plane, on one side of v u, with the corners a and b. By the
-//!   angles at v and at u either one of the corners is within the other triangle, or v a crosses u b, or u a crosses v b. No
-//!   edge is free of the other triangle's vertices, so these four pairs are looked at by themselves.
+//! * **No common vertex.** A triangle without area is the union of its edges. Otherwise two triangles meet in a segment that ends where an edge of one
+//!   meets the other, or they are coplanar and overlap in a polygon whose corners lie on edges.
+//! * **One common vertex v**, and x another common point. The ray from v through x leaves each triangle on the edge opposite to v, or in an end of it.
+//!   Where it first leaves a triangle, it is still in the other, which is convex.
+//! * **A common edge, v u**, and x a common point beside it. Then both triangles lie in one plane, on one side of v u, with corners a and b. By the
+//!   angles at v and at u, one of the corners is in the other triangle, or v a crosses u b, or u a crosses v b. Every edge of one triangle has a
+//!   vertex of the other, so these four pairs are tested separately.
 //!
-//! A vertex that touches a face, or two edges that touch, are thereby found with an edge and a face of theirs, or as a pair of a hinge. But
-//! for triangles that name a vertex twice: such is an edge, and all that its end may touch is a face with its other end. And for those
-//! that name one vertex only: such is a point, which has no edge, so that it is looked at with every face.
+//! This also finds a vertex that touches a face, and two edges that touch: as an edge and a face, or as a pair of a hinge. Loose features are the
+//! exception. A triangle that names a vertex twice is an edge, whose end may touch a face that contains its other end. A triangle that names one
+//! vertex only is a point without edges, so it is tested with every face.
 
 use super::chunk::{Chunk, ChunkSink, Numbers, StepInput, drop_never_coplanar};
 use super::findings::Findings;
@@ -150,11 +150,11 @@ fn part_of<T>(list: &[T], [share, shares]: [usize; 2]) -> &[T] {
     &list[place(share)..place(share + 1)]
 }
 
-/// Some hinges of a thread's.
+/// The hinges of one thread.
 #[derive(Debug, Default)]
 pub(super) struct HingeChunk {
     hinges: Vec<Hinge>,
-    /// Of those that may be coplanar: which, twice, and the rows of their vertices.
+    /// For each hinge that may be coplanar, its index twice, and the rows of its vertices.
     indices: Vec<[u32; 2]>,
     rows: Vec<[u32; 4]>,
     masks: Vec<Mask>,
@@ -168,7 +168,7 @@ impl HingeChunk {
     }
 }
 
-/// What is looked at, one after the other.
+/// The parts of a search, one after the other.
 #[derive(Clone, Copy, Debug)]
 enum Part {
     FacesAndEdges,
@@ -193,9 +193,9 @@ impl Part {
     }
 }
 
-/// What all threads read.
+/// The input of all threads.
 struct RestSearch<'a> {
-    /// Of edges and faces.
+    /// For edges and faces.
     step: StepInput<'a>,
     hierarchies: &'a Hierarchies,
     hinges: &'a Hinges,
@@ -203,13 +203,13 @@ struct RestSearch<'a> {
 }
 
 impl RestSearch<'_> {
-    /// Whether one was found, and nobody wants more, or not now.
+    /// Returns whether the search is complete, or was cut short.
     fn has_enough(&self) -> bool {
         let is_answered = self.step.question.wanted == Wanted::Any && self.step.bound.is_lowered();
         is_answered || !self.step.stop.continues(0)
     }
 
-    /// A share of a part, out of so many. Returns the tests that hierarchies took.
+    /// Searches one share of a part. Returns the number of box tests.
     fn share(&self, part: Part, [share, shares]: [usize; 2], space: &mut Space, findings: &mut Findings) -> u64 {
         space.chunk.clear();
         match part {
@@ -243,7 +243,7 @@ impl RestSearch<'_> {
         tests.unwrap_or_default()
     }
 
-    /// Those of some edges.
+    /// Tests the hinges of some edges.
     fn hinges(&self, edges: impl Iterator<Item = u32>, space: &mut Space, findings: &mut Findings) {
         let topology = self.hierarchies.topology();
         let step = StepInput {
@@ -268,13 +268,13 @@ impl RestSearch<'_> {
         } = space;
         while hinges.peek().is_some() && !self.has_enough() {
             own.clear();
-            // Two pairs of a kind come of each.
+            // Each gives two pairs of a kind.
             for (hinge, places) in hinges.by_ref().take(CHUNK / 2) {
                 own.indices.push([own.hinges.len() as u32; 2]);
                 own.hinges.push(hinge);
                 own.rows.push(places);
             }
-            // All four pairs have one volume.
+            // All four pairs have the same volume.
             drop_never_coplanar(&step, PairKind::EdgeEdge, 0, &mut own.indices, &mut own.rows, &mut own.masks);
             for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
                 near.clear();
@@ -313,7 +313,7 @@ impl RestSearch<'_> {
     }
 }
 
-/// Takes the vertices and faces that no edge and face tell of.
+/// Takes the vertices and faces that no edge and face show.
 struct TiedSink<'a> {
     search: &'a RestSearch<'a>,
     step: &'a StepInput<'a>,
@@ -335,10 +335,10 @@ impl Sink for TiedSink<'_> {
     }
 }
 
-/// Rows that one thread makes in one go.
+/// Rows that one thread makes at a time.
 const ROWS: usize = 4096;
 
-/// A row for each vertex, at rest, and then one for each edge, that goes from one end to the other.
+/// Makes a row for each vertex, at rest, and then one for each edge, from one end to the other.
 fn set_rows(rows: &mut Rows, hierarchies: &Hierarchies) {
     let vertices = hierarchies.rows().double();
     let edges = hierarchies.edge_ends();

@@ -1,4 +1,4 @@
-//! Sweeps: one round of advancing for all open pairs, after which those that it decides are dropped.
+//! Sweeps: each is one round of advancing for all open pairs, and drops the pairs that it decides.
 
 use crate::broad_phase::CHUNK;
 use crate::simd::Level;
@@ -7,13 +7,13 @@ use selvedge_core::Scalar;
 use selvedge_core::batch::{LANES, Round, RoundQuestion, VertexRow, advance_from_rows};
 use selvedge_core::elementary::Limits;
 
-/// The first sweep that asks the signed volume as well: from the second on takes 7 ms more on cloth-ball, from the third 1.
+/// The first sweep that also tests the signed volume. Earlier sweeps with that test cost more than they save.
 const VOLUME_SWEEP: usize = 3;
 
-/// A chunk is swept when there are as many pairs as one visit brings, so there are never twice as many.
+/// The most pairs of a chunk: it is swept as soon as it holds as many as one visit brings.
 pub(super) const MOST: usize = 3 * CHUNK;
 
-/// Open pairs: their places in the chunk, the rows of their vertices, and up to when they are proven to be apart.
+/// Open pairs: their places in the chunk, the rows of their vertices, and the times up to which they are proven apart.
 #[derive(Debug)]
 pub(super) struct Open<F> {
     places: Vec<u32>,
@@ -38,7 +38,7 @@ impl<F: Scalar> Open<F> {
         self.times.clear();
     }
 
-    /// All pairs of a chunk, from the start.
+    /// Takes all pairs of a chunk, from the start of the step.
     pub(super) fn fill(&mut self, indices: &[[u32; 4]]) {
         self.clear();
         self.places.extend(0..indices.len() as u32);
@@ -58,28 +58,28 @@ impl<F: Scalar> Open<F> {
     }
 }
 
-/// Why a pair that is not proven to be apart is open no more.
+/// The reason why a pair leaves the sweeps without a proof.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Undecided {
-    /// Within the tolerance of the separation, at its time.
+    /// The pair is within the tolerance of the separation at its time.
     Near,
-    /// Lanes can prove nothing more.
+    /// Lanes can prove no more.
     Stuck,
 }
 
-/// Sweeps that all ask the same.
+/// The question of all sweeps.
 pub(super) struct Sweep<'a, F> {
     pub(super) level: Level,
     pub(super) kind: PairKind,
     pub(super) rows: &'a [VertexRow<F>],
     pub(super) limits: Limits<F>,
-    /// Up to when pairs are of interest.
+    /// The latest time of interest.
     pub(super) until: F,
 }
 
 impl<F: Scalar> Sweep<'_, F> {
-    /// One round for all open pairs, the sweep with this number. Those that it decides are open no more; `leave` gets the ones that are
-    /// not proven to be apart: place, rows, time and why.
+    /// Runs one round for all open pairs. Drops the pairs that it decides, and calls `leave` with those that it does not prove apart: place, rows, time
+    /// and reason.
     pub(super) fn run(&self, number: usize, open: &mut Open<F>, mut leave: impl FnMut(u32, [u32; 4], F, Undecided)) {
         let Open {
             places,

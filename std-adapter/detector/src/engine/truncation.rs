@@ -1,24 +1,21 @@
-//! A step that every vertex goes as far as its own neighbourhood lets it, in place of one that is cut for the whole mesh at its earliest
-//! contact.
+//! Truncates a step: each vertex goes as far as its own neighbourhood allows, instead of all stopping at the earliest contact.
 //!
 //! ```text
 //! wanted step   ─▶ contacts ─ none ─▶ it is free
 //!                     │
 //!                     ▼
-//! each contact     planes between its two sets: shares of their ways (core's truncation); if it has them already, none of its vertices moves
+//! each contact     planes between its two sets: shares of their ways (core's truncation); the second time, its vertices rest
 //! vertices         the least of their shares
-//! pairs of those   from the boxes that whole ways sweep: contacts again ─▶ once more, until there are none
+//! their pairs      from the boxes that whole ways sweep: contacts again ─▶ repeat until there are none
 //! ```
 //!
-//! **What is left is free.** A pair that swept boxes exclude keeps its distance wherever each vertex ends in the box of its way. One that they
-//! leave is looked at, by the same certified tests as any, for every end that its vertices are given: in the last round, or in an earlier
-//! one since which none of them has changed.
+//! **The result is free.** A pair that swept boxes exclude keeps its distance wherever each vertex ends in the box of its way. Every other pair passes
+//! the certified tests for the final ends of its vertices: in the last round, or in an earlier one since which none of its vertices changed.
 //!
-//! **It ends.** In each round every contact found is a pair that moves. The first time it lowers shares by its planes, or at once lets all its
-//! vertices rest; the second time it lets them rest. A pair at rest is not looked at any more. So there are at most two rounds for each
-//! pair.
+//! **It ends.** Every contact found in a round is a pair that moves. The first time, its planes lower the shares of its vertices, or its vertices rest
+//! at once; the second time they rest. A resting pair is not tested again. So each pair takes at most two rounds.
 //!
-//! **Pairs in contact at the start** cannot be told apart by any share: their vertices rest, so that they come no nearer, and they are counted.
+//! **Pairs in contact at the start** are in contact for every share. Their vertices rest, so that they come no nearer, and they are counted.
 
 use super::mesh_engine::MeshEngine;
 use super::question::Question;
@@ -37,19 +34,19 @@ use std::collections::BTreeSet;
 struct Held<'a> {
     start: &'a [DVec3],
     wanted: &'a [DVec3],
-    /// What pairs are to keep, and a little more, so that the elementary test finds it kept.
+    /// The distance that pairs keep, and a little more, so that the elementary test confirms it.
     distance: f64,
     error: GapError<f64>,
-    /// Of its way, for each vertex.
+    /// The share of its way that each vertex goes.
     shares: Vec<f64>,
-    /// Whether its share has changed in this round.
+    /// Whether the share of each vertex changed in this round.
     changed: Vec<bool>,
-    /// Pairs that have had their planes.
+    /// Pairs whose planes have been used.
     parted: BTreeSet<(PairKind, [u32; 2])>,
 }
 
 impl Held<'_> {
-    /// Holds back the vertices of a pair that comes into contact on the way to where they are led now.
+    /// Holds back the vertices of a pair that comes into contact on the way to its present ends.
     fn hold(&mut self, contact: &Contact<f64>, vertices: [u32; 4], end: &[DVec3]) {
         let is_new = self.parted.insert((contact.kind, contact.pair));
         let own = if is_new { self.planes(contact, vertices, end) } else { None };
@@ -64,8 +61,8 @@ impl Held<'_> {
         }
     }
 
-    /// The shares that leave most to the vertex that has least, of those by the pair's closest points at the start, at its contact and where it
-    /// is wanted.
+    /// Returns shares by planes through the pair's closest points at the start, at its contact or at the wanted ends: those with the largest smallest
+    /// share.
     fn planes(&self, contact: &Contact<f64>, vertices: [u32; 4], end: &[DVec3]) -> Option<[f64; 4]> {
         let at = |positions: &[DVec3]| vertices.map(|vertex| positions[vertex as usize]);
         let (start, wanted, end) = (at(self.start), at(self.wanted), at(end));
@@ -80,8 +77,8 @@ impl Held<'_> {
 }
 
 impl MeshEngine {
-    /// Replaces `end` by the ends of a step that is free of contact, but for pairs that are in contact at the start.
-    /// `round` brings a position into the format that the caller has, between the same two numbers.
+    /// Replaces `end` by the ends of a step that is free of contact, except for pairs that are in contact at the start. `round` rounds a position to the
+    /// caller's format, between the same two numbers.
     pub(crate) fn truncate(
         &mut self,
         threads: &Workers,
@@ -146,7 +143,7 @@ impl MeshEngine {
             truncation.rounds += 1;
         }
 
-        // Who is in contact at the start was so in the first round.
+        // Pairs in contact at the start were found in the first round.
         open.iter_mut().for_each(Vec::clear);
         for &(kind, pair) in &held.parted {
             let vertices = self.topology().vertices_of(kind, pair).map(|vertex| vertex as usize);
@@ -160,7 +157,7 @@ impl MeshEngine {
         Ok(truncation)
     }
 
-    /// Replaces `contacts` by those of the mesh's own pairs.
+    /// Replaces `contacts` by those of listed pairs.
     fn contacts_among(
         &mut self,
         threads: &Workers,
