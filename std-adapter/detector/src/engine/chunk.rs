@@ -244,7 +244,8 @@ impl Chunk {
         }
         self.clear();
         findings.counts.elementary_time += begin.elapsed();
-        !(step.question.wanted == Wanted::Any && step.bound.is_lowered()) && !step.stop.has_stopped()
+        let has_enough = step.question.wanted == Wanted::Any && step.bound.is_lowered();
+        !has_enough && !step.stop.has_stopped()
     }
 
     /// Sweeps in `f32`. Pairs that this does not prove apart until the end continue in `f64` from the proven time. Returns the number of sweeps.

@@ -61,7 +61,7 @@ impl Topology {
     /// Counts what is unusual about the mesh. It takes about as long as [`Topology::new`].
     #[must_use]
     pub fn statistics(&self) -> TopologyStatistics {
-        let (components, used) = count_components(&Named::new(self.vertex_count(), &self.triangles()));
+        let (components, used) = count_components(&Named::new(self.vertex_count(), self.triangles()));
         let [loose_edges, points] = self.loose();
         let triangles = self.proper_triangles();
         let mut statistics = TopologyStatistics {
