@@ -33,7 +33,7 @@ impl BoxBlock {
         }
     }
 
-    /// Stores a box in lane `lane`. Does nothing from lane [`LANES`](crate::batch::LANES) on.
+    /// Stores a box in lane `lane`. Does nothing from lane [`LANES`] on.
     #[inline(always)]
     pub const fn set(&mut self, lane: usize, own: &Aabb<f32>) {
         if lane >= LANES {
@@ -44,7 +44,7 @@ impl BoxBlock {
         [d[lane], e[lane], f[lane]] = own.upper;
     }
 
-    /// Returns the box in lane `lane`, or an [empty](Aabb::empty) one from lane [`LANES`](crate::batch::LANES) on.
+    /// Returns the box in lane `lane`, or an [empty](Aabb::empty) one from lane [`LANES`] on.
     #[inline(always)]
     #[must_use]
     pub fn get(&self, lane: usize) -> Aabb<f32> {
