@@ -106,14 +106,12 @@ fn upright<L: Lanes<Scalar = f64>>(way: Vector<L>, [first, second]: [Vector<L>; 
         // Removes the rest along each side.
         let mut left = way;
         let sides = [first, second, second - first];
-        let mut place = 0;
-        while place < count {
+        for place in 0..count {
             let side = sides[place];
             let squared = side.dot(side);
             let part = left.dot(side) / squared;
             let is_small = (left.dot(left) * zero.splat(1e-6)).greater((part * part) * squared);
             left = chosen(is_finite(part) & is_small, left - side.scaled(part), left);
-            place += 1;
         }
         direction = chosen(is_on_side, normalized(left), direction);
     }

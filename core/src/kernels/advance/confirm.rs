@@ -1,10 +1,10 @@
-//! Proof that a contact happens, in floating point.
+//! Proofs in floating point that a contact happens.
 //!
-//! Drop one axis. If the polygon of the pair's corners, so projected, strictly contains the origin throughout an interval of
-//! time, the line through the origin along that axis meets the hull of the corners in one point, whose height is continuous. It is
-//! K/n, where the signed volume K is that of the first three corners, and n, the dropped component of their
-//! normal, keeps its sign because the polygon keeps its orientation. So if K has certainly opposite signs at the ends of the
-//! interval, the height is zero somewhere in between: there the hull contains the origin, and the sets touch.
+//! Drop one axis. Let the projected polygon of the pair's corners strictly contain the origin throughout an interval of time.
+//! Then the line through the origin along that axis meets the hull of the corners in one point, whose height is continuous. The
+//! height is K/n. K is the signed volume of the first three corners. n, the dropped component of their normal, keeps its sign
+//! because the polygon keeps its orientation. So if K certainly has opposite signs at the ends of the interval, the height is
+//! zero somewhere in between. There the hull contains the origin, and the sets touch.
 //!
 //! The polygon turns around the origin if the cross products of consecutive corners all have one sign. (Four turns of less than half a
 //! circle each, in one sense, make one full turn, not two.) Each is quadratic in time; its Bernstein coefficients on the
@@ -17,7 +17,7 @@
 //! covers (`volume.rs`) as many roundings. Underflow: 6λ in each component of a corner enters with a factor of M four times, products and
 //! sums add 7λ at most, less than η(1 + M)².
 //!
-//! What can not be confirmed so: contact at the very ends of the step, touching without passing through, coplanar motion.
+//! This cannot confirm contact at the very ends of the step, touching without passing through, and coplanar motion.
 
 use super::corners::Corners;
 use super::volume::SignedVolume;
@@ -28,13 +28,14 @@ use crate::points::PairPoints;
 use crate::scalar::Scalar;
 use crate::vector::Vector;
 
-/// How many intervals are tried, each eight times as long as the one before.
+/// The number of intervals that are tried, each eight times as long as the one before.
 const INTERVALS: u32 = 18;
 
-/// An interval of time in [0, 1] in which the two sets certainly touch, if one around `near` can be proven. Certified, in
+/// Returns an interval of time in [0, 1] in which the two sets certainly touch, if one around `near` can be proven. Certified, in
 /// every floating-point environment.
 ///
-/// `near` is best the time that [`time_of_impact`](crate::elementary::advance::time_of_impact) returns. `None` says nothing.
+/// The best `near` is the time that [`time_of_impact`](crate::elementary::advance::time_of_impact) returns. `None` proves
+/// nothing.
 ///
 /// ```
 /// use selvedge_core::elementary::{Limits, advance::{certain_contact, time_of_impact}};
@@ -73,7 +74,7 @@ fn prove<S: Number, const N: usize>(corners: &Corners<S, N>, near: S) -> Option<
     contains.then_some([from, to])
 }
 
-/// Twice the bound of a coefficient, which the doubled middle one must exceed: of the projections to xy, yz and zx.
+/// Returns twice the bound of a coefficient, which the doubled middle one must exceed: for the projections to xy, yz and zx.
 #[inline(always)]
 #[must_use]
 pub fn doubled_bounds<L: Lanes>(extent: Vector<L>) -> [L; 3] {
@@ -88,7 +89,7 @@ pub fn doubled_bounds<L: Lanes>(extent: Vector<L>) -> [L; 3] {
     ]
 }
 
-/// The shortest interval around `near`, of those tried, at whose ends the volume has certainly opposite signs.
+/// Returns the shortest of the tried intervals around `near` at whose ends the volume certainly has opposite signs.
 fn where_it_changes_sign<S: Number>(volume: &SignedVolume<S>, near: S) -> Option<[S; 2]> {
     let (zero, one) = (S::ZERO, S::ONE);
     let mut reach = S::small(8) * S::UNIT_ROUNDOFF;
@@ -106,7 +107,7 @@ fn where_it_changes_sign<S: Number>(volume: &SignedVolume<S>, near: S) -> Option
     None
 }
 
-/// Whether the polygon of the corners, projected, certainly contains the origin while they move from `start` to `end`.
+/// Returns whether the projected polygon of the corners certainly contains the origin while they move from `start` to `end`.
 #[inline(always)]
 #[must_use]
 pub fn contains_origin<L: Lanes, const N: usize>(
@@ -126,7 +127,7 @@ pub fn contains_origin<L: Lanes, const N: usize>(
             all_right = all_right & (-coefficient).greater(doubled_bound);
         }
     };
-    // Around the triangle, or around the parallelogram, in which the second and third corner are opposite to each other.
+    // Around the triangle, or around the parallelogram, whose second and third corner are opposite to each other.
     match (start.as_slice(), end.as_slice()) {
         ([a0, b0, c0], [a1, b1, c1]) => {
             turn([a0, a1], [b0, b1]);

@@ -1,10 +1,9 @@
-//! The corners of a pair, and how exactly products with them can be computed.
+//! The corners of a pair, and the error of products with them.
 //!
 //! The corners are the differences of the pair's points, one set's minus the other's: p − a, p − b, p − c for a vertex and a
-//! face, aᵢ − bⱼ for two edges (in the order 00, 01, 10, 11). Two points of the two sets differ by a point of the corners'
-//! convex hull, a triangle or a parallelogram. So the distance of the sets is the origin's distance from that hull, they
-//! touch when the hull contains the origin, and each corner moves linearly because the points do. Nothing below needs the
-//! points themselves.
+//! face, aᵢ − bⱼ for two edges (in the order 00, 01, 10, 11). Two points of the two sets differ by a point of the corners' convex
+//! hull, a triangle or a parallelogram. So the distance of the sets is the origin's distance from that hull, and they touch when
+//! the hull contains the origin. Each corner moves linearly because the points do. Nothing below needs the points themselves.
 //!
 //! # Rounding
 //! ε is the largest relative error of one operation: u where it rounds to nearest, 2u in any other direction. Let M be the
@@ -16,17 +15,17 @@
 //!  |fl(w · ê(t)) − w · e(t)| ≤ 7εS + O(ε²) ≤ 14uS + O(u²),   and 8εS ≤ 16uS + O(u²) for a sum of two such products
 //! ```
 //!
-//! with S then belonging to both. The threshold is **T = 20u·Ŝ + η**: the four u above 16 cover what is of second order and the
-//! rounding of Ŝ and T themselves, some dozen roundings of numbers that are 20u times smaller.
+//! where S then belongs to both. The threshold is **T = 20u·Ŝ + η**. The four u above 16 cover the second order and the rounding
+//! of Ŝ and T themselves, some dozen roundings of numbers that are 20u times smaller.
 //!
-//! **Underflow.** λ is the smallest normal number. Where a thread flushes results to zero an operation loses at most λ, and
-//! where it takes subnormal operands for zero each of them loses at most λ as well. A component of ê(t) then loses at most 6λ
-//! (3 in the difference, one each in two products and a sum), and adds 6λ|w_k| to the error of the product; the product and
-//! the additions lose 5λ more, T itself 8λ. The first is covered by μ = [`Rounding::EXTENT_UNDERFLOW`], which is added to each M_k,
-//! 20u·μ ≥ 7λ; the others by η = [`Rounding::UNDERFLOW`] ≥ 2⁷λ. So a direction may have any length.
+//! **Underflow.** λ is the smallest normal number. Where a thread flushes results to zero, an operation loses at most λ. Where it
+//! treats subnormal operands as zero, each of them loses at most λ as well. A component of ê(t) then loses at most 6λ (3 in the
+//! difference, one each in two products and a sum), and adds 6λ|w_k| to the error of the product. The product and the additions
+//! lose 5λ more, T itself 8λ. μ = [`Rounding::EXTENT_UNDERFLOW`], added to each M_k, covers the first: 20u·μ ≥ 7λ. η =
+//! [`Rounding::UNDERFLOW`] ≥ 2⁷λ covers the others. So a direction may have any length.
 //!
-//! **Overflow.** M ≤ [`LARGEST_EXTENT`](Rounding::LARGEST_EXTENT), 2²⁹ (`f32`) or 2²⁵⁰ (`f64`), is demanded: then nothing that a
-//! certificate computes comes near the largest number, which directed rounding returns instead of infinity.
+//! **Overflow.** M must be at most [`LARGEST_EXTENT`](Rounding::LARGEST_EXTENT), 2²⁹ (`f32`) or 2²⁵⁰ (`f64`). Then no
+//! intermediate result of a certificate comes near the largest number, which directed rounding returns instead of infinity.
 
 use crate::lanes::{Lanes, Rounding, roundoffs};
 use crate::points::{EdgeEdge, PairPoints, PairShape, VertexFace};
@@ -42,7 +41,7 @@ pub struct Corners<L, const N: usize> {
 }
 
 impl<L: Lanes> Corners<L, 3> {
-    /// Of a vertex and a face: a triangle.
+    /// The corners of a vertex and a face: a triangle.
     #[inline(always)]
     #[must_use]
     pub fn of_vertex_face(points: &PairPoints<L>) -> Self {
@@ -53,7 +52,7 @@ impl<L: Lanes> Corners<L, 3> {
 }
 
 impl<L: Lanes> Corners<L, 4> {
-    /// Of two edges: a parallelogram, the second and third corner opposite to each other.
+    /// The corners of two edges: a parallelogram, its second and third corner opposite to each other.
     #[inline(always)]
     #[must_use]
     pub fn of_edge_edge(points: &PairPoints<L>) -> Self {
@@ -70,18 +69,15 @@ impl<L: Lanes, const N: usize> Corners<L, N> {
             Some([start, end]) => start.abs().larger(end.abs()),
             None => all(like.splat(L::Scalar::ZERO)),
         };
-        // No iterators, here and below: without optimisation they take longer than what they are for.
-        let mut corner = 1;
-        while corner < N {
+        for corner in 1..N {
             let [start, end] = ends[corner];
             extent = start.abs().larger(end.abs()).larger(extent);
-            corner += 1;
         }
         let extent = extent + all(like.splat(L::Scalar::EXTENT_UNDERFLOW));
         Self { ends, extent }
     }
 
-    /// False for corners so large that products of three or four might overflow. NaN may go unnoticed.
+    /// Returns false for corners so large that products of three or four might overflow. NaN may go unnoticed.
     #[inline(always)]
     #[must_use]
     pub fn are_in_range(&self) -> L::Mask {
@@ -89,24 +85,22 @@ impl<L: Lanes, const N: usize> Corners<L, N> {
         !largest.greater(largest.splat(L::Scalar::LARGEST_EXTENT))
     }
 
-    /// Where the corners are at `time`, rounded.
+    /// Returns the corners at `time`, rounded.
     #[inline(always)]
     #[must_use]
     pub fn at(&self, time: L) -> [Vector<L>; N] {
         let rest = time.splat(L::Scalar::ONE) - time;
         // A loop, because `array::map` with a closure is not always inlined.
         let mut positions = [self.extent; N];
-        let mut corner = 0;
-        while corner < N {
+        for corner in 0..N {
             let [start, end] = self.ends[corner];
             positions[corner] = start.scaled(rest) + end.scaled(time);
-            corner += 1;
         }
         positions
     }
 
-    /// 20u·Σ|w_k|M_k + η: a product of `w` with a corner at any time, as computed, that is larger than this proves that the
-    /// exact product is positive.
+    /// Returns 20u·Σ|w_k|M_k + η. A computed product of `w` with a corner at any time that exceeds this proves that the exact
+    /// product is positive.
     #[inline(always)]
     #[must_use]
     pub fn product_error(&self, w: Vector<L>) -> L {

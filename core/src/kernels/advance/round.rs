@@ -1,8 +1,8 @@
-//! One round of conservative advancement for a pair in each lane, with what goes well in lanes.
+//! One round of conservative advancement for a pair in each lane, with the proofs that suit lanes.
 //!
-//! The proofs are those of one pair alone ([`directions`](super::directions), [`volume`](super::volume)): a constant separating
-//! direction, and, where asked for, two steps of clipping the signed volume. The direction is that of the closest point, found
-//! without branches. [`advance_from_rows`](crate::batch::advance_from_rows) is for callers.
+//! The proofs are those for one pair ([`directions`](super::directions), [`volume`](super::volume)): a constant separating
+//! direction and, on request, two steps of clipping the signed volume. The direction is that of the closest point, found without
+//! branches. Callers use [`advance_from_rows`](crate::batch::advance_from_rows).
 
 use super::closest::closest_by_selects;
 use super::corners::Corners;
@@ -12,33 +12,33 @@ use crate::PairKind;
 use crate::lanes::{Lanes, Rounding};
 use crate::points::{PairPoints, PairShape};
 
-/// What a round is asked, the same in each lane.
+/// The parameters of a round, the same in each lane.
 #[derive(Clone, Copy, Debug)]
 pub struct RoundInput<L> {
     /// The distance within which a pair is near: the tolerance and the separation.
     pub near: L,
     /// The separation, if it is not zero.
     pub separation: Option<L>,
-    /// Up to when pairs are of interest, at most 1.
+    /// The time up to which pairs matter, at most 1.
     pub until: L,
-    /// Whether the signed volume is asked as well, where there is no separation.
+    /// True to use the signed volume as well, where there is no separation.
     pub with_volume: bool,
 }
 
-/// What a round found: in each lane one of the three, or none of them if the pair has advanced and is still open.
+/// The result of a round. In each lane one mask is true, or none if the pair has advanced and is still open.
 #[derive(Clone, Copy, Debug)]
 pub struct RoundResult<L: Lanes> {
     /// The time up to which the pair is proven to be apart.
     pub time: L,
-    /// Certainly farther apart than the separation up to the time of interest.
+    /// Lanes that are certainly farther apart than the separation up to the time of interest.
     pub apart: L::Mask,
-    /// At its time, which did not change, within the tolerance of the separation.
+    /// Lanes that are, at their unchanged time, within the tolerance of the separation.
     pub near: L::Mask,
-    /// Nothing more could be proven; its time did not change.
+    /// Lanes of which no more could be proven; their time did not change.
     pub stuck: L::Mask,
 }
 
-/// One round, from `time` on, up to which the pairs are proven to be apart.
+/// Runs one round from `time` on, up to which the pairs are proven to be apart.
 #[inline(always)]
 #[must_use]
 pub fn round<P: PairShape, L: Lanes>(points: &PairPoints<L>, time: L, question: &RoundInput<L>) -> RoundResult<L> {
@@ -64,7 +64,7 @@ fn round_of<L: Lanes, const N: usize>(
     let near = is_in_range & is_number & !is_beyond;
     let others = !near;
     if L::may_leave(others) {
-        // Whatever is proven from here on, a near pair keeps its time. There are no others.
+        // A near pair keeps its time, whatever the rest proves, and there are no other pairs.
         return RoundResult {
             time,
             apart: others,

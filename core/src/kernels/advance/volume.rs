@@ -1,9 +1,9 @@
-//! Proof that the pair is apart, by its signed volume: where the four points are not coplanar they do not touch.
+//! Proofs by the signed volume that a pair is apart: where the four points are not coplanar, they do not touch.
 //!
 //! The volume is the determinant of the first three corners, K = e₀·(e₁ × e₂), a cubic in Bernstein form
-//! ([`coplanarity`](crate::coplanarity)). Its distance of the planes is |K|/|n| with n = (e₀ − e₁) × (e₀ − e₂), the normal of the
-//! face or of the two edges' directions; so K > s·|n| keeps them farther apart than s. |n| is bounded by the lengths of its own
-//! control points, raised to the third degree.
+//! ([`coplanarity`](crate::coplanarity)). The distance of the planes is |K|/|n| with n = (e₀ − e₁) × (e₀ − e₂), the normal of the
+//! face or of the two edges' directions. So K > s·|n| keeps them farther apart than s. The lengths of its own control points,
+//! raised to the third degree, bound |n|.
 //!
 //! # Rounding
 //! ε as for the [corners](super::corners), S₃ the permanent of the three rows M M M. A monomial of a control value passes
@@ -18,9 +18,9 @@
 //! operations that follow. η ≥ 2⁷λ covers it.
 //!
 //! Normal, where s > 0: its components pass through at most 13 roundings (of a corner, a difference of two, 3 by interpolation,
-//! twice; product, difference, sum), each of magnitude at most 8 M_j M_k: less than 512u(M_x M_y + M_y M_z + M_z M_x) for the
-//! vector, and its length through a handful, which a factor 1 + 64u covers. A length of which the squares
-//! underflow, with less than 2⁻⁶² (2⁻⁵¹⁰), is covered by adding that.
+//! twice; product, difference, sum), each of magnitude at most 8 M_j M_k. That is less than 512u(M_x M_y + M_y M_z + M_z M_x) for
+//! the vector. Its length passes through a handful more, which a factor 1 + 64u covers. A length whose squares underflow, less
+//! than 2⁻⁶² (2⁻⁵¹⁰), is covered by adding that.
 
 use super::corners::Corners;
 use super::directions::beyond;
@@ -31,15 +31,15 @@ use crate::vector::Vector;
 /// The cubic, its error and the normal.
 #[derive(Clone, Copy, Debug)]
 pub struct SignedVolume<L> {
-    /// The control values, all four of them whole.
+    /// The four control values; the middle ones are not tripled.
     pub values: [L; 4],
     /// E of the module's documentation.
     pub error: L,
-    /// Of separations that are not zero.
+    /// The normal, for separations that are not zero.
     normal: Option<Normal<L>>,
 }
 
-/// The two edges at the first corner, at the start and at the end, and how their cross product counts.
+/// The two edges at the first corner, at the start and at the end, and the weight of their cross product.
 #[derive(Clone, Copy, Debug)]
 struct Normal<L> {
     first: [Vector<L>; 2],
@@ -51,20 +51,20 @@ struct Normal<L> {
 /// One step of [clipping](SignedVolume::clipped).
 #[derive(Clone, Copy, Debug)]
 pub struct Clipped<L: Lanes> {
-    /// Whether the volume proves that the pair is apart to the end of the step.
+    /// Lanes where the volume proves that the pair is apart to the end of the step.
     pub to_the_end: L::Mask,
-    /// Else until when; no later than the time that was asked about if it proves nothing.
+    /// Otherwise the time until which it proves that; no later than the given time if it proves nothing.
     pub until: L,
 }
 
 impl<L: Lanes> SignedVolume<L> {
-    /// Of the first three corners, with a separation if it is not zero.
+    /// The volume of the first three corners, with a separation if it is not zero.
     #[inline(always)]
     #[must_use]
     pub fn new<const N: usize>(corners: &Corners<L, N>, separation: Option<L>) -> Self {
         let m = corners.extent;
         let &[p, b, c, ..] = corners.ends.as_slice() else {
-            // There are three at least. This proves nothing.
+            // There are at least three corners. This value proves nothing.
             let (values, error) = ([m.x.splat(L::Scalar::ZERO); 4], m.x.splat(L::Scalar::INFINITY));
             let normal = None;
             return Self { values, error, normal };
@@ -93,7 +93,7 @@ impl<L: Lanes> SignedVolume<L> {
         }
     }
 
-    /// Whether the volume proves that the pair is apart at all times.
+    /// Returns whether the volume proves that the pair is apart at all times.
     #[inline(always)]
     #[must_use]
     pub fn proves_apart_throughout(&self) -> L::Mask {
@@ -102,7 +102,7 @@ impl<L: Lanes> SignedVolume<L> {
         m0.greater(zero) & m1.greater(zero) & m2.greater(zero) & m3.greater(zero)
     }
 
-    /// Whether its values at two times certainly have opposite signs. (Needs a separation of zero.)
+    /// Returns whether its values at two times certainly have opposite signs. Requires a separation of zero.
     #[inline(always)]
     #[must_use]
     pub fn has_opposite_signs_at(&self, from: L, to: L) -> L::Mask {
@@ -110,7 +110,7 @@ impl<L: Lanes> SignedVolume<L> {
         (before.greater(error) & (-after).greater(error)) | ((-before).greater(error) & after.greater(error))
     }
 
-    /// De Casteljau's rule: 9 roundings after the 12 of a control value.
+    /// Evaluates the cubic by de Casteljau's rule: 9 roundings after the 12 of a control value.
     #[inline(always)]
     #[must_use]
     pub fn at(&self, time: L) -> L {
@@ -120,12 +120,12 @@ impl<L: Lanes> SignedVolume<L> {
         part.of(part.of(a0, a1), part.of(a1, a2))
     }
 
-    /// Until when the volume proves, from `time` on, that the pair is apart: one step.
+    /// Returns the time until which the volume proves, from `time` on, that the pair is apart: one step.
     ///
     /// The part of the cubic from there to the end, less its bounds, lies above the lower hull of its control polygon, whose
-    /// first zero is the next time; its quotients pass through at most 8 roundings, for which a factor 1 − 32u makes up, the last
-    /// addition for two. The hull of all that is left is coarse: where the part that is sixteen, or four, times as
-    /// long has only positive control values, that is taken instead.
+    /// first zero is the next time. Its quotients pass through at most 8 roundings, which a factor 1 − 32u covers, and the last
+    /// addition through two. The hull of the whole rest is coarse. So where the part that is sixteen, or four, times as long has
+    /// only positive control values, that part is taken instead.
     ///
     /// `DIVIDES_FIRST`: see `first_zero_of_hull`.
     #[inline(always)]
@@ -145,8 +145,8 @@ impl<L: Lanes> SignedVolume<L> {
         Clipped { to_the_end, until }
     }
 
-    /// The control values on [`time`, 1], in whichever sign makes the first positive, less what they must exceed. Only where the
-    /// first of these margins is positive do they say anything.
+    /// Returns the control values on [`time`, 1], with the sign that makes the first positive, less the values that they must
+    /// exceed. They prove something only where the first of these margins is positive.
     #[inline(always)]
     #[must_use]
     pub fn margins_from(&self, time: L) -> [L; 4] {
@@ -165,7 +165,7 @@ impl<L: Lanes> SignedVolume<L> {
         ]
     }
 
-    /// What the control values on [`time`, 1] must exceed.
+    /// Returns the values that the control values on [`time`, 1] must exceed.
     #[inline(always)]
     fn bars_from(&self, time: L) -> [L; 4] {
         let Some(normal) = &self.normal else {
@@ -179,7 +179,7 @@ impl<L: Lanes> SignedVolume<L> {
 }
 
 impl<L: Lanes> Normal<L> {
-    /// The lengths of the quadratic normal's control points on [`time`, 1], rounded.
+    /// Returns the lengths of the quadratic normal's control points on [`time`, 1], rounded.
     #[inline(always)]
     fn lengths_from(&self, time: L) -> [L; 3] {
         let ([b0, b1], [c0, c1]) = (self.first, self.second);
@@ -192,7 +192,7 @@ impl<L: Lanes> Normal<L> {
     }
 }
 
-/// A part of an interval, and what is left.
+/// A part of an interval, and the rest.
 #[derive(Clone, Copy)]
 struct Part<L> {
     rest: L,
@@ -206,7 +206,7 @@ impl<L: Lanes> Part<L> {
         Self { rest, part }
     }
 
-    /// Of the way from `a` to `b`.
+    /// Interpolates between `a` and `b`.
     #[inline(always)]
     fn of(self, a: L, b: L) -> L {
         self.rest * a + self.part * b
@@ -218,14 +218,14 @@ fn third<L: Lanes>(like: L) -> L {
     like.splat(L::Scalar::ONE) / like.splat(L::Scalar::small(3))
 }
 
-/// Where the lower hull of the control polygon over [0, 1] comes down to zero first, for a positive first value; [`beyond`] it if
-/// nowhere.
+/// Returns where the lower hull of the control polygon over [0, 1] first reaches zero, for a positive first value; [`beyond`] it
+/// if nowhere.
 ///
-/// The hull's lower side crosses zero on a line from one of the positive points before the first that is not to one that is not
-/// positive; each such line crosses no earlier. (Lines from the first point alone would not do.)
+/// The hull's lower side crosses zero on a line from one of the positive points before the first other point to a point that is
+/// not positive. Every such line crosses no earlier. (Lines from the first point alone are not enough.)
 ///
-/// On a line from the first point, 2b₀/3(b₀ − b) is rounded as often whether it is divided first or multiplied, but not to the same
-/// bits. One pair alone multiplies first, several side by side divide first: each keeps its answers.
+/// On a line from the first point, 2b₀/3(b₀ − b) is rounded as often whether it divides or multiplies first, but not to the same
+/// bits. One pair alone multiplies first, several side by side divide first: each keeps its results.
 #[inline(always)]
 fn first_zero_of_hull<L: Lanes, const DIVIDES_FIRST: bool>([b0, b1, b2, b3]: [L; 4]) -> L {
     // Macros, because a closure is not always inlined.
@@ -261,7 +261,8 @@ fn first_zero_of_hull<L: Lanes, const DIVIDES_FIRST: bool>([b0, b1, b2, b3]: [L;
     first
 }
 
-/// `first_zero`, or sixteen or four times as much where the part of the cubic before that has positive control values only.
+/// Returns `first_zero`, or sixteen or four times as much where the part of the cubic before that has only positive control
+/// values.
 #[inline(always)]
 fn looking_ahead<L: Lanes>(values: [L; 4], first_zero: L) -> L {
     let sixteen = first_zero.splat(L::Scalar::small(16)) * first_zero;
@@ -274,7 +275,7 @@ fn looking_ahead<L: Lanes>(values: [L; 4], first_zero: L) -> L {
     L::select(holds, sixteen, four)
 }
 
-/// Whether the part of the cubic before `time`, which must lie inside the step, has positive control values only.
+/// Returns whether the part of the cubic before `time` has only positive control values; `time` must lie inside the step.
 #[inline(always)]
 fn is_positive_before<L: Lanes>([b0, b1, b2, b3]: [L; 4], time: L) -> L::Mask {
     let zero = time.splat(L::Scalar::ZERO);
@@ -288,7 +289,7 @@ fn is_positive_before<L: Lanes>([b0, b1, b2, b3]: [L; 4], time: L) -> L::Mask {
     is_inside & a0.greater(zero) & c0.greater(zero) & part.of(c0, c1).greater(zero)
 }
 
-/// What lies on the bound is not beyond it.
+/// A value on the bound is not beyond it.
 #[cfg(test)]
 mod tests {
     use super::{SignedVolume, first_zero_of_hull, looking_ahead};
