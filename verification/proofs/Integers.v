@@ -1,4 +1,4 @@
-(* Whole numbers in words of 64 bits: the carries, borrows, rows and signs of core/src/kernels/exact/integer.rs, and the control values of
+(* Whole numbers in words of 64 bits: the carries, borrows, rows and signs of core/src/kernels/exact/integer, and the control values of
    kernel.rs, for which there is room. Written after that code by hand, not traced from it. *)
 From Coq Require Import ZArith Lia List.
 Import ListNotations.
