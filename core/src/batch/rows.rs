@@ -34,7 +34,7 @@ pub(super) struct Padded {
 }
 
 impl Padded {
-    /// Pads `indices` into so many rows. Returns `None` if no pair is known.
+    /// Pads `indices` of `rows` rows. Returns `None` if no pair is known.
     #[cold]
     pub(super) fn new(indices: &[[u32; 4]], rows: usize) -> Option<Self> {
         let is_known = |pair: &&[u32; 4]| pair.iter().all(|&index| (index as usize) < rows);

@@ -26,10 +26,6 @@
 //! The last rounding does not count for the sign: rounding is monotone, so a computed kᵢ = fl(x) above Eᵢ, a floating-point
 //! number, proves x > Eᵢ. That leaves 7 and 9 roundings of 2u. Another 2u covers the second order, the powers of 1 + 2u, and the
 //! rounding of P̂ᵢ and Eᵢ: 16u(1 − 2u)¹⁰ ≥ (1 + 2u)⁷ − 1 holds for u ≤ 2⁻⁸, and 20u(1 − 2u)¹³ ≥ (1 + 2u)⁹ − 1 for u ≤ 2⁻⁹. Hence
-//! 10. The last of them does not count for the sign: rounding is monotone, so a computed kᵢ = fl(x) above Eᵢ, a
-//! floating-point number, proves x > Eᵢ. That leaves 7 and 9 roundings of 2u, and 2u for all that is of second order, the
-//! powers of 1 + 2u and what P̂ᵢ and Eᵢ lose by being rounded as well: 16u(1 − 2u)¹⁰ ≥ (1 + 2u)⁷ − 1 holds for u ≤ 2⁻⁸,
-//! 20u(1 − 2u)¹³ ≥ (1 + 2u)⁹ − 1 for u ≤ 2⁻⁹. Hence
 //!
 //! ```text
 //!  kᵢ (computed) > Eᵢ proves kᵢ > 0,   Eᵢ = Cᵢ·P̂ᵢ + (1 + M)²·η,   C₀ = C₃ = 16u,   C₁ = C₂ = 20u (for 3k₁, 3k₂)

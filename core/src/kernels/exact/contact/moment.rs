@@ -20,7 +20,7 @@
 //! | the volume | a cross product | 2^(7m+11) | 2^(16m+26) |
 //! | the volume's derivative | a cross product | 2^(5m+10) | 2^(12m+24) |
 //! | a cross product | the volume's derivative | 2^(5m+10) | 2^(13m+28) |
-//! | what stands for the volume | its derivative | 2^(6m+14) | 2^(15m+36) |
+//! | the polynomial in place of the volume | its derivative | 2^(6m+14) | 2^(15m+36) |
 //! | a cross product | another | 2^(4m+6) | 2^(10m+16) |
 //!
 //! (In the first row l is a sum of three or four products of two coefficients of q and one of the cubic, in the others of two of
