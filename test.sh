@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs every test of the workspace: all crates, their documentation's examples, and the kept inputs of the fuzz targets. .ci/run has the
-# proofs as well, and .ci/bindings what has a lock file of its own.
+# Runs every test of the workspace: all crates, their documentation's examples, and the kept inputs of the fuzz targets. .ci/run adds
+# lints, proofs and bindings.
 # Needs Rust (rustup) and a C compiler; installs make and m4 if they are missing. `cargo run --release`, the main job, needs Rust alone.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -29,11 +29,11 @@ get() {
     give_up "$1 is missing; install it and start again"
 }
 
-# cargo asks rustc through it, and fails on text that it does not know if a program run by root put a file there.
+# Cargo queries rustc through /dev/null, and fails if a program run by root has put a file there.
 if [ ! -c /dev/null ]; then
     [ "$(id -u)" -eq 0 ] && rm -f /dev/null && mknod -m 666 /dev/null c 1 3 ||
         give_up "/dev/null is a file, not the null device; put it back (rm /dev/null; mknod -m 666 /dev/null c 1 3)"
-    # What cargo remembers of rustc may come from that text.
+    # Cargo's cached answers of rustc may come from that file.
     rm -f "${CARGO_TARGET_DIR:-target}/.rustc_info.json"
 fi
 is_there cargo || give_up "Rust is missing; install it from https://rustup.rs and start again"
@@ -46,7 +46,7 @@ done
 say "every crate: its own tests, exact oracle and properties, kept inputs of the fuzz targets"
 # Examples and benchmarks are compiled by .ci/run's lints.
 cargo test --workspace --tests
-say "a program in development: every kernel and the whole detector without optimisation, in little stack"
+say "every kernel and the whole detector without optimisation, on a small stack"
 cargo test --profile dev --package selvedge --test builds_without_optimisation
 say "the documentation's examples"
 cargo test --workspace --doc

@@ -1,5 +1,5 @@
 #!/bin/bash -eu
-# Run by the base image of OSS-Fuzz and ClusterFuzzLite: programs, kept inputs, dictionaries and options go to $OUT.
+# The base image of OSS-Fuzz and ClusterFuzzLite runs this. Programs, kept inputs, dictionaries and options go to $OUT.
 cd "$SRC/selvedge/fuzz"
 cargo fuzz build -O --debug-assertions
 host=$(rustc -vV | sed -n 's/^host: //p')
@@ -12,7 +12,7 @@ for source in fuzz_targets/*.rs; do
     [ ! -f "dictionaries/$target.dict" ] || cp "dictionaries/$target.dict" "$OUT/"
     case $target in
     obj | ply) longest=2048 ;;
-    query_csv | scene) longest=4096 ;;
+    scene) longest=4096 ;;
     *) longest=700 ;;
     esac
     printf '[libfuzzer]\nmax_len = %s\n' "$longest" >"$OUT/$target.options"

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Runs every fuzz target, one after the other, each for so many minutes; shows how far it is, and a table at the end.
+# Runs fuzz targets one after the other, each for some minutes. Shows progress, and a table at the end.
 #
-#   fuzz/campaign.sh [MINUTES] [TARGET...]      30 minutes of each target, without further words
+#   fuzz/campaign.sh [MINUTES] [TARGET...]      every target for 30 minutes by default
 #
-# Needs a nightly compiler and cargo-fuzz, which it installs if it is missing. What a campaign finds interesting is kept in
-# $FUZZ_WORK (fuzz/campaign), and the next one goes on from there: stop it whenever you like. Inputs that break a promise are
-# left in $FUZZ_WORK/TARGET.broken, and the exit status is 1.
+# Needs a nightly compiler; installs cargo-fuzz if it is missing. Interesting inputs are kept in $FUZZ_WORK (fuzz/campaign), and the next
+# campaign continues from them, so it may be stopped at any time. Inputs that break a promise go to $FUZZ_WORK/TARGET.broken; then the
+# exit status is 1.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
@@ -27,9 +27,9 @@ fi
 
 command -v cargo-fuzz >/dev/null || cargo install cargo-fuzz --locked
 mkdir -p "$work"
-# No address sanitizer: there is no `unsafe` to watch, and targets run up to fifteen times as fast without.
+# Without the address sanitizer targets run up to fifteen times as fast. They have no unsafe code.
 cargo +nightly fuzz build -s none
-# Copied, so that a campaign goes on undisturbed while its sources change.
+# Copies, so that a campaign is not disturbed by changes of its sources.
 host=$(rustc +nightly -vV | sed -n 's/^host: //p')
 mkdir -p "$work/programs"
 for target in "${targets[@]}"; do
@@ -41,7 +41,6 @@ options() {
     obj | ply) echo "-max_len=2048 -dict=dictionaries/$1.dict -malloc_limit_mb=256" ;;
     stl | off) echo "-max_len=2048 -malloc_limit_mb=256" ;;
     scene) echo "-max_len=4096 -dict=dictionaries/$1.dict -malloc_limit_mb=1024" ;;
-    query_csv) echo "-max_len=4096 -dict=dictionaries/$1.dict" ;;
     *) echo "-max_len=700 -len_control=0" ;;
     esac
 }

@@ -1,9 +1,9 @@
 //! Fuzz targets for `selvedge-core` and `selvedge`.
 //!
-//! Each target is an ordinary function of bytes in [`targets`] that panics where a promise is broken. `cargo fuzz run NAME`
-//! feeds it to libFuzzer; `cargo test` feeds it the kept inputs, on any compiler.
+//! Each target is an ordinary function of bytes in [`targets`] that panics if a promise is broken. `cargo fuzz run NAME` feeds it
+//! to libFuzzer; `cargo test` feeds it the kept inputs, on any compiler.
 
-// Within the crate: tests beside it would have the programs of all targets built with them.
+// It is within the crate, because a test beside it would build the programs of all targets.
 #[cfg(test)]
 mod replay;
 pub mod targets;
@@ -12,8 +12,8 @@ pub mod targets;
 #[doc(hidden)]
 pub use libfuzzer_sys;
 
-/// The `main` of a target's program. Under `cargo fuzz` it is libFuzzer's; otherwise it runs the target on each file
-/// named on the command line, which is handy for a debugger.
+/// The `main` of a target's program. Under `cargo fuzz` it is libFuzzer's. Otherwise it runs the target on each file named on the
+/// command line, which helps with a debugger.
 #[macro_export]
 macro_rules! target {
     ($name:ident) => {

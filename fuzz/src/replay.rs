@@ -1,11 +1,11 @@
-//! Every kept input again: the corpus that campaigns grew, and what once broke a promise.
+//! Runs every kept input: the corpus that campaigns grew, and inputs that once broke a promise.
 
 use crate::targets;
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
-/// The files in `folder`, sorted; none if there is no such folder.
+/// Returns the files in `folder`, sorted, or none if there is no such folder.
 fn files(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).into_iter().flatten();
     let mut files: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
@@ -38,65 +38,29 @@ fn replay(name: &str) {
     assert!(broken.is_empty(), "see above for {broken:#?}");
 }
 
-#[test]
-fn certified_filter_keeps_its_promises_on_the_kept_inputs() {
-    replay("certified_filter");
+/// A test for each target, so that they run side by side.
+macro_rules! replayed {
+    ($($name:ident),* $(,)?) => {
+        $(#[test]
+        fn $name() {
+            replay(stringify!($name));
+        })*
+    };
 }
 
-#[test]
-fn box_tests_keep_their_promises_on_the_kept_inputs() {
-    replay("box_tests");
-}
-
-#[test]
-fn exact_signs_keeps_its_promises_on_the_kept_inputs() {
-    replay("exact_signs");
-}
-
-#[test]
-fn time_of_impact_keeps_its_promises_on_the_kept_inputs() {
-    replay("time_of_impact");
-}
-
-#[test]
-fn exact_verdict_keeps_its_promises_on_the_kept_inputs() {
-    replay("exact_verdict");
-}
-
-#[test]
-fn distribution_keeps_its_promises_on_the_kept_inputs() {
-    replay("distribution");
-}
-
-#[test]
-fn obj_keeps_its_promises_on_the_kept_inputs() {
-    replay("obj");
-}
-
-#[test]
-fn ply_keeps_its_promises_on_the_kept_inputs() {
-    replay("ply");
-}
-
-#[test]
-fn stl_keeps_its_promises_on_the_kept_inputs() {
-    replay("stl");
-}
-
-#[test]
-fn off_keeps_its_promises_on_the_kept_inputs() {
-    replay("off");
-}
-
-#[test]
-fn query_csv_keeps_its_promises_on_the_kept_inputs() {
-    replay("query_csv");
-}
-
-#[test]
-fn scene_keeps_its_promises_on_the_kept_inputs() {
-    replay("scene");
-}
+replayed!(
+    certified_filter,
+    box_tests,
+    exact_signs,
+    time_of_impact,
+    exact_verdict,
+    detector,
+    obj,
+    ply,
+    stl,
+    off,
+    scene
+);
 
 #[test]
 fn every_folder_of_inputs_belongs_to_a_target() {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds the campaigns for a cluster into FOLDER, which all machines see: exact_campaign, false_culls, merge. They know the commit that
-# they are built from, so that `merge` can refuse shards of another.
+# Builds exact_campaign, screw_motions and merge into FOLDER, which all machines of a cluster see. The programs know the commit that
+# they are built from, so `merge` can refuse shards of another commit.
 #
 #   verification/cluster/build.sh FOLDER
 set -euo pipefail
@@ -12,15 +12,15 @@ mkdir -p "$1"
 folder=$(realpath "$1")
 cd "$(dirname "$(realpath "${BASH_SOURCE[0]}")")/../.."
 if [ -n "$(git status --porcelain --untracked-files=no)" ]; then
-    echo "build.sh: there are changes that are in no commit; commit them first" >&2
+    echo "build.sh: commit your changes first" >&2
     exit 1
 fi
 SELVEDGE_COMMIT=$(git rev-parse HEAD)
 export SELVEDGE_COMMIT
-programs=(exact_campaign false_culls merge)
+programs=(exact_campaign screw_motions merge)
 cargo build --release -p selvedge-verification "${programs[@]/#/--example=}"
 for program in "${programs[@]}"; do
-    # Replaced, not written over: a campaign may be running.
+    # Replaces the file instead of overwriting it, since a campaign may be running.
     cp "${CARGO_TARGET_DIR:-target}/release/examples/$program" "$folder/$program.next"
     mv "$folder/$program.next" "$folder/$program"
 done

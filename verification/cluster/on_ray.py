@@ -1,11 +1,11 @@
-"""A campaign on Ray: a task of one core for each shard, done again elsewhere if its node is lost; then joined.
+"""Runs a campaign on Ray: a task of one core for each shard, repeated elsewhere if its node is lost. Then joins the shards.
 
     python verification/cluster/on_ray.py PROGRAMS FOLDER SHARDS CAMPAIGN [ARGUMENT...]
     python verification/cluster/on_ray.py /shared/programs /shared/exact 64 exact_campaign 1_000_000_000 --seed 2026
 
-PROGRAMS is what build.sh made; states, logs and the joined state (merged.json) go to FOLDER; all nodes see both. The cluster is the one
-that $RAY_ADDRESS names, or a new one of this machine. Started again with the same words it goes on: shards that are finished
-end at once. Ends as `merge` does: 0 nothing is wrong, 1 something is, or a shard is missing.
+PROGRAMS is the folder of build.sh. States, logs and the joined state (merged.json) go to FOLDER. All nodes must see both. The cluster is
+the one that $RAY_ADDRESS names, or a new one on this machine. The same command resumes a run that was stopped: finished shards end at
+once. Exit status as for `merge`: 0 nothing is wrong, 1 something is, or a shard is missing.
 """
 
 import subprocess
@@ -15,7 +15,7 @@ from pathlib import Path
 import ray
 
 
-# A lost node is no fault of the shard's: as often as it takes.
+# A lost node is not the shard's fault, so it is repeated without limit.
 @ray.remote(num_cpus=1, max_retries=-1)
 def run(programs, folder, shards, campaign, arguments, number):
     command = [programs / campaign, *arguments, "--threads", "1"]

@@ -1,10 +1,10 @@
-//! Asks the oracle whether any two primitives of different triangles touch in steps that were cut where a detector said.
+//! Checks with the oracle that no two primitives of different triangles touch in steps that were cut where a detector said.
 //!
 //! `std-adapter/python/benchmarks/cut_steps.py --save FILE`, then
 //! `cargo run --release -p selvedge-verification --example cut_steps -- FILE`
 //!
-//! A step is 36 positions of three `f64` in this machine's order of bytes, nothing between them: the 18 corners of six triangles where the
-//! step starts, then where it was cut. Prints each pair that touches; exit status 1 if there is one or the input is at fault.
+//! A step is 36 positions of three `f64` in this machine's byte order, without gaps: the 18 corners of six triangles at the start
+//! of the step, then at the cut. Prints each pair that touches. Exit status 1 if there is one, or the input is invalid.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
@@ -83,7 +83,7 @@ fn steps_of(bytes: &[u8]) -> Result<Vec<[Positions; 2]>, String> {
     }
 }
 
-/// Each vertex with each face, and each edge with each edge, of another triangle.
+/// Returns each vertex with each face, and each edge with each edge, of another triangle.
 fn pairs() -> Vec<(PairKind, [usize; 4])> {
     let face = |triangle: usize| [0, 1, 2].map(|corner| 3 * triangle + corner);
     let edges = |triangle: usize| {

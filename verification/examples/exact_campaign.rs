@@ -1,29 +1,28 @@
-//! A billion pairs through the certified filters, box tests and the time of impact, every claim checked by exact arithmetic.
+//! A billion pairs through the certified filters, box tests and the time of impact. Exact arithmetic checks every claim.
 //!
 //! `cargo run --release -p selvedge-verification --example exact_campaign -- [PAIRS] [--seed N] [--shard I/N] [--state FILE]
 //! [--threads N] [--mesh START END]...`
 //!
-//! PAIRS in all, by default a billion: of `f32` and `f64`, random, adversarial and from scenes in equal parts. Scenes are the built-in arm, and
-//! the steps between meshes that are named. State is kept in FILE (by default `exact_campaign.json` in the folder for temporary
-//! files): started again after a kill, the run goes on where it was. With
-//! `--shard I/N`, I from 1 to N, and `--seed`, it is one of N parts of the run, which `--example merge` joins. Exit status: 0 no claim is wrong, 1 one is, or a file is at
-//! fault, 2 the command line is.
+//! PAIRS is the number of pairs, by default a billion: `f32` and `f64`, random, adversarial and from scenes in equal parts. The
+//! scenes are a bending tube and the steps between the named meshes. The state is kept in FILE (by default `exact_campaign.json`
+//! in the folder for temporary files), and a run that was killed resumes from it. With `--shard I/N`, I from 1 to N, and
+//! `--seed`, it is one of N parts of the run, which `--example merge` joins. Exit status: 0 no claim is wrong, 1 one is, or a
+//! file is invalid, 2 the command line is invalid.
 
 mod campaign;
 
 use campaign::{Failure, Options};
-use selvedge::glam::DVec3;
 use selvedge::simd::best_level;
 use selvedge_files::mesh::read_step;
-use selvedge_laboratory::study::{ArmFrames, Frames, PairSet, TwoFrames};
 use selvedge_verification::campaign::exact::{Claim, Progress, Scenes, run};
+use selvedge_verification::generator::BendingTube;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 const USAGE: &str = "usage: exact_campaign [PAIRS] [--seed N] [--shard I/N] [--state FILE] [--threads N] [--mesh START END]...";
 const PAIRS_PER_CHUNK: u64 = 1 << 20;
-/// From each scene, evenly spaced runs.
-const SCENE_PAIRS: usize = 400_000;
+/// The largest number of pairs of each kind that a step gives, evenly spaced.
+const PAIRS_OF_A_STEP: usize = 200_000;
 
 fn main() -> ExitCode {
     let mut meshes = Vec::new();
@@ -52,21 +51,13 @@ fn main() -> ExitCode {
 
 fn scenes(meshes: &[[PathBuf; 2]]) -> Result<Scenes, Failure> {
     let mut scenes = Scenes::default();
-    let arm = ArmFrames::new(1, 120)?;
-    let last = arm.step_count() - 1;
-    let steps = [last / 2, 3 * last / 4, last].map(|frame| (frame, DVec3::ZERO));
-    let set = PairSet::from_steps("arm".to_owned(), &arm, &steps, SCENE_PAIRS)?;
-    add(&mut scenes, &set);
+    let tube = BendingTube::new(1);
+    for step in [30, 45, BendingTube::STEPS - 1] {
+        scenes.add_step(tube.topology(), &tube.frame(step), &tube.frame(step + 1), PAIRS_OF_A_STEP)?;
+    }
     for [start, end] in meshes {
         let step = read_step(start, end)?;
-        let frames = TwoFrames {
-            name: "mesh".to_owned(),
-            topology: step.topology,
-            start: step.start,
-            end: step.end,
-        };
-        let set = PairSet::from_steps("mesh".to_owned(), &frames, &[(0, DVec3::ZERO)], SCENE_PAIRS)?;
-        add(&mut scenes, &set);
+        scenes.add_step(&step.topology, &step.start, &step.end, PAIRS_OF_A_STEP)?;
     }
     eprintln!(
         "scenes: {} VF and {} EE pairs",
@@ -74,10 +65,4 @@ fn scenes(meshes: &[[PathBuf; 2]]) -> Result<Scenes, Failure> {
         scenes.edge_edge.len()
     );
     Ok(scenes)
-}
-
-fn add(scenes: &mut Scenes, set: &PairSet) {
-    let points = |indices: &[u32; 4]| indices.map(|index| set.points[index as usize].map(|position| position.to_array()));
-    scenes.vertex_face.extend(set.vertex_face.iter().map(points));
-    scenes.edge_edge.extend(set.edge_edge.iter().map(points));
 }

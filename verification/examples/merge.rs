@@ -1,12 +1,12 @@
-//! Joins the shards of a campaign (`exact_campaign`, `false_culls`, `screw_motions`, mutants) to the state that one run would have, and prints it.
+//! Joins the shards of a campaign (`exact_campaign`, `screw_motions`) to the state that a single run would have, and prints it.
 //!
 //! `cargo run --release -p selvedge-verification --example merge -- SHARD... --state FILE`
 //!
-//! SHARDs are the state files of all shards, in any order; the joined state goes to FILE, which must not be there, unless it is the same.
-//! Refused are gaps, overlaps, unfinished shards, different commits and different settings; the message names the files. Exit
-//! status: 0 nothing is wrong, 1 shards are refused, or a promise was found broken, 2 the command line is at fault.
+//! SHARDs are the state files of all shards, in any order. The joined state goes to FILE, which must not exist, unless it holds the same
+//! state. Gaps, overlaps, unfinished shards, different commits and different settings are refused; the message names the files. Exit
+//! status: 0 nothing is wrong, 1 shards are refused or a promise is broken, 2 the command line is invalid.
 
-use selvedge_verification::campaign::{Findings, Progress, StateFile, exact, false_culls, merge, mutants, read, screw_motions};
+use selvedge_verification::campaign::{Findings, Progress, StateFile, exact, merge, read, screw_motions};
 use serde::Deserialize;
 use std::error::Error;
 use std::fmt::Display;
@@ -44,13 +44,11 @@ fn parse() -> Option<(Vec<PathBuf>, PathBuf)> {
     Some((shards, state?)).filter(|(shards, _)| !shards.is_empty())
 }
 
-/// How many promises were found broken.
+/// Joins the shards, keeps the state, and returns the number of broken promises.
 fn join(shards: &[PathBuf], state: &Path) -> Result<u64, Box<dyn Error>> {
     match campaign(&shards[0])?.as_str() {
-        exact::Found::CAMPAIGN => join_of::<exact::Found>(shards, state),
-        false_culls::Found::CAMPAIGN => join_of::<false_culls::Found>(shards, state),
-        screw_motions::Found::CAMPAIGN => join_of::<screw_motions::Found>(shards, state),
-        mutants::Found::CAMPAIGN => join_of::<mutants::Found>(shards, state),
+        exact::ExactFindings::CAMPAIGN => join_of::<exact::ExactFindings>(shards, state),
+        screw_motions::ScrewFindings::CAMPAIGN => join_of::<screw_motions::ScrewFindings>(shards, state),
         other => Err(format!("{}: there is no campaign {other:?}", shards[0].display()).into()),
     }
 }

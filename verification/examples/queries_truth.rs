@@ -1,11 +1,11 @@
-//! Compares the oracle with the truth column of CSV queries of the public continuous collision
-//! detection benchmark (B. Wang et al. 2021).
+//! Compares the oracle with the truth column of CSV queries of the public continuous collision detection benchmark (B. Wang et
+//! al. 2021).
 //!
 //! `cargo run --release -p selvedge-verification --example queries_truth -- FILE.csv…`
 //!
-//! A query is eight rows of a numerator and a denominator for x, y and z, then the truth; the kind is
-//! the name of the file's folder, `vertex-face` or `edge-edge`. Prints each disagreement with its
-//! exact numbers; exit status 1 if there is one or the input is at fault.
+//! A query is eight rows of a numerator and a denominator for x, y and z, then the truth. The name of the file's folder,
+//! `vertex-face` or `edge-edge`, is the kind. Prints each disagreement with its exact numbers. Exit status 1 if there is one, or
+//! the input is invalid.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use rug::{Integer, Rational};
@@ -113,7 +113,7 @@ fn describe(time: &AlgebraicTime) -> String {
     format!("contact at t ≈ {:e}, {exact}", time.to_f64_down())
 }
 
-/// The queries of a file with their truth.
+/// Reads the queries of a file with their truth.
 fn read(path: &Path) -> Result<Vec<(Pair, bool)>> {
     let at = |what: &dyn std::fmt::Display| format!("{}: {what}", path.display());
     let folder = path.parent().and_then(Path::file_name).and_then(|name| name.to_str());
@@ -146,7 +146,7 @@ fn read(path: &Path) -> Result<Vec<(Pair, bool)>> {
     Ok(queries.iter().map(|rows| (pair(rows), rows[0].1)).collect())
 }
 
-/// The position and the truth in a row.
+/// Reads the position and the truth in a row.
 fn parse(row: &[String; 7]) -> Result<([f64; 3], bool)> {
     let integer = |field: &String| {
         field

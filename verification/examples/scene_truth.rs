@@ -1,12 +1,10 @@
-//! Compares the oracle with the truth of a scene of the scalable collision detection data (Belgrod et
-//! al. 2023).
+//! Compares the oracle with the truth of a scene of the scalable collision detection data (Belgrod et al. 2023).
 //!
 //! `cargo run --release -p selvedge-verification --example scene_truth -- \
 //!     START.ply END.ply PAIRS.json TRUTH.json [PAIRS.json TRUTH.json…]`
 //!
-//! `PAIRS.json` lists pairs of ids, `TRUTH.json` whether each pair collides. Ids number the vertices,
-//! then the edges by larger and then smaller vertex, then the triangles. Prints each disagreement;
-//! exit status 1 if there is one or the input is at fault.
+//! `PAIRS.json` lists pairs of ids, `TRUTH.json` whether each pair collides. Ids number the vertices, then the edges by larger
+//! and then smaller vertex, then the triangles. Prints each disagreement. Exit status 1 if there is one, or the input is invalid.
 
 use indicatif::{ProgressBar, ProgressIterator, ProgressStyle};
 use selvedge::Mesh;
@@ -82,7 +80,7 @@ fn json<T: serde::de::DeserializeOwned>(path: &str) -> Result<T> {
 struct Scene {
     start: Mesh,
     end: Mesh,
-    /// Smaller vertex first, ordered by the larger and then the smaller.
+    /// The edges, smaller vertex first, ordered by the larger and then the smaller vertex.
     edges: Vec<[u32; 2]>,
 }
 

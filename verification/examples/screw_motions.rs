@@ -1,10 +1,12 @@
-//! Bodies in screw motion that meet, and whether any of their times of impact is late, against enclosures of their arcs.
+//! Bodies in screw motion that meet. Enclosures of their arcs check that no time of impact is late.
 //!
-//! `cargo run --release -p selvedge-verification --example screw_motions -- [CASES] [--seed N] [--shard I/N] [--state FILE] [--threads N]`
+//! `cargo run --release -p selvedge-verification --example screw_motions -- [CASES] [--seed N] [--shard I/N] [--state FILE]
+//! [--threads N]`
 //!
-//! CASES in all, by default 100 million, of both kinds of pairs. State is kept in FILE (by default `screw_motions.json` in the folder for
-//! temporary files): started again after a kill, the run goes on where it was. With `--shard I/N`, I from 1 to N, and `--seed`, it is one of N
-//! parts of the run, which `--example merge` joins. Exit status: 0 none is late, 1 one is, or the file is at fault, 2 the command line is.
+//! CASES is the number of cases, by default 100 million, of both kinds of pairs. The state is kept in FILE (by default
+//! `screw_motions.json` in the folder for temporary files), and a run that was killed resumes from it. With `--shard I/N`, I from
+//! 1 to N, and `--seed`, it is one of N parts of the run, which `--example merge` joins. Exit status: 0 none is late, 1 one is,
+//! or the file is invalid, 2 the command line is invalid.
 
 mod campaign;
 

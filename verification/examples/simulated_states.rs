@@ -1,16 +1,16 @@
-//! Looks at the states of a simulation with the exact oracle: none may hold an intersection or a number that is not finite.
+//! Checks the states of a simulation with the exact oracle: none may hold an intersection or a number that is not finite.
 //!
 //! `cargo run --release -p selvedge-verification --example simulated_states -- SCENE.toml [--steps N] [--every N]
 //!     [--time-step FACTOR] [--stiffness FACTOR] [--without EFFECT] [--state FILE]`
 //!
-//! Does N steps (10,000; later than the scene's end its bodies and pins rest) and looks at every state, or at one in so many. Factors
-//! multiply the scene's time step and all its stiffnesses. Two ropes that pass through each other leave no state that shows it: so of loose edges
-//! the ways of all steps are looked at as well that were not cut into parts, in which ways have a bend. Without `self_collision` the run must fail, which shows that it can. Prints
-//! a row for the table of long runs.
+//! Runs N steps (10,000 by default; after the scene's end its bodies and pins rest) and checks every state, or one in N with
+//! `--every`. Factors multiply the scene's time step and all its stiffnesses. Two ropes that pass through each other leave no
+//! trace in a state. So the paths of loose edges are checked as well, in all steps that were not cut into parts, which bend
+//! paths. Without `self_collision` the run must fail, which shows that it can. Prints a row for the table of long runs.
 //!
-//! With `--state` the run survives a kill: what was seen, and a checkpoint of the simulation, are kept in that file every 200 steps, and the same
-//! command goes on from there. More steps may be asked for than before; all else has to be the same, the program included. Exit status 1 if
-//! a state is at fault, the step could not be made, or the scene or the state file cannot be read.
+//! With `--state` the run survives a kill: that file keeps the findings and a checkpoint of the simulation every 200 steps, and
+//! the same command resumes from there. More steps than before are allowed; everything else must be the same, the program
+//! included. Exit status 1 if a state is invalid, a step failed, or the scene or the state file cannot be read.
 
 use indicatif::{ProgressBar, ProgressIterator, ProgressStyle};
 use selvedge_cloth::glam::DVec3;
@@ -87,7 +87,7 @@ impl Options {
     }
 }
 
-/// A line `key = "number unit"` with the number times a factor; as it is if that is one.
+/// Multiplies the number in a line `key = "number unit"` by a factor. Leaves the line unchanged if the factor is one.
 #[expect(clippy::float_cmp, reason = "exactly one where nothing was asked for")]
 fn scaled(line: &str, factor: f64) -> Result<String, Failure> {
     if factor == 1.0 {
@@ -101,11 +101,11 @@ fn scaled(line: &str, factor: f64) -> Result<String, Failure> {
     Ok(format!("{key}\"{} {unit}", number * factor))
 }
 
-/// What was seen.
+/// The findings of a run.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct Seen {
     states: u64,
-    /// Of steps with loose edges.
+    /// Steps with loose edges whose paths were checked.
     ways: u64,
     largest_speed: f64,
     in_oracle: Duration,
@@ -130,7 +130,7 @@ impl Seen {
         Ok(())
     }
 
-    /// The way of a step that was not cut, from where all was before.
+    /// Checks the paths of a step that was not cut, from the positions before it.
     fn look_at_way(&mut self, before: &[DVec3], simulation: &Simulation) -> Result<(), Failure> {
         let [start, end] = [before, simulation.positions()].map(|all| all.iter().map(|p| p.to_array()).collect::<Vec<_>>());
         let begin = Instant::now();
@@ -145,18 +145,18 @@ impl Seen {
     }
 }
 
-/// What `--state` keeps of a run that may be gone on with.
+/// The state of a run that may be resumed, as `--state` keeps it.
 #[derive(Serialize, Deserialize)]
 struct Kept {
-    /// Of the program: what was seen of one says nothing of another.
+    /// The digest of the program: the findings of one program do not count for another.
     program: Digest,
     every: u64,
     seen: Seen,
-    /// Knows its scene, stiffness and time step included.
+    /// A checkpoint, which knows its scene with its stiffness and time step.
     checkpoint: Vec<u8>,
 }
 
-/// Where a run is kept.
+/// The file that keeps a run.
 struct Keeper {
     file: StateFile,
     program: Digest,
@@ -164,7 +164,7 @@ struct Keeper {
 }
 
 impl Keeper {
-    /// Takes up what is kept in that file, if there is any: the simulation is where it was then, and what had been seen is returned.
+    /// Reads the file, if there is one. Restores the simulation, and returns the earlier findings.
     fn open(path: &Path, options: &Options, simulation: &mut Simulation) -> Result<(Self, Seen), Failure> {
         let keeper = Self {
             file: StateFile::open(path, |message| eprintln!("{message}"))?,
@@ -194,7 +194,7 @@ impl Keeper {
         Ok((keeper, kept.seen))
     }
 
-    /// Where the simulation can be gone on with.
+    /// Returns whether the simulation can be resumed here.
     fn keep(&self, seen: Seen, simulation: &Simulation) -> Result<(), FileError> {
         let Some(checkpoint) = simulation.checkpoint() else {
             return Ok(());
@@ -208,12 +208,12 @@ impl Keeper {
     }
 }
 
-/// How often steps were cut into parts.
+/// The number of steps that were cut into parts.
 fn cuts_so_far(simulation: &Simulation) -> u64 {
     simulation.contact_counts().map_or(0, |counts| counts.cuts)
 }
 
-/// Does the steps that are left, and what was seen in all of them.
+/// Runs the remaining steps, and returns the findings of all of them.
 fn run(options: &Options) -> Result<(Simulation, Seen), Failure> {
     let mut simulation = options.load()?;
     let style = ProgressStyle::with_template("{bar:40} {human_pos}/{human_len} steps, {eta} left{msg}")?;
@@ -246,7 +246,7 @@ fn run(options: &Options) -> Result<(Simulation, Seen), Failure> {
         if step % 100 == 0 {
             bar.set_message(format!(", {} blocked", simulation.blocked_steps()));
         }
-        // Whoever is late has been blocked, and the other way round: nothing is made up for.
+        // The clock is late exactly if a step was blocked: lost time is not made up for.
         if (simulation.blocked_steps() > 0) != (simulation.lag() > 0.0) {
             return Err(format!("after step {step}: behind, but not reported as blocked").into());
         }
@@ -258,7 +258,7 @@ fn run(options: &Options) -> Result<(Simulation, Seen), Failure> {
     Ok((simulation, seen))
 }
 
-/// The row for the table.
+/// Formats the row of the table.
 fn tell(options: &Options, simulation: &Simulation, seen: Seen) {
     let counts = simulation.contact_counts().copied().unwrap_or_default();
     if !simulation.loose_edges().is_empty() {
@@ -304,7 +304,7 @@ fn main() -> ExitCode {
 mod tests {
     use super::*;
 
-    /// Cloth that falls on itself, every fifth state looked at.
+    /// Cloth that falls on itself, with every fifth state checked.
     fn options(state: Option<&Path>, more: &[&str]) -> Options {
         let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../std-adapter/cloth/scenes/fold.toml");
         let arguments = [scene, "--every", "5", "--steps", "400"]
@@ -337,7 +337,7 @@ mod tests {
         let (whole, all) = run(&options(None, &[])).unwrap();
         assert_eq!(resumed.positions(), whole.positions());
         assert_eq!((seen.states, seen.ways, all.states), (80, 0, 80));
-        // JSON keeps it but for rounding.
+        // JSON keeps it up to rounding.
         assert!((seen.largest_speed / all.largest_speed - 1.0).abs() < 1e-12 && all.largest_speed > 0.0);
 
         let kept: serde_json::Value = serde_json::from_slice(&std::fs::read(&file).unwrap()).unwrap();

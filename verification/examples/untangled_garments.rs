@@ -1,9 +1,9 @@
-//! Garments that start tangled, untangled before the first step, and judged by the exact oracle.
+//! Untangles garments that start tangled before the first step, and checks them with the exact oracle.
 //!
 //! `cargo run --release -p selvedge-verification --example untangled_garments -- [--cells N] [--depths 1,2,3] [--only WORDS]`
 //!
-//! Prints a row for each garment at each depth, and how many end without an intersection. Exit status 1 if one of them has some by the
-//! oracle though the simulation starts, or is refused without.
+//! Prints a row for each garment at each depth, and how many end without an intersection. Exit status 1 if the oracle finds an
+//! intersection though the simulation starts, or finds none though the simulation is refused.
 
 #[path = "../../std-adapter/cloth/tests/simulation/garments.rs"]
 mod garments;
@@ -43,13 +43,13 @@ impl Options {
     }
 }
 
-/// Pairs of triangles that intersect, bodies among themselves left out.
+/// Returns pairs of triangles that intersect, except pairs of two bodies.
 fn intersecting(mesh: &Mesh, cloth_triangles: usize) -> usize {
     let positions: Vec<_> = mesh.positions.iter().map(|position| position.to_array()).collect();
     mesh_intersections(&positions, &mesh.triangles, cloth_triangles).len()
 }
 
-/// Sets a scene up: where all is then, and what was untangled; or what is left.
+/// Sets a scene up. Returns its positions and what was untangled, or the remaining intersections.
 fn set_up(scene: Scene) -> Result<(Mesh, Option<Untangled>, bool), Failure> {
     match Simulation::new(scene, 1) {
         Ok(simulation) => {

@@ -1,19 +1,41 @@
-//! The culling tests of `selvedge-core` by name, one pair at a time: so that a property can go through all of them, and
-//! what the pipeline does in batches can be done again by hand.
+//! The culling tests of `selvedge-core` by name, one pair at a time, so that a property can go through all of them.
 
 use crate::generator::{Format, PairCase};
 use selvedge_core::boxes::{Aabb, relative, segment, swept_boxes};
 use selvedge_core::{Verdict, filter};
-use selvedge_laboratory::baselines::nine_directions::{self, Dop18};
-use selvedge_laboratory::baselines::plain;
-use selvedge_laboratory::methods::CullingTest;
 
-/// Those that must never cull a pair that touches, rounding included.
-pub fn certified() -> impl Iterator<Item = CullingTest> {
-    CullingTest::ALL.into_iter().filter(|test| test.is_certified())
+/// A culling test. None of them culls a pair that touches, rounding included.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CullingTest {
+    /// Axis-aligned boxes that the two primitives sweep.
+    SweptBoxes,
+    /// The same boxes, merged from those of single points.
+    StoredSweptBoxes,
+    /// The vertex's path against the face's box; for two edges, their swept boxes.
+    SegmentBox,
+    /// One of three coordinate axes keeps the two primitives in the same order.
+    RelativeBoxes,
+    /// Four control values that certainly have one sign.
+    CertifiedNonCoplanarity,
 }
 
-/// What `test` says of `case`.
+impl CullingTest {
+    /// Every culling test.
+    pub const ALL: [Self; 5] = [
+        Self::SweptBoxes,
+        Self::StoredSweptBoxes,
+        Self::SegmentBox,
+        Self::RelativeBoxes,
+        Self::CertifiedNonCoplanarity,
+    ];
+}
+
+/// Returns all of them, none of which may cull a pair that touches.
+pub fn certified() -> impl Iterator<Item = CullingTest> {
+    CullingTest::ALL.into_iter()
+}
+
+/// Returns the verdict of `test` on `case`.
 pub fn verdict<S: Format>(test: CullingTest, case: &PairCase<S>) -> Verdict {
     let pair = &case.pair();
     match test {
@@ -23,16 +45,7 @@ pub fn verdict<S: Format>(test: CullingTest, case: &PairCase<S>) -> Verdict {
             let [first, second] = pair.sets().map(Aabb::swept);
             Verdict::culled_if(!first.overlaps(&second))
         }
-        CullingTest::StoredDop18 => {
-            let [first, second] = pair.sets().map(|set| {
-                let dops = set.iter().map(Dop18::swept);
-                dops.reduce(|all, dop| all.merged(&dop)).expect("a set has points")
-            });
-            Verdict::culled_if(!first.overlaps(&second))
-        }
-        CullingTest::RelativeBoxes | CullingTest::SubspaceThree => relative::three_axes(pair),
-        CullingTest::RelativeBoxesNine | CullingTest::SubspaceNine => nine_directions::separated(pair),
-        CullingTest::PlainNonCoplanarity => plain::non_coplanarity(pair),
+        CullingTest::RelativeBoxes => relative::three_axes(pair),
         CullingTest::CertifiedNonCoplanarity => filter::certified::non_coplanarity(pair),
     }
 }

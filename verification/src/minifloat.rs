@@ -1,6 +1,6 @@
-//! A binary floating-point format of a few bits, so that all inputs of a grid can be tried, not a sample.
+//! A binary floating-point format of a few bits, so that tests can try all inputs of a grid.
 //!
-//! Core's kernels are generic over [`Lanes`]: the source that runs on `f32` and `f64` runs on this unchanged.
+//! Core's kernels are generic over [`Lanes`]: the source that runs on `f32` and `f64` runs on this format unchanged.
 
 use crate::generator::power_of_two;
 use selvedge_core::verification::lanes::{Lanes, Rounding};
@@ -18,11 +18,11 @@ pub const TOWARDS_ZERO: u32 = 3;
 /// Added to a direction: subnormal results become zero, and subnormal operands count as zero.
 pub const FLUSHING: u32 = 4;
 
-/// One sign bit, `E` exponent bits, `F` fraction bits, as IEEE 754 would have it: subnormal numbers, infinities, NaN. It
-/// rounds, and treats subnormal numbers, as `ENVIRONMENT` says: one of the directions above, with or without [`FLUSHING`].
+/// A number of one sign bit, `E` exponent bits and `F` fraction bits, as in IEEE 754, with subnormal numbers, infinities and NaN.
+/// `ENVIRONMENT` is one of the directions above, with or without [`FLUSHING`].
 ///
-/// An operation is computed in `f64`, where it is exact (a product has 2F + 2 bits; a sum spans at most 2^E + F bits, both below
-/// 53), and rounded once.
+/// An operation is computed in `f64`, where it is exact, and rounded once. (A product has 2F + 2 bits, and a sum spans at most
+/// 2^E + F bits; both are below 53.)
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 pub struct Minifloat<const E: u32, const F: u32, const ENVIRONMENT: u32 = TO_NEAREST>(f64);
 
@@ -40,14 +40,15 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Minifloat<E, F, ENVIRON
         "operations must be exact in f64"
     );
 
-    /// The number nearest to `value`; of two the one whose last bit is 0. Infinite from half a step above the largest on.
+    /// Returns the number nearest to `value`; of two, the one whose last bit is 0. It is infinite from half a step above the
+    /// largest number.
     #[must_use]
     pub fn nearest(value: f64) -> Self {
         let () = Self::FITS;
         if !value.is_finite() {
             return Self(value);
         }
-        // The sum's last bit is worth a step of this format: f64's own rounding does the rest.
+        // The sum's last bit is worth a step of this format, so the rounding of `f64` is that of this format.
         let shift = const { 1.5 * power_of_two(52) } * Self::step(value);
         let rounded = (value + shift) - shift;
         if rounded.abs() <= Self::LARGEST {
@@ -58,8 +59,8 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Minifloat<E, F, ENVIRON
         }
     }
 
-    /// What an operation makes of the exact result `value`. Kernels have hundreds of operations, and several formats run each of them:
-    /// inlined everywhere this takes a minute to compile.
+    /// Returns the result of an operation whose exact result is `value`. It is not inlined, since kernels have hundreds of
+    /// operations, in several formats, and would take a minute to compile.
     #[inline(never)]
     fn rounded(value: f64) -> Self {
         let mut number = Self::nearest(value);
@@ -69,7 +70,7 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Minifloat<E, F, ENVIRON
                 DOWNWARD => false,
                 _ => value < 0.0,
             };
-            // From the nearest number, one step further where it lies on the wrong side.
+            // Moves one step from the nearest number if that is on the wrong side.
             if number.0.is_infinite() {
                 let goes_on = upwards == (value > 0.0);
                 number.0 = if goes_on { number.0 } else { Self::LARGEST.copysign(value) };
@@ -82,7 +83,7 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Minifloat<E, F, ENVIRON
         if Self::FLUSHES { number.flushed() } else { number }
     }
 
-    /// As an operation sees it.
+    /// Returns the operand as an operation sees it.
     fn operand(self) -> f64 {
         if Self::FLUSHES { self.flushed().0 } else { self.0 }
     }
@@ -95,19 +96,19 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Minifloat<E, F, ENVIRON
         }
     }
 
-    /// The distance of neighbours at `value`'s exponent. `value` is zero or normal in f64.
+    /// Returns the distance of neighbours at `value`'s exponent. `value` is zero or normal in f64.
     fn step(value: f64) -> f64 {
         let exponent = ((value.to_bits() >> 52 & 0x7ff) as i32 - 1023).max(Self::LOWEST_NORMAL);
         power_of_two(exponent - F.cast_signed())
     }
 
-    /// The same number, exactly.
+    /// Returns the same number, exactly.
     #[must_use]
     pub const fn value(self) -> f64 {
         self.0
     }
 
-    /// The number as a multiple of the smallest positive one.
+    /// Returns the number as a multiple of the smallest positive one.
     ///
     /// # Panics
     /// If it is NaN or infinite.
@@ -117,7 +118,7 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Minifloat<E, F, ENVIRON
         (self.0 * power_of_two(-Self::MIN_EXPONENT)) as i64
     }
 
-    /// Every finite number, in order, zero once.
+    /// Iterates over every finite number, in order, zero once.
     #[must_use]
     pub fn all() -> Vec<Self> {
         let mut all = Vec::new();
@@ -156,8 +157,8 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Mul for Minifloat<E, F,
     }
 }
 
-/// In f64 a quotient of two such numbers that is none itself is no closer to one, or to the middle of two, than a part 2⁻²ᶠ⁻² of it:
-/// f64's rounding does not bring it there.
+/// A quotient of two such numbers that is not such a number itself differs from all of them, and from the middle of two, by at
+/// least 2⁻²ᶠ⁻² of its size. So the rounding of `f64` does not make it one.
 impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Div for Minifloat<E, F, ENVIRONMENT> {
     type Output = Self;
 
@@ -176,15 +177,15 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Neg for Minifloat<E, F,
 
 impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Rounding for Minifloat<E, F, ENVIRONMENT> {
     const UNIT_ROUNDOFF: Self = Self(1.0 / (2 << F) as f64);
-    /// What the derivation of `coplanarity` needs. 512·λ where subnormal numbers are flushed. Else only products lose, each a
-    /// smallest subnormal number e at most: 18·M + 6 times e in 3k₁, and (1 + M)²·32·e is more, by far enough for second order.
+    /// As derived for `coplanarity`: 512·λ if subnormal numbers are flushed. Else only products lose, each at most a smallest
+    /// subnormal number e. That is 18·M + 6 times e in 3k₁, and (1 + M)²·32·e is more, by far enough for terms of second order.
     const UNDERFLOW: Self = if Self::FLUSHES {
         Self(512.0 / (1_u64 << -Self::LOWEST_NORMAL) as f64)
     } else {
         Self(32.0 / (1_u64 << -Self::MIN_EXPONENT) as f64)
     };
-    /// To nearest overflow is infinite, which is kept without a limit. Else volumes must stay below the largest number:
-    /// 18·L³ < 2⁵·L³.
+    /// Rounded to nearest, an overflow is infinite and the pair is kept, so no limit is needed. Else volumes must stay below the
+    /// largest number: 18·L³ < 2⁵·L³.
     const LARGEST_EDGE: Self = if Self::DIRECTION == TO_NEAREST {
         Self(f64::INFINITY)
     } else {
@@ -197,18 +198,18 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Rounding for Minifloat<
         assert!(Self::HIGHEST_NORMAL >= 7, "the smallest limit is 1");
         Self((1_u64 << ((Self::HIGHEST_NORMAL - 7) / 4)) as f64)
     };
-    /// What `corners.g` asks for: 20u·μ ≥ 7λ, and a bit more for second order.
+    /// As `corners.g` requires: 20u·μ ≥ 7λ, with a margin for terms of second order.
     const EXTENT_UNDERFLOW: Self = Self(0.5 * Self::SMALLEST_NORMAL / Self::UNIT_ROUNDOFF.0);
-    /// 3λ ≤ u times this.
+    /// 3λ is at most u times this number.
     const SAFE_SQUARE: Self = Self(4.0 * Self::SMALLEST_NORMAL / Self::UNIT_ROUNDOFF.0);
-    /// Its square is at least 3λ.
+    /// The square of this number is at least 3λ.
     const LENGTH_UNDERFLOW: Self = Self(2.0 / (1_u64 << (-Self::LOWEST_NORMAL / 2)) as f64);
     const ZERO: Self = Self(0.0);
     const HALF: Self = Self(0.5);
     const ONE: Self = Self(1.0);
     const INFINITY: Self = Self(f64::INFINITY);
 
-    /// Rounded up where the format has too few bits for it.
+    /// Rounded up if the format has too few bits for it.
     fn small(count: u8) -> Self {
         let nearest = Self::nearest(count.into());
         if nearest.0 < f64::from(count) {
@@ -232,7 +233,7 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Lanes for Minifloat<E, 
         mask
     }
 
-    /// Rounded once: f64 has more than twice the bits, so that a root which is no number of this format does not become one.
+    /// This is rounded once: f64 has more than twice the bits, so a root that is no number of this format does not become one.
     fn sqrt(self) -> Self {
         Self::rounded(self.operand().sqrt())
     }
@@ -272,7 +273,7 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> fmt::Debug for Minifloa
     }
 }
 
-/// Calls `visit` with every way to choose `N` of `values`, in the order of counting.
+/// Calls `visit` with every way to choose `N` of `values`, in counting order.
 pub fn every<T: Copy, const N: usize>(values: &[T], mut visit: impl FnMut([T; N])) {
     let mut digits = [0; N];
     loop {
@@ -294,7 +295,7 @@ mod tests {
 
     #[test]
     fn there_are_as_many_numbers_as_codes() {
-        // 2⁸ codes without 2 · 2³ for infinity and NaN, and one zero.
+        // There are 2⁸ codes, without 2 · 2³ for infinity and NaN, and with one zero.
         let all = Small::all();
         assert_eq!(all.len(), 256 - 16 - 1);
         assert!(all.is_sorted_by(|a, b| a.value() < b.value()));
@@ -302,14 +303,14 @@ mod tests {
         assert_eq!(all[120].value(), 1.0 / 512.0);
     }
 
-    /// By definition: the closest of all, the even one of two that are equally close.
+    /// By definition, this is the closest number, or the even one of two that are equally close.
     #[test]
     fn sums_and_products_of_all_numbers_are_rounded_to_nearest_even() {
         let all = Small::all();
         let closest = |exact: f64| {
             let after = all.partition_point(|number| number.value() < exact);
             if after == all.len() || after == 0 {
-                // 248 is halfway from 240 to the next, 256, which is even.
+                // 248 is halfway from 240 to the next number, 256, which is even.
                 return if exact.abs() < 248.0 {
                     240.0_f64.copysign(exact)
                 } else {
@@ -320,7 +321,7 @@ mod tests {
             match (exact - low.value()).total_cmp(&(high.value() - exact)) {
                 Ordering::Less => low.value(),
                 Ordering::Greater => high.value(),
-                // Numbers are even and odd in turn, and zero, in the middle, is even.
+                // Even and odd numbers alternate, and zero, in the middle, is even.
                 Ordering::Equal if (after - 1).abs_diff(all.len() / 2) % 2 == 0 => low.value(),
                 Ordering::Equal => high.value(),
             }
@@ -338,7 +339,7 @@ mod tests {
         }
     }
 
-    /// By definition: the last number before, or the first one after.
+    /// By definition, this is the last number before, or the first one after.
     fn rounds_in_its_direction<const ENVIRONMENT: u32>() {
         type Directed<const ENVIRONMENT: u32> = Minifloat<4, 3, ENVIRONMENT>;
         let flushes = ENVIRONMENT & FLUSHING != 0;

@@ -5,8 +5,8 @@ use selvedge::core::filter::certified::non_coplanarity;
 use selvedge_verification::generator::{Format, PairCase};
 use selvedge_verification::oracle::coplanar;
 
-/// A culled pair is never coplanar; NaN and infinities are kept; and where nothing is rounded, the filter culls exactly when
-/// the control values of the volume have one sign.
+/// A culled pair is never coplanar, and NaN and infinities are kept. If nothing is rounded, the filter culls exactly if the
+/// control values of the volume have one sign.
 pub fn certified_filter(data: &[u8]) {
     match pair::numbers(data) {
         Numbers::Single(case) => check(&case),
@@ -30,8 +30,8 @@ fn verdict<S: Format>(case: &PairCase<S>) -> Verdict {
     non_coplanarity(&case.pair())
 }
 
-/// Coordinates below 2⁶: differences are below 2⁷ and all intermediate results below 2²⁷, exact in `f64`; and the error
-/// bound, below 20u·2²⁷ + 2¹⁵η (384u·2²¹ + 2¹⁵η by magnitudes), is less than the least control value, 1.
+/// Coordinates are below 2⁶, so differences are below 2⁷ and all intermediate results below 2²⁷, exact in `f64`. The error bound,
+/// below 20u·2²⁷ + 2¹⁵η (384u·2²¹ + 2¹⁵η by magnitudes), is less than 1, the least control value.
 fn whole_numbers(points: &[[[i8; 3]; 2]; 4]) {
     let double = |position: [i8; 3]| position.map(f64::from);
     let case = PairCase::<f64>::new(PairKind::VertexFace, points.map(|ends| ends.map(double)));
@@ -44,8 +44,8 @@ fn one_sign(values: [i64; 4]) -> bool {
     values.iter().all(|&k| k > 0) || values.iter().all(|&k| k < 0)
 }
 
-/// The control values of the volume spanned by the edges from the second point, each three times: from its coefficients by
-/// powers of the time, c₀ + c₁t + c₂t² + c₃t³, and those from the determinant's definition.
+/// Returns the control values, times three, of the volume spanned by the edges from the second point. They come from its
+/// coefficients by powers of the time, c₀ + c₁t + c₂t² + c₃t³, and those from the determinant's definition.
 fn tripled_control_values(points: &[[[i8; 3]; 2]; 4]) -> [i64; 4] {
     // Each coordinate as (at time 0, change).
     let linear = |point: usize, axis: usize| {

@@ -6,8 +6,8 @@ use selvedge::core::verification::points::PairShape;
 use selvedge_verification::generator::{Format, PairCase};
 use std::cmp::Ordering;
 
-/// The exact signs are those of the control values in rationals, by another formula; so is what rounded values prove of them;
-/// and NaN and infinities have none.
+/// The exact signs are those of the control values in rationals, by another formula. Signs that rounded values prove are right,
+/// too. Pairs with NaN and infinities have none.
 pub fn exact_signs(data: &[u8]) {
     match pair::numbers(data) {
         Numbers::Single(case) => check(&case),
@@ -34,7 +34,7 @@ fn check<S: Format>(case: &PairCase<S>) {
     let has_one_sign = expected[0].is_ne() && expected.iter().all(|&sign| sign == expected[0]);
     assert_eq!(is_never_coplanar(pair, UNKNOWN), has_one_sign, "{case:?}");
 
-    // Within range, signs that clear their error bounds are right, and may be handed over.
+    // Within range, signs that exceed their error bounds are right, and may be passed on.
     let tetrahedron = case.tetrahedron();
     let largest = tetrahedron.largest_by_axis().largest();
     if selvedge::core::verification::coplanarity::is_in_range(largest) {
@@ -48,7 +48,7 @@ fn check<S: Format>(case: &PairCase<S>) {
 
 type Point = [Rational; 3];
 
-/// Of the control values, from the volume at four times: with K(0), K(1), K(−1) and K(2) the cubic is known.
+/// Returns the signs of the control values from the volume at four times: K(0), K(1), K(−1) and K(2) determine the cubic.
 fn signs(ends: [[Point; 4]; 2]) -> [Ordering; 4] {
     let volume = |time: i32| {
         let at = |point: usize, axis: usize| {

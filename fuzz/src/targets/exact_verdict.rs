@@ -5,8 +5,8 @@ use selvedge::core::verification::exact::touches;
 use selvedge_verification::generator::{Format, PairCase};
 use selvedge_verification::oracle::collides;
 
-/// The exact verdict, and the one in whole numbers alone, are the oracle's; they stay the same when time is reversed or points
-/// trade places; NaN and infinities have none. On the numbers of the generator, and on small whole ones.
+/// The exact verdict, and the one in integers alone, are the oracle's. They stay the same if time is reversed or points trade
+/// places, and are undefined for NaN and infinities. This uses numbers of the generator, and small integers.
 pub fn exact_verdict(data: &[u8]) {
     match pair::numbers(data) {
         Numbers::Single(case) => check(&case),

@@ -9,28 +9,28 @@ const FORMATS: [FileFormat; 4] = [
     FileFormat::Ply(PlyEncoding::BigEndian),
 ];
 
-/// OBJ: see `check`.
+/// OBJ files; see `check`.
 pub fn obj(data: &[u8]) {
     check(data, FileFormat::Obj);
 }
 
-/// PLY, in the encoding that the bytes declare: see `check`.
+/// PLY files, in the encoding that the bytes declare; see `check`.
 pub fn ply(data: &[u8]) {
     check(data, FileFormat::Ply(PlyEncoding::default()));
 }
 
-/// STL, text or binary: see `check`.
+/// STL files, text or binary; see `check`.
 pub fn stl(data: &[u8]) {
     check(data, FileFormat::Stl);
 }
 
-/// OFF: see `check`.
+/// OFF files; see `check`.
 pub fn off(data: &[u8]) {
     check(data, FileFormat::Off);
 }
 
-/// A file is refused with a readable message, or read as a mesh whose triangles exist and whose coordinates are finite;
-/// written in any format that mesh is read back bit for bit. With its loose edges and points it is read, or refused, as well.
+/// A file is refused with a readable message, or read as a mesh whose triangles exist and whose coordinates are finite. Written
+/// in any format, that mesh is read back bit for bit. With its loose edges and points it is read, or refused, as well.
 fn check(data: &[u8], format: FileFormat) {
     match read_bytes_with_loose_features(data, format) {
         Ok(loose) => {
@@ -66,7 +66,7 @@ fn check(data: &[u8], format: FileFormat) {
     }
 }
 
-/// The sign of zero included.
+/// The bits of the coordinates, so that the sign of zero counts.
 fn bits(mesh: &Mesh) -> Vec<[u64; 3]> {
     let bits = |position: &selvedge::glam::DVec3| position.to_array().map(f64::to_bits);
     mesh.positions.iter().map(bits).collect()

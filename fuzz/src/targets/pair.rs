@@ -1,5 +1,5 @@
-//! Primitive pairs from bytes. The first byte decides on the kind of pair, the number format and whether NaN and
-//! infinities are allowed; the rest goes to the generator that the property tests use too.
+//! Primitive pairs from bytes. The first byte chooses the kind of pair, the number format and whether NaN and infinities are
+//! allowed. The rest goes to the generator of the property tests.
 
 use selvedge::PairKind;
 use selvedge_verification::generator::PairCase;
@@ -26,7 +26,7 @@ pub(super) fn numbers(data: &[u8]) -> Numbers {
     }
 }
 
-/// Small whole numbers: the start and end of four points, straight from the bytes.
+/// Returns small integers, straight from the bytes: the start and end of four points.
 pub(super) fn whole(data: &[u8]) -> [[[i8; 3]; 2]; 4] {
     let mut bytes = data.iter().skip(1).map(|&byte| byte.cast_signed() / 2);
     let mut next = || bytes.next().unwrap_or(0);

@@ -3,13 +3,13 @@ use selvedge_cloth::{Scene, Simulation};
 use std::path::Path;
 use toml::de::{DeTable, DeValue};
 
-/// Larger cloth and bodies are read, not simulated.
+/// Larger cloth and bodies are read, but not simulated.
 const LARGEST: usize = 500;
-/// Numbers of cells and the like from here on are left out: they would only take time and memory.
+/// Numbers of cells and similar counts from here on are left out: they would only take time and memory.
 const FINEST: u64 = 13;
 
-/// A scene file is refused with a readable message that names the line and the column; or it makes a scene of which everything is
-/// finite after two steps. A scene that cannot be set up, or is blocked, says so in one line too.
+/// A scene file is refused with a readable message that names line and column, or it makes a scene in which everything is finite
+/// after two steps. If a scene cannot be set up, or is blocked, the message is one line, too.
 pub fn scene(data: &[u8]) {
     let Ok(text) = std::str::from_utf8(data) else {
         return;
@@ -45,7 +45,7 @@ pub fn scene(data: &[u8]) {
     }
 }
 
-/// Whether a mesh would be large, or read from a file.
+/// Returns whether a mesh would be large, or read from a file.
 fn has_large(table: &DeTable<'_>) -> bool {
     let mut entries = table.iter();
     entries.any(|(key, value)| match key.get_ref().as_ref() {

@@ -7,8 +7,8 @@ use selvedge_verification::generator::{Format, PairCase};
 use selvedge_verification::oracle::{AlgebraicTime, collides};
 use std::cmp::Ordering;
 
-/// Never misses and is never late, whatever the tolerance; a confirmed contact is one; the work is bounded; and of NaN and
-/// infinities nothing is excluded.
+/// The time of impact never misses and is never late, whatever the tolerance. A confirmed contact is one, and the work is
+/// bounded. NaN and infinities exclude nothing.
 pub fn time_of_impact(data: &[u8]) {
     let exponent = i32::from(data.last().copied().unwrap_or(0) % 64);
     match pair::numbers(data) {

@@ -4,6 +4,7 @@
 //! frames are largest, and plain loops stand for vectors. The digests were written down from the optimised build.
 
 use fearless_simd::Level;
+use fnv::FnvHasher;
 use selvedge::core::batch::{
     LANES, Mask, Round, RoundQuestion, Test, Tile, VertexRow, advance_from_rows, closest_points, culled, culled_from_rows,
     culled_from_tiles, largest_strays_from_rows,
@@ -18,6 +19,7 @@ use selvedge::core::separation::clearance::Clearance;
 use selvedge::core::separation::closest::ClosestPoints;
 use selvedge::core::{Motion, PrimitivePair};
 use selvedge::{CandidateBoxes, CollisionDetector, Contact, Criterion, PairKind, Scalar, StepError, Topology};
+use std::hash::Hasher;
 
 /// What a thread of a pool has at least, everywhere.
 const STACK: usize = 1 << 20;
@@ -29,17 +31,12 @@ fn in_little_stack<T: Send + 'static>(action: impl FnOnce() -> T + Send + 'stati
 }
 
 /// FNV-1a.
-struct Digest(u64);
+#[derive(Default)]
+struct Digest(FnvHasher);
 
 impl Digest {
-    const fn new() -> Self {
-        Self(0xcbf2_9ce4_8422_2325)
-    }
-
     fn add(&mut self, answer: impl Into<u64>) {
-        for byte in answer.into().to_le_bytes() {
-            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-        }
+        self.0.write(&answer.into().to_le_bytes());
     }
 
     fn add_impact<S: Scalar>(&mut self, impact: Impact<S>) {
@@ -214,7 +211,7 @@ fn kernels<S: Scalar>() -> [u64; 2] {
         .iter()
         .map(|&[a, b, c, d]| PrimitivePair::edge_edge([a, b], [c, d]))
         .collect();
-    let (mut digest, mut other) = (Digest::new(), Digest::new());
+    let (mut digest, mut other) = (Digest::default(), Digest::default());
     for pair in &vertex_face {
         digest.add(segment::primitive_boxes(pair).is_culled());
         ask_of_pair(pair, &mut digest);
@@ -222,7 +219,7 @@ fn kernels<S: Scalar>() -> [u64; 2] {
     edge_edge.iter().for_each(|pair| ask_of_pair(pair, &mut other));
     ask_of_many(PairKind::VertexFace, &vertex_face, &mut digest);
     ask_of_many(PairKind::EdgeEdge, &edge_edge, &mut other);
-    [digest.0, other.0]
+    [digest.0.finish(), other.0.finish()]
 }
 
 /// Two uneven sheets of `SIDE`² vertices, the upper of which falls through the lower.
@@ -267,9 +264,9 @@ fn answers<S: Scalar>(ask: impl Fn(&mut CollisionDetector<S>, [&[[S; 3]]; 2], &m
     [Criterion::Within(separated), Criterion::Touching { tolerance }].map(|criterion| {
         let mut detector = CollisionDetector::<S>::new(sheets());
         detector.set_criterion(criterion).expect("lengths");
-        let mut digest = Digest::new();
+        let mut digest = Digest::default();
         ask(&mut detector, [&start, &end], &mut digest).expect("finite positions, one for each vertex");
-        digest.0
+        digest.0.finish()
     })
 }
 

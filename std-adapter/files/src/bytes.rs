@@ -1,5 +1,8 @@
 //! Numbers as bytes and back: every number in full, least significant byte first.
 
+use fnv::FnvHasher;
+use std::hash::Hasher;
+
 /// Takes numbers off the front of bytes; `None` where there are too few.
 #[derive(Clone, Copy, Debug)]
 pub struct Reader<'a>(pub &'a [u8]);
@@ -53,25 +56,17 @@ pub fn put_block(bytes: &mut Vec<u8>, block: &[u8]) {
     bytes.extend_from_slice(block);
 }
 
-/// Tells data apart: FNV-1a, the same in every version of every compiler.
-#[derive(Clone, Copy, Debug)]
-pub struct Fingerprint(u64);
-
-impl Default for Fingerprint {
-    fn default() -> Self {
-        Self(0xcbf2_9ce4_8422_2325)
-    }
-}
+/// A digest of bytes: FNV-1a, the same in every version of every compiler.
+#[derive(Default)]
+pub struct Fingerprint(FnvHasher);
 
 impl Fingerprint {
     pub fn take(&mut self, bytes: &[u8]) {
-        for &byte in bytes {
-            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-        }
+        self.0.write(bytes);
     }
 
     #[must_use]
-    pub fn value(self) -> u64 {
-        self.0
+    pub fn value(&self) -> u64 {
+        self.0.finish()
     }
 }

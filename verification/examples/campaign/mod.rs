@@ -1,4 +1,4 @@
-//! What the long runs share: their options, a state that survives a kill, and a progress bar.
+//! Shared by the long runs: their options, a state that survives a kill, and a progress bar.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use selvedge_verification::campaign::{Findings, Progress, Shard, StateFile, read};
@@ -9,10 +9,10 @@ use std::time::{Instant, UNIX_EPOCH};
 
 pub(crate) type Failure = Box<dyn std::error::Error + Send + Sync>;
 
-/// The commit that `verification/cluster/build.sh` builds from; without it shards are not joined.
+/// The commit from which `verification/cluster/build.sh` builds. Without it shards cannot be joined.
 const COMMIT: Option<&str> = option_env!("SELVEDGE_COMMIT");
 
-/// Of the command line.
+/// The options of the command line.
 pub(crate) struct Options {
     pub(crate) pairs: u64,
     pub(crate) seed: Option<u64>,
@@ -22,9 +22,11 @@ pub(crate) struct Options {
 }
 
 impl Options {
-    /// `[PAIRS] [--seed N] [--shard I/N] [--state FILE] [--threads N]`; by default `pairs`, and a file of `name` and shard in the
-    /// folder for temporary files. `takes` is asked first whether an argument is one of its own, and takes what follows it; `None`
-    /// if the command line is at fault.
+    /// Parses `[PAIRS] [--seed N] [--shard I/N] [--state FILE] [--threads N]`. The defaults are `pairs`, and a file named after
+    /// `name` and the shard in the folder for temporary files.
+    ///
+    /// `takes` gets each argument first, with those that follow, and returns whether it has used it. Returns `None` if the
+    /// command line is invalid.
     pub(crate) fn parse(
         name: &str,
         pairs: u64,
@@ -45,7 +47,7 @@ impl Options {
                 number => pairs = number.replace('_', "").parse().ok().filter(|&n| n > 0)?,
             }
         }
-        // Shards look at the same pairs only if they have the same seed.
+        // Shards examine the same run only if they have the same seed.
         if shard != Shard::WHOLE && seed.is_none() {
             return None;
         }
@@ -64,9 +66,8 @@ impl Options {
     }
 }
 
-/// Goes on from the state that is kept, or from `fresh` of a seed, to the end: `run` does it, and tells the function that it is
-/// given of each state that may be kept. Then prints what was found, and says how the program ends: 0 nothing is wrong, 1 something
-/// is, or a file is at fault.
+/// Resumes the kept state, or starts `fresh` with a seed, and runs to the end. `run` gets a function to call with each state that
+/// may be kept. Prints the findings, and returns the exit status: 0 nothing is wrong, 1 something is wrong, or a file is invalid.
 pub(crate) fn exit<F>(
     options: &Options,
     fresh: impl Fn(u64) -> Progress<F>,
@@ -88,7 +89,7 @@ where
     }
 }
 
-/// Says what went wrong.
+/// Prints the failure.
 pub(crate) fn failed(failure: &dyn Display) -> ExitCode {
     eprintln!("{failure}");
     ExitCode::FAILURE
@@ -117,7 +118,7 @@ where
             fresh(options.seed.unwrap_or(now))
         }
     };
-    // A shard without chunks is to be there as well.
+    // A shard without chunks needs a file, too.
     file.keep(&progress)?;
     let shard = options.shard;
     eprintln!("seed {}, shard {shard}, state in {}", progress.settings.seed, path.display());

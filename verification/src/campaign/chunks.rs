@@ -3,24 +3,23 @@
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// A set of chunks, kept as runs: threads take chunks in order, so there are hardly more runs than threads, however many chunks
-/// there are.
+/// A set of chunks, kept as runs. Threads take chunks in order, so there are hardly more runs than threads.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "Vec<[u64; 2]>", into = "Vec<[u64; 2]>")]
 pub struct Chunks {
-    /// First and one past the last; in order, none empty, a gap between any two.
+    /// The first chunk and the one past the last of each run. Runs are in order, not empty, and have gaps between them.
     runs: Vec<[u64; 2]>,
 }
 
 impl Chunks {
-    /// Whether it has that chunk.
+    /// Returns whether the set has that chunk.
     #[must_use]
     pub fn contains(&self, chunk: u64) -> bool {
         let after = self.after(chunk);
         after > 0 && chunk < self.runs[after - 1][1]
     }
 
-    /// Puts a chunk in; `false` if it was there.
+    /// Inserts a chunk. Returns `false` if the set has it already.
     pub fn insert(&mut self, chunk: u64) -> bool {
         if self.contains(chunk) {
             return false;
@@ -40,25 +39,25 @@ impl Chunks {
         true
     }
 
-    /// How many there are.
+    /// Returns the number of chunks.
     #[must_use]
     pub fn len(&self) -> u64 {
         self.runs.iter().map(|[first, end]| end - first).sum()
     }
 
-    /// Whether there is none.
+    /// Returns whether the set is empty.
     #[must_use]
     pub const fn is_empty(&self) -> bool {
         self.runs.is_empty()
     }
 
-    /// The first and one past the last of each run, in order.
+    /// Returns the first chunk and the one past the last of each run, in order.
     #[must_use]
     pub fn runs(&self) -> &[[u64; 2]] {
         &self.runs
     }
 
-    /// The first run that begins after that chunk.
+    /// Returns the first run that begins after that chunk.
     fn after(&self, chunk: u64) -> usize {
         self.runs.partition_point(|&[first, _]| first <= chunk)
     }

@@ -1,4 +1,4 @@
-//! What a run found, in sixteen bytes.
+//! A digest of a run's findings, in sixteen bytes.
 
 use serde::{Deserialize, Serialize};
 use sha2::digest::consts::U16;
@@ -6,30 +6,30 @@ use sha2::{Digest as _, Sha256};
 use std::fmt;
 use std::ops::AddAssign;
 
-/// A digest of what was found in some chunks, that does not depend on the order in which they came, nor on who looked at them.
+/// A digest of the findings of some chunks. It depends neither on the order of the chunks nor on the machines that ran them.
 ///
-/// # Why it does not
-/// It is Σ h(chunk, what was found in it) modulo 2¹²⁸, h being the first half of SHA-256 of both as JSON. Addition modulo 2¹²⁸ is
-/// commutative and associative: any order, any parting into shards and any sequence of kills adds the same terms, if each chunk is
-/// added once. That it is, [`Progress`](super::Progress) sees to: it keeps chunk, findings and digest in one state. A chunk that
-/// is missing, there twice or of other findings changes the sum, but for chance, one in 2¹²⁸. (The construction is `AdHASH`: Bellare
-/// and Micciancio 1997. Against one who searches for two lists of equal sums 128 bits would be too few; chance does not search.)
+/// # Why
+/// It is Σ h(chunk, findings) modulo 2¹²⁸, where h is the first half of SHA-256 of both as JSON. This addition is commutative and
+/// associative. So any order, any division into shards and any sequence of kills adds the same terms, provided that each chunk is
+/// added once. [`Progress`](super::Progress) ensures that, since it keeps chunk, findings and digest in one state. A chunk that
+/// is missing, doubled or has other findings changes the sum, except by a chance of one in 2¹²⁸. (The construction is `AdHASH`,
+/// Bellare and Micciancio 1997. 128 bits would be too few against an adversary, which is not a concern here.)
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct Digest(u128);
 
 impl Digest {
-    /// Of one chunk.
+    /// Returns the digest of one chunk.
     ///
     /// # Panics
-    /// If what was found cannot be written as JSON.
+    /// If the findings cannot be written as JSON.
     #[must_use]
     pub fn of_chunk(chunk: u64, found: &impl Serialize) -> Self {
         let bytes = serde_json::to_vec(&(chunk, found)).expect("findings are numbers, words and lists");
         Self::of_bytes([bytes])
     }
 
-    /// Of bytes, one piece after the other.
+    /// Returns the digest of bytes, one piece after the other.
     #[must_use]
     pub fn of_bytes(pieces: impl IntoIterator<Item = impl AsRef<[u8]>>) -> Self {
         let mut hash = Sha256::new();

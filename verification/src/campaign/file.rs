@@ -1,4 +1,4 @@
-//! The file that a run's state is kept in.
+//! The file that holds a run's state.
 
 use super::{Findings, Progress};
 use serde::Serialize;
@@ -8,31 +8,31 @@ use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// What is wrong with a state file.
+/// An error of a state file.
 #[derive(Debug, Error)]
 pub enum FileError {
-    /// The system says no.
+    /// The system refuses access.
     #[error("{file}: {error}", file = .file.display())]
     System {
         /// The file.
         file: PathBuf,
-        /// What it says.
+        /// The system's error.
         error: io::Error,
     },
-    /// It is no state of this campaign.
+    /// The file does not hold a state of this campaign.
     #[error("{file}: no state of this campaign ({why}); delete it, or name another file", file = .file.display())]
     NotAState {
         /// The file.
         file: PathBuf,
-        /// What in it is wrong.
+        /// The reason.
         why: String,
     },
 }
 
-/// The state in a file, if there is such a file.
+/// Reads the state in a file, if there is such a file.
 ///
 /// # Errors
-/// If it cannot be read, or is no state of this campaign.
+/// If the file cannot be read, or does not hold a state of this campaign.
 pub fn read<F: Findings>(file: &Path) -> Result<Option<Progress<F>>, FileError> {
     let progress: Option<Progress<F>> = read_as(file)?;
     match progress.as_ref().and_then(Progress::contradiction) {
@@ -41,10 +41,10 @@ pub fn read<F: Findings>(file: &Path) -> Result<Option<Progress<F>>, FileError> 
     }
 }
 
-/// What [`StateFile::keep`] wrote, whatever it was, if there is such a file.
+/// Reads what [`StateFile::keep`] wrote, of any type, if there is such a file.
 ///
 /// # Errors
-/// If it cannot be read, or is nothing of the kind.
+/// If the file cannot be read, or does not hold a value of the type.
 pub fn read_as<S: DeserializeOwned>(file: &Path) -> Result<Option<S>, FileError> {
     let bytes = match fs::read(file) {
         Ok(bytes) => bytes,
@@ -55,20 +55,20 @@ pub fn read_as<S: DeserializeOwned>(file: &Path) -> Result<Option<S>, FileError>
     Ok(Some(state))
 }
 
-/// A state file that this process alone writes.
+/// A state file that only this process writes.
 #[derive(Debug)]
 pub struct StateFile {
     file: PathBuf,
-    /// Of a file beside it, as the file itself is replaced; let go when the process ends, however it does.
+    /// The lock of a file beside it, since the file itself is replaced. The system releases it when the process ends.
     _lock: File,
 }
 
 impl StateFile {
-    /// Waits while another process has it: one that was started twice, say by a cluster that thought it dead. `waits` is told
-    /// so before that.
+    /// Opens the file. Waits while another process has it, for example one that a cluster wrongly considers dead, and calls
+    /// `waits` with a message before that.
     ///
     /// # Errors
-    /// If the lock beside it cannot be written.
+    /// If the lock file cannot be written.
     pub fn open(file: &Path, waits: impl FnOnce(&str)) -> Result<Self, FileError> {
         let beside = with_ending(file, ".lock");
         let lock = File::create(&beside).map_err(system(&beside))?;
@@ -86,10 +86,10 @@ impl StateFile {
         })
     }
 
-    /// Replaces the state in one step: whatever is killed, process or machine, the file holds the old state or the new one.
+    /// Replaces the state in one step. If the process or the machine is killed, the file holds the old state or the new one.
     ///
     /// # Errors
-    /// If it cannot be written.
+    /// If the file cannot be written.
     pub fn keep(&self, state: &impl Serialize) -> Result<(), FileError> {
         let next = with_ending(&self.file, ".next");
         let write = || {

@@ -1,19 +1,19 @@
-//! The shards of a run joined to one.
+//! Joins the shards of a run.
 
 use super::{Chunks, Findings, Progress};
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// Why shards are not joined.
+/// The reason why shards cannot be joined.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum Refusal {
-    /// There is nothing to join.
+    /// There are no shards.
     #[error("no shards: name the state file of each")]
     NoShards,
-    /// A program that does not know its commit may be any.
+    /// The program that wrote the state does not know its commit, so it may be any program.
     #[error("{file}: by a program that does not know its commit; build it with verification/cluster/build.sh", file = .0.display())]
     UnknownCommit(PathBuf),
-    /// They are of different runs.
+    /// The shards belong to different runs.
     #[error("{first} and {other}: different runs, as {name} is {ours} in one and {theirs} in the other",
         first = .files[0].display(), other = .files[1].display())]
     Different {
@@ -21,12 +21,12 @@ pub enum Refusal {
         files: [PathBuf; 2],
         /// The setting that differs.
         name: String,
-        /// In the first.
+        /// Its value in the first.
         ours: String,
-        /// In the second.
+        /// Its value in the second.
         theirs: String,
     },
-    /// A shard has not come to its end.
+    /// A shard is not finished.
     #[error("{file}: unfinished, {done} of {chunks} chunks; start it again: {command}", file = .file.display())]
     Unfinished {
         /// Its file.
@@ -35,20 +35,20 @@ pub enum Refusal {
         done: u64,
         /// Chunks of the shard.
         chunks: u64,
-        /// What it was last started with.
+        /// The command that it was last started with.
         command: String,
     },
-    /// Chunks would count twice.
+    /// Two shards have the same chunks.
     #[error("{first} and {second}: chunks {begin} to {last} are in both", first = .files[0].display(), second = .files[1].display())]
     Overlap {
         /// The two files.
         files: [PathBuf; 2],
         /// The first chunk of both.
         begin: u64,
-        /// The last of them that follow each other.
+        /// The last of the consecutive chunks that both have.
         last: u64,
     },
-    /// Chunks are in no shard.
+    /// No shard has these chunks.
     #[error("chunks {begin} to {last} are in no shard: between {before} and {after}",
         before = name(.before.as_ref(), "the run's beginning"), after = name(.after.as_ref(), "its end"))]
     Gap {
@@ -58,7 +58,7 @@ pub enum Refusal {
         after: Option<PathBuf>,
         /// The first missing chunk.
         begin: u64,
-        /// The last of them that follow each other.
+        /// The last of the consecutive missing chunks.
         last: u64,
     },
 }
@@ -67,11 +67,12 @@ fn name(file: Option<&PathBuf>, otherwise: &str) -> String {
     file.map_or(otherwise.to_owned(), |file| file.display().to_string())
 }
 
-/// Joins finished shards, in any order: the state that one run over all chunks would have, with the same digest. Shards of
-/// different counts (`1/2`, `3/4`, `4/4`) may stand side by side, if together they have each chunk once.
+/// Joins finished shards, in any order, to the state that a single run over all chunks would have, with the same digest. Shards
+/// of different counts (`1/2`, `3/4`, `4/4`) can be joined if together they have each chunk once.
 ///
 /// # Errors
-/// If one is unfinished, of another run or of an unknown commit, or if a chunk is in none or in two: the [`Refusal`] names the files.
+/// If a shard is unfinished, of another run or of an unknown commit, or if a chunk is in no shard or in two. The [`Refusal`]
+/// names the files.
 pub fn merge<F: Findings>(mut shards: Vec<(PathBuf, Progress<F>)>) -> Result<Progress<F>, Refusal> {
     let (first, one) = shards.first().ok_or(Refusal::NoShards)?;
     for (file, shard) in &shards {
@@ -95,7 +96,7 @@ pub fn merge<F: Findings>(mut shards: Vec<(PathBuf, Progress<F>)>) -> Result<Pro
             });
         }
     }
-    // Empty shards, of which there may be several at one place, before the one that begins there.
+    // Skips empty shards, of which several may begin at one place.
     shards.sort_by_key(|(_, shard)| (shard.range.start, shard.range.end));
     is_tiled(&shards)?;
     let mut shards = shards.into_iter().map(|(_, shard)| shard);
@@ -109,7 +110,7 @@ pub fn merge<F: Findings>(mut shards: Vec<(PathBuf, Progress<F>)>) -> Result<Pro
     Ok(all)
 }
 
-/// Whether each chunk of the run is in one shard; shards by where they begin.
+/// Checks that each chunk of the run is in one shard. Shards are sorted by their first chunk.
 fn is_tiled<F>(shards: &[(PathBuf, Progress<F>)]) -> Result<(), Refusal> {
     let chunks = shards.first().map_or(0, |(_, shard)| shard.settings.chunks);
     let mut before: Option<(&PathBuf, u64)> = None;

@@ -1,26 +1,22 @@
-//! Long runs over many pairs, in chunks, each with random numbers of its own: what a run finds depends on neither threads,
-//! interruptions nor how many machines share it.
+//! Long runs over many pairs, in chunks. Each chunk has random numbers of its own, so the findings do not depend on threads,
+//! interruptions or the number of machines.
 //!
-//! | module | what it is |
+//! | module | contents |
 //! |---|---|
 //! | [`exact`] | a billion pairs, every cull and every "never" checked by exact arithmetic |
-//! | [`false_culls`] | every tier of the filter over random and adversarial pairs |
-//! | `screw_motions` | bodies that turn and meet, against enclosures of their arcs |
-//! | [`mutants`] | changes of core, and whether a test notices: `verification/mutants/` writes its states, which are joined here |
+//! | `screw_motions` | rotating bodies that meet, against enclosures of their arcs (feature `screw-motions`) |
 //!
 //! # Beyond one machine
-//! A run has its chunks in one order; a [`Shard`] is a run of them. Its [`Progress`] says what run it is of ([`Settings`]), which chunks
-//! are its own, which of them are done, and what was found in those, with a [`Digest`]; a [`StateFile`] keeps it through kills. [`merge()`]
-//! joins shards that together have each chunk once, and refuses all others. No shard knows of the others, and nobody watches
-//! them: whatever starts them again until each is finished will do.
+//! A run has its chunks in one order; a [`Shard`] is a range of them. Its [`Progress`] holds the [`Settings`] of the run, the shard's
+//! chunks, the finished ones, their findings and a [`Digest`] of these. A [`StateFile`] keeps it, even if the process is killed.
+//! [`merge()`] joins shards that together have each chunk once, and refuses all others. Shards do not communicate: restart each of
+//! them until it has finished.
 
 mod chunks;
 mod digest;
 pub mod exact;
-pub mod false_culls;
 mod file;
 mod merge;
-pub mod mutants;
 mod progress;
 #[cfg(feature = "screw-motions")]
 pub mod screw_motions;
@@ -40,38 +36,39 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::sync::Mutex;
 
-/// What a run looks for.
+/// The findings of a run, by chunk and in sum.
 pub trait Findings: Send + Serialize + DeserializeOwned {
-    /// What the campaign is called, in states.
+    /// The campaign's name in state files.
     const CAMPAIGN: &'static str;
 
-    /// What is found in one chunk.
+    /// The findings of one chunk.
     type OfChunk: Send + Serialize;
 
-    /// Adds what was found in a chunk. In whichever order chunks come, the sum is the same.
+    /// Adds the findings of a chunk. The sum does not depend on the order of the chunks.
     fn add(&mut self, chunk: u64, found: Self::OfChunk);
 
-    /// Adds what was found in other chunks of the same run. In whichever order, the sum is the same.
+    /// Adds the findings of other chunks of the same run. The sum does not depend on the order.
     fn join(&mut self, other: Self);
 
-    /// How many promises were found broken.
+    /// Returns the number of broken promises.
     fn wrong(&self) -> u64;
 }
 
-/// The random numbers of a chunk.
+/// Returns the random numbers of a chunk.
 fn random(seed: u64, chunk: u64) -> TestRng {
     let mut bytes = [0; 16];
     bytes[..8].copy_from_slice(&seed.to_le_bytes());
-    // Never all zero, with which this generator would be stuck.
+    // Never all zero: this generator would stay there.
     bytes[8..].copy_from_slice(&(chunk + 1).to_le_bytes());
     let mut random = TestRng::from_seed(RngAlgorithm::XorShift, &bytes);
-    // Seeds that differ in a few bits begin alike.
+    // The first numbers of similar seeds are similar.
     random.fill_bytes(&mut [0; Choices::ENOUGH]);
     random
 }
 
-/// Does what is left, on as many threads, until `stops` says so: `look_at` a chunk of that index; `after_chunk` sees each state that
-/// may be kept, one at a time.
+/// Runs the remaining chunks on `threads` threads until `stops` returns true.
+///
+/// `look_at` examines the chunk of an index. `after_chunk` gets each state that may be kept, one at a time.
 ///
 /// # Panics
 /// If a thread panics.

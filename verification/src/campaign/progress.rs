@@ -1,4 +1,4 @@
-//! How far a run has come.
+//! The state of a run.
 
 use super::{Chunks, Digest, Findings, Shard};
 use serde::{Deserialize, Serialize};
@@ -6,25 +6,25 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use thiserror::Error;
 
-/// What a run is: with equal settings two runs look at the same cases, ask the same of them, and find the same.
+/// The settings of a run. Two runs with equal settings examine the same cases in the same way, and find the same.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Settings {
-    /// Which campaign: [`Findings::CAMPAIGN`].
+    /// The campaign: [`Findings::CAMPAIGN`].
     pub campaign: String,
-    /// The commit that the program was built from, where that is known.
+    /// The commit that the program was built from, if known.
     pub commit: Option<String>,
-    /// Where random numbers come from.
+    /// The seed of the random numbers.
     pub seed: u64,
-    /// Chunks in all, of all shards.
+    /// The number of chunks of all shards.
     pub chunks: u64,
-    /// Cases (pairs, mutants) a chunk.
+    /// The number of cases in a chunk.
     pub cases_per_chunk: u64,
-    /// What else it depends on, by name.
+    /// Everything else that the findings depend on, by name.
     pub depends_on: BTreeMap<String, String>,
 }
 
 impl Settings {
-    /// The first setting that differs: its name, ours and theirs.
+    /// Returns the first setting that differs: its name, its value here and in `other`.
     #[must_use]
     pub fn difference(&self, other: &Self) -> Option<[String; 3]> {
         let (ours, theirs) = (self.by_name(), other.by_name());
@@ -47,49 +47,49 @@ impl Settings {
     }
 }
 
-/// Why a state cannot be gone on from.
+/// The reason why a run cannot be resumed from a state.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum AnotherRun {
-    /// A setting is not what it was.
+    /// A setting differs.
     #[error("the state of another run, whose {name} is {was}, not {is}")]
     Setting {
-        /// Which.
+        /// Its name.
         name: String,
-        /// In the state.
+        /// Its value in the state.
         was: String,
-        /// What is asked for.
+        /// Its value in the command line.
         is: String,
     },
-    /// The same run, but not the same part of it.
+    /// The state is of another shard of the same run.
     #[error("the state of another shard, of chunks {} to {}, not {} to {}", .was.start, .was.end, .is.start, .is.end)]
     Shard {
         /// The chunks of the state.
         was: Range<u64>,
-        /// Those that are asked for.
+        /// The chunks of the command line.
         is: Range<u64>,
     },
 }
 
-/// How far a run, or one shard of it, has come.
+/// The state of a run, or of one shard of it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Progress<F> {
-    /// What run it is.
+    /// The settings of the run.
     #[serde(flatten)]
     pub settings: Settings,
-    /// The command that it was last started with: for who reads it, nothing depends on it.
+    /// The command that it was last started with, for the reader. Nothing depends on it.
     pub command: String,
     /// The chunks of this shard.
     pub range: Range<u64>,
     /// Finished chunks.
     pub done: Chunks,
-    /// Of what was found in them.
+    /// The digest of their findings.
     pub digest: Digest,
-    /// What was found in them.
+    /// Their findings.
     pub found: F,
 }
 
 impl<F: Findings> Progress<F> {
-    /// Nothing done yet, and nothing found, of the whole run; whole chunks, at least `cases` cases in all.
+    /// Starts a run over whole chunks, of at least `cases` cases in all. Nothing is done or found yet.
     #[must_use]
     pub fn with_nothing_done(seed: u64, cases: u64, cases_per_chunk: u64, depends_on: &[(&str, String)], nothing: F) -> Self {
         let chunks = cases.div_ceil(cases_per_chunk);
@@ -111,7 +111,7 @@ impl<F: Findings> Progress<F> {
         }
     }
 
-    /// The same of one shard, by a program that was built from that commit and started with that command.
+    /// Returns the same state of one shard, for a program that was built from that commit and started with that command.
     #[must_use]
     pub fn of_shard(mut self, shard: Shard, commit: Option<&str>, command: &str) -> Self {
         self.range = shard.range(self.settings.chunks);
@@ -120,10 +120,10 @@ impl<F: Findings> Progress<F> {
         self
     }
 
-    /// What was kept goes on as what is asked for, under its command.
+    /// Resumes the kept state `self` as the run `asked`, under its command.
     ///
     /// # Errors
-    /// If it is another run or another shard.
+    /// If `asked` is another run or another shard.
     pub fn goes_on(self, asked: Self) -> Result<Self, AnotherRun> {
         if let Some([name, was, is]) = self.settings.difference(&asked.settings) {
             return Err(AnotherRun::Setting { name, was, is });
@@ -140,29 +140,29 @@ impl<F: Findings> Progress<F> {
         })
     }
 
-    /// Whether all chunks of the shard are done.
+    /// Returns whether all chunks of the shard are done.
     #[must_use]
     pub fn is_finished(&self) -> bool {
         self.done.len() == self.range.end - self.range.start
     }
 
-    /// Cases of finished chunks.
+    /// Returns the number of cases in finished chunks.
     #[must_use]
     pub fn cases(&self) -> u64 {
         self.done.len() * self.settings.cases_per_chunk
     }
 
-    /// Adds a chunk: what was found, that it is done, and both to the digest.
+    /// Adds a chunk: its findings, its number, and both to the digest.
     ///
     /// # Panics
-    /// If it was done before: it would be counted twice.
+    /// If the chunk was added before, since it would count twice.
     pub(super) fn add(&mut self, chunk: u64, found: F::OfChunk) {
         assert!(self.done.insert(chunk), "chunk {chunk} twice");
         self.digest += Digest::of_chunk(chunk, &found);
         self.found.add(chunk, found);
     }
 
-    /// What in it contradicts itself: no program writes such a state.
+    /// Returns what is inconsistent in the state, if anything is. No program writes such a state.
     pub(super) fn contradiction(&self) -> Option<&'static str> {
         let Range { start, end } = self.range;
         let done = self.done.runs();

@@ -1,10 +1,10 @@
-//! A run's parts.
+//! The parts of a run.
 
 use std::fmt;
 use std::ops::Range;
 use std::str::FromStr;
 
-/// One of so many parts of a run, counted from 1: of four `1/4` is the first, `4/4` the last.
+/// One part of a run, counted from 1: of four parts, `1/4` is the first and `4/4` the last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     number: u64,
@@ -12,14 +12,14 @@ pub struct Shard {
 }
 
 impl Shard {
-    /// All of a run.
+    /// The whole run.
     pub const WHOLE: Self = Self { number: 1, of: 1 };
 
-    /// Its chunks, of so many: each chunk is in one of the shards, and no shard has more than one chunk more than another. (With
-    /// more shards than chunks some have none.)
+    /// Returns the shard's range of `chunks` chunks. Each chunk is in one of the shards, and their sizes differ by at most one.
+    /// If there are more shards than chunks, some are empty.
     #[must_use]
     pub fn range(self, chunks: u64) -> Range<u64> {
-        // At most `chunks`, as `before` is at most `of`.
+        // This is at most `chunks`, since `before` is at most `of`.
         let begin = |before: u64| (u128::from(before) * u128::from(chunks) / u128::from(self.of)) as u64;
         begin(self.number - 1)..begin(self.number)
     }

@@ -1,4 +1,4 @@
-//! A primitive pair as plain numbers, which prints as the Rust that makes it.
+//! A primitive pair as plain numbers, which prints as the Rust code that makes it.
 
 use super::Format;
 use crate::oracle::{Pair, PairKind};
@@ -8,17 +8,16 @@ use std::fmt;
 
 /// Four moving points: a vertex and a face's three, or the two ends of one edge and those of the other.
 ///
-/// `{:?}` prints the [`PrimitivePair`] as Rust to paste into a regression test; decimal numbers read back
-/// as the same bits.
+/// `{:?}` prints the [`PrimitivePair`] as Rust to paste into a regression test. The printed decimals read back as the same bits.
 #[derive(Clone, Copy, PartialEq)]
 pub struct PairCase<S> {
-    /// What the points are.
+    /// The kind of the pair, which says what the points are.
     pub kind: PairKind,
-    /// Positions at times 0 and 1 of each point.
+    /// The positions of each point at times 0 and 1.
     pub points: [[[S; 3]; 2]; 4],
 }
 
-/// Which of the two sets one of the four points belongs to, 0 or 1.
+/// Returns the set, 0 or 1, to which one of the four points belongs.
 #[must_use]
 pub const fn side_of(kind: PairKind, point: usize) -> usize {
     match kind {
@@ -28,13 +27,13 @@ pub const fn side_of(kind: PairKind, point: usize) -> usize {
 }
 
 impl<S: Format> PairCase<S> {
-    /// From the two positions of each point.
+    /// Makes a pair from the two positions of each point.
     #[must_use]
     pub const fn new(kind: PairKind, points: [[[S; 3]; 2]; 4]) -> Self {
         Self { kind, points }
     }
 
-    /// The points' motions, in their order.
+    /// Returns the motions of the points, in their order.
     #[must_use]
     pub fn motions(&self) -> [Motion<S>; 4] {
         self.points.map(|[start, end]| Motion {
@@ -43,7 +42,7 @@ impl<S: Format> PairCase<S> {
         })
     }
 
-    /// The pair as the tests take it.
+    /// Returns the pair in core's form.
     #[must_use]
     pub fn pair(&self) -> PrimitivePair<S> {
         PrimitivePair {
@@ -52,7 +51,7 @@ impl<S: Format> PairCase<S> {
         }
     }
 
-    /// The points of the one set and those of the other.
+    /// Returns the points of the first and of the second set.
     #[must_use]
     pub fn sets(&self) -> [&[[[S; 3]; 2]]; 2] {
         let (first, second) = self.points.split_at(match self.kind {
@@ -62,13 +61,13 @@ impl<S: Format> PairCase<S> {
         [first, second]
     }
 
-    /// The differences that the coplanarity kernels work on.
+    /// Returns the differences on which the coplanarity kernels work.
     #[must_use]
     pub fn tetrahedron(&self) -> MovingTetrahedron<S> {
         (&self.pair()).into()
     }
 
-    /// The same question for the exact oracle.
+    /// Returns the pair in the oracle's form.
     #[must_use]
     pub fn question(&self) -> Pair {
         let at = |end: usize| self.points.map(|point| point[end].map(S::to_f64));
@@ -79,58 +78,50 @@ impl<S: Format> PairCase<S> {
         }
     }
 
-    /// Neither NaN nor infinite, all 24.
+    /// Returns whether all 24 coordinates are finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {
         self.coordinates().all(S::is_finite)
     }
 
-    /// Whether all 24 are below a 32nd of the largest number there is, so that no sum of them overflows. Tests that ask a
-    /// sum whether all is finite keep pairs beyond.
+    /// Returns whether all 24 coordinates are below 1/32 of the largest number, so that no sum of them overflows. Tests that
+    /// check a sum for finiteness keep all other pairs.
     #[must_use]
     pub fn sums_are_finite(&self) -> bool {
         let limit = S::LARGEST * S::exact(1, -5);
         self.coordinates().all(|x| x.abs() < limit)
     }
 
-    /// Whether some are so small, but not zero, that the gap which tests along nine directions ask for is more than nothing beside them.
-    /// Those tests keep pairs that are apart by less, and rounding decides about half a gap.
-    #[must_use]
-    pub fn has_dust(&self) -> bool {
-        let is_dust = |x: S| x != S::ZERO && x.abs() + S::UNDERFLOW / S::UNIT_ROUNDOFF != x.abs();
-        self.coordinates().any(is_dust)
-    }
-
-    /// All 24.
+    /// Iterates over all 24 coordinates.
     pub fn coordinates(&self) -> impl Iterator<Item = S> {
         self.points.into_iter().flatten().flatten()
     }
 
-    /// The points in another order.
+    /// Returns the pair with its points in another order.
     #[must_use]
     pub fn reordered(&self, order: [usize; 4]) -> Self {
         Self::new(self.kind, order.map(|point| self.points[point]))
     }
 
-    /// Start and end exchanged.
+    /// Returns the pair with start and end exchanged.
     #[must_use]
     pub fn reversed(&self) -> Self {
         Self::new(self.kind, self.points.map(|[start, end]| [end, start]))
     }
 
-    /// The coordinates in another order.
+    /// Returns the pair with its coordinates in another order.
     #[must_use]
     pub fn with_axes(&self, axes: [usize; 3]) -> Self {
         self.with_positions(|position| axes.map(|axis| position[axis]))
     }
 
-    /// Each coordinate changed on its own.
+    /// Returns the pair with each coordinate changed on its own.
     #[must_use]
     pub fn map(&self, change: impl Fn(S) -> S) -> Self {
         self.with_positions(|position| position.map(&change))
     }
 
-    /// Each of the eight positions changed on its own.
+    /// Returns the pair with each of its eight positions changed on its own.
     #[must_use]
     pub fn with_positions(&self, change: impl Fn([S; 3]) -> [S; 3]) -> Self {
         Self::new(self.kind, self.points.map(|ends| ends.map(&change)))
@@ -138,7 +129,7 @@ impl<S: Format> PairCase<S> {
 }
 
 impl PairCase<f32> {
-    /// The same numbers as `f64`.
+    /// Returns the same numbers as `f64`.
     #[must_use]
     pub fn widened(&self) -> PairCase<f64> {
         let points = self.points.map(|ends| ends.map(|position| position.map(f64::from)));
@@ -176,7 +167,7 @@ impl<S: Format> fmt::Debug for PairCase<S> {
     }
 }
 
-/// As Rust. The shortest decimal that reads back as the same number.
+/// Writes the number as Rust: the shortest decimal that reads back as the same number.
 fn written<S: Format>(number: S) -> String {
     if S::is_finite(number) {
         format!("{number:?}")

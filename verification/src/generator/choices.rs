@@ -1,23 +1,23 @@
 //! Decisions read from bytes.
 
-/// A stream of decisions. Whatever the bytes, and however few, each question has an answer: once they are used up
-/// every answer is the first one, which by convention is the simplest.
+/// A stream of decisions. Every question has an answer, however few bytes there are: once they are used up, each answer is the
+/// first one, which by convention is the simplest.
 #[derive(Clone, Copy, Debug)]
 pub struct Choices<'a> {
     rest: &'a [u8],
 }
 
 impl<'a> Choices<'a> {
-    /// How many bytes the longest case asks for, about.
+    /// About the number of bytes that the longest case needs.
     pub const ENOUGH: usize = 640;
 
-    /// Decisions from `bytes`, in order.
+    /// Makes decisions from `bytes`, in order.
     #[must_use]
     pub const fn new(bytes: &'a [u8]) -> Self {
         Self { rest: bytes }
     }
 
-    /// Any byte.
+    /// Returns any byte.
     pub fn byte(&mut self) -> u8 {
         match self.rest.split_first() {
             Some((&first, rest)) => {
@@ -28,12 +28,12 @@ impl<'a> Choices<'a> {
         }
     }
 
-    /// Any 64 bits.
+    /// Returns any 64 bits.
     pub fn word(&mut self) -> u64 {
         u64::from_le_bytes(std::array::from_fn(|_| self.byte()))
     }
 
-    /// A number below `count`, from one byte.
+    /// Returns a number below `count`, from one byte.
     ///
     /// # Panics
     /// If `count` is 0 or above 256.
@@ -42,7 +42,7 @@ impl<'a> Choices<'a> {
         u32::from(self.byte()) % count
     }
 
-    /// A whole number from `-limit` to `limit`, from one byte: 0, 1, −1, 2, −2 and so on.
+    /// Returns an integer from `-limit` to `limit`, from one byte: 0, 1, −1, 2, −2 and so on.
     ///
     /// # Panics
     /// If `limit` is above 127.
@@ -51,15 +51,15 @@ impl<'a> Choices<'a> {
         if index % 2 == 0 { -index / 2 } else { (index + 1) / 2 }
     }
 
-    /// True once in `odds` times.
+    /// Returns true once in `odds` times.
     pub fn once_in(&mut self, odds: u32) -> bool {
         self.below(odds) == odds - 1
     }
 
-    /// One of `options`.
+    /// Returns one of `options`.
     ///
     /// # Panics
-    /// If there are none, or more than 256.
+    /// If there are no options, or more than 256.
     pub fn pick<T: Copy>(&mut self, options: &[T]) -> T {
         let count = u32::try_from(options.len()).expect("at most 256 options");
         options[self.below(count) as usize]

@@ -1,4 +1,4 @@
-//! Small meshes in motion, of the kinds that files hold and nobody wants.
+//! Small meshes in motion, with the defects that files have.
 
 use super::numbers::{exponent, finite, fraction};
 use super::pairs::{complexity, simpler_number};
@@ -7,8 +7,8 @@ use selvedge::Topology;
 use selvedge_core::PairKind;
 use std::fmt;
 
-/// Triangles over 4 to 12 vertices: any three indices, so that degenerate triangles (v, v, w), duplicates, edges with many
-/// triangles and isolated vertices are common. Some have ropes, of loose edges, and particles.
+/// Triangles over 4 to 12 vertices with any three indices. So degenerate triangles (v, v, w), duplicates, edges with many
+/// triangles and isolated vertices are common. Some meshes have ropes, made of loose edges, and particles.
 #[derive(Clone, PartialEq)]
 pub struct MeshCase<S> {
     /// The three vertices of each triangle.
@@ -18,7 +18,7 @@ pub struct MeshCase<S> {
 }
 
 impl<S: Format> MeshCase<S> {
-    /// A mesh from any bytes.
+    /// Makes a mesh from any bytes.
     #[must_use]
     pub fn from_bytes(bytes: &[u8]) -> Self {
         Self::choose(&mut Choices::new(bytes))
@@ -29,7 +29,7 @@ impl<S: Format> MeshCase<S> {
     pub fn choose(choices: &mut Choices<'_>) -> Self {
         let vertices = 4 + choices.below(9);
         let positions = positions(vertices as usize, choices);
-        // Fewer vertices in use than there are: isolated ones.
+        // Not all vertices are used: some are isolated.
         let used = vertices - choices.pick(&[0, 0, 1, 2]).min(vertices - 3);
         let mut triangles: Vec<[u32; 3]> = if choices.once_in(3) {
             // A strip: every inner edge has two triangles.
@@ -39,7 +39,7 @@ impl<S: Format> MeshCase<S> {
             (0..count).map(|_| std::array::from_fn(|_| choices.below(used))).collect()
         };
         if choices.once_in(4) {
-            // Ropes and particles, as `Topology::with_loose_features` has them; beside triangles, or alone.
+            // Ropes and particles, as in `Topology::with_loose_features`, beside triangles or alone.
             if choices.once_in(3) {
                 triangles.clear();
             }
@@ -50,7 +50,7 @@ impl<S: Format> MeshCase<S> {
         Self { triangles, positions }
     }
 
-    /// The topology.
+    /// Returns the topology.
     ///
     /// # Panics
     /// Never: there is a triangle, and its vertices exist.
@@ -59,10 +59,10 @@ impl<S: Format> MeshCase<S> {
         Topology::new(self.positions.len(), self.triangles.clone()).expect("indices are in range")
     }
 
-    /// Two primitives of the mesh by their indices in its `topology`.
+    /// Returns two primitives of the mesh by their indices in its `topology`.
     ///
     /// # Panics
-    /// If there are none with these indices.
+    /// If there is no primitive with one of these indices.
     #[must_use]
     pub fn pair(&self, topology: &Topology, (kind, pair): (PairKind, [u32; 2])) -> PairCase<S> {
         let points = topology.vertices_of(kind, pair).map(|vertex| self.positions[vertex as usize]);
@@ -72,13 +72,13 @@ impl<S: Format> MeshCase<S> {
         }
     }
 
-    /// Positions at time 0 (for `end` 0) or 1.
+    /// Returns the positions at time 0 (for `end` 0) or 1.
     #[must_use]
     pub fn frame(&self, end: usize) -> Vec<S::Vector> {
         self.positions.iter().map(|ends| ends[end].into()).collect()
     }
 
-    /// The same mesh somewhere else, every sum rounded.
+    /// Returns the mesh moved by `offset`, with every sum rounded.
     #[must_use]
     pub fn moved_by(&self, offset: [S; 3]) -> Self {
         let moved = |position: [S; 3]| std::array::from_fn(|axis| position[axis] + offset[axis]);
@@ -97,12 +97,12 @@ fn positions<S: Format>(vertices: usize, choices: &mut Choices<'_>) -> Vec<[[S; 
     let mut positions = Vec::with_capacity(vertices);
     for _ in 0..vertices {
         let start: [S; 3] = match place {
-            // Many coordinates in common.
+            // Many coordinates are equal.
             0..=2 => std::array::from_fn(|_| S::exact(choices.within(3), 0)),
-            // All in one plane.
+            // All are in one plane.
             3 => [S::exact(choices.within(5), 0), S::exact(choices.within(5), 0), S::ZERO],
             4 | 5 => std::array::from_fn(|_| fraction(choices)),
-            // The same, at another scale.
+            // As the first, at another scale.
             6 => std::array::from_fn(|_| S::exact(choices.within(9), scale)),
             _ => std::array::from_fn(|_| finite(choices)),
         };

@@ -1,12 +1,12 @@
-//! One generator of inputs, for the property tests and for the fuzz targets.
+//! The generator of inputs for the property tests and the fuzz targets.
 //!
-//! A case is made from bytes by [`Choices`]: from random ones in a property test ([`pairs`], [`meshes`] and their
-//! like are proptest strategies), from the fuzzer's in a fuzz target ([`PairCase::from_bytes`]). It is biased to what
-//! breaks floating-point geometry: equal, nearly equal, collinear and coplanar points, coordinates in common, huge, tiny and
-//! subnormal numbers, neighbours in the last place, shapes far from the origin that hardly move, pairs that touch or are
-//! coplanar at a chosen time, 0 and 1 included, exactly ([`Moment`]).
+//! [`Choices`] makes a case from bytes: random ones in a property test ([`pairs`], [`meshes`] and similar functions are proptest
+//! strategies), the fuzzer's in a fuzz target ([`PairCase::from_bytes`]). Cases are biased to what breaks floating-point
+//! geometry: equal, nearly equal, collinear and coplanar points, equal coordinates, huge, tiny and subnormal numbers, neighbours
+//! in the last place, and shapes far from the origin that hardly move. Some pairs exactly touch or are exactly coplanar at a
+//! chosen time, 0 and 1 included ([`Moment`]).
 //!
-//! What fails is simplified number by number, and printed as Rust that makes the same pair.
+//! A failing case is simplified number by number, and printed as Rust that makes it.
 
 mod case;
 mod choices;
@@ -16,6 +16,7 @@ mod numbers;
 mod pairs;
 mod screw;
 mod strategy;
+mod tube;
 
 pub use case::{PairCase, side_of};
 pub use choices::Choices;
@@ -25,41 +26,42 @@ pub use numbers::Format;
 pub(crate) use numbers::power_of_two;
 pub use screw::{Screw, vector};
 pub use strategy::{FromChoices, Simplification, Simplify, check, from_choices};
+pub use tube::BendingTube;
 
 use proptest::prelude::Strategy;
 use selvedge_core::PairKind;
 
-/// Pairs with finite coordinates.
+/// Generates pairs with finite coordinates.
 pub fn pairs<S: Format>(kind: PairKind) -> impl Strategy<Value = PairCase<S>> + Clone {
     from_choices(move |choices| PairCase::choose(kind, choices))
 }
 
-/// Pairs of either kind with finite coordinates.
+/// Generates pairs of either kind with finite coordinates.
 pub fn pairs_of_any_kind<S: Format>() -> impl Strategy<Value = PairCase<S>> + Clone {
     from_choices(|choices| PairCase::choose(any_kind(choices), choices))
 }
 
-/// Pairs of either kind with at least one coordinate that is NaN, infinite, or the largest there is.
+/// Generates pairs of either kind with at least one coordinate that is NaN, infinite, or the largest number.
 pub fn extraordinary_pairs<S: Format>() -> impl Strategy<Value = PairCase<S>> + Clone {
     from_choices(|choices| PairCase::choose_any(any_kind(choices), choices))
 }
 
-/// Pairs of either kind that touch at a known time.
+/// Generates pairs of either kind that touch at a known time.
 pub fn touching_pairs<S: Format>() -> impl Strategy<Value = Moment<S>> + Clone {
     from_choices(|choices| Moment::choose(any_kind(choices), Meeting::Touching, choices))
 }
 
-/// Pairs of either kind that are coplanar at a known time.
+/// Generates pairs of either kind that are coplanar at a known time.
 pub fn coplanar_pairs<S: Format>() -> impl Strategy<Value = Moment<S>> + Clone {
     from_choices(|choices| Moment::choose(any_kind(choices), Meeting::Coplanar, choices))
 }
 
-/// Vertices whose paths pass an edge of the face's box as closely as can be.
+/// Generates vertices whose paths pass an edge of the face's box as closely as possible.
 pub fn grazes_of_a_box<S: Format>() -> impl Strategy<Value = PairCase<S>> + Clone {
     from_choices(PairCase::choose_graze_of_a_box)
 }
 
-/// Small meshes in motion.
+/// Generates small meshes in motion.
 pub fn meshes<S: Format>() -> impl Strategy<Value = MeshCase<S>> + Clone {
     from_choices(MeshCase::choose)
 }

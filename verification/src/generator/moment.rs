@@ -1,4 +1,4 @@
-//! Pairs that touch, or are coplanar, at a chosen time: exactly, by construction and not by any oracle.
+//! Pairs that exactly touch, or exactly are coplanar, at a chosen time. They do so by construction, without an oracle.
 
 use super::numbers::{exponent, whole};
 use super::strategy::Simplify;
@@ -8,20 +8,20 @@ use selvedge_core::PairKind;
 use std::fmt;
 use std::marker::PhantomData;
 
-/// What is true at the chosen time.
+/// What holds at the chosen time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Meeting {
-    /// The vertex is in the face, or the edges have a point in common; often at a corner or an end.
+    /// The vertex is in the face, or the edges have a point in common, often at a corner or an end.
     Touching,
     /// The four points are in one plane.
     Coplanar,
 }
 
-/// Four points that pass through `target` at the time `numerator / 2^bits`. All numbers are whole, so start and end are too:
-/// scaled by a power of two they are numbers of the format, exactly.
+/// Four points that pass through `target` at the time `numerator / 2^bits`. All numbers are integers, so start and end are
+/// integers, too. Scaled by a power of two, they are exact numbers of the format.
 #[derive(Clone, PartialEq)]
 pub struct Moment<S> {
-    /// What the points are.
+    /// The kind of the pair, which says what the points are.
     pub kind: PairKind,
     numerator: i64,
     bits: u32,
@@ -33,10 +33,10 @@ pub struct Moment<S> {
 }
 
 impl<S: Format> Moment<S> {
-    /// Chooses one.
+    /// Chooses a pair and its time.
     #[must_use]
     pub fn choose(kind: PairKind, meeting: Meeting, choices: &mut Choices<'_>) -> Self {
-        // A target has 4 bits more than `reach`, a velocity no more than a target; the time adds 3 and the sum 1.
+        // A target has 4 bits more than `reach`, and a velocity no more than a target. The time adds 3 bits, and the sum 1.
         let reach = S::PRECISION - 10;
         let reach = choices.pick(&[2, 1, 3, 6, 10.min(reach), reach]);
         let bits = choices.pick(&[0, 1, 2, 3]);
@@ -53,7 +53,7 @@ impl<S: Format> Moment<S> {
             format: PhantomData,
         };
         if choices.once_in(4) {
-            // Far from the origin: all the room that is left.
+            // Far from the origin: uses all remaining bits.
             let room = (1 << S::PRECISION) - 1 - moment.largest();
             let scale = choices.pick(&[1, 2, 16, 1024]);
             moment.offset = std::array::from_fn(|_| choices.pick(&[0, room, -room, room / 2 + 1]) / scale);
@@ -61,13 +61,13 @@ impl<S: Format> Moment<S> {
         moment
     }
 
-    /// When, in [0, 1].
+    /// Returns the time, in [0, 1].
     #[must_use]
     pub fn time(&self) -> Rational {
         Rational::from(self.numerator) >> self.bits
     }
 
-    /// The pair.
+    /// Returns the pair.
     #[must_use]
     pub fn pair(&self) -> PairCase<S> {
         let points = self
@@ -90,7 +90,7 @@ impl<S: Format> Moment<S> {
     }
 }
 
-/// Four positions that touch, or are coplanar, each up to 2^(reach + 4).
+/// Returns four positions that touch, or are coplanar, each up to 2^(reach + 4).
 fn target(kind: PairKind, meeting: Meeting, reach: u32, choices: &mut Choices<'_>) -> [[i64; 3]; 4] {
     let position = |choices: &mut Choices<'_>| -> [i64; 3] { std::array::from_fn(|_| whole(choices, reach)) };
     let combine = |from: [i64; 3], terms: [(i64, [i64; 3]); 2]| -> [i64; 3] {
@@ -132,7 +132,7 @@ fn target(kind: PairKind, meeting: Meeting, reach: u32, choices: &mut Choices<'_
     }
 }
 
-/// A displacement for each point: none, a common one, small ones, any.
+/// Returns a displacement for each point: none, a common one, small ones, or any.
 fn velocity(reach: u32, choices: &mut Choices<'_>) -> [[i64; 3]; 4] {
     let bits = choices.pick(&[reach, 1, 2]);
     match choices.below(6) {
@@ -141,14 +141,14 @@ fn velocity(reach: u32, choices: &mut Choices<'_>) -> [[i64; 3]; 4] {
             [common; 4]
         }
         1 => {
-            // Three at rest.
+            // Three points rest.
             let mut velocity = [[0; 3]; 4];
             let moving = choices.below(4) as usize;
             velocity[moving] = std::array::from_fn(|_| whole(choices, bits));
             velocity
         }
         2 => {
-            // Along one axis.
+            // All move along one axis.
             let axis = choices.below(3) as usize;
             std::array::from_fn(|_| {
                 let mut along = [0; 3];
@@ -161,7 +161,7 @@ fn velocity(reach: u32, choices: &mut Choices<'_>) -> [[i64; 3]; 4] {
 }
 
 impl<S: Format> Simplify for Moment<S> {
-    /// Whatever is done to displacements, offset, scale and time leaves the meeting as it is; so does dropping an axis.
+    /// Displacements, offset, scale and time do not change the meeting, and neither does dropping an axis.
     fn attempts(&self) -> usize {
         35
     }
@@ -185,7 +185,7 @@ impl<S: Format> Simplify for Moment<S> {
             20..32 => simpler.velocity[(attempt - 20) / 3][(attempt - 20) % 3] /= 2,
             _ => simpler.offset[attempt - 32] /= 2,
         }
-        // Another time or velocity may take a position that was just within the format out of it.
+        // Another time or velocity may take a position out of the range of the format.
         let fits = simpler.largest() < 1 << S::PRECISION;
         (fits && simpler.complexity() < self.complexity()).then_some(simpler)
     }

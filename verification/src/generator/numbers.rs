@@ -1,9 +1,9 @@
-//! Single coordinates, biased to where floating-point code goes wrong.
+//! Single coordinates, biased to values at which floating-point code fails.
 
 use super::Choices;
 use selvedge_core::Scalar;
 
-/// What the generator must know of a number format.
+/// The properties of a number format that the generator needs.
 pub trait Format: Scalar {
     /// Significant bits, the leading one included.
     const PRECISION: u32;
@@ -16,16 +16,16 @@ pub trait Format: Scalar {
     /// Not a number.
     const NAN: Self;
 
-    /// The number with these bits (the low ones, for `f32`).
+    /// Returns the number with these bits (the low ones, for `f32`).
     fn from_word(bits: u64) -> Self;
-    /// The next larger number.
+    /// Returns the next larger number.
     #[must_use]
     fn up(self) -> Self;
-    /// The next smaller number.
+    /// Returns the next smaller number.
     #[must_use]
     fn down(self) -> Self;
 
-    /// `mantissa` · 2^`exponent`, exactly.
+    /// Returns `mantissa` · 2^`exponent`, exactly.
     ///
     /// # Panics
     /// If the format has no such number.
@@ -38,12 +38,12 @@ pub trait Format: Scalar {
             "{mantissa} · 2^{exponent} is no {}",
             Self::NAME
         );
-        // Two steps, because 2^-1074 alone is subnormal; the first product is far from underflow.
+        // Uses two factors, because 2^-1074 alone is subnormal. The first product is far from underflow.
         let half = exponent / 2;
         Self::from_f64(mantissa as f64 * power_of_two(half) * power_of_two(exponent - half))
     }
 
-    /// `steps` numbers further up, or down; stops at the largest finite one.
+    /// Returns the number that is `steps` numbers further up, or down. Stops at the largest finite one.
     #[must_use]
     fn nudged(self, steps: i64) -> Self {
         let mut number = self;
@@ -57,7 +57,7 @@ pub trait Format: Scalar {
         number
     }
 
-    /// The number itself if it is finite, else the largest of its sign, or 0 for NaN.
+    /// Returns the number itself if it is finite, else the largest of its sign, or 0 for NaN.
     #[must_use]
     fn made_finite(self) -> Self {
         if Scalar::is_finite(self) {
@@ -72,10 +72,10 @@ pub trait Format: Scalar {
     }
 }
 
-/// 2^`exponent`.
+/// Returns 2^`exponent`.
 ///
 /// # Panics
-/// If that is no normal number.
+/// If the result is not a normal number.
 #[inline]
 pub(crate) const fn power_of_two(exponent: i32) -> f64 {
     assert!(-1022 <= exponent && exponent < 1024, "2^exponent is not normal");
@@ -122,13 +122,13 @@ impl Format for f64 {
     }
 }
 
-/// The power of two below the number's magnitude; far below for zero.
+/// Returns the exponent of the power of two below the number's magnitude, far below for zero.
 pub(super) fn binary_exponent<S: Format>(number: S) -> i32 {
     (number.to_f64().to_bits() >> 52 & 0x7ff) as i32 - 1023
 }
 
-/// A power of two by which whole numbers are scaled: most often none, else to where numbers, or products of two or three
-/// of them, underflow or overflow.
+/// Chooses the exponent of a power of two that scales integers. Most often it is zero. Else the numbers, or products of two or
+/// three of them, underflow or overflow.
 pub(super) fn exponent<S: Format>(choices: &mut Choices<'_>) -> i32 {
     let highest = S::MAX_EXPONENT - S::PRECISION.cast_signed();
     let near = choices.within(12) as i32;
@@ -138,7 +138,7 @@ pub(super) fn exponent<S: Format>(choices: &mut Choices<'_>) -> i32 {
         9 => S::MIN_EXPONENT,
         10 => S::MIN_EXPONENT + near.abs(),
         11 => S::MIN_EXPONENT / if near % 2 == 0 { 2 } else { 3 } + near,
-        // Where the filter's underflow term matters.
+        // Here the filter's underflow term matters.
         12 => binary_exponent(S::UNDERFLOW) / 3 + near,
         13 => S::MAX_EXPONENT / 3 - S::PRECISION.cast_signed() + 4 * near,
         14 => highest,
@@ -147,7 +147,7 @@ pub(super) fn exponent<S: Format>(choices: &mut Choices<'_>) -> i32 {
     exponent.clamp(S::MIN_EXPONENT, highest)
 }
 
-/// A whole number of at most `bits` bits and a sign.
+/// Chooses an integer of at most `bits` bits and a sign.
 pub(super) fn whole(choices: &mut Choices<'_>, bits: u32) -> i64 {
     if bits <= 6 {
         return choices.within((1 << bits) - 1);
@@ -156,14 +156,14 @@ pub(super) fn whole(choices: &mut Choices<'_>, bits: u32) -> i64 {
     if choices.once_in(2) { -magnitude } else { magnitude }
 }
 
-/// Between −1 and 1, all bits random.
+/// Chooses a number between −1 and 1 with random bits.
 pub(super) fn fraction<S: Format>(choices: &mut Choices<'_>) -> S {
     let bits = S::PRECISION - 1;
     S::exact(whole(choices, bits), -bits.cast_signed())
 }
 
-/// Any finite number: zero, small whole ones, fractions, powers of two and their neighbours, the smallest and the largest
-/// there are, any bits.
+/// Chooses any finite number: zero, a small integer, a fraction, a power of two or its neighbour, one of the smallest and largest
+/// numbers, or random bits.
 pub(super) fn finite<S: Format>(choices: &mut Choices<'_>) -> S {
     match choices.below(8) {
         0 => S::ZERO,
@@ -177,7 +177,7 @@ pub(super) fn finite<S: Format>(choices: &mut Choices<'_>) -> S {
     }
 }
 
-/// NaN, an infinity, or a number so large that sums and products overflow.
+/// Chooses NaN, an infinity, or a number so large that sums and products overflow.
 pub(super) fn extraordinary<S: Format>(choices: &mut Choices<'_>) -> S {
     match choices.below(5) {
         0 => S::NAN,

@@ -6,13 +6,13 @@ use super::{Choices, Format, Meeting, Moment, PairCase};
 use selvedge_core::PairKind;
 
 impl<S: Format> PairCase<S> {
-    /// A pair of finite coordinates from any bytes: what the property tests see, for the fuzz targets.
+    /// Makes a pair of finite coordinates from any bytes, for the fuzz targets. The property tests draw from the same pairs.
     #[must_use]
     pub fn from_bytes(kind: PairKind, bytes: &[u8]) -> Self {
         Self::choose(kind, &mut Choices::new(bytes))
     }
 
-    /// A pair from any bytes; some coordinates may be NaN, infinite, or so large that everything overflows.
+    /// Makes a pair from any bytes. Some coordinates may be NaN, infinite, or so large that everything overflows.
     #[must_use]
     pub fn any_from_bytes(kind: PairKind, bytes: &[u8]) -> Self {
         Self::choose_any(kind, &mut Choices::new(bytes))
@@ -33,18 +33,18 @@ impl<S: Format> PairCase<S> {
             10 => Self::new(kind, each_coordinate(|| finite(choices))),
             _ => Self::new(kind, each_coordinate(|| S::from_word(choices.word()).made_finite())),
         };
-        // Half of the cases stay as they are, exact ones exact.
+        // Half of the cases stay unchanged, so that exact ones stay exact.
         for _ in 0..choices.below(8).saturating_sub(3) {
             case = disturbed(case, choices).map(S::made_finite);
         }
         case
     }
 
-    /// Chooses a vertex whose path passes an edge of the box that a face at rest spans, within a few units in the last place on
-    /// either side.
+    /// Chooses a vertex whose path passes an edge of the box of a resting face, within a few units in the last place on either
+    /// side.
     #[must_use]
     pub fn choose_graze_of_a_box(choices: &mut Choices<'_>) -> Self {
-        // Start and end of different sizes, so that differences round.
+        // Start and end have different sizes, so that differences round.
         let start: [S; 3] = std::array::from_fn(|_| S::exact(1, -choices.pick(&[0, 1, 4, 7])) * fraction::<S>(choices));
         let end: [S; 3] = std::array::from_fn(|_| fraction(choices));
         let part = fraction::<S>(choices).abs();
@@ -53,7 +53,7 @@ impl<S: Format> PairCase<S> {
             let steps = choices.pick(&[2, 30]);
             position.nudged(choices.within(steps))
         });
-        // The edge is parallel to one axis; along the others the box begins there and lies on either side.
+        // The edge is parallel to one axis. Along the others the box begins there and lies on either side.
         let edge_axis = choices.below(3) as usize;
         let (far, thin) = (S::exact(2, 0), S::exact(1, -6));
         let mut corners = [passed; 2];
@@ -64,7 +64,7 @@ impl<S: Format> PairCase<S> {
                 corners[1][axis] = passed[axis] + choices.pick(&[thin, -thin, far, -far]);
             }
         }
-        // Often where products are subnormal, but have some bits left.
+        // Often products are subnormal here, but have some bits left.
         let products_underflow = S::MIN_EXPONENT / 2 + choices.below(S::PRECISION / 2) as i32;
         let any = exponent::<S>(choices);
         let factor = S::exact(1, choices.pick(&[0, products_underflow, any]));
@@ -92,21 +92,21 @@ fn coordinate<'a, S>(case: &'a mut PairCase<S>, choices: &mut Choices<'_>) -> &'
     &mut case.points[point as usize][end as usize][axis as usize]
 }
 
-/// Whole numbers as points of the format, moved and scaled together.
+/// Converts integers to points of the format, moved and scaled together.
 fn scaled<S: Format>(kind: PairKind, points: [[[i64; 3]; 2]; 4], choices: &mut Choices<'_>) -> PairCase<S> {
     let exponent = exponent::<S>(choices);
     let points = points.map(|ends| ends.map(|x| x.map(|x| S::exact(x, exponent))));
     PairCase::new(kind, points)
 }
 
-/// Small whole numbers: most often degenerate in some way.
+/// Chooses small integers, which most often make a degenerate pair.
 fn grid<S: Format>(kind: PairKind, choices: &mut Choices<'_>) -> PairCase<S> {
     let limit = choices.pick(&[1, 2, 4]);
     let points = each_coordinate(|| choices.within(limit));
     scaled(kind, points, choices)
 }
 
-/// All eight positions in one plane, through the origin or not, along the axes or not.
+/// Chooses eight positions in one plane, through the origin or not, along the axes or not.
 fn coplanar_throughout<S: Format>(kind: PairKind, choices: &mut Choices<'_>) -> PairCase<S> {
     let limit = choices.pick(&[2, 60]);
     let (slope, other_slope, height) = (choices.within(2), choices.within(2), choices.within(9));
@@ -120,7 +120,8 @@ fn coplanar_throughout<S: Format>(kind: PairKind, choices: &mut Choices<'_>) -> 
     scaled(kind, points, choices)
 }
 
-/// A volume proportional to (t − τ)² − εβ: a double root at τ where εβ = 0, else none or two close ones.
+/// Chooses a pair whose volume is proportional to (t − τ)² − εβ. It has a double root at τ if εβ = 0, else no root or two close
+/// ones.
 ///
 /// B = (β, t − τ, z₁), C = (0, 0, c), P = (t − τ, ε, z₂), in any order, from a base that moves.
 fn graze<S: Format>(kind: PairKind, choices: &mut Choices<'_>) -> PairCase<S> {
@@ -147,7 +148,7 @@ fn graze<S: Format>(kind: PairKind, choices: &mut Choices<'_>) -> PairCase<S> {
     scaled(kind, points, choices)
 }
 
-/// All four points meet in one position at one time: a triple root.
+/// Chooses four points that meet in one position at one time: a triple root.
 fn gathering<S: Format>(kind: PairKind, choices: &mut Choices<'_>) -> PairCase<S> {
     let bits = choices.below(4);
     let numerator = i64::from(choices.below((1 << bits) + 1));
@@ -162,7 +163,7 @@ fn gathering<S: Format>(kind: PairKind, choices: &mut Choices<'_>) -> PairCase<S
     scaled(kind, points, choices)
 }
 
-/// Of about unit size, all bits random, moving little or much.
+/// Chooses points of about unit size with random bits, which move little or much.
 fn everyday<S: Format>(kind: PairKind, choices: &mut Choices<'_>) -> PairCase<S> {
     let motion = S::exact(1, -choices.pick(&[0, 1, 4, 12, 22]));
     let points = std::array::from_fn(|_| {
@@ -173,7 +174,7 @@ fn everyday<S: Format>(kind: PairKind, choices: &mut Choices<'_>) -> PairCase<S>
     PairCase::new(kind, points)
 }
 
-/// Coplanar but for rounding, at one end of the step or at both.
+/// Chooses points that are coplanar up to rounding, at one end of the step or at both.
 fn nearly_coplanar<S: Format>(kind: PairKind, choices: &mut Choices<'_>) -> PairCase<S> {
     let mut case = everyday(kind, choices);
     let order = order(choices);
@@ -192,14 +193,14 @@ fn permutation(choices: &mut Choices<'_>) -> [usize; 3] {
     choices.pick(&all)
 }
 
-/// Each of four exchanged with the first.
+/// Exchanges each of the four points with the first.
 fn order(choices: &mut Choices<'_>) -> [usize; 4] {
     let mut order = [0, 1, 2, 3];
     order.swap(0, choices.below(4) as usize);
     order
 }
 
-/// One change.
+/// Changes the pair once.
 fn disturbed<S: Format>(mut case: PairCase<S>, choices: &mut Choices<'_>) -> PairCase<S> {
     let (one, other) = (choices.below(4) as usize, choices.below(4) as usize);
     match choices.below(13) {
@@ -214,7 +215,7 @@ fn disturbed<S: Format>(mut case: PairCase<S>, choices: &mut Choices<'_>) -> Pai
             }
         }
         3 => {
-            // A coordinate in common.
+            // Makes a coordinate equal.
             let axis = choices.below(3) as usize;
             let end = choices.below(2) as usize;
             case.points[one][end][axis] = case.points[other][choices.below(2) as usize][axis];
@@ -233,7 +234,7 @@ fn disturbed<S: Format>(mut case: PairCase<S>, choices: &mut Choices<'_>) -> Pai
             }
         }
         8 => {
-            // On the line through two others, as far as rounding lets it.
+            // Moves a point to the line through two others, up to rounding.
             let third = choices.below(4) as usize;
             let along = S::exact(choices.within(4), -1);
             for end in 0..2 {
@@ -250,7 +251,7 @@ fn disturbed<S: Format>(mut case: PairCase<S>, choices: &mut Choices<'_>) -> Pai
             case = case.map(|x| x * factor);
         }
         11 => {
-            // Far away: rounds the shape to a coarser grid.
+            // Moves the pair far away, which rounds the shape to a coarser grid.
             let by: [S; 3] = std::array::from_fn(|_| S::exact(choices.within(3), choices.below(40) as i32));
             case = case.with_positions(|x| std::array::from_fn(|axis| x[axis] + by[axis]));
         }
@@ -267,18 +268,18 @@ impl<S: Format> Simplify for PairCase<S> {
     fn simpler(&self, attempt: usize) -> Option<Self> {
         let mut simpler = *self;
         match attempt {
-            // All at rest; a point at rest.
+            // Makes all points rest, or one.
             0..4 => simpler.points[attempt][1] = simpler.points[attempt][0],
             4..8 => simpler.points[attempt - 4][0] = simpler.points[attempt - 4][1],
-            // An axis dropped.
+            // Drops an axis.
             8..11 => {
                 for x in simpler.points.iter_mut().flatten() {
                     x[attempt - 8] = S::ZERO;
                 }
             }
-            // A point at the origin.
+            // Moves a point to the origin.
             11..15 => simpler.points[attempt - 11] = [[S::ZERO; 3]; 2],
-            // All axes, or one, brought to unit size.
+            // Scales all axes, or one, to unit size.
             15..19 => {
                 let axes = if attempt == 15 { 0..3 } else { attempt - 16..attempt - 15 };
                 let numbers = simpler.points.iter().flatten();
@@ -314,7 +315,7 @@ impl<S: Format> PairCase<S> {
     }
 }
 
-/// One of four ways.
+/// Makes the number simpler in one of four ways.
 pub(super) fn simpler_number<S: Format>(number: S, kind: usize) -> S {
     let value = number.to_f64();
     S::from_f64(match kind {
@@ -322,23 +323,23 @@ pub(super) fn simpler_number<S: Format>(number: S, kind: usize) -> S {
         1 if value.is_nan() => 1.0,
         1 => value.signum(),
         2 => value.round(),
-        // Half of the significant bits.
+        // Keeps half of the significant bits.
         _ => shorter(value),
     })
 }
 
-/// About half of the significant bits dropped.
+/// Drops about half of the significant bits.
 fn shorter(value: f64) -> f64 {
     let (bits, kept) = (value.to_bits(), significant_bits(value) / 2);
     f64::from_bits(bits & !((1 << (52 - kept)) - 1))
 }
 
-/// Significant bits after the leading one.
+/// Returns the number of significant bits after the leading one.
 fn significant_bits(value: f64) -> u32 {
     52 - value.to_bits().trailing_zeros().min(52)
 }
 
-/// Nothing for zero, small for small whole numbers, large for many digits and far exponents.
+/// Returns 0 for zero, little for small integers, and much for many digits and far exponents.
 pub(super) fn complexity<S: Format>(number: S) -> u64 {
     let value = number.to_f64();
     if value == 0.0 {

@@ -5,35 +5,35 @@ use selvedge_core::glam::DVec3;
 use selvedge_core::paths::RigidMotion;
 use std::f64::consts::{PI, TAU};
 
-/// A body that turns by an angle about an axis, which moves on.
+/// A body that rotates by an angle about an axis, while it translates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Screw {
     /// A point of the axis.
     pub centre: DVec3,
-    /// Along it, of any length.
+    /// The direction of the axis, of any length.
     pub axis: DVec3,
-    /// In radians.
+    /// The angle, in radians.
     pub angle: f64,
-    /// Of the axis.
+    /// The translation of the axis.
     pub translation: DVec3,
 }
 
-/// In [-1, 1].
+/// Returns a number in [-1, 1].
 fn unit(choices: &mut Choices<'_>) -> f64 {
     choices.word() as f64 / u64::MAX as f64 * 2.0 - 1.0
 }
 
-/// A point of the cube from −1 to 1.
+/// Returns a point of the cube from −1 to 1.
 pub fn vector(choices: &mut Choices<'_>) -> DVec3 {
     let [x, y, z] = [(); 3].map(|()| unit(choices));
     DVec3::new(x, y, z)
 }
 
 impl Screw {
-    /// Angles that the usual choice is made from: at most this share of each, either way.
+    /// The angles from which the usual choice is made: at most this share of each, in either direction.
     pub const ANGLES: [f64; 8] = [0.0, 1e-9, 0.01, 1.0, PI, TAU, 20.0, 1e6];
 
-    /// Near and far from the origin, with axes of any length.
+    /// Chooses a motion, near or far from the origin, with an axis of any length.
     pub fn choose(angles: &[f64], choices: &mut Choices<'_>) -> Self {
         let [centre, axis, translation] = [(); 3].map(|()| vector(choices));
         let angle = unit(choices) * choices.pick(angles);
@@ -46,10 +46,10 @@ impl Screw {
         }
     }
 
-    /// As core has it.
+    /// Returns the motion in core's form.
     ///
     /// # Panics
-    /// If a number is not finite, or the angle is beyond what a body may turn.
+    /// If a number is not finite, or the angle is larger than a body may rotate.
     #[must_use]
     pub fn motion(&self) -> RigidMotion {
         RigidMotion::new(self.centre, self.axis, self.angle, self.translation).expect("numbers in range")

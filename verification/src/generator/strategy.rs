@@ -6,14 +6,14 @@ use proptest::strategy::{NewTree, ValueTree};
 use proptest::test_runner::{TestCaseResult, TestError, TestRunner};
 use std::fmt;
 
-/// Something that can be made simpler, in a fixed list of attempts.
+/// A value that can be made simpler, in a fixed list of attempts.
 pub trait Simplify: Clone + fmt::Debug {
-    /// How many attempts there are.
+    /// Returns the number of attempts.
     fn attempts(&self) -> usize;
 
-    /// The result of an attempt, by number; `None` if it would not make it simpler.
+    /// Returns the result of an attempt, by number, or `None` if it is not simpler.
     ///
-    /// What counts as simpler must be an order without infinite descent.
+    /// The order of simplicity must not descend without end.
     fn simpler(&self, attempt: usize) -> Option<Self>;
 }
 
@@ -21,7 +21,7 @@ pub trait Simplify: Clone + fmt::Debug {
 #[derive(Clone)]
 pub struct FromChoices<F>(F);
 
-/// Cases made by `make`, which shrink by their own [attempts](Simplify).
+/// Generates cases with `make`. They shrink by their own [attempts](Simplify).
 pub fn from_choices<T: Simplify>(make: impl Fn(&mut Choices<'_>) -> T + Clone) -> impl Strategy<Value = T> + Clone {
     FromChoices(make)
 }
@@ -43,14 +43,14 @@ impl<T: Simplify, F: Fn(&mut Choices<'_>) -> T> Strategy for FromChoices<F> {
     }
 }
 
-/// A case on its way to a simpler one.
+/// A case that is being simplified.
 #[derive(Clone, Debug)]
 pub struct Simplification<T> {
     current: T,
-    /// What the last attempt started from, until it is known to have failed or not.
+    /// The case before the last attempt, until it is known whether the attempt fails the test.
     before: Option<T>,
     attempt: usize,
-    /// Whether this round of attempts has got anywhere.
+    /// Whether this round of attempts has made the case simpler.
     succeeded: bool,
 }
 
@@ -73,7 +73,7 @@ impl<T: Simplify> ValueTree for Simplification<T> {
     }
 
     fn simplify(&mut self) -> bool {
-        // The last attempt, if there was one, still fails the test: good.
+        // The last attempt, if there was one, still fails the test.
         if self.before.take().is_some() {
             self.succeeded = true;
         }
@@ -104,16 +104,16 @@ impl<T: Simplify> ValueTree for Simplification<T> {
     }
 }
 
-/// Demands that `property` holds for `cases` cases, or as many times more as `PROPTEST_CASES` is more than 256.
+/// Checks that `property` holds for `cases` cases, or for more in proportion if `PROPTEST_CASES` is more than 256.
 ///
 /// # Panics
-/// If it does not. The message has the simplest failing case that was found, as Rust to paste into a regression test;
-/// no seeds are kept.
+/// If the property fails. The message has the simplest failing case that was found, as Rust to paste into a regression test.
+/// Seeds are not kept.
 pub fn check<T: Simplify>(cases: u32, strategy: impl Strategy<Value = T> + 'static, property: impl Fn(&T) -> TestCaseResult) {
     check_dynamically(cases, &strategy.boxed(), &property);
 }
 
-/// Compiled once for each type of case, not for each property: proptest's runner was half of the tests' code.
+/// This is compiled once for each type of case, not for each property, since proptest's runner takes long to compile.
 fn check_dynamically<T: Simplify>(cases: u32, strategy: &BoxedStrategy<T>, property: &dyn Fn(&T) -> TestCaseResult) {
     match TestRunner::new(settings(cases)).run(strategy, |case| property(&case)) {
         Ok(()) => {}

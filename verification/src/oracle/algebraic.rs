@@ -6,12 +6,11 @@ use rug::ops::DivRounding;
 use rug::{Integer, Rational};
 use std::cmp::Ordering;
 
-/// A real root, in [0, 1], of a polynomial with integer coefficients; known exactly.
-///
-/// Equality and order are those of the numbers.
+/// A real root, in [0, 1], of a polynomial with integer coefficients. It is known exactly; equality and order are those of the
+/// numbers.
 #[derive(Clone, Debug)]
 pub struct AlgebraicTime {
-    /// Square-free; has this root.
+    /// A square-free polynomial that has this root.
     polynomial: Polynomial,
     place: Place,
 }
@@ -25,17 +24,17 @@ enum Place {
         bits: u32,
         /// The polynomial's sign at the low end.
         sign_at_low: Ordering,
-        /// How many bits [`AlgebraicTime::narrow`] tries to add next.
+        /// The number of bits that [`AlgebraicTime::narrow`] tries to add next.
         pace: u32,
     },
 }
 
-/// How narrow, in bits, an interval is made in the hope of telling a sign, before a greatest common
-/// divisor decides whether the value is zero. Affects speed alone.
+/// How narrow, in bits, [`sign`](Signs::sign) makes an interval before it computes a greatest common divisor to decide whether
+/// the value is zero. Affects speed alone.
 const BITS_BEFORE_GCD: u32 = 48;
 
 impl AlgebraicTime {
-    /// A rational time.
+    /// Makes a rational time.
     ///
     /// # Panics
     /// If it is not in [0, 1].
@@ -49,7 +48,7 @@ impl AlgebraicTime {
         }
     }
 
-    /// The distinct roots in [0, 1] of a polynomial that is not zero, in ascending order.
+    /// Returns the distinct roots in [0, 1] of a polynomial that is not zero, in ascending order.
     pub(crate) fn roots(polynomial: &Polynomial) -> Vec<Self> {
         let mut roots = Vec::new();
         if polynomial.degree() == 0 {
@@ -67,14 +66,14 @@ impl AlgebraicTime {
         roots
     }
 
-    /// A square-free polynomial that has this root.
+    /// Returns a square-free polynomial that has this root.
     #[must_use]
     pub fn polynomial(&self) -> &Polynomial {
         &self.polynomial
     }
 
-    /// The value, where it is known to be rational. What [`collides`](super::collides) returns is
-    /// known to be rational exactly when it is.
+    /// Returns the value if it is known to be rational. For the times that [`collides`](super::collides) returns it is known if
+    /// it is rational.
     #[must_use]
     pub fn as_rational(&self) -> Option<&Rational> {
         match &self.place {
@@ -83,8 +82,8 @@ impl AlgebraicTime {
         }
     }
 
-    /// An interval that holds this root and no other root of [`polynomial`](Self::polynomial); both
-    /// ends are the root itself when it is known to be rational.
+    /// Returns an interval that holds this root and no other root of [`polynomial`](Self::polynomial). Both ends are the root
+    /// itself if it is known to be rational.
     #[must_use]
     pub fn interval(&self) -> [Rational; 2] {
         match &self.place {
@@ -102,7 +101,7 @@ impl AlgebraicTime {
         }
     }
 
-    /// How narrow the interval is: no wider than `2^-bits`.
+    /// Returns the largest n such that the interval is no wider than `2^-n`.
     fn bits(&self) -> u32 {
         match self.place {
             Place::Exact(_) => u32::MAX,
@@ -112,8 +111,8 @@ impl AlgebraicTime {
 
     /// Halves the interval at least; near the root the number of known bits doubles.
     ///
-    /// Quadratic interval refinement (J. Abbott 2006): the secant tells which of `2^pace` parts of the
-    /// interval should hold the root. If it does, the next step dares twice the pace.
+    /// This is quadratic interval refinement (J. Abbott 2006): the secant shows which of `2^pace` parts of the interval should
+    /// hold the root. If that part holds it, the next step uses twice the pace.
     fn narrow(&mut self) {
         let Place::Isolated {
             index,
@@ -126,7 +125,7 @@ impl AlgebraicTime {
         };
         let low = self.polynomial.value_at_dyadic(index, *bits);
         let high = self.polynomial.value_at_dyadic(&Integer::from(&*index + 1), *bits);
-        // The signs differ, so the quotient is in (0, 1), and its floor after scaling a valid part.
+        // The signs differ, so the quotient is in (0, 1), and its scaled floor is a valid part.
         let part = (Integer::from(&low << *pace)).div_floor(low - high);
         *index <<= *pace;
         *index += part;
@@ -138,7 +137,7 @@ impl AlgebraicTime {
         } else if signs[0] == *sign_at_low && signs[1] != *sign_at_low {
             *pace *= 2;
         } else {
-            // A wrong guess: back to the interval it was made in, and halve that.
+            // The guess was wrong: returns to the interval before it, and halves that.
             *index >>= *pace;
             *bits -= *pace;
             *pace = (*pace / 2).max(1);
@@ -202,10 +201,10 @@ impl AlgebraicTime {
         }
     }
 
-    /// The largest floating-point number that is not above the root.
+    /// Returns the largest floating-point number that is not above the root.
     #[must_use]
     pub fn to_f64_down(&self) -> f64 {
-        // The representations of floats that are not negative have the order of the floats.
+        // The representations of nonnegative floats are ordered as the floats are.
         let (mut below, mut above) = (0_f64.to_bits(), 1_f64.next_up().to_bits());
         while above - below > 1 {
             let middle = below.midpoint(above);
@@ -218,15 +217,15 @@ impl AlgebraicTime {
         f64::from_bits(below)
     }
 
-    /// The same number, known to be rational if it is.
+    /// Returns the same number, known to be rational if it is.
     ///
-    /// A rational root, times the leading coefficient, is an integer.
+    /// A rational root times the leading coefficient is an integer.
     pub(crate) fn settled(mut self) -> Self {
         let lead = self.polynomial.coefficients().last().map(|c| Integer::from(c.abs_ref()));
         let lead = lead.expect("not the zero polynomial");
         self.refine(lead.significant_bits() + 1);
         if let Place::Isolated { index, bits, .. } = &self.place {
-            // The interval is shorter than 1 / lead: this is the only candidate that can be in it.
+            // The interval is shorter than 1 / lead, so it can hold no other candidate.
             let candidate = ((Integer::from(&lead * index) >> *bits) + 1, lead);
             let candidate = Rational::from(candidate);
             if self.cmp_rational(&candidate).is_eq() {
@@ -238,7 +237,7 @@ impl AlgebraicTime {
 }
 
 impl Signs<Polynomial> for AlgebraicTime {
-    /// The sign of another polynomial at this time.
+    /// Returns the sign of another polynomial at this time.
     fn sign(&mut self, value: &Polynomial) -> Ordering {
         let mut is_not_zero = false;
         loop {
@@ -250,12 +249,12 @@ impl Signs<Polynomial> for AlgebraicTime {
                 return sign;
             }
             if !is_not_zero && bits >= BITS_BEFORE_GCD {
-                // A common factor is square-free like the polynomial, and not zero at the ends of the
-                // interval: it has the root if it changes sign.
+                // A common factor is square-free like the polynomial, and not zero at the ends of the interval. It has the root
+                // if it changes sign.
                 let common = self.polynomial.gcd(value);
                 let sign_at_low = common.sign_at_dyadic(index, bits);
                 if sign_at_low != common.sign_at_dyadic(&Integer::from(index + 1), bits) {
-                    // It describes the root as well, more simply.
+                    // The common factor describes the root as well, and is simpler.
                     self.place = Place::Isolated {
                         index: index.clone(),
                         bits,
@@ -297,8 +296,8 @@ impl Ord for AlgebraicTime {
             {
                 return Ordering::Equal;
             }
-            // The wider one alone: where one converges by doubling its bits and the other still by one at a time, both together
-            // would give the first as many bits as two to the power of what the second needs.
+            // Only the wider one is narrowed. One may double its bits while the other still adds one at a time; narrowing both
+            // would give the first exponentially many bits.
             if a.bits() <= b.bits() {
                 a.narrow();
             } else {
@@ -325,7 +324,7 @@ impl Eq for AlgebraicTime {}
 /// Isolates the roots that a Sturm sequence counts.
 struct Isolation(SturmSequence);
 
-/// An end of an interval: what is known of the sequence there.
+/// An end of an interval, with what the sequence shows there.
 struct End {
     variations: usize,
     sign: Ordering,
@@ -381,7 +380,7 @@ mod tests {
     use crate::oracle::geometry::Ring;
     use proptest::prelude::*;
 
-    /// Products of small factors: roots at both ends, in between and outside, single and repeated, and none.
+    /// Products of small factors: with roots at both ends, in between and outside, single, repeated, or without a root.
     fn polynomials() -> impl Strategy<Value = Polynomial> {
         let factor = prop::collection::vec(-4..=4, 2..=4);
         let factors = prop::collection::vec(factor, 1..=3);

@@ -9,7 +9,7 @@ use super::motion::{Motion, Pair, PairKind};
 use super::polynomial::{Polynomial, SturmSequence};
 use rug::{Integer, Rational};
 
-/// Are four points, each moving linearly from `start` to `end`, coplanar at some time in [0, 1]?
+/// Returns whether four points, each moving linearly from `start` to `end`, are coplanar at some time in [0, 1].
 ///
 /// # Panics
 /// If a coordinate is NaN or infinite.
@@ -28,10 +28,10 @@ pub fn coplanar(start: &[[f64; 3]; 4], end: &[[f64; 3]; 4]) -> bool {
     roots.variations(&Integer::from(0), 0) != roots.variations(&Integer::from(1), 0)
 }
 
-/// The earliest time in [0, 1] at which the closed vertex and face, or the two closed edges, share a
-/// point; `None` if they never do.
+/// Returns the earliest time in [0, 1] at which the closed vertex and face, or the two closed edges, share a point, or `None` if
+/// they never do.
 ///
-/// A time that is rational is given as such.
+/// A rational time is known as such.
 ///
 /// # Panics
 /// If a coordinate is NaN or infinite.
@@ -49,8 +49,8 @@ pub fn collides(pair: &Pair) -> Option<AlgebraicTime> {
     let [a, b, c, d] = &points;
     let volume = volume(a, b, c, d);
 
-    // Touching at t is a combination of signs of polynomials at t, and the times of contact are a
-    // closed set: its first element, if it is not 0, is a root of one of these polynomials.
+    // Whether they touch at t is a combination of signs of polynomials at t, and the times of contact are a closed set. So its
+    // first element is 0 or a root of one of these polynomials.
     if !volume.is_zero() {
         // Contact makes the points coplanar.
         let mut times = AlgebraicTime::roots(&volume).into_iter();
@@ -71,7 +71,7 @@ pub fn collides(pair: &Pair) -> Option<AlgebraicTime> {
     earliest.map(AlgebraicTime::settled)
 }
 
-/// Do the closed vertex and face, or the two closed edges, share a point at time `t`?
+/// Returns whether the closed vertex and face, or the two closed edges, share a point at time `t`.
 ///
 /// # Panics
 /// If a coordinate is NaN or infinite.
@@ -88,7 +88,7 @@ fn touches(kind: PairKind, motion: &Motion, t: &Rational) -> bool {
     }
 }
 
-/// The same at a time when the four points are coplanar.
+/// Decides the same at a time when the four points are coplanar.
 fn touches_when_coplanar<R: Ring>(kind: PairKind, signs: &mut impl Signs<R>, [a, b, c, d]: &[Point<R>; 4]) -> bool {
     match kind {
         PairKind::VertexFace => coplanar_point_in_triangle(signs, a, [b, c, d]),
@@ -96,9 +96,9 @@ fn touches_when_coplanar<R: Ring>(kind: PairKind, signs: &mut impl Signs<R>, [a,
     }
 }
 
-/// Every polynomial whose sign [`touches_when_coplanar`] can ask for (some up to their sign).
+/// Returns every polynomial whose sign [`touches_when_coplanar`] may need, some with the other sign.
 fn predicates_in_the_plane(kind: PairKind, [a, b, c, d]: &[Point<Polynomial>; 4]) -> Vec<Polynomial> {
-    // Which end or vertex is tested against which segment.
+    // Each end or vertex with the segments that it is tested against.
     let (normal, tests) = match kind {
         PairKind::VertexFace => {
             let face = [b, c, d];

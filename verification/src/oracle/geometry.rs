@@ -1,20 +1,20 @@
-//! Exact predicates on points, segments and triangles, all of them closed and allowed to be degenerate.
+//! Exact predicates on points, segments and triangles, all of them closed and possibly degenerate.
 //!
-//! Written once over a ring with signs, and used with two: integers (things at rest) and polynomials
-//! in the time (things in motion, with the signs taken at one algebraic time).
+//! They are written once over a ring with signs. It is instantiated with integers, for things at rest, and with polynomials in
+//! the time, for things in motion, whose signs are taken at one algebraic time.
 
 use super::polynomial::Polynomial;
 use rug::Integer;
 use std::cmp::Ordering;
 
-/// Addition, subtraction and multiplication; the first two in place, as numbers are long.
+/// Addition, subtraction and multiplication. The first two work in place, since numbers are long.
 pub(crate) trait Ring: Clone {
     fn sum(self, other: &Self) -> Self;
     fn difference(self, other: &Self) -> Self;
     fn product(&self, other: &Self) -> Self;
 }
 
-/// Tells the signs of ring elements.
+/// Determines the signs of ring elements.
 pub(crate) trait Signs<R> {
     fn sign(&mut self, value: &R) -> Ordering;
 }
@@ -73,7 +73,7 @@ pub(crate) fn dot<R: Ring>(a: &Point<R>, b: &Point<R>) -> R {
     a[0].product(&b[0]).sum(&a[1].product(&b[1])).sum(&a[2].product(&b[2]))
 }
 
-/// One component of the cross product: the signed area spanned by the projections along `axis`.
+/// Returns one component of the cross product: the signed area spanned by the projections along `axis`.
 pub(crate) fn cross_component<R: Ring>(a: &Point<R>, b: &Point<R>, axis: usize) -> R {
     let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
     a[i].product(&b[j]).difference(&a[j].product(&b[i]))
@@ -83,17 +83,17 @@ pub(crate) fn cross<R: Ring>(a: &Point<R>, b: &Point<R>) -> Point<R> {
     [0, 1, 2].map(|axis| cross_component(a, b, axis))
 }
 
-/// Twice the area vector of the triangle a b c.
+/// Returns twice the area vector of the triangle a b c.
 pub(crate) fn normal<R: Ring>(a: &Point<R>, b: &Point<R>, c: &Point<R>) -> Point<R> {
     cross(&subtract(b, a), &subtract(c, a))
 }
 
-/// Six times the signed volume of the tetrahedron a b c d.
+/// Returns six times the signed volume of the tetrahedron a b c d.
 pub(crate) fn volume<R: Ring>(a: &Point<R>, b: &Point<R>, c: &Point<R>, d: &Point<R>) -> R {
     dot(&normal(a, b, c), &subtract(d, a))
 }
 
-/// The first axis along which the vector is not zero, and the sign there.
+/// Returns the first axis along which the vector is not zero, and its sign there.
 fn first_nonzero<R>(signs: &mut impl Signs<R>, vector: &Point<R>) -> Option<(usize, Ordering)> {
     (0..3)
         .map(|axis| (axis, signs.sign(&vector[axis])))
@@ -104,43 +104,42 @@ pub(crate) fn is_zero<R>(signs: &mut impl Signs<R>, vector: &Point<R>) -> bool {
     first_nonzero(signs, vector).is_none()
 }
 
-/// Is x on the closed segment p q? If p = q: is x that point?
+/// Returns whether x is on the closed segment p q. If p = q, this means that x is that point.
 pub(crate) fn point_on_segment<R: Ring>(signs: &mut impl Signs<R>, x: &Point<R>, [p, q]: [&Point<R>; 2]) -> bool {
-    // Not outside the ball with diameter p q, and on the line.
+    // That is: not outside the ball with diameter p q, and on the line.
     let (from_p, from_q) = (subtract(x, p), subtract(x, q));
     signs.sign(&dot(&from_p, &from_q)).is_le() && is_zero(signs, &cross(&from_p, &from_q))
 }
 
-/// Is x, known to be coplanar with them, in the hull of a, b and c?
+/// Returns whether x, known to be coplanar with them, is in the hull of a, b and c.
 pub(crate) fn coplanar_point_in_triangle<R: Ring>(signs: &mut impl Signs<R>, x: &Point<R>, triangle: [&Point<R>; 3]) -> bool {
     let [a, b, c] = triangle;
     match first_nonzero(signs, &normal(a, b, c)) {
-        // Along this axis the projection is one to one: not to the wrong side of any edge.
+        // The projection along this axis is one to one. So x must not be on the wrong side of any edge.
         Some((axis, winding)) => EDGES.iter().all(|&[i, j]| {
             let (p, q) = (triangle[i], triangle[j]);
             let area = cross_component(&subtract(q, p), &subtract(x, p), axis);
             signs.sign(&area) != winding.reverse()
         }),
-        // Three points on a line: their hull is the union of the edges.
+        // The three points are on a line, and their hull is the union of the edges.
         None => EDGES
             .iter()
             .any(|&[i, j]| point_on_segment(signs, x, [triangle[i], triangle[j]])),
     }
 }
 
-/// Is x in the hull of a, b and c?
+/// Returns whether x is in the hull of a, b and c.
 pub(crate) fn point_in_triangle<R: Ring>(signs: &mut impl Signs<R>, x: &Point<R>, triangle: [&Point<R>; 3]) -> bool {
     let [a, b, c] = triangle;
     signs.sign(&volume(a, b, c, x)).is_eq() && coplanar_point_in_triangle(signs, x, triangle)
 }
 
-/// Do two closed segments, known to be coplanar, share a point?
+/// Returns whether two closed segments, known to be coplanar, share a point.
 pub(crate) fn coplanar_segments_meet<R: Ring>(signs: &mut impl Signs<R>, a: [&Point<R>; 2], b: [&Point<R>; 2]) -> bool {
     let along_a = subtract(a[1], a[0]);
     let along_b = subtract(b[1], b[0]);
     match first_nonzero(signs, &cross(&along_a, &along_b)) {
-        // The lines cross in one point; it is on both segments if each has its ends on different
-        // sides of the other's line (or on it).
+        // The lines cross in one point. It is on both segments if the ends of each are not on the same side of the other's line.
         Some((axis, _)) => {
             let mut straddles = |line: &Point<R>, through: &Point<R>, ends: [&Point<R>; 2]| {
                 let side = ends.map(|end| signs.sign(&cross_component(line, &subtract(end, through), axis)));
@@ -148,17 +147,17 @@ pub(crate) fn coplanar_segments_meet<R: Ring>(signs: &mut impl Signs<R>, a: [&Po
             };
             straddles(&along_a, a[0], b) && straddles(&along_b, b[0], a)
         }
-        // Parallel or of no length: if they share a point, an end of one is on the other.
+        // They are parallel or have no length. If they share a point, an end of one is on the other.
         None => b.iter().any(|end| point_on_segment(signs, end, a)) || a.iter().any(|end| point_on_segment(signs, end, b)),
     }
 }
 
-/// Do two closed segments share a point?
+/// Returns whether two closed segments share a point.
 pub(crate) fn segments_meet<R: Ring>(signs: &mut impl Signs<R>, a: [&Point<R>; 2], b: [&Point<R>; 2]) -> bool {
     signs.sign(&volume(a[0], a[1], b[0], b[1])).is_eq() && coplanar_segments_meet(signs, a, b)
 }
 
-/// Does the closed segment p q meet the hull of three points?
+/// Returns whether the closed segment p q meets the hull of three points.
 pub(crate) fn segment_meets_triangle<R: Ring>(
     signs: &mut impl Signs<R>,
     [p, q]: [&Point<R>; 2],
@@ -180,8 +179,7 @@ pub(crate) fn segment_meets_triangle<R: Ring>(
         [Ordering::Equal, _] => coplanar_point_in_triangle(signs, p, triangle),
         [_, Ordering::Equal] => coplanar_point_in_triangle(signs, q, triangle),
         [of_p, of_q] if of_p == of_q => false,
-        // The segment pierces the plane in one point: the line must not pass two edges on
-        // different sides.
+        // The segment pierces the plane in one point. The line must not pass two edges on different sides.
         _ => {
             let turns = EDGES.map(|[i, j]| signs.sign(&volume(p, q, triangle[i], triangle[j])));
             !(turns.contains(&Ordering::Less) && turns.contains(&Ordering::Greater))

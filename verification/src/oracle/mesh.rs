@@ -1,6 +1,7 @@
 //! Intersections of the triangles of a mesh at rest.
 //!
-//! [Signs of volumes](super::signs) settle nearly all pairs of a mesh in general position; integers of any length decide the rest.
+//! [Signs of volumes](super::signs) decide nearly all pairs of a mesh in general position. Integers of any length decide the
+//! rest.
 
 use super::geometry::{
     AtRest, EDGES, Point, Signs, cross, dot, is_zero, normal, point_on_segment, segment_meets_triangle, subtract,
@@ -12,14 +13,13 @@ use std::cmp::Ordering;
 
 type IntegerPoint = Point<Integer>;
 
-/// Do two triangles have a point in common, beyond the simplex that they share in the mesh?
+/// Returns whether two triangles have a point in common, apart from the simplex that they share in the mesh.
 ///
-/// `shared` names the vertices that both triangles have, as pairs of a corner of `a` and a corner of
-/// `b` (each 0, 1 or 2), which must have equal positions. Their hull, a vertex or an edge, is no
-/// intersection; any other common point is, so that two triangles folded onto each other over their
-/// common edge intersect. Triangles that share all three vertices are one triangle twice and have
-/// nothing beyond it. Vertices that merely have equal positions are not shared. Triangles of no area
-/// count as the segment or point that they are.
+/// `shared` names the vertices that both triangles have, as pairs of a corner of `a` and a corner of `b` (each 0, 1 or 2), which
+/// must have equal positions. Their hull, a vertex or an edge, is no intersection; any other common point is. So two triangles
+/// that are folded onto each other over their common edge intersect. Triangles that share all three vertices are one triangle
+/// twice, and do not intersect. Vertices that merely have equal positions are not shared. A triangle of no area counts as a
+/// segment or a point.
 ///
 /// ```
 /// use selvedge_verification::oracle::triangles_intersect;
@@ -43,8 +43,8 @@ pub fn triangles_intersect(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3], shared: &[[usiz
     intersect([a0, a1, a2], [b0, b1, b2], shared)
 }
 
-/// The pairs of triangles that intersect (in the sense of [`triangles_intersect`], vertices being
-/// shared by index), each with the smaller index first, in ascending order.
+/// Returns the pairs of triangles that intersect, in the sense of [`triangles_intersect`]; vertices are shared by index. The
+/// smaller index comes first, and pairs are in ascending order.
 ///
 /// # Panics
 /// If a coordinate is NaN or infinite, or an index is out of range.
@@ -53,7 +53,7 @@ pub fn mesh_self_intersections(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -
     mesh_intersections(positions, triangles, triangles.len())
 }
 
-/// Those of [`mesh_self_intersections`] of which at least one triangle is among the first `count`.
+/// Returns those pairs of [`mesh_self_intersections`] that have at least one triangle among the first `count`.
 ///
 /// # Panics
 /// If a coordinate is NaN or infinite, or an index is out of range.
@@ -74,7 +74,7 @@ pub fn mesh_intersections(positions: &[[f64; 3]], triangles: &[[u32; 3]], count:
     found
 }
 
-/// Corners with the same vertex index, each vertex once.
+/// Returns the corners with the same vertex index, each vertex once.
 fn shared_corners([a, b]: [[u32; 3]; 2]) -> Vec<[usize; 2]> {
     let mut shared = Vec::new();
     for (i, vertex) in a.iter().enumerate() {
@@ -88,7 +88,7 @@ fn shared_corners([a, b]: [[u32; 3]; 2]) -> Vec<[usize; 2]> {
     shared
 }
 
-/// Pairs of triangles whose closed boxes overlap: sweep along the mesh's longest side.
+/// Returns pairs of triangles whose closed boxes overlap, by a sweep along the mesh's longest side.
 fn overlapping_boxes(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
     let range = |points: &mut dyn Iterator<Item = f64>| {
         points.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
@@ -128,7 +128,7 @@ fn intersect(a: [&IntegerPoint; 3], b: [&IntegerPoint; 3], shared: &[[usize; 2]]
     }
 }
 
-/// Two triangles meet if an edge of one meets the other.
+/// Two triangles meet if and only if an edge of one meets the other.
 fn triangles_meet(a: [&IntegerPoint; 3], b: [&IntegerPoint; 3]) -> bool {
     if on_one_side(a, b) || on_one_side(b, a) {
         return false;
@@ -138,7 +138,7 @@ fn triangles_meet(a: [&IntegerPoint; 3], b: [&IntegerPoint; 3]) -> bool {
     })
 }
 
-/// Are all `points` strictly on one side of the triangle's plane?
+/// Returns whether all `points` are strictly on one side of the triangle's plane.
 fn on_one_side<const N: usize>(points: [&IntegerPoint; N], triangle: [&IntegerPoint; 3]) -> bool {
     let [a, b, c] = triangle;
     let normal = normal(a, b, c);
@@ -146,29 +146,28 @@ fn on_one_side<const N: usize>(points: [&IntegerPoint; N], triangle: [&IntegerPo
     side[0].is_ne() && side.iter().all(|&s| s == side[0])
 }
 
-/// Do the triangles apex, a0, a1 and apex, b0, b1 share more than the apex?
+/// Returns whether the triangles apex, a0, a1 and apex, b0, b1 share more than the apex.
 ///
-/// The common part is convex. A ray from the apex through another common point leaves one of the two
-/// triangles first, at a common point on the edge opposite to the apex: so one of these edges meets
-/// the other triangle elsewhere than in the apex.
+/// The common part is convex. A ray from the apex through another common point leaves one of the two triangles first, at a common
+/// point on the edge opposite to the apex. So one of these edges meets the other triangle outside the apex.
 fn meet_beyond_a_vertex(apex: &IntegerPoint, a: [&IntegerPoint; 2], b: [&IntegerPoint; 2]) -> bool {
     edge_meets_beyond(apex, a, b) || edge_meets_beyond(apex, b, a)
 }
 
-/// Does the segment `edge` meet the triangle apex, opposite elsewhere than in the apex?
+/// Returns whether the segment `edge` meets the triangle apex, opposite outside the apex.
 fn edge_meets_beyond(apex: &IntegerPoint, edge: [&IntegerPoint; 2], opposite: [&IntegerPoint; 2]) -> bool {
     if on_one_side(edge, [apex, opposite[0], opposite[1]]) {
         return false;
     }
     if point_on_segment(&mut AtRest, apex, edge) {
-        // Each half of the edge begins in the apex: does it set off into the triangle?
+        // Each half of the edge begins in the apex and must lead into the triangle.
         let cone = opposite.map(|end| subtract(end, apex));
         return edge.iter().any(|end| points_into(&subtract(end, apex), &cone));
     }
     segment_meets_triangle(&mut AtRest, edge, [apex, opposite[0], opposite[1]])
 }
 
-/// Is the direction, not zero, a combination of the two others with factors that are not negative?
+/// Returns whether the direction, not zero, is a combination of the two others with nonnegative factors.
 fn points_into(direction: &IntegerPoint, cone: &[IntegerPoint; 2]) -> bool {
     let signs = &mut AtRest;
     if is_zero(signs, direction) {
@@ -185,21 +184,21 @@ fn points_into(direction: &IntegerPoint, cone: &[IntegerPoint; 2]) -> bool {
         && signs.sign(&dot(&normal, &cross(&cone[0], direction))).is_ge()
 }
 
-/// Do the triangles p, q, a and p, q, b share more than the edge p q?
+/// Returns whether the triangles p, q, a and p, q, b share more than the edge p q.
 fn meet_beyond_an_edge([p, q]: [&IntegerPoint; 2], a: &IntegerPoint, b: &IntegerPoint) -> bool {
     let edge = subtract(q, p);
     let signs = &mut AtRest;
     if is_zero(signs, &edge) {
-        // An edge of no length: two segments from one point.
+        // The edge has no length: these are two segments from one point.
         return points_into(&subtract(a, p), &[subtract(b, p), edge]);
     }
     let areas = [a, b].map(|x| cross(&edge, &subtract(x, p)));
     match areas.each_ref().map(|area| is_zero(signs, area)) {
-        // The common part lies in the half-planes of a and of b: the same one, or their border.
+        // The common part lies in the half-planes of a and of b: these are equal, or share only their border.
         [false, false] => is_zero(signs, &cross(&areas[0], &areas[1])) && dot(&areas[0], &areas[1]).is_positive(),
-        // One of the triangles is a segment on the line p q, where the other has only p q.
+        // One of the triangles is a segment on the line p q, and the other meets that line only in p q.
         [true, false] | [false, true] => false,
-        // Two segments on the line: do both go on beyond the same end?
+        // Both are segments on the line. They share more if both extend beyond the same end.
         [true, true] => {
             let beyond = |end: &IntegerPoint, sign: Ordering| [a, b].iter().all(|x| dot(&edge, &subtract(x, end)).cmp0() == sign);
             beyond(q, Ordering::Greater) || beyond(p, Ordering::Less)

@@ -1,9 +1,8 @@
 //! Exact answers for points that move linearly during a step, and for meshes at rest.
 //!
-//! Every `f64` is a rational number, so each question below has one true answer, and these functions
-//! give it: no rounding, no tolerance, no case left out. They are total over finite input:
-//! zero-length edges, zero-area triangles, parallel edges, coplanar motion and no motion at all
-//! included; NaN and infinities panic.
+//! Every `f64` is a rational number, so each question below has one true answer. These functions return it, without rounding or
+//! tolerance, for all finite input: also for edges of no length, triangles of no area, parallel edges, coplanar motion and no
+//! motion. They panic on NaN and infinity.
 //!
 //! | question | function |
 //! |---|---|
@@ -15,11 +14,10 @@
 //! | which triangles of a mesh intersect? | [`mesh_self_intersections`], [`mesh_intersections`] |
 //! | and which ropes, at rest and on their way? | [`intersections_with_loose_edges`], [`edges_that_meet`] |
 //!
-//! The method is kept apart from that of `selvedge-core`: numbers of any length are rug's, coordinates are scaled to integers, motions
-//! are polynomials in the time `t` by powers of `t`, roots are counted with Sturm's theorem, and a
-//! time that is irrational is a polynomial together with an interval that holds one of its roots
-//! ([`AlgebraicTime`]). Of meshes at rest most pairs are settled by Shewchuk's exact signs first
-//! ([`triangles_intersect_by_signs`]).
+//! The method shares nothing with that of `selvedge-core`. Numbers of any length are rug's, and coordinates are scaled to
+//! integers. Motions are polynomials in the time `t`, by powers of `t`, and Sturm's theorem counts their roots. An irrational
+//! time is a polynomial together with an interval that holds one of its roots ([`AlgebraicTime`]). Shewchuk's exact signs decide
+//! most pairs of a mesh at rest first ([`triangles_intersect_by_signs`]).
 
 mod algebraic;
 mod collision;

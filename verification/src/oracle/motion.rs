@@ -3,13 +3,13 @@
 use super::geometry::{Point, Ring};
 use super::polynomial::Polynomial;
 use rug::{Integer, Rational};
-// A name, not arithmetic.
+// This is a name, not arithmetic.
 pub use selvedge_core::PairKind;
 
 /// Four points that move linearly from their positions at time 0 to those at time 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair {
-    /// What the points are.
+    /// The kind of the pair, which says what the points are.
     pub kind: PairKind,
     /// Positions at time 0.
     pub start: [[f64; 3]; 4],
@@ -17,7 +17,7 @@ pub struct Pair {
     pub end: [[f64; 3]; 4],
 }
 
-/// Mantissa and exponent: `value = mantissa · 2^exponent`, the mantissa odd or zero.
+/// Returns mantissa and exponent: `value = mantissa · 2^exponent`, with the mantissa odd or zero.
 fn decode(value: f64) -> (i64, i32) {
     assert!(value.is_finite(), "coordinates must be finite, not {value}");
     let bits = value.to_bits();
@@ -32,7 +32,7 @@ fn decode(value: f64) -> (i64, i32) {
     (mantissa, exponent.max(1) - 1075 + zeros.cast_signed())
 }
 
-/// The points, all times the same power of two: the smallest that makes them integers.
+/// Returns the points, all times the same power of two: the smallest that makes them integers.
 ///
 /// # Panics
 /// If a coordinate is NaN or infinite.
@@ -62,7 +62,7 @@ impl Motion {
         }
     }
 
-    /// The points of a pair and a length, at a common scale.
+    /// Returns the points of a pair and a length, at a common scale.
     pub(crate) fn with_separation(pair: &Pair, separation: f64) -> (Self, Integer) {
         let length = [[separation, 0.0, 0.0]; 4];
         let [start, end] = [&pair.start, &pair.end].map(|side| side.as_slice());
@@ -79,8 +79,8 @@ impl Motion {
         )
     }
 
-    /// Are the two sides of the pair more than `separation` apart along one coordinate axis, in the
-    /// same order at both ends of the step? Linear motion then keeps them so in between.
+    /// Returns whether the two sides of the pair are more than `separation` apart along one coordinate axis, in the same order at
+    /// both ends of the step. Linear motion then keeps them so in between.
     pub(crate) fn apart_along_an_axis(&self, kind: PairKind, separation: &Integer) -> bool {
         let first = match kind {
             PairKind::VertexFace => 1,
@@ -97,7 +97,7 @@ impl Motion {
         (0..3).any(|axis| side(false, axis) || side(true, axis))
     }
 
-    /// The points as polynomials in the time.
+    /// Returns the points as polynomials in the time.
     pub(crate) fn trajectories(&self) -> [Point<Polynomial>; 4] {
         std::array::from_fn(|point| {
             std::array::from_fn(|axis| {
@@ -107,7 +107,7 @@ impl Motion {
         })
     }
 
-    /// The points at time `t`, times its (positive) denominator.
+    /// Returns the points at time `t`, times its (positive) denominator.
     pub(crate) fn at(&self, t: &Rational) -> [Point<Integer>; 4] {
         std::array::from_fn(|point| {
             std::array::from_fn(|axis| {

@@ -6,12 +6,12 @@ use std::cmp::Ordering;
 /// A polynomial with integer coefficients, by powers of the variable.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Polynomial {
-    /// Lowest power first; the last one is not zero. Empty for the zero polynomial.
+    /// The coefficients, lowest power first; the last one is not zero. Empty for the zero polynomial.
     coefficients: Vec<Integer>,
 }
 
 impl Polynomial {
-    /// The polynomial with these coefficients, lowest power first.
+    /// Makes the polynomial with these coefficients, lowest power first.
     #[must_use]
     pub fn new(mut coefficients: Vec<Integer>) -> Self {
         while coefficients.last().is_some_and(Integer::is_zero) {
@@ -20,13 +20,13 @@ impl Polynomial {
         Self { coefficients }
     }
 
-    /// The coefficients, lowest power first, without leading zeros.
+    /// Returns the coefficients, lowest power first, without leading zeros.
     #[must_use]
     pub fn coefficients(&self) -> &[Integer] {
         &self.coefficients
     }
 
-    /// Each coefficient changed by the other's of the same power; what is missing is zero.
+    /// Combines each coefficient with the other's of the same power, or with zero if there is none.
     pub(crate) fn combined(self, other: &Self, change: impl Fn(&mut Integer, &Integer)) -> Self {
         let mut coefficients = self.coefficients;
         let length = coefficients.len().max(other.coefficients.len());
@@ -37,22 +37,22 @@ impl Polynomial {
         Self::new(coefficients)
     }
 
-    /// Is this the zero polynomial?
+    /// Returns whether this is the zero polynomial.
     #[must_use]
     pub fn is_zero(&self) -> bool {
         self.coefficients.is_empty()
     }
 
-    /// The highest power; 0 for constants, the zero polynomial included.
+    /// Returns the highest power; 0 for constants, the zero polynomial included.
     #[must_use]
     pub fn degree(&self) -> usize {
         self.coefficients.len().saturating_sub(1)
     }
 
-    /// The sign of the value at a rational number.
+    /// Returns the sign of the value at a rational number.
     #[must_use]
     pub fn sign_at(&self, x: &Rational) -> Ordering {
-        // Horner's rule on numerators: denominator^degree · value, and the denominator is positive.
+        // Horner's rule on numerators computes denominator^degree · value, and the denominator is positive.
         let Some((last, lower)) = self.coefficients.split_last() else {
             return Ordering::Equal;
         };
@@ -66,7 +66,7 @@ impl Polynomial {
         value.cmp0()
     }
 
-    /// The value at `index / 2^bits`, times `2^(bits · degree)`.
+    /// Returns the value at `index / 2^bits`, times `2^(bits · degree)`.
     pub(crate) fn value_at_dyadic(&self, index: &Integer, bits: u32) -> Integer {
         let Some((last, lower)) = self.coefficients.split_last() else {
             return Integer::new();
@@ -81,16 +81,16 @@ impl Polynomial {
         value
     }
 
-    /// The sign of the value at `index / 2^bits`.
+    /// Returns the sign of the value at `index / 2^bits`.
     pub(crate) fn sign_at_dyadic(&self, index: &Integer, bits: u32) -> Ordering {
         self.value_at_dyadic(index, bits).cmp0()
     }
 
-    /// The sign on the whole closed interval `[index, index + 1] / 2^bits`, if interval arithmetic shows
-    /// that there is only one. `index` must not be negative.
+    /// Returns the sign on the whole closed interval `[index, index + 1] / 2^bits` if interval arithmetic shows that there is
+    /// only one. `index` must not be negative.
     ///
-    /// The width of the computed range shrinks with the interval, so a value other than zero is
-    /// recognised once the interval around it is small enough.
+    /// The width of the computed range shrinks with the interval. So the sign of a value that is not zero is found once the
+    /// interval around it is small enough.
     pub(crate) fn sign_on_cell(&self, index: &Integer, bits: u32) -> Option<Ordering> {
         let Some((last, lower)) = self.coefficients.split_last() else {
             return Some(Ordering::Equal);
@@ -108,14 +108,14 @@ impl Polynomial {
         (low.cmp0() == high.cmp0()).then(|| low.cmp0())
     }
 
-    /// The derivative.
+    /// Returns the derivative.
     #[must_use]
     pub fn derivative(&self) -> Self {
         let terms = self.coefficients.iter().zip(0u32..).skip(1);
         Self::new(terms.map(|(c, power)| Integer::from(c * power)).collect())
     }
 
-    /// This polynomial divided by the (positive) greatest common divisor of its coefficients.
+    /// Returns this polynomial divided by the (positive) greatest common divisor of its coefficients.
     fn primitive(mut self) -> Self {
         let mut content = Integer::new();
         for coefficient in &self.coefficients {
@@ -130,7 +130,7 @@ impl Polynomial {
         self
     }
 
-    /// A positive multiple of the remainder on division by `divisor`, reduced to its primitive part.
+    /// Returns a positive multiple of the remainder on division by `divisor`, reduced to its primitive part.
     fn remainder(&self, divisor: &Self) -> Self {
         let lead = divisor.coefficients.last().expect("division by the zero polynomial");
         let scale = Integer::from(lead.abs_ref());
@@ -154,7 +154,7 @@ impl Polynomial {
         Self::new(rest).primitive()
     }
 
-    /// The greatest common divisor, up to a constant factor.
+    /// Returns the greatest common divisor, up to a constant factor.
     pub(crate) fn gcd(&self, other: &Self) -> Self {
         let (mut a, mut b) = (self.clone(), other.clone());
         while !b.is_zero() {
@@ -164,7 +164,7 @@ impl Polynomial {
         a.primitive()
     }
 
-    /// A positive multiple of the quotient by a divisor that leaves no remainder.
+    /// Returns a positive multiple of the quotient by a divisor that leaves no remainder.
     fn quotient(&self, divisor: &Self) -> Self {
         let lead = divisor.coefficients.last().expect("division by the zero polynomial");
         let scale = Integer::from(lead.abs_ref());
@@ -198,7 +198,7 @@ pub(crate) struct SturmSequence {
 }
 
 impl SturmSequence {
-    /// The sequence of the square-free part of `polynomial`, which must not be zero.
+    /// Makes the sequence of the square-free part of `polynomial`, which must not be zero.
     pub(crate) fn new(polynomial: &Polynomial) -> Self {
         assert!(!polynomial.is_zero(), "every number is a root of the zero polynomial");
         let mut sequence = Self::with_repeated_roots(polynomial.clone().primitive());
@@ -225,13 +225,13 @@ impl SturmSequence {
         Self { terms }
     }
 
-    /// The square-free polynomial whose roots this sequence counts.
+    /// Returns the square-free polynomial whose roots this sequence counts.
     pub(crate) fn polynomial(&self) -> &Polynomial {
         &self.terms[0]
     }
 
-    /// Sign variations at `index / 2^bits`. The variations at a minus those at b are the number of
-    /// roots in (a, b].
+    /// Returns the number of sign variations at `index / 2^bits`. The variations at a minus those at b are the number of roots in
+    /// (a, b].
     pub(crate) fn variations(&self, index: &Integer, bits: u32) -> usize {
         let mut count = 0;
         let mut previous = Ordering::Equal;

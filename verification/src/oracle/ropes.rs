@@ -1,11 +1,12 @@
-//! Edges that belong to no triangle: what they meet at rest, and whether they pass through each other on their way.
+//! Edges that belong to no triangle: their intersections at rest, and whether they pass through each other during a step.
 
 use super::collision::collides;
 use super::mesh::mesh_intersections;
 use super::motion::{Pair, PairKind};
 
-/// Pairs of triangles and loose edges that intersect, each by its vertices, an edge from a to b as (a, b, b): those of which at least one is a
-/// loose edge or among the first `count` triangles. Vertices are shared by index, as in [`mesh_intersections`].
+/// Returns pairs of triangles and loose edges that intersect, each by its vertices; an edge from a to b is (a, b, b). At least
+/// one of the two is a loose edge or among the first `count` triangles. Vertices are shared by index, as in
+/// [`mesh_intersections`].
 ///
 /// ```
 /// use selvedge_verification::oracle::intersections_with_loose_edges;
@@ -31,8 +32,8 @@ pub fn intersections_with_loose_edges(
     found.into_iter().map(|pair| pair.map(|face| faces[face as usize])).collect()
 }
 
-/// Pairs of edges without a common vertex that touch while all points go straight from `start` to `end`: two ropes that have passed through each
-/// other, which no state shows.
+/// Returns pairs of edges without a common vertex that touch while all points move straight from `start` to `end`. So it finds
+/// ropes that passed through each other, which no state at rest shows.
 ///
 /// # Panics
 /// If a coordinate is NaN or infinite, or an index is out of range.

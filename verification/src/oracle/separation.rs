@@ -6,11 +6,10 @@ use super::motion::{Motion, Pair, PairKind};
 use super::polynomial::Polynomial;
 use rug::{Integer, Rational};
 
-/// Is the distance of the closed vertex and face, or of the two closed edges, `separation` or less at
-/// some time in [0, 1]?
+/// Returns whether the distance of the closed vertex and face, or of the two closed edges, is `separation` or less at some time
+/// in [0, 1].
 ///
-/// With a separation of zero this is the question of [`collides`](super::collides), answered another
-/// way.
+/// With a separation of zero this decides the same as [`collides`](super::collides), in another way.
 ///
 /// # Panics
 /// If a coordinate or the separation is NaN or infinite, or the separation is negative.
@@ -21,10 +20,10 @@ pub fn within(pair: &Pair, separation: f64) -> bool {
         && (question.is_near_at(&Rational::from(0)) || question.find_approach(|feature, mut time| feature.is_near(&mut time)))
 }
 
-/// The earliest time in [0, 1] at which the distance is `separation` or less; `None` if it never is.
+/// Returns the earliest time in [0, 1] at which the distance is `separation` or less, or `None` if it never is.
 ///
-/// Where coordinates and separation differ in size by hundreds of powers of ten this can take minutes: the times to be
-/// compared are then next to equal. [`within`] does not compare times.
+/// This can take minutes if coordinates and separation differ in size by hundreds of powers of ten, since the times to be
+/// compared are then nearly equal. [`within`] does not compare times.
 ///
 /// # Panics
 /// As [`within`].
@@ -49,7 +48,7 @@ pub fn first_within(pair: &Pair, separation: f64) -> Option<AlgebraicTime> {
     earliest
 }
 
-/// Is the distance `separation` or less at time `t`?
+/// Returns whether the distance is `separation` or less at time `t`.
 ///
 /// # Panics
 /// As [`within`].
@@ -58,7 +57,7 @@ pub fn within_at(pair: &Pair, t: &Rational, separation: f64) -> bool {
     Question::new(pair, separation).is_near_at(t)
 }
 
-/// Is the distance of the vertex and the face, or of the two edges, `separation` or less where these four points are?
+/// Returns whether the distance of the vertex and the face, or of the two edges, is `separation` or less at these positions.
 ///
 /// # Panics
 /// If the separation is NaN, infinite or negative.
@@ -105,18 +104,18 @@ impl Question {
     }
 
     fn is_near_at(&self, t: &Rational) -> bool {
-        // The positions are those at `t` times its denominator.
+        // The positions are those at `t` times its denominator, so the separation is scaled by it, too.
         let squared = Integer::from(&self.separation * t.denom()).square();
         is_near_at_rest(self.kind, &self.motion.at(t), &squared)
     }
 
-    /// Whether `accept` agrees with one of the times at which the distance, more than the separation at first, may have come down
-    /// to it; each is a root, and given with the features concerned.
+    /// Returns whether `accept` returns true for one of the times at which the distance, which is larger at first, may have come
+    /// down to the separation. Each time is a root, and comes with the features concerned.
     fn find_approach(&self, mut accept: impl FnMut(&FeaturePair<Polynomial>, AlgebraicTime) -> bool) -> bool {
-        // The distance is continuous and more than the separation at first. When it has come down to the
-        // separation, the features that hold the closest points are at exactly that distance, so their
-        // `excess` is zero and the closest points are within them. If the excess is zero at all times,
-        // the closest points have just come within them: one of `inside` has become zero.
+        // The distance is continuous and larger than the separation at first. When it has come down to the separation, the
+        // features that hold the closest points are at exactly that distance: their `excess` is zero and the closest points are
+        // within them. If the excess is zero at all times, the closest points have just come within them, and one of `inside` is
+        // zero.
         let constant = Polynomial::new(vec![self.separation.clone().square()]);
         features(self.kind, &self.motion.trajectories(), &constant)
             .iter()
@@ -131,14 +130,14 @@ impl Question {
     }
 }
 
-/// A point, line or plane of one side against one of the other. They are near if the closest points
-/// of their hulls are unique, within the two features, and within the separation.
+/// A point, line or plane of one side against one of the other. They are near if the closest points of their hulls are unique,
+/// within the two features, and not farther apart than the separation.
 struct FeaturePair<R> {
     /// Has the sign of the distance of the hulls minus the separation.
     excess: R,
     /// The closest points are within the features if none of these is negative.
     inside: Vec<R>,
-    /// Positive if the hulls are what they should be (a line has two points, …), otherwise zero.
+    /// Positive if the hulls have their full dimension (a line has two points, …), otherwise zero.
     extent: Option<R>,
 }
 
@@ -150,8 +149,7 @@ impl<R> FeaturePair<R> {
     }
 }
 
-/// All pairs of features: two closed sets of their kind are within the separation exactly if one of
-/// these is near.
+/// Returns all pairs of features. Two closed sets of their kind are within the separation exactly if one of these pairs is near.
 fn features<R: Ring>(kind: PairKind, points: &[Point<R>; 4], squared: &R) -> Vec<FeaturePair<R>> {
     let [a, b, c, d] = points;
     let point_point = |x: &Point<R>, y: &Point<R>| {
@@ -174,7 +172,7 @@ fn features<R: Ring>(kind: PairKind, points: &[Point<R>; 4], squared: &R) -> Vec
             extent: Some(extent),
         }
     };
-    // Two lines or a plane and a point: `normal` is perpendicular to both, `between` joins them.
+    // For two lines, or a plane and a point: `normal` is perpendicular to both, `between` joins them.
     let across = |normal: &Point<R>, between: &Point<R>, inside: &dyn Fn(&R) -> Vec<R>| {
         let extent = dot(normal, normal);
         let height = dot(normal, between);

@@ -1,24 +1,19 @@
-//! Sixteen pairs at a time get the verdicts that they get one by one, bit for bit, on every instruction set of this machine.
+//! Sixteen pairs at a time get the same verdicts, bit for bit, as one pair at a time, on every instruction set of this machine.
 
 use proptest::prelude::*;
 use selvedge::simd::available_levels;
 use selvedge_core::PairKind;
 use selvedge_core::Verdict;
 use selvedge_core::batch::{
-    BatchTest, ByPoints, ByVolume, LANES, Mask, Test, Tile, VertexRow, closest_points, culled, culled_from_rows,
-    culled_from_tiles, largest_strays_from_rows,
+    BatchTest, LANES, Mask, Test, Tile, VertexRow, closest_points, culled, culled_from_rows, culled_from_tiles,
+    largest_strays_from_rows,
 };
 use selvedge_core::filter::{Filter, Tier};
 use selvedge_core::glam::{DVec3, Vec3A};
 use selvedge_core::separation::clearance::Clearance;
 use selvedge_core::separation::closest::ClosestPoints;
-use selvedge_laboratory::baselines::as_computed::AsComputed;
-use selvedge_laboratory::baselines::nine_directions::NineDirections;
-use selvedge_laboratory::baselines::plain::Plain;
-use selvedge_laboratory::methods::{CullingTest, Preset};
-use selvedge_laboratory::pipeline::Pipeline;
-use selvedge_verification::culling::verdict;
-use selvedge_verification::generator::{Choices, Format, PairCase, check, from_choices, meshes};
+use selvedge_verification::culling::{CullingTest, verdict};
+use selvedge_verification::generator::{Choices, Format, PairCase, from_choices};
 
 const TESTS: [(Test, CullingTest); 3] = [
     (Test::SweptBoxes, CullingTest::SweptBoxes),
@@ -30,11 +25,7 @@ fn filter_verdict<S: Format>(filter: Filter<S>, case: &PairCase<S>) -> Verdict {
     filter.verdict(&case.pair())
 }
 
-fn as_computed_verdict<S: Format>(filter: AsComputed<S>, case: &PairCase<S>) -> Verdict {
-    filter.verdict(&case.pair())
-}
-
-/// Pairs of one kind, now and then with coordinates that are NaN, infinite or huge.
+/// Generates pairs of one kind. Some have coordinates that are NaN, infinite or huge.
 fn some_pairs<S: Format>(kind: PairKind) -> impl Strategy<Value = Vec<PairCase<S>>> {
     let pair = from_choices(move |choices: &mut Choices<'_>| {
         if choices.once_in(8) {
@@ -50,7 +41,7 @@ fn bits(masks: &[Mask], count: usize) -> Vec<bool> {
     (0..count).map(|k| masks[k / LANES] >> (k % LANES) & 1 == 1).collect()
 }
 
-/// Some pairs, one by one, as rows and as tiles.
+/// Some pairs in three forms: as a list, as rows and as tiles.
 struct Batch<S: Format> {
     kind: PairKind,
     pairs: Vec<PairCase<S>>,
@@ -76,7 +67,7 @@ impl<S: Format> Batch<S> {
         }
     }
 
-    /// Whether `test` says of them together, on every instruction set and in every form, what `one_by_one` says of each.
+    /// Checks that `test` gives all of them together, on every instruction set and in every form, the verdicts of `one_by_one`.
     fn agrees(
         &self,
         test: impl BatchTest<S> + std::fmt::Debug,
@@ -85,7 +76,7 @@ impl<S: Format> Batch<S> {
         let count = self.pairs.len();
         let expected: Vec<_> = self.pairs.iter().map(|pair| one_by_one(pair).is_culled()).collect();
         for (name, level) in available_levels() {
-            // One mask more than needed: it must be left alone.
+            // There is one mask more than needed, which must not change.
             let untouched = vec![0xABCD; count.div_ceil(LANES) + 1];
             let [mut one_by_one, mut rows, mut tiles] = [(); 3].map(|()| untouched.clone());
             let pairs: Vec<_> = self.pairs.iter().map(PairCase::pair).collect();
@@ -118,13 +109,6 @@ fn verdicts_agree<S: Format>(kind: PairKind) {
         for (test, one_by_one) in TESTS {
             batch.agrees(test, |pair: &PairCase<S>| verdict(one_by_one, pair))?;
         }
-        batch.agrees(ByPoints(NineDirections), |pair: &PairCase<S>| verdict(CullingTest::RelativeBoxesNine, pair))?;
-        batch.agrees(ByPoints(Plain), |pair: &PairCase<S>| verdict(CullingTest::PlainNonCoplanarity, pair))?;
-        let as_computed = AsComputed::<S>::new();
-        let separated = as_computed.with_separation(S::exact(1, -scale)).expect("a length");
-        for filter in [as_computed, separated] {
-            batch.agrees(ByVolume(filter), |pair: &PairCase<S>| as_computed_verdict(filter, pair))?;
-        }
         for tier in Tier::ALL {
             let filter = Filter::<S>::new(tier);
             batch.agrees(filter, |pair: &PairCase<S>| filter_verdict(filter, pair))?;
@@ -155,7 +139,7 @@ fn edge_edge_f64() {
     verdicts_agree::<f64>(PairKind::EdgeEdge);
 }
 
-/// What is below zero, or no number, is no stray at all.
+/// Negative numbers and NaN both mean that there is no stray.
 fn strays_agree(kind: PairKind) {
     proptest!(config(), |(pairs in some_pairs::<f32>(kind))| {
         let batch = Batch::<f32>::new(kind, &pairs);
@@ -189,7 +173,7 @@ fn how_far_edges_may_stray() {
     strays_agree(PairKind::EdgeEdge);
 }
 
-/// What is no number is none in whatever bits.
+/// All NaNs count as the same.
 fn number_bits(closest: &ClosestPoints) -> [u64; 10] {
     let [a, b, c, d] = closest.weights;
     let ([e, f, g], [h, i, j]) = (closest.way.to_array(), closest.direction.to_array());
@@ -244,7 +228,7 @@ fn an_index_or_a_class_that_is_none_leaves_no_stray() {
 
 #[test]
 fn an_index_that_names_no_vertex_keeps_its_pair_and_no_other() {
-    // Two resting pairs far apart; the second names a vertex that is not there.
+    // Two resting pairs far apart. The second names a missing vertex.
     let far = |z: f64| VertexRow::new(([0.0, 0.0, z], [0.0, 0.0, z]).into());
     let rows = [far(9.0), far(0.0)];
     for (name, level) in available_levels() {
@@ -255,21 +239,4 @@ fn an_index_that_names_no_vertex_keeps_its_pair_and_no_other() {
             assert_eq!(masks, [0b01], "{name} {test:?}");
         }
     }
-}
-
-#[test]
-fn a_step_has_the_same_candidates_on_every_instruction_set() {
-    check(200, meshes::<f64>(), |mesh| {
-        let mut results = available_levels().into_iter().map(|(_, level)| {
-            let mut pipeline = Pipeline::<f64>::new(mesh.topology(), Preset::Selvedge.stages(), 1).unwrap();
-            pipeline.set_level(level);
-            pipeline.keep_candidates(true);
-            pipeline.step(&mesh.frame(0), &mesh.frame(1)).unwrap();
-            use selvedge::PairKind::{EdgeEdge, VertexFace};
-            [VertexFace, EdgeEdge].map(|kind| pipeline.candidates(kind).to_vec())
-        });
-        let first = results.next().unwrap();
-        prop_assert!(results.all(|result| result == first));
-        Ok(())
-    });
 }

@@ -1,20 +1,18 @@
-//! Box tests never cull a pair that touches, cull what they say they cull, and keep what is not finite.
+//! Box tests never cull a pair that touches, cull exactly what their definition says, and keep what is not finite.
 
 use proptest::prelude::*;
 use rug::Rational;
 use selvedge_core::Motion;
 use selvedge_core::PairKind;
 use selvedge_core::boxes::{Aabb, segment};
-use selvedge_laboratory::methods::CullingTest::{
-    self, RelativeBoxes, RelativeBoxesNine, SegmentBox, StoredDop18, StoredSweptBoxes, SweptBoxes,
-};
+use selvedge_verification::culling::CullingTest::{self, RelativeBoxes, SegmentBox, StoredSweptBoxes, SweptBoxes};
 use selvedge_verification::culling::{certified, verdict};
 use selvedge_verification::generator::{
     Format, Moment, PairCase, check, extraordinary_pairs, from_choices, grazes_of_a_box, pairs, pairs_of_any_kind, touching_pairs,
 };
 use selvedge_verification::oracle::collides;
 
-/// Needs no oracle: the pair touches by construction.
+/// This needs no oracle: the pair touches by construction.
 fn nothing_certified_culls_a_pair_built_to_touch<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
     let pair = moment.pair();
     for test in certified() {
@@ -23,15 +21,12 @@ fn nothing_certified_culls_a_pair_built_to_touch<S: Format>(moment: &Moment<S>) 
     Ok(())
 }
 
-#[test]
-fn nothing_certified_culls_a_pair_built_to_touch_f64() {
-    check(60_000, touching_pairs::<f64>(), nothing_certified_culls_a_pair_built_to_touch);
-}
-
-#[test]
-fn nothing_certified_culls_a_pair_built_to_touch_f32() {
-    check(60_000, touching_pairs::<f32>(), nothing_certified_culls_a_pair_built_to_touch);
-}
+property!(
+    nothing_certified_culls_a_pair_built_to_touch,
+    60_000,
+    touching_pairs(),
+    |moment: Moment| nothing_certified_culls_a_pair_built_to_touch(moment)
+);
 
 fn nothing_certified_culls_what_collides<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
     let culling: Vec<CullingTest> = certified().filter(|&test| verdict(test, pair).is_culled()).collect();
@@ -41,15 +36,12 @@ fn nothing_certified_culls_what_collides<S: Format>(pair: &PairCase<S>) -> Resul
     Ok(())
 }
 
-#[test]
-fn nothing_certified_culls_what_collides_f64() {
-    check(25_000, pairs_of_any_kind::<f64>(), nothing_certified_culls_what_collides);
-}
-
-#[test]
-fn nothing_certified_culls_what_collides_f32() {
-    check(25_000, pairs_of_any_kind::<f32>(), nothing_certified_culls_what_collides);
-}
+property!(
+    nothing_certified_culls_what_collides,
+    25_000,
+    pairs_of_any_kind(),
+    |pair: PairCase| nothing_certified_culls_what_collides(pair)
+);
 
 fn nothing_certified_culls_what_is_not_finite<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
     if pair.is_finite() {
@@ -61,26 +53,14 @@ fn nothing_certified_culls_what_is_not_finite<S: Format>(pair: &PairCase<S>) -> 
     Ok(())
 }
 
-#[test]
-fn nothing_certified_culls_nan_or_infinity_f64() {
-    check(
-        15_000,
-        extraordinary_pairs::<f64>(),
-        nothing_certified_culls_what_is_not_finite,
-    );
-}
+property!(
+    nothing_certified_culls_nan_or_infinity,
+    15_000,
+    extraordinary_pairs(),
+    |pair: PairCase| nothing_certified_culls_what_is_not_finite(pair)
+);
 
-#[test]
-fn nothing_certified_culls_nan_or_infinity_f32() {
-    check(
-        15_000,
-        extraordinary_pairs::<f32>(),
-        nothing_certified_culls_what_is_not_finite,
-    );
-}
-
-/// From loose to strong, as long as sums are finite: relative boxes keep the pair otherwise. Tests along nine directions ask for a gap,
-/// which is nothing beside a coordinate of everyday size, but more than dust.
+/// Stronger tests cull more, provided that sums are finite, since relative boxes keep all other pairs.
 fn stronger_tests_cull_what_weaker_ones_cull<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
     if !pair.sums_are_finite() {
         return Ok(());
@@ -89,29 +69,19 @@ fn stronger_tests_cull_what_weaker_ones_cull<S: Format>(pair: &PairCase<S>) -> R
     for (weak, strong) in [
         (StoredSweptBoxes, SweptBoxes),
         (SweptBoxes, RelativeBoxes),
-        (RelativeBoxes, RelativeBoxesNine),
-        (SweptBoxes, StoredDop18),
-        (StoredDop18, RelativeBoxesNine),
         (SweptBoxes, SegmentBox),
     ] {
-        let needs_a_gap = matches!(strong, RelativeBoxesNine | StoredDop18);
-        if needs_a_gap && pair.has_dust() {
-            continue;
-        }
         prop_assert!(!culls(weak) || culls(strong), "{weak:?} culls, {strong:?} does not");
     }
     Ok(())
 }
 
-#[test]
-fn stronger_tests_cull_what_weaker_ones_cull_f64() {
-    check(40_000, pairs_of_any_kind::<f64>(), stronger_tests_cull_what_weaker_ones_cull);
-}
-
-#[test]
-fn stronger_tests_cull_what_weaker_ones_cull_f32() {
-    check(40_000, pairs_of_any_kind::<f32>(), stronger_tests_cull_what_weaker_ones_cull);
-}
+property!(
+    stronger_tests_cull_what_weaker_ones_cull,
+    40_000,
+    pairs_of_any_kind(),
+    |pair: PairCase| stronger_tests_cull_what_weaker_ones_cull(pair)
+);
 
 type RationalPoint = [Rational; 3];
 
@@ -119,7 +89,7 @@ fn rational<S: Format>(position: [S; 3]) -> RationalPoint {
     position.map(|x| Rational::from_f64(x.to_f64()).expect("finite"))
 }
 
-/// Whether `direction` · x strictly separates the two sets, in the same order at both ends. From the definition.
+/// Returns whether `direction` · x strictly separates the two sets, in the same order at both ends, from the definition.
 fn keeps_order<S: Format>(pair: &PairCase<S>, direction: [i32; 3]) -> bool {
     let first = if pair.kind == PairKind::VertexFace { 1 } else { 2 };
     let heights = pair.points.map(|ends| {
@@ -137,46 +107,23 @@ fn keeps_order<S: Format>(pair: &PairCase<S>, direction: [i32; 3]) -> bool {
 }
 
 const AXES: [[i32; 3]; 3] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
-const DIAGONALS: [[i32; 3]; 6] = [[1, 1, 0], [1, -1, 0], [1, 0, 1], [1, 0, -1], [0, 1, 1], [0, 1, -1]];
 
 fn relative_boxes_are_what_they_say<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
     let on_an_axis = AXES.iter().any(|&axis| keeps_order(pair, axis));
     let culled = verdict(RelativeBoxes, pair).is_culled();
     prop_assert!(on_an_axis || !culled);
     prop_assert!(culled || !on_an_axis || !pair.sums_are_finite());
-    if verdict(RelativeBoxesNine, pair).is_culled() {
-        prop_assert!(on_an_axis || DIAGONALS.iter().any(|&diagonal| keeps_order(pair, diagonal)));
-    }
     Ok(())
 }
 
-#[test]
-fn relative_boxes_cull_exactly_on_axes_and_soundly_on_diagonals_f64() {
-    check(6_000, pairs_of_any_kind::<f64>(), relative_boxes_are_what_they_say);
-}
+property!(
+    relative_boxes_cull_exactly_on_axes,
+    6_000,
+    pairs_of_any_kind(),
+    |pair: PairCase| relative_boxes_are_what_they_say(pair)
+);
 
-#[test]
-fn relative_boxes_cull_exactly_on_axes_and_soundly_on_diagonals_f32() {
-    check(6_000, pairs_of_any_kind::<f32>(), relative_boxes_are_what_they_say);
-}
-
-/// Small whole numbers: sums do not round, so the diagonals are exact, too.
-#[test]
-fn relative_boxes_are_exact_on_all_nine_directions_where_sums_are() {
-    let small = from_choices(|choices| {
-        let kind = choices.pick(&[PairKind::VertexFace, PairKind::EdgeEdge]);
-        let limit = choices.pick(&[2, 5, 100]);
-        let points = std::array::from_fn(|_| std::array::from_fn(|_| std::array::from_fn(|_| choices.within(limit) as f64)));
-        PairCase::<f64>::new(kind, points)
-    });
-    check(4_000, small, |pair| {
-        let separated = AXES.iter().chain(&DIAGONALS).any(|&direction| keeps_order(pair, direction));
-        prop_assert_eq!(verdict(RelativeBoxesNine, pair).is_culled(), separated);
-        Ok(())
-    });
-}
-
-/// Whether the closed segment meets the closed box: the part of it within each slab, in exact arithmetic.
+/// Returns whether the closed segment meets the closed box, by the part of the segment within each slab, in exact arithmetic.
 fn segment_meets_box(ends: &[RationalPoint; 2], [lower, upper]: &[RationalPoint; 2]) -> bool {
     let (mut enter, mut leave) = (Rational::from(0), Rational::from(1));
     for axis in 0..3 {
@@ -217,22 +164,19 @@ fn a_path_that_meets_the_swept_box_is_kept_f64() {
     check(40_000, pairs::<f64>(PairKind::VertexFace), a_path_that_meets_the_box_is_kept);
 }
 
-#[test]
-fn a_path_that_grazes_the_swept_box_is_kept_f64() {
-    check(40_000, grazes_of_a_box::<f64>(), a_path_that_meets_the_box_is_kept);
-}
-
-#[test]
-fn a_path_that_grazes_the_swept_box_is_kept_f32() {
-    check(40_000, grazes_of_a_box::<f32>(), a_path_that_meets_the_box_is_kept);
-}
+property!(
+    a_path_that_grazes_the_swept_box_is_kept,
+    40_000,
+    grazes_of_a_box(),
+    |pair: PairCase| a_path_that_meets_the_box_is_kept(pair)
+);
 
 #[test]
 fn a_path_that_meets_the_swept_box_is_kept_f32() {
     check(40_000, pairs::<f32>(PairKind::VertexFace), a_path_that_meets_the_box_is_kept);
 }
 
-/// Found by search with the test's underflow term removed, which culls both: their cross products are subnormal, and a rounded
+/// Found by search without the test's underflow term, which culled both: their cross products are subnormal, and a rounded
 /// difference carries one over a rounding boundary.
 #[test]
 fn a_tiny_path_that_meets_the_box_is_kept_by_the_underflow_term_alone() {
@@ -271,7 +215,7 @@ fn a_tiny_path_that_meets_the_box_is_kept_by_the_underflow_term_alone() {
     assert!(!verdict(SegmentBox, &in_f64).is_culled());
 }
 
-/// Found by search with a quarter of the test's rounding bound, which culls it.
+/// Found by search with a quarter of the test's rounding bound, which culled it.
 #[test]
 fn a_path_that_meets_the_box_by_less_than_its_rounding_error_is_kept() {
     let pair = PairCase::<f32>::new(
@@ -287,17 +231,18 @@ fn a_path_that_meets_the_box_by_less_than_its_rounding_error_is_kept() {
     assert!(!verdict(SegmentBox, &pair).is_culled());
 }
 
-/// A corner of the box, its size, where the path goes through it, the path's direction, how far it goes either way.
+/// A corner of the box, its size, the point where the path passes through it, the path's direction, and its length in either
+/// direction.
 type PathThroughBox = ([i16; 3], [u8; 3], [u8; 3], [i16; 3], [u8; 2]);
 
-/// A path through a chosen point of a chosen edge, corner or face of the box: touches it by construction, and rounding is
-/// free to move every product.
+/// A path through a chosen point of a chosen edge, corner or face of the box. It touches the box by construction, and rounding
+/// may move every product.
 fn a_path_through_the_border_of_the_box_is_kept<S: Format>(
     (corner, size, place, direction, times): PathThroughBox,
 ) -> Result<(), TestCaseError> {
     let number = |whole: i64| S::exact(whole, -3);
     let [corner, direction] = [corner, direction].map(|x| x.map(i64::from));
-    // Up to 4 / 4 of the way along each side.
+    // At most 4 / 4 of the way along each side.
     let through: [i64; 3] = std::array::from_fn(|axis| 4 * corner[axis] + i64::from(size[axis]) * i64::from(place[axis] % 5));
     let path: [[S; 3]; 2] = [-i64::from(times[0]), i64::from(times[1])]
         .map(|time| std::array::from_fn(|axis| number(through[axis] + time * direction[axis])));
@@ -325,16 +270,16 @@ proptest! {
         a_path_through_the_border_of_the_box_is_kept::<f64>(case)?;
     }
 
-    /// 24 bits hold all of the numbers: 18 for the corner, 23 for the path.
+    /// All of the numbers fit in 24 bits: 18 for the corner, 23 for the path.
     #[test]
     fn a_path_through_the_border_of_the_box_is_kept_f32(case in any::<PathThroughBox>()) {
         a_path_through_the_border_of_the_box_is_kept::<f32>(case)?;
     }
 }
 
-/// Numbers up to 8 on a grid of 2⁻¹⁰. If the path misses the box made larger by 2⁻⁷ on all sides, then on a cross axis of the
-/// box itself s > 2⁻⁷(|d_j| + |d_k|), while the error bound is at most 4u·32(|d_j| + |d_k|) + η: far less, as long as d is not
-/// zero, and then a box axis separates.
+/// Numbers up to 8 on a grid of 2⁻¹⁰. If the path misses the box enlarged by 2⁻⁷ on all sides, then on a cross axis of the box
+/// itself s > 2⁻⁷(|d_j| + |d_k|). The error bound is at most 4u·32(|d_j| + |d_k|) + η, which is far less if d is not zero.
+/// Otherwise a box axis separates.
 fn a_path_clearly_past_the_box_is_culled<S: Format>() {
     let paths = from_choices(|choices| {
         let points = std::array::from_fn(|_| {

@@ -1,12 +1,11 @@
-//! Campaigns in shards, on as many machines as there are: joined, they are the single run, whatever was killed on the way; and what is
-//! not one run is refused.
+//! Shards of a campaign, joined, are the single run, however often they were killed. Everything that is not one run is refused.
 
 use proptest::collection::vec;
 use proptest::prelude::*;
 use selvedge::simd::best_level;
 use selvedge_verification::campaign::exact::{self, Claim, Scenes};
 use selvedge_verification::campaign::{
-    AnotherRun, Chunks, Digest, FileError, Findings, Progress, Refusal, Shard, StateFile, false_culls, merge, mutants, read, run,
+    AnotherRun, Chunks, Digest, FileError, Findings, Progress, Refusal, Shard, StateFile, merge, read, run,
 };
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -17,7 +16,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc;
 use std::time::Duration;
 
-/// A campaign whose findings cost nothing: a number a chunk.
+/// A campaign whose findings cost nothing: one number for each chunk.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 struct Numbers {
     sum: u64,
@@ -65,13 +64,13 @@ fn to_the_end(progress: Progress<Numbers>) -> Progress<Numbers> {
     run(progress, 1, number, |_| {}, || false)
 }
 
-/// As files have it.
+/// Writes the state as JSON and reads it back.
 fn kept<F: Findings>(progress: &Progress<F>) -> Progress<F> {
     let kept = serde_json::to_string(progress).expect("JSON");
     serde_json::from_str(&kept).expect("what was written")
 }
 
-/// Finished shards, in files of their names.
+/// Finishes shards, in files of their names.
 fn finished(chunks: u64, parts: &[&str]) -> Vec<(PathBuf, Progress<Numbers>)> {
     let of = |part: &&str| (PathBuf::from(part), to_the_end(of_shard(chunks, part)));
     parts.iter().map(of).collect()
@@ -91,7 +90,7 @@ proptest! {
         prop_assert_eq!(next, chunks);
     }
 
-    /// Each shard is stopped after so many chunks, again and again, and comes back from its file.
+    /// Each shard is stopped after so many chunks, again and again, and resumed from its file.
     #[test]
     fn shards_of_any_number_join_to_the_single_run_whatever_stops_them(
         chunks in 0..120_u64,
@@ -127,10 +126,10 @@ proptest! {
         let digest = |found: &(dyn Fn(u64) -> u64 + Sync)| run(numbers(chunks), 1, found, |_| {}, || false).digest;
         let right = digest(&number);
         prop_assert_ne!(digest(&|chunk| number(chunk) + u64::from(chunk == one)), right);
-        // The same sum of findings, each in the other's chunk.
+        // The sum of findings is the same, but each is in the other's chunk.
         let exchanged = |chunk| number(if chunk == one { other } else if chunk == other { one } else { chunk });
         prop_assert_eq!(digest(&exchanged) == right, one == other);
-        // Neither one less nor one twice.
+        // Neither a missing nor a doubled chunk has the same digest.
         let mut twice = right;
         twice += Digest::of_chunk(one, &number(one));
         prop_assert_ne!(twice, right);
@@ -146,7 +145,7 @@ proptest! {
         for chunk in 0..41 {
             prop_assert_eq!(set.contains(chunk), model.contains(&chunk));
         }
-        // In order and apart: else what was written would not be read.
+        // The runs are in order and apart, otherwise the text could not be read back.
         let text = serde_json::to_string(&set).expect("JSON");
         prop_assert_eq!(serde_json::from_str::<Chunks>(&text).expect("what was written"), set);
     }
@@ -320,37 +319,11 @@ fn of_two_who_open_a_state_the_second_waits_for_the_first() {
 #[test]
 fn shards_of_every_campaign_in_rust_join_to_the_single_run() {
     let parts = ["1/3", "2/3", "3/3"];
-    let culls = |part: &str| {
-        let fresh = false_culls::Progress::new(1, 4_000, 1_000).of_shard(shard(part), Some("a commit"), "the command");
-        (PathBuf::from(part), kept(&false_culls::run(fresh, 2, |_| {}, || false)))
-    };
-    assert_eq!(merge(parts.map(culls).into()), Ok(culls("1/1").1));
     let pairs = |part: &str| (PathBuf::from(part), kept(&run_exact(fresh_exact(part), 2, |_| {})));
     assert_eq!(merge(parts.map(pairs).into()), Ok(pairs("1/1").1));
 }
 
-/// What `verification/mutants/hunt.py` wrote of two mutants.
-const OF_MUTANTS: &str = r#"{"campaign": "mutants", "commit": "abc", "seed": 1, "chunks": 2, "cases_per_chunk": 1,
-    "depends_on": {"cases of a property": "4", "longest test": "1 s"}, "command": "hunt.py", "range": {"start": 0, "end": 2},
-    "done": [[0, 2]], "digest": "e60aed5d42c1a15ffdb4aecc5a97529c", "found": {
-        "0": {"name": "core/src/a.rs:1:1: delete -", "outcome": "unviable"},
-        "1": {"name": "core/src/filter/\u00e9.rs:3:5: replace < with <= in \"f\"", "outcome": "noticed"}}}"#;
-
-#[test]
-fn mutants_that_were_hunted_in_shards_join_and_have_the_digest_of_all_campaigns() {
-    let whole: mutants::Progress = serde_json::from_str(OF_MUTANTS).expect("a state");
-    let outcome = |chunk: u64| whole.found.mutants[&chunk].clone();
-    let half = |part: &str| {
-        let mut fresh = whole.clone().of_shard(shard(part), Some("abc"), "hunt.py");
-        fresh.done = Chunks::default();
-        fresh.digest = Digest::default();
-        fresh.found = mutants::Found::default();
-        (PathBuf::from(part), run(fresh, 1, outcome, |_| {}, || false))
-    };
-    assert_eq!(merge(vec![half("2/2"), half("1/2")]), Ok(whole.clone()));
-}
-
-/// Small chunks, thirteen of them: each kind of chunk.
+/// Thirteen small chunks, so that each kind of chunk occurs.
 fn fresh_exact(part: &str) -> exact::Progress {
     let fresh = exact::Progress::new(5, 13 * 256, 256, &Scenes::default(), &Claim::CERTIFIED);
     fresh.of_shard(shard(part), Some("a commit"), "the command")
@@ -362,8 +335,8 @@ fn run_exact(progress: exact::Progress, threads: usize, after_chunk: impl Fn(&ex
 
 const OF_CHILD: [&str; 3] = ["SHARD_TO_BE_KILLED", "STATE_TO_BE_KILLED", "CHUNKS_BEFORE_THE_KILL"];
 
-/// The child of the test below; alone, a shard from its beginning to its end. It works until so many chunks are done, and then
-/// does nothing but write its state, so that the kill finds it at that.
+/// The child process of the test below; it finishes a shard. After so many chunks it only writes its state, so that the kill
+/// comes during a write.
 #[test]
 #[ignore = "a process of the next test"]
 fn a_shard_in_a_process_of_its_own() {
@@ -384,10 +357,15 @@ fn a_shard_in_a_process_of_its_own() {
         }
     });
     file.keep(&ended).expect("a state is kept");
-    assert!(read::<exact::Found>(&state).expect("a state").expect("a file").is_finished());
+    assert!(
+        read::<exact::ExactFindings>(&state)
+            .expect("a state")
+            .expect("a file")
+            .is_finished()
+    );
 }
 
-/// Starts it on that shard; it is to be killed once so many chunks are done, or never.
+/// Starts a child process on that shard. The test kills it once so many chunks are done, or never.
 fn start(part: &str, state: &Path, chunks: Option<u64>) -> Child {
     let name = stringify!(a_shard_in_a_process_of_its_own);
     let name = module_path!()
@@ -408,7 +386,7 @@ fn start(part: &str, state: &Path, chunks: Option<u64>) -> Child {
 fn kill_after(chunks: u64, part: &str, state: &Path) -> ExitStatus {
     let mut child = start(part, state, Some(chunks));
     let done = || {
-        read::<exact::Found>(state)
+        read::<exact::ExactFindings>(state)
             .expect("old state or new")
             .map_or(0, |progress| progress.done.len())
     };
@@ -423,7 +401,7 @@ fn kill_after(chunks: u64, part: &str, state: &Path) -> ExitStatus {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(6))]
 
-    /// Really killed (SIGKILL), while they write their states.
+    /// Kills the processes (SIGKILL) while they write their states.
     #[test]
     fn shards_whose_processes_are_killed_join_to_the_single_run(of in 1..5_u64, kills in vec(vec(1..4_u64, 0..3), 4)) {
         let folder = tempfile::tempdir().expect("a folder");
@@ -433,7 +411,7 @@ proptest! {
             let state = folder.path().join(format!("{number}.json"));
             let mut done = 0;
             for chunks in kills {
-                // More than before, as a process that has as many already has nothing to be killed at.
+                // There must be more chunks than before: a process that has them already would not be killed.
                 done += chunks;
                 if done > fresh_exact(&part).range.count() as u64 {
                     break;

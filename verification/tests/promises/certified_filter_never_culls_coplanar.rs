@@ -2,11 +2,12 @@
 
 use proptest::prelude::*;
 use selvedge_core::PairKind;
-use selvedge_laboratory::methods::CullingTest::{CertifiedNonCoplanarity, PlainNonCoplanarity};
 use selvedge_verification::altered::{Factors, Kernel};
+use selvedge_verification::culling::CullingTest::CertifiedNonCoplanarity;
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, pairs_of_any_kind};
 use selvedge_verification::oracle::{collides, coplanar};
+use selvedge_verification::plain;
 
 fn culls<S: Format>(pair: &PairCase<S>) -> bool {
     verdict(CertifiedNonCoplanarity, pair).is_culled()
@@ -22,23 +23,12 @@ fn never_culls_what_the_oracle_calls_coplanar<S: Format>(pair: &PairCase<S>) -> 
     Ok(())
 }
 
-#[test]
-fn never_culls_what_the_oracle_calls_coplanar_f64() {
-    check(
-        150_000,
-        pairs_of_any_kind::<f64>(),
-        never_culls_what_the_oracle_calls_coplanar,
-    );
-}
-
-#[test]
-fn never_culls_what_the_oracle_calls_coplanar_f32() {
-    check(
-        150_000,
-        pairs_of_any_kind::<f32>(),
-        never_culls_what_the_oracle_calls_coplanar,
-    );
-}
+property!(
+    never_culls_what_the_oracle_calls_coplanar,
+    150_000,
+    pairs_of_any_kind(),
+    |pair: PairCase| never_culls_what_the_oracle_calls_coplanar(pair)
+);
 
 const ORDERS: [[usize; 4]; 24] = {
     let mut orders = [[0; 4]; 24];
@@ -55,7 +45,7 @@ const ORDERS: [[usize; 4]; 24] = {
     orders
 };
 
-/// Whichever point is the base of the volume, whichever axis comes first: each arrangement rounds in its own way.
+/// Each point may be the base of the volume, and each axis may come first: every arrangement rounds differently.
 fn never_culls_a_coplanar_pair_in_any_arrangement<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
     let pair = moment.pair();
     for order in ORDERS {
@@ -68,23 +58,12 @@ fn never_culls_a_coplanar_pair_in_any_arrangement<S: Format>(moment: &Moment<S>)
     Ok(())
 }
 
-#[test]
-fn never_culls_a_coplanar_pair_in_any_arrangement_f64() {
-    check(
-        20_000,
-        coplanar_pairs::<f64>(),
-        never_culls_a_coplanar_pair_in_any_arrangement,
-    );
-}
-
-#[test]
-fn never_culls_a_coplanar_pair_in_any_arrangement_f32() {
-    check(
-        20_000,
-        coplanar_pairs::<f32>(),
-        never_culls_a_coplanar_pair_in_any_arrangement,
-    );
-}
+property!(
+    never_culls_a_coplanar_pair_in_any_arrangement,
+    20_000,
+    coplanar_pairs(),
+    |moment: Moment| never_culls_a_coplanar_pair_in_any_arrangement(moment)
+);
 
 fn keeps_what_is_not_finite<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
     if pair.is_finite() {
@@ -94,18 +73,16 @@ fn keeps_what_is_not_finite<S: Format>(pair: &PairCase<S>) -> Result<(), TestCas
     Ok(())
 }
 
-#[test]
-fn keeps_nan_and_infinity_and_overflow_f64() {
-    check(50_000, extraordinary_pairs::<f64>(), keeps_what_is_not_finite);
-}
-
-#[test]
-fn keeps_nan_and_infinity_and_overflow_f32() {
-    check(50_000, extraordinary_pairs::<f32>(), keeps_what_is_not_finite);
-}
+property!(
+    keeps_nan_and_infinity_and_overflow,
+    50_000,
+    extraordinary_pairs(),
+    |pair: PairCase| keeps_what_is_not_finite(pair)
+);
 
 /// A computed control value above its bound proves that the exact one is at least about one unit roundoff of f32 times its
-/// permanent (of the 16 in the bound no more than 7 are needed, of the 20 no more than 9, when rounding to nearest), which is far above the bound of f64.
+/// permanent, which is far above the bound of f64. (To nearest, at most 7 of the 16 in the bound are needed, and at most 9 of the
+/// 20.)
 #[test]
 fn what_the_f32_filter_culls_the_f64_filter_culls_too() {
     check(300_000, pairs_of_any_kind::<f32>(), |pair| {
@@ -238,7 +215,7 @@ fn the_plain_filter_culls_a_vertex_that_starts_on_a_corner_of_the_face_f32() {
         ],
     );
     assert_eq!(pair.points[0][0], pair.points[3][0]);
-    assert!(verdict(PlainNonCoplanarity, &pair).is_culled());
+    assert!(plain::culls(&pair));
     assert!(!culls(&pair));
 }
 
@@ -263,6 +240,6 @@ fn the_plain_filter_culls_a_colliding_pair_that_certified_keeps_f64() {
         ],
     );
     assert!(collides(&pair.question()).is_some());
-    assert!(verdict(PlainNonCoplanarity, &pair).is_culled());
+    assert!(plain::culls(&pair));
     assert!(!culls(&pair));
 }

@@ -1,15 +1,14 @@
-//! Nothing certified culls what touches (or is coplanar), whatever rounding direction a thread has set, and whether it keeps
-//! subnormal numbers or not: the compiled code, with the control register really set.
+//! Nothing certified culls a pair that touches (or is coplanar), in any rounding direction, with subnormal numbers kept or
+//! flushed. The compiled code runs with the control register set accordingly.
 //!
-//! Random tests do not pin the constants; named pairs show what each of them is there for.
+//! Random tests do not show that each constant is needed; the named pairs do.
 
 use crate::support::environment::Environment;
 use proptest::prelude::*;
 use selvedge::simd::available_levels;
 use selvedge_core::PairKind;
-use selvedge_core::batch::{BatchTest, ByPoints, Level, Test, Tile, culled_from_tiles};
+use selvedge_core::batch::{BatchTest, Level, Test, Tile, culled_from_tiles};
 use selvedge_core::filter::{Filter, Tier};
-use selvedge_laboratory::baselines::nine_directions::NineDirections;
 use selvedge_verification::altered::{Factors, Kernel};
 use selvedge_verification::culling;
 use selvedge_verification::generator::{
@@ -20,7 +19,7 @@ use std::hint::black_box;
 
 const BOX_TESTS: [Test; 3] = [Test::SweptBoxes, Test::SegmentBox, Test::RelativeBoxes];
 
-/// Everything certified that culls the pair: one by one, and batched on every level.
+/// Returns every certified test that culls the pair, one by one, and in batches on every level.
 fn culling<S: Format>(pair: &PairCase<S>, touches: bool) -> Vec<String> {
     let mut culling = Vec::new();
     let mut note = |culls: bool, name: &dyn Fn() -> String| {
@@ -49,10 +48,6 @@ fn culling<S: Format>(pair: &PairCase<S>, touches: bool) -> Vec<String> {
                 note(culled, &|| format!("{test:?} on {name}"));
             }
         }
-        for (name, level) in available_levels() {
-            let culled = batch_culls(level, kind, ByPoints(NineDirections), &tile);
-            note(culled, &|| format!("nine directions on {name}"));
-        }
     }
     culling
 }
@@ -71,7 +66,7 @@ fn nothing_culls<S: Format>(pair: &PairCase<S>, touches: bool) -> Result<(), Tes
     Ok(())
 }
 
-/// As the generator makes them, but brought to where differences, products of two or of three are subnormal, or beyond the limit from
+/// A pair of the generator, scaled so that differences or products of two or of three are subnormal, or beyond the limit from
 /// which overflow is possible.
 fn at_the_limits<S: Format>(meeting: Meeting, choices: &mut Choices<'_>) -> PairCase<S> {
     let kind = choices.pick(&[PairKind::VertexFace, PairKind::EdgeEdge]);
@@ -87,19 +82,19 @@ fn at_the_limits<S: Format>(meeting: Meeting, choices: &mut Choices<'_>) -> Pair
         0 => lowest + near,
         1 => lowest / 2 + near,
         2 => lowest / 3 + near,
-        // The range of the filters, 2³⁰ or 2²⁵⁰, and where volumes overflow.
+        // The range of the filters, 2³⁰ or 2²⁵⁰, and the sizes at which volumes overflow.
         3 => (if precision == 24 { 30 } else { 250 }) + near / 4,
         4 => S::MAX_EXPONENT / 3 + near,
         _ => S::MAX_EXPONENT - 4 + near.min(0),
     };
     let by = wanted - (largest.log2().floor() as i32);
-    // Exact, so that the pair still meets: no digit may fall below the smallest subnormal number, or beyond the largest.
+    // The scale is exact, so the pair still meets: no digit may fall below the smallest subnormal number, or beyond the largest.
     let moved = pair.map(|x| scaled(x, by));
     let back = moved.map(|x| scaled(x, -by));
     if moved.is_finite() && back == pair { moved } else { pair }
 }
 
-/// `x`·2^`exponent`, rounded at most once, at the end.
+/// Returns `x`·2^`exponent`, rounded at most once, at the end.
 fn scaled<S: Format>(x: S, exponent: i32) -> S {
     let steps = [exponent / 3, exponent / 3, exponent - 2 * (exponent / 3)];
     S::from_f64(steps.iter().fold(x.to_f64(), |x, &step| x * 2.0_f64.powi(step)))
@@ -164,11 +159,11 @@ fn environments_are_really_set() {
         assert_eq!(below < 1.0, goes_down, "{name}");
         let result = environment.run(&[f32::MIN_POSITIVE, 0.5], product);
         assert_eq!(result == 0.0, name.contains("flush"), "{name}");
-        // As an operand.
+        // A subnormal operand.
         let doubled = environment.run(&[subnormal, 2.0], product);
         assert_eq!(doubled == 0.0, name.contains("denormals"), "{name}");
     }
-    // And put back.
+    // The environment is restored.
     assert_eq!(sum(&[1.0, small]), 1.0);
 }
 
@@ -206,7 +201,7 @@ fn at_rest<S: Format>(points: [[S; 3]; 4]) -> [[[S; 3]; 2]; 4] {
     points.map(|position| [position; 2])
 }
 
-// Found by search, then simplified, all of them.
+// All of these were found by search, then simplified.
 
 #[test]
 fn without_the_underflow_term_flushing_would_cull_a_tiny_touching_pair_f32() {
@@ -273,8 +268,8 @@ fn without_the_limit_of_edges_rounding_downward_would_cull_a_long_path_f32() {
     is_culled_but_for::<NoLimit, f32>(Kernel::Segment, environment, PairKind::VertexFace, points);
 }
 
-/// Half of the bounds, which is enough to nearest, was not seen to fail in millions of pairs in other directions: that takes the
-/// proof.
+/// Half of the bounds, which suffices to nearest, did not fail on millions of pairs in other directions. Only the proof shows
+/// that it is not enough.
 #[test]
 fn with_an_eighth_of_the_rounding_bound_rounding_upward_would_cull_a_touching_pair_f32() {
     let points = [
@@ -287,8 +282,8 @@ fn with_an_eighth_of_the_rounding_bound_rounding_upward_would_cull_a_touching_pa
     is_culled_but_for::<AnEighth, f32>(Kernel::NonCoplanarity, environment, PairKind::EdgeEdge, points);
 }
 
-/// A vertex at rest that much above a triangle at rest, and a separation larger than it but subnormal, which flushing compares as
-/// none.
+/// A vertex at rest above a triangle at rest, by that height, and a subnormal separation larger than it, which compares as zero
+/// if subnormal numbers are flushed.
 fn keeps_within_a_subnormal_separation<S: Format>(height: S, separation: S) {
     let o = S::ZERO;
     let face = [[o, o, o], [S::ONE, o, o], [o, S::ONE, o]];
@@ -314,8 +309,8 @@ fn a_subnormal_separation_counts_when_flushing_f64() {
     keeps_within_a_subnormal_separation(3e-310, 4e-310);
 }
 
-/// Two edges on one line, one in the other, with coordinates of a few times the smallest subnormal number. The compiler added zero to
-/// what is compared, to make one vector operation of it and the sums beside: see "compilers" in `boxes`.
+/// Two edges on one line, one inside the other, with coordinates of a few times the smallest subnormal number. A compiler added
+/// zero to the compared values, to use one vector operation for them and the sums beside them: see "compilers" in `boxes`.
 fn keeps_edges_of_dust_on_one_line<S: Format>() {
     let at = |height: i64| [[S::ZERO, S::ZERO, S::exact(height, S::MIN_EXPONENT)]; 2];
     let pair = PairCase::new(PairKind::EdgeEdge, [at(-4), at(8), at(3), at(2)]);

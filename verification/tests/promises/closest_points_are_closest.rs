@@ -9,7 +9,7 @@ fn point() -> impl Strategy<Value = DVec3> {
     prop::array::uniform3(-1.0..1.0_f64).prop_map(DVec3::from)
 }
 
-/// The least distance over a grid of points of both sets.
+/// Returns the least distance over a grid of points of both sets.
 fn on_a_grid(kind: PairKind, [p, q, r, s]: [DVec3; 4]) -> f64 {
     let mut least = f64::INFINITY;
     for i in 0..=40 {

@@ -1,4 +1,4 @@
-//! Coherent motion: a detector that follows pairs from step to step answers as one that has seen no step before, whatever the steps are.
+//! Coherent motion: a detector that follows pairs from step to step gives the answers of one that has seen no step before.
 
 use proptest::prelude::*;
 use selvedge::PairKind;
@@ -7,8 +7,7 @@ use selvedge::simd::available_levels;
 use selvedge::{CollisionDetector, Contact, Criterion, Threads, Topology};
 use selvedge_core::Scalar;
 use selvedge_core::elementary::Limits;
-use selvedge_laboratory::scene::ArmScene;
-use selvedge_verification::generator::{Format, MeshCase, check, meshes};
+use selvedge_verification::generator::{BendingTube, Format, MeshCase, check, meshes};
 use selvedge_verification::oracle::{collides, within};
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -21,7 +20,8 @@ fn by_pair<S: Scalar>(contacts: &[Contact<S>]) -> Contacts {
     contacts.iter().map(time).collect()
 }
 
-/// Steps made of a mesh's one: glides, rests, jumps, steps asked again, ends that a response has changed, meshes that go far away.
+/// Makes steps from the step of a mesh: glides, rests, jumps, repeated steps, ends that a response has changed, and meshes that
+/// move far away.
 fn steps<S: Format>(mesh: &MeshCase<S>) -> Vec<MeshCase<S>> {
     let step = |position: &dyn Fn(usize, [[S; 3]; 2]) -> [[S; 3]; 2]| MeshCase {
         triangles: mesh.triangles.clone(),
@@ -40,15 +40,15 @@ fn steps<S: Format>(mesh: &MeshCase<S>) -> Vec<MeshCase<S>> {
     };
     let glide = |first: f64, last: f64| step(&|_, ends| [between(ends, first), between(ends, last)]);
     let mut steps: Vec<MeshCase<S>> = Vec::new();
-    // Six small steps, the last of them asked again with another end, and with its own.
+    // Six small steps; the last is repeated with another end, and with its own.
     steps.extend((0..6).map(|k| glide(f64::from(k) / 32.0, f64::from(k + 1) / 32.0)));
     steps.push(glide(5.0 / 32.0, 8.0 / 32.0));
     steps.push(glide(5.0 / 32.0, 6.0 / 32.0));
-    // At rest, then on, cut short.
+    // At rest, then moving, cut short.
     steps.push(glide(6.0 / 32.0, 6.0 / 32.0));
     steps.push(glide(6.0 / 32.0, 16.0 / 32.0));
     steps.push(glide(7.0 / 32.0, 8.0 / 32.0));
-    // From elsewhere than where the step before has ended: one vertex, then all.
+    // The start is not the end of the step before: for one vertex, then for all.
     steps.push(step(&|k, ends| {
         let start = between(ends, if k == 0 { 1.0 } else { 0.25 });
         [start, between(ends, 9.0 / 32.0)]
@@ -56,7 +56,7 @@ fn steps<S: Format>(mesh: &MeshCase<S>) -> Vec<MeshCase<S>> {
     steps.push(glide(9.0 / 32.0, 10.0 / 32.0));
     steps.push(glide(0.0, 1.0));
     steps.push(glide(1.0, 0.0));
-    // One vertex goes very far, and comes back.
+    // One vertex moves very far, and comes back.
     let far = |k: usize, position: [S; 3]| {
         if k == 1 {
             position.map(|x| x + S::from_f64(1e30))
@@ -70,8 +70,8 @@ fn steps<S: Format>(mesh: &MeshCase<S>) -> Vec<MeshCase<S>> {
     steps
 }
 
-/// Of a step: what is found is what a new detector finds, with the same times. What it finds besides is certainly farther apart than the
-/// tolerance: pairs that the elementary test gives up on, of faces without area above all.
+/// The findings of a step are those of a new detector, with the same times. Further findings are certainly farther apart than the
+/// tolerance: they are pairs on which the elementary test gives up, mostly of faces without area.
 fn are_those_of_a_new_one<S: Format>(
     step: &MeshCase<S>,
     topology: &Topology,
@@ -121,18 +121,18 @@ fn are_followed<S: Format>(mesh: &MeshCase<S>, compared: &Cell<[usize; 2]>, sepa
         prop_assert!(keys.is_sorted(), "in order");
         are_those_of_a_new_one(&step, &topology, [&by_pair(&found), &by_pair(&expected)], &limits, compared)
             .map_err(|error| TestCaseError::fail(format!("step {number}: {error}")))?;
-        // The same step again, other questions: no later than the first that is certainly within the tolerance.
+        // The same step with other queries: no result is later than the first time that is certainly within the tolerance.
         let is_certain = |contact: &&Contact<S>| {
             let question = step.pair(&topology, (contact.kind, contact.pair)).question();
             within(&question, limits.separation.to_f64() + limits.tolerance.to_f64())
         };
-        // In the order of their times: the oracle takes longer than all else.
+        // In the order of their times, because the oracle is the slowest part.
         let mut in_time: Vec<_> = found.iter().collect();
         in_time.sort_by(|a, b| a.time.to_f64().total_cmp(&b.time.to_f64()));
         let first = in_time.into_iter().find(is_certain);
         let first = first.map_or(f64::INFINITY, |contact| contact.time.to_f64());
         let earliest = coherent.earliest(&start, &end).expect("finite positions");
-        // Of what the elementary test gives up on, part of a step may leave what the boxes of all of it do not.
+        // If the elementary test gives up, the boxes of part of a step may exclude a pair that those of the whole step do not.
         let is_expected = |contact: &Contact<S>| {
             let mut pairs = expected.iter().map(|contact| (contact.kind, contact.pair));
             pairs.any(|pair| pair == (contact.kind, contact.pair)) || !is_certain(&contact)
@@ -166,7 +166,8 @@ fn the_contacts_are_those_of_a_detector_that_has_seen_no_step_before() {
     assert!(found > 250 && more < found / 20, "{compared:?}");
 }
 
-/// Of two contacts at 0.99999871 and 0.99999884, the later was told as the earlier one in `f32`, by rounding its time down farther.
+/// For two contacts at 0.99999871 and 0.99999884, the later one once came first in `f32`, because its time was rounded down
+/// farther.
 #[test]
 fn of_contacts_whose_times_hardly_differ_the_earliest_is_the_first() {
     let mesh = MeshCase::<f32> {
@@ -182,7 +183,7 @@ fn of_contacts_whose_times_hardly_differ_the_earliest_is_the_first() {
     are_followed(&mesh, &Cell::new([0; 2]), 1e-6).unwrap();
 }
 
-/// Asked of the oracle itself: what is not among the contacts neither touches nor comes within the separation.
+/// Checks with the oracle that a pair which is not among the contacts neither touches nor comes within the separation.
 #[test]
 fn no_contact_of_any_step_is_missed() {
     check(12, meshes::<f64>(), |mesh| {
@@ -220,16 +221,17 @@ fn no_contact_of_any_step_is_missed() {
     });
 }
 
-/// Over a whole bend, and two components that pass each other, on every number of threads and instruction set: the same bits and order.
+/// Over a whole bend, and two components that pass each other, every number of threads and every instruction set give the same
+/// bits and order.
 #[test]
 fn threads_and_instruction_sets_change_nothing() {
-    let scene = ArmScene::new(8).expect("a refinement in range");
+    let scene = BendingTube::new(8);
     let count = scene.topology().vertex_count() as u32;
     let triangles = scene.topology().triangles();
     let second = triangles.iter().map(|triangle| triangle.map(|vertex| vertex + count));
     let both = triangles.iter().copied().chain(second).collect();
     let topology = Arc::new(Topology::new(2 * count as usize, both).expect("as many again"));
-    // The second falls through the first, faster and faster.
+    // The second falls through the first with growing speed.
     let frame = |number: usize| -> Vec<DVec3> {
         let own = scene.frame(number);
         let fallen = 0.02 - 2e-5 * ((number - 36) * (number - 36)) as f64;
@@ -275,7 +277,7 @@ fn threads_and_instruction_sets_change_nothing() {
     }
 }
 
-/// Half of the vertices rest: pairs among them are not looked at, and the others are found as before.
+/// Half of the vertices rest: pairs among them are not examined, and the others are found as before.
 #[test]
 fn what_rests_changes_nothing_for_what_moves() {
     check(60, meshes::<f64>(), |mesh| {
@@ -311,7 +313,7 @@ fn what_rests_changes_nothing_for_what_moves() {
     });
 }
 
-/// Lengths and positions at the ends of the format: nothing is excluded, and nothing overflows into a panic.
+/// Lengths and positions at the limits of the format: nothing is excluded, and no overflow causes a panic.
 #[test]
 fn enormous_lengths_exclude_nothing() {
     let triangle = [DVec3::ZERO, DVec3::X, DVec3::Y];
@@ -344,10 +346,10 @@ fn enormous_lengths_exclude_nothing() {
     }
 }
 
-/// Another question than the step before: another distance, then all vertices, then no mode.
+/// A different query from that of the step before: another distance, then all vertices, then no coherent mode.
 #[test]
 fn what_is_asked_may_change_from_step_to_step() {
-    let scene = ArmScene::new(4).expect("a refinement in range");
+    let scene = BendingTube::new(4);
     let topology = Arc::new(scene.topology().clone());
     let mut coherent = CollisionDetector::<f64>::new(Arc::clone(&topology));
     let (mut found, mut expected) = (Vec::new(), Vec::new());

@@ -1,4 +1,4 @@
-//! What an engine asks of a mesh, step by step, against the exact oracle and against itself.
+//! The detector's answers, step by step, against the exact oracle and against each other.
 
 use proptest::prelude::*;
 use selvedge::PairKind::{self, EdgeEdge, VertexFace};
@@ -8,8 +8,7 @@ use selvedge::simd::available_levels;
 use selvedge::{CandidateBoxes, CollisionDetector, Contact, Criterion, Frame, Position, StepError, Threads};
 use selvedge_core::Scalar;
 use selvedge_core::elementary::Limits;
-use selvedge_laboratory::scene::ArmScene;
-use selvedge_verification::generator::{Format, MeshCase, check, meshes};
+use selvedge_verification::generator::{BendingTube, Format, MeshCase, check, meshes};
 use selvedge_verification::oracle::{collides, within};
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -34,7 +33,7 @@ fn by_pair<S: Scalar>(contacts: &[Contact<S>]) -> BTreeMap<MeshPair, f64> {
         .collect()
 }
 
-/// All pairs without a common vertex: VF, EE.
+/// Returns all pairs without a common vertex: vertex–face and edge–edge.
 fn all_pairs(topology: &Topology) -> [Vec<[u32; 2]>; 2] {
     let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
     for vertex in 0..topology.vertex_count() as u32 {
@@ -55,14 +54,14 @@ fn all_pairs(topology: &Topology) -> [Vec<[u32; 2]>; 2] {
     [vertex_face, edge_edge]
 }
 
-/// The same, VF first.
+/// Returns the same pairs, vertex–face pairs first.
 pub(crate) fn pairs_of(topology: &Topology) -> Vec<MeshPair> {
     let [vertex_face, edge_edge] = all_pairs(topology);
     let of_kind = |kind, pairs: Vec<[u32; 2]>| pairs.into_iter().map(move |pair| (kind, pair));
     of_kind(VertexFace, vertex_face).chain(of_kind(EdgeEdge, edge_edge)).collect()
 }
 
-/// Every question, where the oracle knows the answer.
+/// Runs every query whose answer the oracle knows.
 fn no_question_misses_a_contact<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
     let topology = mesh.topology();
     let (start, end) = (mesh.frame(0), mesh.frame(1));
@@ -98,15 +97,9 @@ fn no_question_misses_a_contact<S: Format>(mesh: &MeshCase<S>) -> Result<(), Tes
     Ok(())
 }
 
-#[test]
-fn no_question_misses_a_contact_f64() {
-    check(150, meshes::<f64>(), no_question_misses_a_contact);
-}
-
-#[test]
-fn no_question_misses_a_contact_f32() {
-    check(150, meshes::<f32>(), no_question_misses_a_contact);
-}
+property!(no_question_misses_a_contact, 150, meshes(), |mesh: MeshCase| {
+    no_question_misses_a_contact(mesh)
+});
 
 /// With exact verdicts the contacts are those that the oracle finds, and no others.
 fn exact_contacts_are_those_that_touch<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
@@ -130,15 +123,9 @@ fn exact_contacts_are_those_that_touch<S: Format>(mesh: &MeshCase<S>) -> Result<
     Ok(())
 }
 
-#[test]
-fn exact_contacts_are_those_that_touch_f64() {
-    check(120, meshes::<f64>(), exact_contacts_are_those_that_touch);
-}
-
-#[test]
-fn exact_contacts_are_those_that_touch_f32() {
-    check(120, meshes::<f32>(), exact_contacts_are_those_that_touch);
-}
+property!(exact_contacts_are_those_that_touch, 120, meshes(), |mesh: MeshCase| {
+    exact_contacts_are_those_that_touch(mesh)
+});
 
 #[test]
 fn no_pair_that_comes_within_the_separation_is_missed() {
@@ -166,8 +153,8 @@ fn no_pair_that_comes_within_the_separation_is_missed() {
     });
 }
 
-/// Positions that are `f32` numbers are looked at in `f32` first, which has no number for it: found by reading, two triangles that never
-/// are coplanar were taken to be free.
+/// Positions that are `f32` numbers are examined in `f32` first, where a number may not exist: two triangles that never are
+/// coplanar were once taken to be free.
 #[test]
 fn a_separation_beyond_the_numbers_of_f32_excludes_nothing() {
     let triangle = [DVec3::ZERO, DVec3::X, DVec3::Y];
@@ -190,7 +177,7 @@ fn a_separation_beyond_the_numbers_of_f32_excludes_nothing() {
     }
 }
 
-/// Half of the vertices rest, in this step and the next; the pairs with another vertex are found as before, with the same times.
+/// Half of the vertices rest, in this step and the next. Pairs with another vertex are found as before, with the same times.
 fn what_rests_changes_nothing_for_what_moves<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
     let topology = mesh.topology();
     let moving: Vec<bool> = (0..mesh.positions.len()).map(|k| k % 2 == 0).collect();
@@ -224,17 +211,11 @@ fn what_rests_changes_nothing_for_what_moves<S: Format>(mesh: &MeshCase<S>) -> R
     Ok(())
 }
 
-#[test]
-fn what_rests_changes_nothing_for_what_moves_f64() {
-    check(250, meshes::<f64>(), what_rests_changes_nothing_for_what_moves);
-}
+property!(what_rests_changes_nothing_for_what_moves, 250, meshes(), |mesh: MeshCase| {
+    what_rests_changes_nothing_for_what_moves(mesh)
+});
 
-#[test]
-fn what_rests_changes_nothing_for_what_moves_f32() {
-    check(250, meshes::<f32>(), what_rests_changes_nothing_for_what_moves);
-}
-
-/// Positions in `f32`, and the same in `f64`: the same contacts, with the same times but for rounding them down.
+/// Positions in `f32`, and the same in `f64`, give the same contacts, with the same times up to rounding them down.
 #[test]
 fn the_format_of_the_positions_changes_no_contact() {
     let compared = Cell::new(0);
@@ -263,10 +244,10 @@ fn the_format_of_the_positions_changes_no_contact() {
     assert!(compared.get() > 100, "{compared:?}");
 }
 
-/// On a mesh of many chunks: the same contacts, bits and order.
+/// A mesh of many chunks has the same contacts, bits and order.
 #[test]
 fn instruction_sets_and_threads_change_nothing() {
-    let scene = ArmScene::new(40).expect("a refinement in range");
+    let scene = BendingTube::new(40);
     let [start, end] = [57, 58].map(|frame| scene.frame(frame));
     let mut expected: Option<(Vec<Contact<f64>>, Contact<f64>)> = None;
     for (name, level) in available_levels() {
@@ -297,10 +278,10 @@ fn instruction_sets_and_threads_change_nothing() {
     }
 }
 
-/// In a caller's pool and outside of one: the same contacts, bits and order, for every choice of threads.
+/// Inside a caller's pool and outside of it, every choice of threads gives the same contacts, bits and order.
 #[test]
 fn a_callers_pool_changes_nothing() {
-    let scene = ArmScene::new(10).expect("a refinement in range");
+    let scene = BendingTube::new(10);
     let [start, end] = [57, 58].map(|frame| scene.frame(frame));
     let contacts = |threads: Threads| {
         let mut detector = CollisionDetector::<f64>::new(scene.topology().clone());
@@ -322,7 +303,7 @@ fn a_callers_pool_changes_nothing() {
     assert!(contacts(Threads::EachCore).0 == expected);
 }
 
-/// Vectors of glam's and arrays of three: the same answers, bit for bit.
+/// Vectors of glam and arrays of three give the same answers, bit for bit.
 #[test]
 fn positions_are_vectors_or_arrays() {
     fn answers<S: Scalar, P: Position<Scalar = S>>(topology: &Topology, [start, end]: [&[P]; 2]) -> String {
@@ -341,7 +322,7 @@ fn positions_are_vectors_or_arrays() {
         assert!(!contacts.is_empty() && !is_free);
         format!("{contacts:?} {earliest:?} {vertex_face:?} {edge_edge:?} {own:?}")
     }
-    let scene = ArmScene::new(1).expect("a refinement in range");
+    let scene = BendingTube::new(1);
     let frames = [57, 60].map(|frame| scene.frame(frame));
     let topology = scene.topology();
     let [start, end] = &frames;

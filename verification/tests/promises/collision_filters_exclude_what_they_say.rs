@@ -1,13 +1,12 @@
-//! A collision filter: what it allows is found as ever, with the same times, and what it excludes never is.
+//! With a collision filter, allowed pairs are found with the same times, and excluded ones never are.
 
 use proptest::prelude::*;
 use selvedge::{CandidateBoxes, CollisionDetector, CollisionFilter, Contact, Groups, PairKind, StepError, Topology};
-use selvedge_laboratory::scene::ArmScene;
-use selvedge_verification::generator::{MeshCase, check, meshes};
+use selvedge_verification::generator::{BendingTube, MeshCase, check, meshes};
 use std::cell::Cell;
 use std::sync::Arc;
 
-/// Filters of every kind, alone and together, the same for each number of vertices.
+/// Returns filters of every kind, alone and combined, for any number of vertices.
 fn filters(vertices: usize) -> Vec<CollisionFilter> {
     let each = |of: &dyn Fn(u32) -> Groups| (0..vertices as u32).map(of).collect::<Vec<_>>();
     let halves = each(&|v| if v % 2 == 0 { Groups::new(1, 2) } else { Groups::new(2, 3) });
@@ -68,7 +67,7 @@ fn is_kept(mesh: &MeshCase<f64>, counts: &Cell<[usize; 2]>) -> Result<(), TestCa
             detector.contacts(&start, &end, &mut contacts).expect("as before");
             let contacts = sorted(contacts);
             if is_coherent {
-                // What the elementary test gives up on may be left out.
+                // Pairs on which the elementary test gives up may be left out.
                 prop_assert!(contacts.iter().all(|contact| expected.contains(contact)));
             } else {
                 prop_assert_eq!(&contacts, &expected);
@@ -101,10 +100,10 @@ fn what_is_allowed_is_found_and_nothing_else() {
     assert!(counts.get().into_iter().all(|count| count > 500), "{:?}", counts.get());
 }
 
-/// Two sleeves, one inside of the other, that are no obstacle to each other: as many tests of boxes as for one alone, or little more.
+/// Two tubes, one inside the other, that do not collide with each other need about as many box tests as one alone.
 #[test]
 fn what_groups_exclude_as_a_whole_is_not_looked_at() {
-    let scene = ArmScene::new(12).expect("a refinement in range");
+    let scene = BendingTube::new(12);
     let count = scene.topology().vertex_count();
     let triangles = scene.topology().triangles();
     let second = triangles.iter().map(|triangle| triangle.map(|vertex| vertex + count as u32));

@@ -11,12 +11,13 @@ use selvedge_core::Motion;
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::geometry::{Geometry, geometry};
 use selvedge_core::separation::largest_coordinate;
-use selvedge_laboratory::scene::ArmScene;
-use selvedge_verification::generator::{Moment, PairCase, check, extraordinary_pairs, pairs_of_any_kind, touching_pairs};
+use selvedge_verification::generator::{
+    BendingTube, Moment, PairCase, check, extraordinary_pairs, pairs_of_any_kind, touching_pairs,
+};
 use selvedge_verification::oracle::within_at;
 use std::cell::Cell;
 
-/// Everything that is promised, at one time. Whether there is a normal.
+/// Checks everything that is promised, at one time. Returns whether there is a normal.
 fn keeps_promises(case: &PairCase<f64>, time: f64) -> Result<bool, TestCaseError> {
     are_kept(case, time, &geometry(&case.pair(), time))
 }
@@ -85,7 +86,7 @@ fn the_thread_may_round_in_any_direction_and_flush_subnormal_numbers() {
     }
 }
 
-/// At the last moment before they touch, as a time of impact tells it: most have a normal.
+/// At a time of impact, just before they touch, most pairs have a normal.
 #[test]
 fn a_pair_that_was_apart_before_it_touches_has_a_normal() {
     use selvedge_core::elementary::advance::time_of_impact;
@@ -99,7 +100,7 @@ fn a_pair_that_was_apart_before_it_touches_has_a_normal() {
         if let Impact::Possible { time, .. } = time_of_impact(&case.pair(), &Limits::default()) {
             let has_normal = keeps_promises(case, time)?;
             let [all, with] = found.get();
-            // Not those that touch, or are too near for rounding to tell, when the step begins.
+            // Excludes pairs that touch at the start of the step, or are too near for floating point.
             let begins_apart = time > 0.0;
             found.set([
                 all + usize::from(begins_apart),
@@ -112,10 +113,10 @@ fn a_pair_that_was_apart_before_it_touches_has_a_normal() {
     assert!(all > 200 && 10 * with > 9 * all, "{with} of {all}");
 }
 
-/// On the mesh: all that is near is found, whatever the numbers of the pairs, and a contact's geometry is its pair's.
+/// On a mesh, all near pairs are found, and a contact's geometry is that of its pair, whatever the numbers of the pairs.
 #[test]
 fn near_pairs_are_all_within_the_distance_and_none_is_missed() {
-    let scene = ArmScene::new(4).expect("a refinement in range");
+    let scene = BendingTube::new(4);
     let topology = scene.topology().clone();
     let positions = scene.frame(50);
     let mut detector = CollisionDetector::<f64>::new(topology.clone());
@@ -134,7 +135,7 @@ fn near_pairs_are_all_within_the_distance_and_none_is_missed() {
             let resting = vertices.map(|vertex| [positions[vertex as usize].to_array(); 2]);
             within_at(&PairCase::new(pair.0, resting).question(), &Rational::new(), distance)
         };
-        // Some of them, and some of the others, which are many.
+        // Checks some of them, and some of the many others.
         assert!(keys.iter().step_by(61).all(|&pair| is_within(pair, 1.00001 * distance)));
         let others = super::collision_detector_keeps_its_promises::pairs_of(&topology).into_iter();
         for pair in others.step_by(19_997).filter(|pair| keys.binary_search(pair).is_err()) {

@@ -1,4 +1,5 @@
-//! `selvedge_core::elementary::contact` and `selvedge_core::verification::exact::touches` say what the oracle says, for every finite pair.
+//! `selvedge_core::elementary::contact` and `selvedge_core::verification::exact::touches` agree with the oracle for every finite
+//! pair.
 
 use crate::support::environment::Environment;
 use crate::support::widths::at_the_limit_of_a_width;
@@ -16,17 +17,17 @@ use std::cell::Cell;
 
 const KINDS: [PairKind; 2] = [PairKind::VertexFace, PairKind::EdgeEdge];
 
-/// In whole numbers alone; `None` if a coordinate is not finite.
+/// Returns the verdict in integers alone, or `None` if a coordinate is not finite.
 fn touches<S: Format>(pair: &PairCase<S>) -> Option<bool> {
     exact::touches(&pair.pair())
 }
 
-/// The same, after floating point has had its try.
+/// Returns the verdict that tries floating point first.
 fn verdict<S: Format>(pair: &PairCase<S>) -> (ContactVerdict, Evidence) {
     contact_and_evidence(&pair.pair())
 }
 
-/// What the verdict should be where whole numbers say this.
+/// Returns the verdict that belongs to the verdict in integers.
 fn as_contact(touches: Option<bool>) -> ContactVerdict {
     match touches {
         Some(true) => ContactVerdict::Happens,
@@ -35,7 +36,7 @@ fn as_contact(touches: Option<bool>) -> ContactVerdict {
     }
 }
 
-/// Both agree that the pair touches, or does not.
+/// Checks that both give the expected verdict.
 fn both_say<S: Format>(pair: &PairCase<S>, truth: bool) -> Result<(), TestCaseError> {
     prop_assert_eq!(touches(pair), Some(truth), "in whole numbers");
     prop_assert_eq!(verdict(pair).0, as_contact(Some(truth)));
@@ -50,7 +51,8 @@ property!(verdicts_are_the_oracles, 6_000, pairs_of_any_kind(), |pair| {
     agree_with_the_oracle(pair)
 });
 
-/// Coordinates from 0 to `limit`: contacts at corners, along edges, at the start and end, and all kinds of degeneration, all at once.
+/// Generates coordinates from 0 to `limit`. They give contacts at corners, along edges, at the start and end, and all kinds of
+/// degeneration.
 fn on_a_grid<S: Format>(limit: u32, choices: &mut Choices<'_>) -> PairCase<S> {
     let kind = choices.pick(&KINDS);
     let mut whole = || S::exact(choices.below(limit + 1).into(), 0);
@@ -76,7 +78,7 @@ property!(
     |pair| agree_with_the_oracle(pair)
 );
 
-/// The pair number `index` of those with coordinates 0 and 1 on `axes` axes, and 0 on the others.
+/// Returns pair number `index` of those with coordinates 0 and 1 on `axes` axes, and 0 on the others.
 fn of_bits(kind: PairKind, axes: usize, index: usize) -> PairCase<f64> {
     let coordinate = |point: usize, end: usize, axis: usize| {
         let place = (point * 2 + end) * axes + axis;
@@ -87,7 +89,7 @@ fn of_bits(kind: PairKind, axes: usize, index: usize) -> PairCase<f64> {
     PairCase::new(kind, points)
 }
 
-/// All pairs of points of a square: coplanar throughout.
+/// All pairs of points of a square, which are coplanar throughout.
 #[test]
 fn verdicts_are_the_oracles_on_every_pair_in_a_square() {
     for (kind, index) in KINDS.iter().flat_map(|&k| (0..1 << 16).map(move |i| (k, i))) {
@@ -123,7 +125,7 @@ property!(
     |moment: Moment| agree_with_the_oracle(&moment.pair())
 );
 
-/// Of a property that must not be vacuous: how often each kind of evidence was given.
+/// Counts each kind of evidence, so that a property cannot hold without testing anything.
 #[test]
 fn every_kind_of_evidence_is_given() {
     let counts = [const { Cell::new(0) }; 3];
@@ -150,7 +152,7 @@ property!(what_is_not_finite_is_undefined, 8_000, extraordinary_pairs(), |pair| 
     Ok(())
 });
 
-/// Whole numbers say the same of a pair that is written down in another way.
+/// The verdict in integers is the same for a pair that is written in another way.
 fn same<S: Format>(pair: &PairCase<S>, changed: &PairCase<S>) -> Result<(), TestCaseError> {
     let expected = touches(pair);
     prop_assert_eq!(touches(changed), expected, "changed to {:?}", changed);
@@ -209,7 +211,7 @@ property!(
     1_200,
     pairs_of_any_kind(),
     |pair| {
-        // Each axis by its own: planes, and points in triangles, stay so.
+        // Scales each axis by its own factor: coplanar points, and points in triangles, stay so.
         for exponents in [[40, 40, 40], [-30, -30, -30], [7, -20, 60]] {
             let factors = exponents.map(|exponent| S::exact(1, exponent));
             let by = |x: [S; 3], factors: [S; 3]| [0, 1, 2].map(|axis| x[axis] * factors[axis]);
@@ -223,7 +225,7 @@ property!(
     }
 );
 
-// More than that each is right: what floating point leaves open may differ.
+// Beyond each verdict being right, this checks which pairs floating point decides; that may differ.
 property!(
     verdicts_are_the_same_in_every_floating_point_environment,
     600,
@@ -248,7 +250,7 @@ fn the_same_numbers_in_f64_have_the_same_verdict() {
     });
 }
 
-/// A vertex that grazes a face of the largest size there is at a border point, or misses it by the smallest number there is.
+/// A vertex that grazes a border point of a face of the largest size, or misses it by the smallest number.
 fn decides_the_largest_spread_there_is<S: Format>() {
     let (small, large) = (S::ZERO.up(), S::LARGEST);
     for (height, happens) in [(S::ZERO, true), (small, false), (-small, false)] {

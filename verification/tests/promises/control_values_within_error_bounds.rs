@@ -1,4 +1,5 @@
-//! The coplanarity cubic: its control values are the right polynomial, and rounding moves them no further than proven.
+//! The coplanarity cubic: its control values are those of the right polynomial, and rounding errors stay within the proven
+//! bounds.
 
 use proptest::prelude::*;
 use rug::{Float, Rational, ops::Pow};
@@ -6,12 +7,11 @@ use selvedge_core::PairKind;
 use selvedge_core::verification::coplanarity::{MovingTetrahedron, error_bound_by_magnitudes, is_in_range};
 use selvedge_core::verification::lanes::{Lanes, Rounding};
 use selvedge_core::verification::vector::Vector;
-use selvedge_laboratory::methods::CullingTest::PlainNonCoplanarity;
-use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{Choices, Format, PairCase, check, from_choices, pairs_of_any_kind};
+use selvedge_verification::plain;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Whole numbers, so that core's own source computes without rounding. Panics on overflow.
+/// Integers, on which core's own source computes without rounding. They panic on overflow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Exact(i128);
 
@@ -115,7 +115,7 @@ fn tetrahedron(points: &WholePoints) -> MovingTetrahedron<Exact> {
     MovingTetrahedron::from_points(points.map(|ends| ends[0]), points.map(|ends| ends[1]))
 }
 
-/// The volume P · (B × C) at time i/3, times 27, by the rule of Sarrus.
+/// Returns the volume P · (B × C) at time i/3, times 27, by the rule of Sarrus.
 fn volume_at_third(points: &WholePoints, i: i128) -> i128 {
     let position = |point: usize, axis: usize| {
         let [start, end] = points[point].map(|ends| i128::from(ends[axis]));
@@ -165,11 +165,11 @@ proptest! {
     fn the_plain_filter_is_right_where_nothing_rounds(points in whole_points(20)) {
         let [a, b, c, p] = points.map(|ends| ends.map(|position| position.map(|x| x as f64)));
         let pair = PairCase::new(PairKind::VertexFace, [p, a, b, c]);
-        let culled = verdict(PlainNonCoplanarity, &pair).is_culled();
+        let culled = plain::culls(&pair);
         prop_assert_eq!(culled, tetrahedron(&points).is_never_coplanar());
     }
 
-    /// The same four points, in the slots that the paper gives them (equations 5 to 11).
+    /// The same four points in the paper's order (equations 5 to 11).
     #[test]
     fn an_edge_pair_is_the_tetrahedron_k_u_v_l(points in whole_points(1 << 20)) {
         let points = points.map(|ends| ends.map(|position| position.map(|x| x as f64)));
@@ -190,7 +190,7 @@ fn rational<S: Format>(x: S) -> Rational {
     Rational::from_f64(x.to_f64()).expect("finite")
 }
 
-/// In the order k₀, 3k₁, 3k₂, k₃, from the definition: the coefficient of (1−t)^(3−i)·t^i in det(P, B, C).
+/// Returns the values in the order k₀, 3k₁, 3k₂, k₃, from the definition: the coefficient of (1−t)^(3−i)·t^i in det(P, B, C).
 fn exact_control_values<S: Format>(pair: &PairCase<S>) -> [ExactControlValue; 4] {
     let order = match pair.kind {
         PairKind::VertexFace => [1, 2, 3, 0],
@@ -224,35 +224,35 @@ fn exact_control_values<S: Format>(pair: &PairCase<S>) -> [ExactControlValue; 4]
     values
 }
 
-/// Half of the smallest subnormal: the most that a product loses by underflow.
+/// Half of the smallest subnormal number: the most that a product loses by underflow.
 fn lost_by_underflow<S: Format>() -> Rational {
     rational(S::exact(1, S::MIN_EXPONENT)) / 2_u32
 }
 
-/// (1 + u)^n − 1.
+/// Returns (1 + u)^n − 1.
 fn relative_error<S: Format>(roundings: u32) -> Rational {
     (Rational::from(1) + rational(S::UNIT_ROUNDOFF)).pow(roundings) - 1_u32
 }
 
-/// The largest magnitude of a component, as computed.
+/// Returns the largest magnitude of a component, as computed.
 fn largest<S: Format>(vectors: impl IntoIterator<Item = [Vector<S>; 2]>) -> Rational {
     let components = vectors.into_iter().flatten().flat_map(|v| [v.x, v.y, v.z]);
     let magnitudes = components.map(|x| rational(x).abs());
     magnitudes.max().expect("some components")
 }
 
-/// What the filter computes and what is exact.
+/// The computed and the exact values of a pair.
 struct Compared {
     computed: [Rational; 4],
     bounds: [Rational; 4],
     exact: [ExactControlValue; 4],
-    /// Of P.
+    /// The largest component of P.
     largest_p: Rational,
-    /// Of all edges.
+    /// The largest component of all edges.
     largest: Rational,
 }
 
-/// Nothing if the pair is beyond the range in which bounds hold.
+/// Returns nothing if the pair is outside the range in which the bounds hold.
 fn compared<S: Format>(pair: &PairCase<S>) -> Option<Compared> {
     let tetrahedron = pair.tetrahedron();
     if !is_in_range(tetrahedron.largest_by_axis().largest()) {
@@ -269,8 +269,8 @@ fn compared<S: Format>(pair: &PairCase<S>) -> Option<Compared> {
 }
 
 property!(
-    /// Each monomial passes through at most 8 roundings (k₀, k₃) or 10 (3k₁, 3k₂), here to nearest. Products that underflow
-    /// lose η₀ each: two for a component of n, four for one of h; once more through the last six additions at most.
+    /// Each monomial passes through at most 8 roundings (k₀, k₃) or 10 (3k₁, 3k₂), here to nearest. Each product that underflows
+    /// loses η₀: two for a component of n, four for one of h, and at most once more in the last six additions.
     control_values_are_off_by_no_more_than_their_roundings,
     8_000,
     pairs_of_any_kind(),
@@ -303,7 +303,7 @@ property!(
     }
 );
 
-/// Whether a computed value beyond its bound has the exact one's sign.
+/// Checks that a computed value beyond its bound has the sign of the exact one.
 fn signs_are_certain(
     computed: &[Rational; 4],
     bounds: &[Rational; 4],
@@ -325,7 +325,7 @@ fn bounds_by_magnitudes<S: Format>(pair: &PairCase<S>) -> [Rational; 4] {
 }
 
 property!(
-    /// The promise that the filter stands on, for each of the four values alone.
+    /// The promise on which the filter relies, for each of the four values alone.
     a_control_value_beyond_its_bound_has_the_exact_sign,
     15_000,
     pairs_of_any_kind(),
@@ -354,8 +354,8 @@ property!(
     }
 );
 
-/// Whether a computed bound is the documented sum of a relative and an absolute term, but for 16 roundings at most on the way and
-/// what its products lose by underflow, which is less than an eighth of the absolute term.
+/// Checks that a computed bound is the documented sum of a relative and an absolute term, up to at most 16 roundings and the
+/// underflow of its products, which is less than an eighth of the absolute term.
 fn is_documented<S: Format>(bound: &Rational, relative: Rational, absolute: &Rational) -> Result<(), TestCaseError> {
     let slack = relative_error::<S>(16) + 1_u32;
     let (documented, lost) = (relative + absolute, Rational::from(absolute / 8_u32));
@@ -417,9 +417,9 @@ property!(
     }
 );
 
-/// The control points n₀, h/2, n₁ of the normal, exactly, each as the square of its length.
+/// Returns the control points n₀, h/2, n₁ of the normal, exactly, each as the square of its length.
 fn squared_normals<S: Format>(pair: &PairCase<S>) -> [Rational; 3] {
-    // As two moving vectors whose cross product is the normal.
+    // The normal is the cross product of two moving vectors.
     let [from_0, to_0, from_1, to_1] = match pair.kind {
         PairKind::VertexFace => [1, 2, 1, 3],
         PairKind::EdgeEdge => [0, 1, 2, 3],
@@ -457,7 +457,8 @@ property!(no_normal_is_longer_than_its_bound, 15_000, pairs_of_any_kind(), |pair
     Ok(())
 });
 
-/// (√(|n|² + η) + 128u·M²)·(1 + 32u). On small whole numbers all is exact up to the root: what remains rounds five times.
+/// The formula is (√(|n|² + η) + 128u·M²)·(1 + 32u). On small integers everything up to the root is exact, and the rest rounds
+/// five times.
 fn the_bound_of_the_normal_is_the_documented_one<S: Format>() {
     let whole = from_choices(|choices: &mut Choices<'_>| {
         let kind = choices.pick(&[PairKind::VertexFace, PairKind::EdgeEdge]);
@@ -488,7 +489,7 @@ fn the_bound_of_the_normal_is_the_documented_one_f32() {
     the_bound_of_the_normal_is_the_documented_one::<f32>();
 }
 
-/// To 200 bits.
+/// Returns the root to 200 bits.
 fn rational_root(square: &Rational) -> Rational {
     let root = Float::with_val(200, square).sqrt();
     root.to_rational().expect("finite")

@@ -1,12 +1,12 @@
-//! The billion-pair campaign, in small: no certified claim is wrong, an unsafe filter's false culls are found, and what a run finds
-//! depends on neither threads nor interruptions.
+//! The billion-pair campaign, in small: no certified claim is wrong, the false culls of an unsafe filter are found, and the
+//! findings depend on neither threads nor interruptions.
 
 use selvedge::simd::best_level;
 use selvedge_verification::campaign::Findings;
-use selvedge_verification::campaign::exact::{Claim, Progress, Scenes, Tally, run};
+use selvedge_verification::campaign::exact::{Claim, ClaimCounts, Progress, Scenes, run};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// A vertex that falls through a face; and two edges that cross.
+/// A vertex that falls through a face, and two edges that cross.
 fn scenes() -> Scenes {
     let rests = |position: [f64; 3]| [position; 2];
     let falls = |[x, y, z]: [f64; 3]| [[x, y, z + 0.7], [x, y, z - 0.6]];
@@ -26,22 +26,22 @@ fn to_the_end(progress: Progress, threads: usize) -> Progress {
     run(progress, &scenes(), best_level(), threads, |_| {}, || false)
 }
 
-fn sum(progress: &Progress, what: fn(&Tally) -> u64) -> u64 {
-    progress.found.tallies.iter().flatten().flatten().map(what).sum()
+fn sum(progress: &Progress, what: fn(&ClaimCounts) -> u64) -> u64 {
+    progress.found.counts.iter().flatten().flatten().map(what).sum()
 }
 
 #[test]
 fn no_certified_claim_is_wrong_and_each_kind_of_proof_is_needed() {
     let progress = to_the_end(campaign(&Claim::CERTIFIED, 100_000), 2);
     assert_eq!(progress.found.wrong(), 0, "{progress}");
-    for by_source in &progress.found.tallies {
+    for by_source in &progress.found.counts {
         for claim in 0..Claim::CERTIFIED.len() {
-            let of_claim = by_source.iter().map(|tallies| &tallies[claim]);
-            assert!(of_claim.clone().map(|tally| tally.claims).sum::<u64>() > 1000, "{progress}");
-            assert!(of_claim.map(|tally| tally.by_oracle).sum::<u64>() > 1, "{progress}");
+            let of_claim = by_source.iter().map(|counts| &counts[claim]);
+            assert!(of_claim.clone().map(|count| count.claims).sum::<u64>() > 1000, "{progress}");
+            assert!(of_claim.map(|count| count.by_oracle).sum::<u64>() > 1, "{progress}");
         }
     }
-    let proofs: [fn(&Tally) -> u64; 3] = [|tally| tally.by_signs, |tally| tally.by_axis, |tally| tally.by_whole_numbers];
+    let proofs: [fn(&ClaimCounts) -> u64; 3] = [|count| count.by_signs, |count| count.by_axis, |count| count.by_whole_numbers];
     for proven in proofs {
         assert!(sum(&progress, proven) > 100, "{progress}");
     }

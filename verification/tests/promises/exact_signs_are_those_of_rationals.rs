@@ -1,4 +1,4 @@
-//! `selvedge_core::verification::exact` says what rational arithmetic says, for every finite pair.
+//! `selvedge_core::verification::exact` agrees with rational arithmetic for every finite pair.
 
 use crate::support::environment::Environment;
 use crate::support::rationals::{InRationals, rational, separations};
@@ -10,7 +10,7 @@ use selvedge_core::verification::coplanarity::is_in_range;
 use selvedge_core::verification::exact::{
     KnownSigns, UNKNOWN, certain_signs, control_value_signs, is_never_coplanar, is_never_within,
 };
-use selvedge_laboratory::methods::CullingTest;
+use selvedge_verification::culling::CullingTest;
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{
     Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, from_choices, pairs_of_any_kind,
@@ -266,7 +266,7 @@ property!(
     }
 );
 
-/// A high power of two is 1 in a unit whose exponent no number of the format has as its own.
+/// In this unit a high power of two is 1, and the exponent of the unit is below those of all numbers of the format.
 #[test]
 fn the_unit_of_large_powers_of_two_is_their_own() {
     let large = f64::exact(1 << 40, 960);
@@ -275,13 +275,13 @@ fn the_unit_of_large_powers_of_two_is_their_own() {
     let pair = PairCase::new(PairKind::VertexFace, [[[0.0, 0.0, 1.0]; 2], a, b, c]);
     assert!(never_within(&pair, 1.0.down(), UNKNOWN));
     assert!(!never_within(&pair, 1.0, UNKNOWN));
-    // The same where each axis has another unit.
+    // The same with another unit for each axis.
     let pair = pair.with_axes([2, 0, 1]);
     assert!(never_within(&pair, 1.0.down(), UNKNOWN));
     assert!(!never_within(&pair, 1.0, UNKNOWN));
 }
 
-/// A vertex at the smallest height there is above a face of the largest size there is: 2,098 and 277 bits along each axis.
+/// A vertex at the smallest height above a face of the largest size: 2,098 and 277 bits along each axis.
 fn decides_the_largest_spread_there_is<S: Format>() {
     let (small, large) = (S::ZERO.up(), S::LARGEST);
     let corner = |x: S, y: S| [[x, y, -small]; 2];

@@ -1,8 +1,8 @@
-//! The generator of the other tests' inputs: exact where it says so, and never dull.
+//! The generator of the tests' inputs: exact where it promises to be, and varied.
 
 use proptest::prelude::*;
 use selvedge_core::PairKind;
-use selvedge_laboratory::methods::CullingTest::CertifiedNonCoplanarity;
+use selvedge_verification::culling::CullingTest::CertifiedNonCoplanarity;
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{
     Choices, Format, Meeting, MeshCase, Moment, PairCase, Simplify, check, coplanar_pairs, from_choices, meshes,
@@ -16,15 +16,12 @@ fn touches_when_it_says<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseErr
     Ok(())
 }
 
-#[test]
-fn a_touching_pair_touches_at_its_time_f64() {
-    check(4000, touching_pairs::<f64>(), touches_when_it_says);
-}
-
-#[test]
-fn a_touching_pair_touches_at_its_time_f32() {
-    check(4000, touching_pairs::<f32>(), touches_when_it_says);
-}
+property!(
+    a_touching_pair_touches_at_its_time,
+    4000,
+    touching_pairs(),
+    |moment: Moment| touches_when_it_says(moment)
+);
 
 fn is_coplanar<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
     let pair = moment.pair().question();
@@ -32,15 +29,9 @@ fn is_coplanar<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-#[test]
-fn a_coplanar_pair_is_coplanar_f64() {
-    check(4000, coplanar_pairs::<f64>(), is_coplanar);
-}
-
-#[test]
-fn a_coplanar_pair_is_coplanar_f32() {
-    check(4000, coplanar_pairs::<f32>(), is_coplanar);
-}
+property!(a_coplanar_pair_is_coplanar, 4000, coplanar_pairs(), |moment: Moment| {
+    is_coplanar(moment)
+});
 
 #[test]
 fn any_bytes_make_a_pair_of_finite_coordinates() {
@@ -58,7 +49,7 @@ fn any_bytes_make_a_pair_of_finite_coordinates() {
     });
 }
 
-/// A share of `cases` pairs of either kind in parts of a thousand.
+/// Returns the share of `cases` pairs of either kind, in thousandths.
 fn share<S: Format>(cases: u32, of: impl Fn(&PairCase<S>) -> bool) -> u32 {
     let (all, found) = (Cell::new(0), Cell::new(0));
     check(cases, pairs_of_any_kind::<S>(), |pair| {
@@ -102,7 +93,7 @@ fn meshes_are_degenerate_non_manifold_and_incomplete_often_enough() {
     assert!(counts.get().into_iter().all(|count| count > 50), "{counts:?}");
 }
 
-/// Follows every success of an attempt to simplify, as proptest does.
+/// Follows every successful attempt to simplify, as proptest does.
 fn simplest<T: Simplify>(mut case: T, fails: impl Fn(&T) -> bool) -> T {
     'again: loop {
         for attempt in 0..case.attempts() {

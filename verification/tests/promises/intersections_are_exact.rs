@@ -1,4 +1,4 @@
-//! Which primitives of a mesh at rest meet: against exact triangles, pair by pair and all together.
+//! Intersections of a mesh at rest, against exact triangles, pair by pair and all together.
 
 use proptest::prelude::*;
 use selvedge::glam::{DVec3, Vec3};
@@ -23,8 +23,8 @@ fn points<S: Format>(mesh: &MeshCase<S>) -> Vec<Point> {
     mesh.positions.iter().map(|[start, _]| start.map(Scalar::to_f64)).collect()
 }
 
-/// Whether two hulls of up to three vertices each, of which none is in common, have a point in common. A point and a segment are
-/// triangles with a corner twice.
+/// Returns whether two hulls of up to three vertices each, without a common vertex, have a point in common. Points and segments
+/// are triangles with a repeated corner.
 fn meet(positions: &[Point], one: &[u32], other: &[u32]) -> bool {
     let hull = |vertices: &[u32]| [0, 1, 2].map(|k| positions[vertices[k.min(vertices.len() - 1)] as usize]);
     triangles_intersect(&hull(one), &hull(other), &[])
@@ -34,11 +34,11 @@ fn are_apart(one: &[u32], other: &[u32]) -> bool {
     one.iter().all(|vertex| !other.contains(vertex))
 }
 
-/// What is promised, by looking at everything.
+/// The expected result, found by examining everything.
 struct Truth {
     /// All edges and faces that meet.
     edge_face: BTreeSet<Intersection>,
-    /// All vertices and faces, and edges, that touch.
+    /// All vertices and faces, and all edges, that touch.
     touching: BTreeSet<Intersection>,
 }
 
@@ -70,7 +70,8 @@ fn truth(topology: &Topology, positions: &[Point]) -> Truth {
     truth
 }
 
-/// Edges and faces, all that meet and no others; vertices and faces, and edges, only such as touch, and some if any do.
+/// Checks that all edges and faces that meet are found, and no others. Of vertices and faces, and of edges, only touching ones
+/// are found, and some if any touch.
 fn intersections_are_those_of_exact_triangles<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
     let topology = mesh.topology();
     let positions = points(mesh);
@@ -86,7 +87,7 @@ fn intersections_are_those_of_exact_triangles<S: Format>(mesh: &MeshCase<S>) -> 
     prop_assert!(others.is_subset(&truth.touching), "{:?} of {:?}", others, truth.touching);
     prop_assert_eq!(found.is_empty(), truth.edge_face.is_empty() && truth.touching.is_empty());
     prop_assert_eq!(detector.has_intersections(&mesh.frame(0)), Ok(!found.is_empty()));
-    // Two triangles with more in common than the hull of their common vertices.
+    // Two triangles that share more than the hull of their common vertices.
     let triangles = mesh_self_intersections(&positions, topology.triangles());
     prop_assert!(triangles.is_empty() || !found.is_empty(), "{:?}", triangles);
     if topology.triangles().iter().all(|&corners| has_area(&positions, corners)) {
@@ -95,21 +96,15 @@ fn intersections_are_those_of_exact_triangles<S: Format>(mesh: &MeshCase<S>) -> 
     Ok(())
 }
 
-/// Whether the corners are not on a line: a triangle without area touches its neighbours' edges with its own corners.
+/// Returns whether the corners are not on a line. A triangle without area touches its neighbours' edges with its own corners.
 fn has_area(positions: &[Point], [a, b, c]: [u32; 3]) -> bool {
     let edges = [[a, b, c], [b, c, a], [c, a, b]];
     edges.iter().all(|&[u, v, w]| !meet(positions, &[u, v], &[w]))
 }
 
-#[test]
-fn intersections_are_those_of_exact_triangles_f64() {
-    check(150, meshes::<f64>(), intersections_are_those_of_exact_triangles);
-}
-
-#[test]
-fn intersections_are_those_of_exact_triangles_f32() {
-    check(150, meshes::<f32>(), intersections_are_those_of_exact_triangles);
-}
+property!(intersections_are_those_of_exact_triangles, 150, meshes(), |mesh: MeshCase| {
+    intersections_are_those_of_exact_triangles(mesh)
+});
 
 /// Two sheets of `n` by `n` squares that wave through each other.
 fn tangled_sheets(n: u32) -> (Topology, Vec<DVec3>) {
@@ -164,11 +159,11 @@ fn triangles_of_a_large_mesh_that_intersect_are_those_of_the_pairs_found() {
     let expected: BTreeSet<_> = mesh_self_intersections(&positions, topology.triangles())
         .into_iter()
         .collect();
-    // An edge with two triangles that ends in a face's plane would be found with both; here none does.
+    // An edge of two triangles that ends in a face's plane would be found with both; here there is none.
     assert_eq!(triangles, expected);
 }
 
-/// Two triangles with a common edge, opened by so much.
+/// Two triangles with a common edge, opened by that height.
 fn hinge(opened: f32) -> [Vec3; 4] {
     [
         Vec3::ZERO,
@@ -202,7 +197,7 @@ fn resting_vertices_among_themselves_are_not_asked_about() {
         .set_moving(Some(&vec![false; positions.len()]))
         .expect("one for each vertex");
     assert_eq!(intersections(&mut detector, &positions), []);
-    // Everything of the first sheet: nothing but that intersects itself.
+    // All triangles of the first sheet: everything else is tested against nothing but the sheet.
     let half: Vec<_> = (0..positions.len()).map(|vertex| vertex < positions.len() / 2).collect();
     detector.set_moving(Some(&half)).expect("one for each vertex");
     assert!(!all.is_empty() && intersections(&mut detector, &positions) == all);

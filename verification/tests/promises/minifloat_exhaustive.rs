@@ -1,13 +1,13 @@
-//! The certified filter on numbers of 4 to 9 significant bits, in every floating-point environment: every input of a grid, none
-//! left out.
+//! The certified filter on numbers of 4 to 9 significant bits, in every floating-point environment, on every input of a grid.
 //!
-//! # What is proven for which precision
-//! The constants 16u and 20u cover 7 and 9 roundings of 2u each, as there are in any direction. That takes u ≤ 2⁻⁸ for k₀ and k₃,
-//! u ≤ 2⁻⁹ for 3k₁ and 3k₂; those by magnitudes, 96u and 384u, are proven for u ≤ 2⁻¹⁰. To nearest, where a rounding is u at most,
-//! 16u and 20u suffice from u ≤ 2⁻⁵ on. [`the_constants_suffice_for_the_precisions_that_are_documented`] recomputes it; `f32` has
-//! u = 2⁻²⁴. Hence 5 or 6 bits to nearest, and 9 bits in the other environments.
+//! # Proven precisions
+//! The constants 16u and 20u cover 7 and 9 roundings of 2u each, as any direction may have. That requires u ≤ 2⁻⁸ for k₀ and k₃,
+//! and u ≤ 2⁻⁹ for 3k₁ and 3k₂. Those by magnitudes, 96u and 384u, are proven for u ≤ 2⁻¹⁰. To nearest, where a rounding is at
+//! most u, 16u and 20u suffice for u ≤ 2⁻⁵. [`the_constants_suffice_for_the_precisions_that_are_documented`] recomputes this;
+//! `f32` has u = 2⁻²⁴. So the grids have 5 or 6 bits to nearest, and 9 bits in the other environments.
 //!
-//! No input here has a wrong sign. The tests assert how close the grids come, so that constants cut to a fraction would be seen.
+//! No input may have a wrong sign. The tests also assert how close the grids come to the bounds, so they would detect constants
+//! that are a fraction of these.
 
 use rug::{Rational, ops::Pow};
 use selvedge_core::verification::coplanarity::MovingTetrahedron;
@@ -17,7 +17,7 @@ use selvedge_verification::minifloat::{DOWNWARD, FLUSHING, Minifloat, TO_NEAREST
 /// A moving tetrahedron by the points a, b, c, p at times 0 and 1.
 type Points<T> = [[[T; 3]; 2]; 4];
 
-/// From the definition, in whole numbers: one of k₀, 3k₁, 3k₂, k₃ times a power of two.
+/// Returns one of k₀, 3k₁, 3k₂, k₃ times a power of two, from the definition, in integers.
 fn exact_control_value<const E: u32, const F: u32, const ENVIRONMENT: u32>(
     points: &Points<Minifloat<E, F, ENVIRONMENT>>,
     k: usize,
@@ -46,19 +46,19 @@ fn tetrahedron<const E: u32, const F: u32, const ENVIRONMENT: u32>(
     MovingTetrahedron::from_points(at(0), at(1))
 }
 
-/// What was seen on a grid.
+/// The findings on a grid.
 #[derive(Debug, Default)]
 struct Seen {
     inputs: u64,
     culled: u64,
-    /// Values beyond their bound, of those looked at.
+    /// The number of values beyond their bound.
     certain: u64,
-    /// The largest computed value, over its bound, whose exact value is zero or of the other sign.
+    /// The largest ratio of a computed value to its bound if the exact value is zero or has the other sign.
     worst: f64,
 }
 
 impl Seen {
-    /// Looks at one input, and at the signs of its control values `which`.
+    /// Examines one input, and the signs of its control values `which`.
     fn look<const E: u32, const F: u32, const ENVIRONMENT: u32>(
         &mut self,
         points: &Points<Minifloat<E, F, ENVIRONMENT>>,
@@ -97,7 +97,7 @@ fn numbers<const E: u32, const F: u32, const ENVIRONMENT: u32, const N: usize>(
     })
 }
 
-/// k₀ of every tetrahedron at rest with all twelve coordinates on the grid.
+/// Returns k₀ of every tetrahedron at rest with all twelve coordinates on the grid.
 fn at_rest<const E: u32, const F: u32, const ENVIRONMENT: u32>(grid: &[Minifloat<E, F, ENVIRONMENT>]) -> Seen {
     let mut seen = Seen::default();
     every::<_, 12>(grid, |coordinates| {
@@ -133,7 +133,7 @@ fn every_tetrahedron_on_a_grid_of_tiny_values_with_5_bits() {
     assert!(seen.worst > 0.01, "{seen:?}");
 }
 
-/// `worst`: how close an input must come.
+/// `worst` is how close an input must come.
 fn every_tetrahedron_with_9_bits<const ENVIRONMENT: u32>(grid: [f64; 3], worst: f64) {
     let seen = at_rest::<5, 8, ENVIRONMENT>(&numbers(grid));
     assert!(seen.culled > 0 && seen.worst > worst, "{seen:?}");
@@ -157,8 +157,8 @@ fn every_tetrahedron_on_a_grid_of_tiny_values_with_9_bits_where_they_are_flushed
     every_tetrahedron_with_9_bits::<{ TOWARDS_ZERO | FLUSHING }>(grid, 0.001);
 }
 
-/// The filter on every motion whose ends are among `ends`: k₀ and k₃ depend on one end each, so only ends whose own value is
-/// beyond its bound can be part of a culled one, and all pairs of those are tried.
+/// Runs the filter on every motion whose ends are among `ends`. k₀ and k₃ depend on one end each. So only ends whose own value is
+/// beyond its bound can be part of a culled motion, and all pairs of those are tried.
 fn every_motion_between<const E: u32, const F: u32, const ENVIRONMENT: u32>(
     ends: &[[[Minifloat<E, F, ENVIRONMENT>; 3]; 4]],
 ) -> Seen {
@@ -230,15 +230,15 @@ fn every_middle_control_value_on_grids_of_two_values_with_6_bits() {
     }
 }
 
-/// (1 + x)^n.
+/// Returns (1 + x)^n.
 fn power(x: &Rational, n: u32) -> Rational {
     (Rational::from(x) + 1_u32).pow(n)
 }
 
 #[test]
 fn the_constants_suffice_for_the_precisions_that_are_documented() {
-    // Whether `constant`·u, less `lost` roundings, covers `count` monomials of `roundings` roundings each, `per_rounding` the most
-    // that one rounding does, `more` of them in the computed magnitudes.
+    // Returns whether `constant`·u, less `lost` roundings, covers `count` monomials of `roundings` roundings each. `per_rounding`
+    // is the largest error of one rounding, and `more` is the number of roundings in the computed magnitudes.
     let covers = |u: &Rational, per_rounding: u32, [constant, lost, count, roundings, more]: [u32; 5]| {
         let rounding = Rational::from(u * per_rounding);
         let down = Rational::from(-&rounding);

@@ -1,5 +1,4 @@
-//! The broad phase of moving boxes against its definition, on small meshes of every unpleasant kind and on a late step of the
-//! arm.
+//! The broad phase of moving boxes against its definition, on small degenerate meshes and on a late step of a bending tube.
 
 use proptest::prelude::*;
 use selvedge::PairKind::{self, EdgeEdge, VertexFace};
@@ -9,8 +8,7 @@ use selvedge::broad_phase::MovingBroadPhase;
 use selvedge::glam::DVec3;
 use selvedge::simd::available_levels;
 use selvedge_core::Scalar;
-use selvedge_laboratory::scene::ArmScene;
-use selvedge_verification::generator::{Format, MeshCase, PairCase, check, meshes};
+use selvedge_verification::generator::{BendingTube, Format, MeshCase, PairCase, check, meshes};
 use selvedge_verification::oracle::within;
 use std::cell::Cell;
 use std::collections::BTreeSet;
@@ -35,7 +33,7 @@ fn update<S: Format>(broad_phase: &mut MovingBroadPhase, mesh: &MeshCase<S>) {
     result.expect("finite positions, one for each vertex");
 }
 
-/// Every pair without a common vertex, by definition; vertices without a triangle are not part of the surface.
+/// Returns every pair without a common vertex, by definition. Vertices without a triangle are not part of the surface.
 fn all_pairs(topology: &Topology) -> BTreeSet<MeshPair> {
     let mut pairs = BTreeSet::new();
     for vertex in 0..topology.vertex_count() as u32 {
@@ -56,7 +54,7 @@ fn all_pairs(topology: &Topology) -> BTreeSet<MeshPair> {
     pairs
 }
 
-/// Whether, along one axis, all of one primitive is above all of the other at the ends given, in one order.
+/// Returns whether, along one axis, all of one primitive is above all of the other at the given ends, in one order.
 fn keeps_order<S: Format>(pair: &PairCase<S>, above: impl Fn([S; 2], [S; 2]) -> bool) -> bool {
     let [one, other] = pair.sets();
     (0..3).any(|axis| {
@@ -72,7 +70,7 @@ fn is_f32<S: Format>(mesh: &MeshCase<S>) -> bool {
     numbers.copied().all(|x| f32::from_f64(x.to_f64()).to_f64() == x.to_f64())
 }
 
-/// A mesh near the origin for its size: where positions are not taken from its middle.
+/// Returns whether a mesh is near the origin for its size. Then positions are not taken relative to its middle.
 fn is_near_origin<S: Format>(mesh: &MeshCase<S>) -> bool {
     (0..3).all(|axis| {
         let numbers = || mesh.positions.iter().flatten().map(|x| x[axis].to_f64());
@@ -139,8 +137,7 @@ fn candidates_far_from_the_origin_lack_none_of_the_definition() {
     });
 }
 
-/// Positions that are moved by whole numbers, and lose nothing by it, leave the same pairs: `f32` does not waste its digits on
-/// where the mesh is.
+/// Positions that are moved by integers without rounding leave the same pairs: `f32` spends no digits on the place of the mesh.
 #[test]
 fn an_exact_translation_leaves_the_same_candidates() {
     let compared = Cell::new(0);
@@ -155,7 +152,7 @@ fn an_exact_translation_leaves_the_same_candidates() {
                 let found = candidates(&mut updated(mesh));
                 found.into_iter().collect::<BTreeSet<_>>()
             });
-            // The middle of the mesh may have more digits than `f32` has left: a few pairs more, none less.
+            // The middle of the mesh may have more digits than `f32`: then there are a few pairs more, but none less.
             prop_assert!(far.is_superset(&near));
             prop_assert!(far.len() <= near.len() + near.len() / 4 + 8);
         }
@@ -164,7 +161,7 @@ fn an_exact_translation_leaves_the_same_candidates() {
     assert!(compared.get() > 50, "{compared:?}");
 }
 
-/// Against the exact oracle, with a separation of the size of the mesh or far smaller.
+/// Compares with the exact oracle, with a separation of the size of the mesh or far smaller.
 fn no_pair_that_comes_within_the_separation_is_lost<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
     let topology = mesh.topology();
     let mut broad_phase = MovingBroadPhase::new(topology.clone());
@@ -183,15 +180,12 @@ fn no_pair_that_comes_within_the_separation_is_lost<S: Format>(mesh: &MeshCase<S
     Ok(())
 }
 
-#[test]
-fn no_pair_that_comes_within_the_separation_is_lost_f64() {
-    check(60, meshes::<f64>(), no_pair_that_comes_within_the_separation_is_lost);
-}
-
-#[test]
-fn no_pair_that_comes_within_the_separation_is_lost_f32() {
-    check(60, meshes::<f32>(), no_pair_that_comes_within_the_separation_is_lost);
-}
+property!(
+    no_pair_that_comes_within_the_separation_is_lost,
+    60,
+    meshes(),
+    |mesh: MeshCase| no_pair_that_comes_within_the_separation_is_lost(mesh)
+);
 
 #[test]
 fn a_separation_widens_boxes_by_no_more_than_it_has_to() {
@@ -211,7 +205,7 @@ fn a_separation_widens_boxes_by_no_more_than_it_has_to() {
         let refused = broad_phase.set_separation(bad);
         assert!(matches!(refused, Err(StepError::BadLimit { .. })), "{bad}");
     }
-    // It is as it was.
+    // It is unchanged.
     update(&mut broad_phase, &mesh);
     assert_eq!(candidates(&mut broad_phase).len(), 15);
 }
@@ -233,7 +227,7 @@ fn frames_of_the_wrong_length_and_what_is_not_finite_are_errors() {
 }
 
 fn arm(refinement: u32, frame: usize) -> (Topology, [Vec<DVec3>; 2]) {
-    let scene = ArmScene::new(refinement).expect("a refinement in range");
+    let scene = BendingTube::new(refinement);
     let frames = [frame, frame + 1].map(|frame| scene.frame(frame));
     (scene.topology().clone(), frames)
 }
@@ -263,14 +257,14 @@ fn instruction_sets_and_threads_change_nothing() {
     }
 }
 
-/// Triangles that change places: the hierarchies come apart, are built anew, and then cost what they would have at first. The
-/// candidates are right all along.
+/// Triangles that change places: the hierarchies degrade, are built again, and then cost as much as at first. The candidates are
+/// right throughout.
 #[test]
 fn degraded_hierarchies_are_built_anew() {
     const SIDE: usize = 60;
     let triangles = (0..3600).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
     let topology = Topology::new(3 * SIDE * SIDE, triangles).expect("indices are in range");
-    // A grid of triangles that overlap their neighbours; the one at each place is that of another number.
+    // A grid of triangles that overlap their neighbours. The triangle at each place changes its number.
     let frame = |step: usize| -> Vec<DVec3> {
         let corners = |triangle: usize| {
             let place = triangle * step % (SIDE * SIDE);

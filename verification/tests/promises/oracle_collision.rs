@@ -1,4 +1,4 @@
-//! Contact and separation of primitive pairs in motion, against clipping and against stepping.
+//! The oracle's contacts and separations of primitive pairs in motion, against clipping and against stepping.
 
 use crate::support::distance::{SLACK, advance, distance};
 use crate::support::{at, common_part};
@@ -16,7 +16,7 @@ fn pair_of(coordinate: impl Strategy<Value = f64> + Clone) -> impl Strategy<Valu
     (kind(), positions(), positions()).prop_map(|(kind, start, end)| Pair { kind, start, end })
 }
 
-/// Few values: every degeneracy is common.
+/// Uses few values, so that every degeneracy is common.
 fn grid_pair() -> impl Strategy<Value = Pair> {
     pair_of((-1..=1).prop_map(f64::from).boxed())
 }
@@ -38,7 +38,7 @@ fn straight_pair() -> impl Strategy<Value = Pair> {
     })
 }
 
-/// Grid values, some of them an ulp off, tiny or huge.
+/// Grid values; some are one unit in the last place off, tiny or huge.
 fn rough_pair() -> impl Strategy<Value = Pair> {
     let whole = (-2..=2).prop_map(f64::from);
     let coordinate = prop_oneof![
@@ -56,7 +56,7 @@ fn any_pair() -> impl Strategy<Value = Pair> {
     prop_oneof![3 => grid_pair(), 1 => flat_pair(), 1 => straight_pair(), 2 => rough_pair()]
 }
 
-/// Contact at a rational time, found by construction instead of signs.
+/// Decides contact at a rational time by construction instead of signs.
 fn touches_by_clipping(pair: &Pair, t: &Rational) -> bool {
     let points: Vec<_> = (0..4).map(|i| at(pair.start[i], pair.end[i], t)).collect();
     let (first, second) = points.split_at(match pair.kind {
@@ -66,7 +66,7 @@ fn touches_by_clipping(pair: &Pair, t: &Rational) -> bool {
     !common_part(first, second).is_empty()
 }
 
-/// All times of the step with a denominator of at most 8.
+/// Returns all times of the step with a denominator of at most 8.
 fn sample_times() -> Vec<Rational> {
     let mut times: Vec<_> = (1..=8).flat_map(|q| (0..=q).map(move |p| Rational::from((p, q)))).collect();
     times.sort();
@@ -74,7 +74,8 @@ fn sample_times() -> Vec<Rational> {
     times
 }
 
-/// The sampled contacts are found, none of them before the reported time, and what is reported is one.
+/// Checks that the sampled contacts are found, that none of them is before the reported time, and that there is a contact at that
+/// time.
 fn check_against_clipping(pair: &Pair) -> Result<(), TestCaseError> {
     let earliest = collides(pair);
     for t in sample_times() {
@@ -91,7 +92,7 @@ fn check_against_clipping(pair: &Pair) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// The earliest time is where stepping ends.
+/// Checks that the earliest time is where stepping ends.
 fn check_against_stepping(pair: &Pair) -> Result<(), TestCaseError> {
     let stepped = advance(pair, 0.0);
     match collides(pair) {
@@ -99,8 +100,7 @@ fn check_against_stepping(pair: &Pair) -> Result<(), TestCaseError> {
         Some(mut time) => {
             let t = time.to_f64_down();
             prop_assert!(distance(pair, t) < 1e-12, "no contact at t = {}", t);
-            // The slack is met earlier than contact; earlier by its cube root in the
-            // slowest approach there is, that of a triple root.
+            // The slack is reached earlier than contact, by its cube root in the slowest approach, that of a triple root.
             let before = stepped.map(|s| t - s);
             prop_assert!(before.is_some_and(|b| (-1e-12..5e-3).contains(&b)), "{:?}", before);
             time.refine(100);
@@ -189,7 +189,7 @@ proptest! {
         if let Some(time) = first.as_rational() {
             prop_assert!(within_at(&pair, time, separation));
         }
-        // Not before: at three times, the last as close as can be.
+        // There is no earlier contact: tested at three times, the last as close as possible.
         let just_before = first.to_f64_down().next_down();
         for time in [just_before, 0.75 * just_before, 0.0] {
             if time >= 0.0 && first.cmp_f64(time).is_gt() {
@@ -231,7 +231,7 @@ proptest! {
 
     #[test]
     fn earliest_contact_does_not_depend_on_the_unit_of_length(pair in grid_pair(), power in -1074..1023) {
-        // In two factors, for neither of them is subnormal.
+        // Uses two factors, neither of which is subnormal.
         let unit = 2_f64.powi(power / 2) * 2_f64.powi(power - power / 2);
         let scale = |points: &[[f64; 3]; 4]| points.map(|p| p.map(|x| x * unit));
         let other = Pair { kind: pair.kind, start: scale(&pair.start), end: scale(&pair.end) };

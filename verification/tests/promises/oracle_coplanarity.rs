@@ -7,7 +7,7 @@ use std::cmp::Ordering;
 
 type Positions = [[f64; 3]; 4];
 
-/// The sign of `a + b·√d`, `d ≥ 0`.
+/// Returns the sign of `a + b·√d`, `d ≥ 0`.
 fn sign(a: i128, b: i128, d: i128) -> Ordering {
     let root = if d == 0 { Ordering::Equal } else { b.cmp(&0) };
     match a.cmp(&0) {
@@ -21,9 +21,8 @@ fn sign(a: i128, b: i128, d: i128) -> Ordering {
     }
 }
 
-/// The volume is continuous: it has a zero in [0, 1] exactly if its extremes there do not have the
-/// same strict sign. They are at the ends or where the derivative, a quadratic, is zero. The
-/// coefficients come from the volumes at four times.
+/// The volume is continuous, so it has a zero in [0, 1] exactly if its extremes there do not have the same strict sign. The
+/// extremes are at the ends or where the derivative, a quadratic, is zero. The coefficients come from the volumes at four times.
 fn by_extremes(start: &[[i32; 3]; 4], end: &[[i32; 3]; 4]) -> bool {
     let volume = |t: i32| -> i128 {
         let at = |i: usize, axis: usize| {
@@ -86,7 +85,7 @@ proptest! {
     }
 }
 
-/// A tetrahedron over a fixed face, its apex at height `from` and then `to`.
+/// A tetrahedron over a fixed face, with its apex at height `from` and then `to`.
 fn apex_moves(from: f64, to: f64) -> bool {
     let face = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     let with_apex = |z| [face[0], face[1], face[2], [0.25, 0.25, z]];

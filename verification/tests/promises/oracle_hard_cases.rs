@@ -114,7 +114,7 @@ fn face_collapses_onto_the_vertex_in_one_instant() {
     let with = |face: [[f64; 3]; 3]| [[0.0; 3], face[0], face[1], face[2]];
     // The volume is (1 − 2t)³: a triple root.
     contact_at(&vertex_face(with(opened), with(turned)), 1, 2);
-    // The face stops just before it.
+    // The face stops just before the vertex.
     let almost = opened.map(|p| p.map(|x: f64| x * 5e-324));
     no_contact(&vertex_face(with(opened), with(almost)));
 }
@@ -188,7 +188,7 @@ fn irrational() -> Pair {
 fn irrational_times_are_known_to_any_precision() {
     let mut time = collides(&irrational()).expect("a contact");
     assert_eq!(time.as_rational(), None);
-    // 1/√2 rounds to the constant; the true value is above it or below.
+    // 1/√2 rounds to the constant, and the true value is above it or below.
     let rounded = Rational::from_f64(FRAC_1_SQRT_2).expect("finite");
     let below = Rational::from(rounded.square_ref()) < Rational::from((1, 2));
     let expected = if below { FRAC_1_SQRT_2 } else { FRAC_1_SQRT_2.next_down() };
@@ -212,9 +212,8 @@ fn times_have_the_order_of_their_numbers() {
     assert_eq!(sorted, [half, root, three_quarters]);
 }
 
-/// Found by a property test, which never came back: two edges in one plane, of which one comes down from the largest number. The
-/// times that are compared lie next to one another at the end of the step, and of one the next bits were sought one by one while
-/// those of the other doubled each time.
+/// A case on which the oracle did not end: two edges in one plane, of which one comes down from the largest number. The times
+/// that are compared are next to each other at the end of the step. One added its bits one by one while the other doubled them.
 #[test]
 fn times_next_to_one_another_at_the_end_of_the_step_are_told_apart() {
     let (x, y, z) = (-9_007_199_254_740_967.0, 4_503_599_627_370_484.0, -9_007_199_254_740_967.0);

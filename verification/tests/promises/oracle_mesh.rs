@@ -1,4 +1,4 @@
-//! Triangle intersections at rest, against clipping.
+//! The oracle's triangle intersections at rest, against clipping.
 
 use crate::support::{common_part, contains, point};
 use proptest::prelude::*;
@@ -8,7 +8,7 @@ use selvedge_verification::oracle::{
 
 type Triangle = [[f64; 3]; 3];
 
-/// Is the common part more than the hull of the shared corners?
+/// Returns whether the common part is more than the hull of the shared corners.
 fn by_clipping(a: &Triangle, b: &Triangle, shared: &[[usize; 2]]) -> bool {
     let corners = common_part(&a.map(point), &b.map(point));
     let simplex: Vec<_> = shared.iter().map(|&[i, _]| point(a[i])).collect();
@@ -23,7 +23,7 @@ fn triangle() -> impl Strategy<Value = Triangle> {
     prop::array::uniform3(grid_point())
 }
 
-/// Every way to share none, one, two or three corners.
+/// Returns every way to share no, one, two or three corners.
 fn shared() -> impl Strategy<Value = Vec<[usize; 2]>> {
     let corners = || Just([0, 1, 2]).prop_shuffle();
     (corners(), corners(), 0..=3_usize).prop_map(|(a, b, count)| a.into_iter().zip(b).take(count).map(|(i, j)| [i, j]).collect())
@@ -55,7 +55,7 @@ proptest! {
         );
     }
 
-    /// Touching, coplanar, an ulp beside it; large, small, and beyond the range of signs.
+    /// Triangles that touch, are coplanar, or are one unit in the last place off; large, small, and beyond the range of signs.
     #[test]
     fn signs_of_volumes_agree_with_integers_wherever_they_answer(
         a in triangle(), mut b in triangle(), shared in shared(),

@@ -1,4 +1,4 @@
-//! On arcs and polylines: places, deviations and times of impact against numbers of 256 bits, which stand for exact ones.
+//! On arcs and polylines: positions, deviations and times of impact against numbers of 256 bits, which stand for exact ones.
 
 use crate::support::environment::Environment;
 use crate::support::geometry::Truth;
@@ -56,14 +56,14 @@ fn distance(a: &Place, b: &Place) -> Float {
     dot(&way, &way).sqrt()
 }
 
-/// A screw motion at a time, in so many bits.
+/// The pose of a body in screw motion at a time.
 struct Pose {
-    /// Of length one.
+    /// The axis, of length one.
     axis: Place,
     sine: Float,
     cosine: Float,
     centre: Place,
-    /// Where the centre is then.
+    /// The place of the centre at that time.
     moved: Place,
     translation: Place,
     /// The axis times the angle.
@@ -88,7 +88,7 @@ impl Pose {
         }
     }
 
-    /// Turned about the axis by the angle of this sine.
+    /// Rotates a vector about the axis by the angle of this sine.
     fn turned(&self, way: &Place, sine: &Float) -> Place {
         let along = times(&self.axis, &dot(&self.axis, way));
         let across = minus(way, &along);
@@ -100,28 +100,28 @@ impl Pose {
         self.turned(&minus(&place(start), &self.centre), &self.sine)
     }
 
-    /// Where the point is that started there.
+    /// Returns where the point is that started at `start`.
     fn at(&self, start: DVec3) -> Place {
         plus(&self.moved, &self.turned_from(start))
     }
 
-    /// How fast that point moves.
+    /// Returns the velocity of that point.
     fn velocity(&self, start: DVec3) -> Place {
         plus(&self.translation, &cross(&self.spin, &self.turned_from(start)))
     }
 
-    /// Where a point starts that is there; rounded.
+    /// Returns the start of a point that is `there`, rounded.
     fn start_of(&self, there: &Place) -> DVec3 {
         let back = self.turned(&minus(there, &self.moved), &-self.sine.clone());
         DVec3::from_array(plus(&self.centre, &back).map(|x| x.to_f64()))
     }
 }
 
-/// A motion and points of its body.
+/// Two motions, and points of the bodies.
 #[derive(Clone, Debug)]
 struct Turning {
     turns: [Screw; 2],
-    /// Near the centre of the first.
+    /// The points, near the centre of the first body.
     points: [DVec3; 4],
     time: f64,
 }
@@ -179,7 +179,7 @@ fn is_as_told(moment: &Moment, (position, velocity): &(Place, Place)) -> Result<
     Ok(())
 }
 
-/// On a straight way, and from knot to knot: at a knot with the velocity of the way that leads there.
+/// On a straight path and on a polyline. At a knot the velocity is that of the piece that leads there.
 #[test]
 fn a_point_on_straight_pieces_is_where_it_is_said_to_be_and_as_fast() {
     check(300, turning(), |case| {
@@ -211,14 +211,14 @@ fn a_point_on_straight_pieces_is_where_it_is_said_to_be_and_as_fast() {
     });
 }
 
-/// How far a point is from the straight motion, at times in between.
+/// Checks the deviation of a point from the straight motion, at times in between.
 fn deviates(piece: &Piece, [from, to]: [f64; 2], at: impl Fn(f64) -> Place) -> Result<(), TestCaseError> {
     for share in [0.0, 0.1, 0.5, 0.77, 1.0] {
         let time = from + (to - from) * share;
         if time > to {
             continue;
         }
-        // The share that this time truly is.
+        // The exact share of the time.
         let share = (float(time) - float(from)) / (float(to) - float(from));
         let rest = float(1.0) - &share;
         let straight = plus(
@@ -263,24 +263,24 @@ fn no_path_deviates_farther_from_its_straight_pieces_than_is_said() {
     });
 }
 
-/// Where the points of two sets start, one on each body, that touch at the case's time but for the rounding of where they start.
+/// Returns the starts of two sets of points, one on each body, that touch at the case's time up to the rounding of the starts.
 fn sides_that_touch(case: &Turning, kind: PairKind) -> [Vec<DVec3>; 2] {
     let [first, second] = case.turns.each_ref().map(|turn| Pose::of(turn, case.time));
-    // On the first body, at the time: a vertex in the middle of a face, or two edges that cross.
+    // The positions at the time, on the first body: a vertex in the middle of a face, or two edges that cross.
     let [a, b, c, d] = case.points;
     let there = |point: DVec3| first.at(point);
     let middle = |points: &[DVec3]| points.iter().sum::<DVec3>() / points.len() as f64;
     let (own, other) = match kind {
         PairKind::VertexFace => (vec![middle(&[b, c, d])], vec![b, c, d]),
-        // The second edge goes through the middle of the first.
+        // The second edge passes through the middle of the first.
         PairKind::EdgeEdge => (vec![a, b], vec![c, middle(&[a, b]) * 2.0 - c]),
     };
     let starts = other.iter().map(|&point| second.start_of(&there(point)));
     [own, starts.collect()]
 }
 
-/// Two bodies in screw motion, each with one set, that touch at a time by construction, but for the rounding of where they start: the time of
-/// impact is no later, at any separation that is more than this rounding.
+/// Two bodies in screw motion, each with one set, touch at a time by construction, up to the rounding of the starts. The time of
+/// impact is no later, for any separation that exceeds this rounding.
 fn contacts_are_found(case: &Turning, count: &Cell<[usize; 2]>) -> Result<(), TestCaseError> {
     let [first, second] = &case.turns;
     for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
@@ -312,8 +312,8 @@ fn contacts_are_found(case: &Turning, count: &Cell<[usize; 2]>) -> Result<(), Te
     Ok(())
 }
 
-/// At the time of impact of a pair as above, and at any other: everything that is promised of its geometry. How often there was a normal when
-/// bodies that begin apart meet.
+/// Checks the promises about the geometry of such a pair at its time of impact, and at any other time. Counts the normals of
+/// bodies that begin apart and meet.
 fn geometry_is_kept(case: &Turning, environment: Environment, count: &Cell<[usize; 2]>) -> Result<(), TestCaseError> {
     let motions = case.turns.each_ref().map(Screw::motion);
     for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
@@ -349,7 +349,7 @@ fn geometry_is_kept(case: &Turning, environment: Environment, count: &Cell<[usiz
             let from_first = velocities.iter().flat_map(|velocity| velocity.iter().zip(&velocities[0]));
             let of_speed = from_first.map(|(own, first)| Rational::from(own - first).abs()).max();
             let largest = at(time).into_iter().flatten().map(Rational::abs).max();
-            // The widening, which errors of moments that are asked for in another direction of rounding differ by, is 16u of them.
+            // Errors in another rounding direction may differ by 16u of the moments, and the widening covers that.
             let wider = 1.0 + 1e-12;
             let truth = Truth {
                 kind,
@@ -386,7 +386,6 @@ fn geometry_of_bodies_in_screw_motion_is_enclosed() {
     assert!(all > 200 && 10 * with > 9 * all, "{with} of {all}");
 }
 
-/// 117,000 cases, in both kinds, were looked at with `PROPTEST_CASES=20000`.
 #[test]
 fn no_contact_of_bodies_in_screw_motion_is_missed() {
     let count = Cell::new([0; 2]);
@@ -395,16 +394,16 @@ fn no_contact_of_bodies_in_screw_motion_is_missed() {
     assert!(all > 2_000 && 10 * late > all, "{late} of {all}");
 }
 
-/// The case that parry's issue 317 stands for: a plank that spins fast hits a box beside it, though it is clear of it when the step begins and
-/// when it ends, and would be on the straight ways of its corners.
+/// The case of parry's issue 317: a plank that spins fast hits a box beside it. The plank is clear of the box when the step
+/// begins and when it ends, and would be on the straight paths of its corners.
 #[test]
 fn a_plank_that_spins_hits_the_box_beside_it() {
-    // From along the x axis, by half a turn, so that its ends change places and its straight ways lead through the middle.
+    // Half a turn from the x axis, so that the ends of the plank change places and its straight paths lead through the middle.
     let plank = RigidMotion::new(DVec3::ZERO, DVec3::Z, PI, DVec3::ZERO).expect("numbers in range");
     let tip = [DVec3::new(2.0, -0.1, 0.0), DVec3::new(2.0, 0.1, 0.0)].map(|corner| plank.path(corner));
     let post = [DVec3::new(0.0, 1.5, -1.0), DVec3::new(0.0, 1.5, 1.0)].map(Motion::resting);
     let side = plank.path(DVec3::new(-2.0, -0.1, 0.0));
-    // The long side that leads comes to the post when the plank is nearly upright.
+    // The leading long side reaches the post when the plank is nearly upright.
     let paths: [&dyn Path; 4] = [&side, &tip[0], &post[0], &post[1]];
     let limits = Limits::default();
     let edges = time_of_impact(PairKind::EdgeEdge, paths, &limits);
@@ -419,7 +418,7 @@ fn a_plank_that_spins_hits_the_box_beside_it() {
     let exact = angle / PI;
     let time = edges.time().expect("a contact");
     assert!(time <= exact && time > exact - 1e-7, "{time}, {exact}");
-    // On straight ways it goes through the axis of the plank, far from the post.
+    // On straight paths it passes through the axis of the plank, far from the post.
     let ends = |path: &Arc| Motion::<f64>::new(path.at(0.0), path.at(1.0));
     let straight = [ends(&side), ends(&tip[0]), post[0], post[1]];
     let straight: [&dyn Path; 4] = [&straight[0], &straight[1], &straight[2], &straight[3]];

@@ -11,8 +11,8 @@ fn to_the_end(ways: Ways, cases: u64, threads: usize) -> Progress {
 fn no_time_of_impact_on_arcs_is_late_and_most_are_sharp() {
     let progress = to_the_end(Ways::Arcs, 20_000, 2);
     assert_eq!(progress.found.wrong(), 0, "{progress}");
-    for tally in &progress.found.tallies {
-        assert!(tally.cases > 8_000 && 2 * tally.sharp > tally.cases, "{progress}");
+    for counts in &progress.found.counts {
+        assert!(counts.cases > 8_000 && 2 * counts.sharp > counts.cases, "{progress}");
     }
 }
 
@@ -20,7 +20,7 @@ fn no_time_of_impact_on_arcs_is_late_and_most_are_sharp() {
 fn misses_on_chords_are_found_and_shown() {
     let progress = to_the_end(Ways::Chords, 2_000, 1);
     assert!(progress.found.wrong() > 500, "{progress}");
-    assert!(progress.to_string().contains("missed, in chunk 0:\ntold"), "{progress}");
+    assert!(progress.to_string().contains("missed, in chunk 0:\nfound"), "{progress}");
 }
 
 #[test]

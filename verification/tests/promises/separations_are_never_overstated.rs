@@ -1,6 +1,6 @@
-//! What a caller relies on for several steps is never overstated: the gap along a direction, what a pair keeps though its points stray,
-//! how far they have strayed, boxes with a separation, lengths and times in fewer digits; and how wide neighbours are open. In every
-//! floating-point environment.
+//! Bounds on which a caller relies for several steps are never overstated: the gap along a direction, the distance that a pair
+//! keeps although its points stray, how far they have strayed, boxes with a separation, lengths and times in fewer digits, and
+//! how wide neighbours are open. This holds in every floating-point environment.
 
 use crate::support::environment::Environment;
 use crate::support::point;
@@ -50,7 +50,7 @@ fn questions<S: Format>() -> impl Strategy<Value = Question<S>> + Clone {
     })
 }
 
-/// The four points at the start and at the end.
+/// Returns the four points at the start and at the end.
 fn ends<S: Format>(pair: &PairCase<S>) -> [[S::Vector; 4]; 2] {
     let motions = pair.motions();
     [motions.map(|motion| motion.start), motions.map(|motion| motion.end)]
@@ -60,7 +60,7 @@ fn error_of<S: Format>(pair: &PairCase<S>) -> GapError<S> {
     GapError::from_largest_coordinate(largest_coordinate(&ends(pair).concat()))
 }
 
-/// Directions between points of the two sets, their normals, and the axes: of length one, or a little more.
+/// Returns directions between points of the two sets, their normals, and the axes, of length one or a little more.
 fn directions<S: Format>(pair: &PairCase<S>) -> Vec<S::Vector> {
     let question = pair.question();
     let middle: [[f64; 3]; 4] =
@@ -85,7 +85,7 @@ fn directions<S: Format>(pair: &PairCase<S>) -> Vec<S::Vector> {
     units.flat_map(scaled).map(in_format).collect()
 }
 
-/// The largest number up to which all that are tried are accepted, if zero is.
+/// Returns the largest tried number up to which all are accepted, if zero is.
 fn largest_accepted<S: Format>(accepts: impl Fn(S) -> bool) -> Option<S> {
     if !accepts(S::ZERO) {
         return None;
@@ -102,7 +102,7 @@ fn largest_accepted<S: Format>(accepts: impl Fn(S) -> bool) -> Option<S> {
     Some(S::from_word(low))
 }
 
-/// Whether some direction is said to keep the pair apart, in any way of asking.
+/// Returns whether some direction proves the pair apart, in any form of the query.
 fn is_kept_apart<S: Format>(pair: &PairCase<S>, directions: &[S::Vector], separation: S) -> bool {
     let (kind, error, [start, end]) = (pair.kind, error_of(pair), ends(pair));
     directions.iter().any(|&direction| {
@@ -114,7 +114,7 @@ fn is_kept_apart<S: Format>(pair: &PairCase<S>, directions: &[S::Vector], separa
 }
 
 property!(
-    /// Whatever the direction.
+    /// The clearance holds for any direction.
     nothing_keeps_apart_what_touches,
     800,
     touching_pairs(),
@@ -129,7 +129,7 @@ property!(
     }
 );
 
-/// The largest of what `f` finds in any environment.
+/// Returns the largest result of `f` in any environment.
 fn largest_of_all<S: Format, I>(input: &I, f: impl Fn(&I) -> Option<S>) -> Option<S> {
     let found = Environment::all()
         .into_iter()
@@ -153,7 +153,7 @@ property!(
     }
 );
 
-/// Whether the distance at an end of the step is certainly `bound` or more.
+/// Returns whether the distance at an end of the step is certainly at least `bound`.
 fn is_at_least(pair: &Pair, end: u32, bound: f64) -> bool {
     bound <= 0.0 || !within_at(pair, &Rational::from(end), bound.next_down())
 }
@@ -171,7 +171,7 @@ property!(a_bound_of_the_distance_is_not_above_it, 600, pairs_of_any_kind(), |pa
     });
     let bound = at_start.map_or(0.0, S::to_f64);
     prop_assert!(is_at_least(&question, 0, bound), "{bound}");
-    // What is stored, in `f32`: from one end, from both, and from the one before.
+    // The stored values in `f32`: from one end, from both, and from the one before.
     let at_end = largest_of_all(pair, |pair| {
         let (error, [start, end]) = (error_of(pair), ends(pair));
         let stored = directions.iter().flat_map(|&direction| {
@@ -223,12 +223,12 @@ fn in_double<S: Format>(pair: &PairCase<S>) -> PairCase<f64> {
     PairCase::new(pair.kind, points)
 }
 
-/// Whether the pair is said to keep `distance` though its points stray.
+/// Returns whether the pair is claimed to keep `distance` although its points stray.
 fn is_clear(pair: &PairCase<f64>, distance: f64, stray: f64) -> bool {
     largest_stray(pair, distance) >= stray as f32
 }
 
-/// How far the points of a pair may stray, with its positions rounded to `f32` here.
+/// Returns how far the points of a pair may stray, with its positions rounded to `f32` here.
 fn largest_stray(pair: &PairCase<f64>, distance: f64) -> f32 {
     let [start, end] = ends(pair);
     let largest = largest_coordinate(&[start, end].concat());
@@ -236,7 +236,7 @@ fn largest_stray(pair: &PairCase<f64>, distance: f64) -> f32 {
     Clearance::new(distance, largest, 0.0).largest_stray(pair.kind, start, end)
 }
 
-/// x + `by`, or the next number nearer to x if that is farther from it.
+/// Returns x + `by`, or the next number nearer to x if that is farther from it.
 fn strayed(x: f64, by: f64) -> f64 {
     let (from, to) = (x, x + by);
     let way = Rational::from_f64(to).expect("finite") - Rational::from_f64(from).expect("finite");
@@ -250,7 +250,7 @@ fn strayed(x: f64, by: f64) -> f64 {
 }
 
 property!(
-    /// Though its points stray towards each other, as far as they may.
+    /// Its points stray towards each other as far as they may.
     a_clear_pair_keeps_its_distance,
     400,
     questions(),
@@ -266,7 +266,7 @@ property!(
 );
 
 property!(
-    /// As far as the clearance says.
+    /// The points stray as far as the clearance allows.
     a_pair_keeps_its_distance_though_its_points_stray_as_far_as_they_may,
     400,
     questions(),
@@ -303,7 +303,7 @@ fn keeps_it_though_strayed(pair: &PairCase<f64>, distance: f64, stray: f64) -> R
     Ok(())
 }
 
-/// A course, and a point that is said to be within its room of it.
+/// A course, and a point that is claimed to be within its room of it.
 #[derive(Clone, Copy, Debug)]
 struct Course<S: Format> {
     origin: S::Vector,
@@ -315,7 +315,7 @@ struct Course<S: Format> {
     position: S::Vector,
 }
 
-/// Of the first two points of a pair: on the first one's way for some steps, then perhaps on the second one's.
+/// The first two points of a pair: on the path of the first for some steps, then perhaps on that of the second.
 fn course_of<S: Format>(question: &Question<S>) -> Option<Course<S>> {
     let [first, second, ..] = question.pair.motions();
     let choice = |bits: u32, count: u32| question.choice >> bits & (count - 1);
@@ -341,7 +341,7 @@ fn course_of<S: Format>(question: &Question<S>) -> Option<Course<S>> {
     let largest = largest_coordinate(&[origin, end]);
     let part = S::from_f64([0.0, 1.0, 100.0, -1.0, -1.7][choice(9, 8) as usize % 5]);
     let is_certain = |stray: S| course::is_certain(course::room(stray, part * stray), largest);
-    // The least that is certain.
+    // The least certain distance.
     let powers = S::MIN_EXPONENT / 2..S::MAX_EXPONENT / 2;
     let stray = powers.map(|power| S::exact(1, power)).find(|&stray| is_certain(stray))?;
     let spare = part * stray;
@@ -422,7 +422,7 @@ fn nobody_has_room_without_numbers_or_after_the_course() {
     assert_eq!(course::time_after(f64::NAN, 0.6, 1.0), None);
 }
 
-/// Boxes of the pair's two sets that are made for `separation` until a time of the step.
+/// Returns boxes of the pair's two sets that are made for `separation` until a time of the step.
 fn boxes<S: Format>(pair: &PairCase<S>, separation: S, until: S) -> [MovingBox<f32>; 2] {
     let mut extent = Aabb::<f64>::empty();
     for position in pair.points.iter().flatten() {
@@ -440,20 +440,20 @@ fn boxes<S: Format>(pair: &PairCase<S>, separation: S, until: S) -> [MovingBox<f
     }
 }
 
-/// Whether boxes show the pair to be apart by more than `separation` until a time of the step.
+/// Returns whether boxes show the pair to be apart by more than `separation` until a time of the step.
 fn are_boxes_apart<S: Format>(pair: &PairCase<S>, separation: S, until: S) -> bool {
     let [first, second] = boxes(pair, separation, until);
     first.is_apart_from(&second)
 }
 
-/// Whether boxes that are made for `separation` show the pair to be apart by more than a smaller one.
+/// Returns whether boxes that are made for `separation` show the pair to be apart by more than a smaller one.
 fn are_drawn_in_boxes_apart<S: Format>(pair: &PairCase<S>, separation: S, smaller: S) -> bool {
     let [first, second] = boxes(pair, separation, S::ONE);
     let inset = Inset::new(separation.to_f64(), smaller.to_f64()).for_bounds(&first);
     first.drawn_in(inset).is_apart_from(&second)
 }
 
-/// The pair until a time, if `f64` has the positions there.
+/// Returns the pair until a time, if `f64` has the positions there.
 fn cut_short(pair: &Pair, until: f64) -> Option<Pair> {
     let mut cut = *pair;
     for k in 0..4 {
@@ -492,7 +492,7 @@ property!(
         let kept = largest_of_all(pair, |pair| {
             largest_accepted(|separation| are_boxes_apart(pair, separation, S::ONE))
         });
-        // From one that the pair keeps to one that boxes of all its points are far within.
+        // From a separation that the pair keeps to one that the boxes of all its points are far within.
         for factor in [0.75, 1.0, 3.0, 300.0] {
             let separation = kept.unwrap_or(S::ONE) * S::from_f64(factor);
             let smaller = largest_of_all(pair, |pair| {
@@ -536,7 +536,7 @@ property!(
     800,
     extraordinary_pairs(),
     |pair| {
-        // One point alone is neither finite nor apart from anything.
+        // A single point is neither finite nor apart from anything.
         for k in 0..4 {
             let mut one = pair.map(S::made_finite);
             one.points[k] = pair.points[k];
@@ -562,7 +562,7 @@ property!(
         let near = Rational::from((1, 1 << 22));
         let least_normal = exact(f32::MIN_POSITIVE.into());
         for value in pair.coordinates().map(|x| x.to_f64().abs()) {
-            // As it is, and as a time of the step.
+            // Unchanged, and as a time of the step.
             for value in [value, value / (1.0 + value), value * 1e-200] {
                 for environment in Environment::all() {
                     let (up, down, same) = environment.run(&value, |&value| {
@@ -607,7 +607,7 @@ property!(
             .next()
             .expect("there are coordinates");
         let nearest = f64::from(value as f32);
-        // About a number of `f32` and half-way to the next, where rounding to nearest changes its mind.
+        // Near a number of `f32` and half-way to the next, where rounding to nearest changes direction.
         let about = [
             value,
             value / (1.0 + value),
@@ -628,7 +628,8 @@ property!(
     }
 );
 
-/// (a·b)(e·e) − (a·e)(b·e) of the ways from the first point to the others, e to the second: less than zero beyond a right angle.
+/// Returns (a·b)(e·e) − (a·e)(b·e) for the vectors from the first point to the others, with e to the second: less than zero
+/// beyond a right angle.
 fn across<S: Format>([v, others @ ..]: [[S; 3]; 4]) -> Rational {
     let exact = |x: S| Rational::from_f64(x.to_f64()).expect("finite");
     let way = |point: [S; 3]| [0, 1, 2].map(|axis| exact(point[axis]) - exact(v[axis]));
@@ -641,7 +642,7 @@ fn only_what_is_beyond_a_right_angle_is_wide_open<S: Format>() {
     let open = std::cell::Cell::new([0; 2]);
     check(1500, pairs_of_any_kind::<S>(), |pair| {
         let points = pair.points.map(|[start, _]| start);
-        // At a right angle, but for rounding: the last corner perpendicular to the first triangle, turned a little.
+        // At a right angle up to rounding: the last corner is perpendicular to the first triangle, turned a little.
         let [v, u, a, _] = points.map(|point| DVec3::from(point.map(S::to_f64)));
         let upright = v + (u - v).cross(a - v).normalize_or_zero() * (a - v).length();
         let turned = upright - (a - v) * f64::from(S::UNIT_ROUNDOFF.to_f64() as f32) * 3.0;
@@ -662,7 +663,7 @@ fn only_what_is_beyond_a_right_angle_is_wide_open<S: Format>() {
         Ok(())
     });
     let [found, all] = open.get();
-    // What is open by a few roundings cannot be told.
+    // An opening of a few roundings cannot be decided.
     assert!(found > 1_000 && all > found, "{found} of {all}");
 }
 

@@ -1,4 +1,4 @@
-//! Every state that a simulation accepts is free of intersections, exactly: cloth with itself and cloth with bodies, ropes included.
+//! Every state that a simulation accepts is exactly free of intersections: of cloth with itself and with bodies, ropes included.
 
 use proptest::prelude::*;
 use selvedge_cloth::effects::{BodyContact, Friction, RopeBend, RopeStretch, SelfCollision, Stretch, Thickness};
@@ -19,13 +19,13 @@ fn load(name: &str, change: impl Fn(String) -> String) -> Simulation {
     Simulation::new(scene, 1).expect("a scene that starts free")
 }
 
-/// Pairs of triangles that intersect, at least one of them cloth: bodies may overlap each other.
+/// Returns pairs of triangles that intersect, at least one of them cloth; bodies may overlap each other.
 fn intersections(simulation: &Simulation) -> Vec<[u32; 2]> {
     let positions: Vec<_> = simulation.positions().iter().map(|p| p.to_array()).collect();
     mesh_intersections(&positions, simulation.triangles(), simulation.cloth_triangles())
 }
 
-/// Looks at every state that is a multiple of `every`; the number of steps that were done.
+/// Checks every state that is a multiple of `every`. Returns the number of steps.
 fn run(simulation: &mut Simulation, steps: u64, every: u64) {
     for step in 1..=steps {
         if let Err(blocked) = simulation.step() {
@@ -92,7 +92,7 @@ fn a_tube_twisted_three_turns_is_free() {
     run(&mut simulation, 2000, 250);
 }
 
-/// Of all steps in which it tears, and of those after which much has come loose.
+/// Checks all steps in which the cloth tears, and the steps after which much has come loose.
 #[test]
 fn a_sheet_that_rips_is_free_in_every_state() {
     let coarser = |text: String| text.replace("cells = [60, 40]", "cells = [30, 20]");
@@ -129,8 +129,9 @@ fn stiffened(text: &str, factor: f64) -> String {
     text.replace("\"10 uN m\"", &(10e-6 * factor).to_string())
 }
 
-/// Coarser, and thicker, so that it is jammed soon: a bundle of which more pairs are not free in a step than it has triangles. Here pins had to
-/// wait in three steps, with 131 cuts, where zones that two pins pull at were relaxed from where they wanted to be: half as many are too many.
+/// Coarser and thicker cloth that jams soon: in one step, more pairs of the bundle are not free than it has triangles. Relaxing
+/// zones that two pins pull at from their wanted positions made pins wait in three steps, with 131 cuts. Half as many are too
+/// many.
 #[test]
 fn stiff_cloth_that_is_jammed_between_pins_is_free_and_does_not_stop_them() {
     let change = |text: String| {
@@ -147,7 +148,7 @@ fn stiff_cloth_that_is_jammed_between_pins_is_free_and_does_not_stop_them() {
     assert!(counts.cuts < 65, "{counts:?}");
 }
 
-/// All of a scene's keyframes, with steps of so many milliseconds and all stiffness times a factor.
+/// Runs all keyframes of a scene, with steps of so many milliseconds and all stiffness times a factor.
 fn whole_scene(name: &str, milliseconds: u64, factor: f64, every: u64) {
     let change = |text: String| stiffened(&text, factor).replace("\"1 ms\"", &format!("\"{milliseconds} ms\""));
     let mut simulation = load(name, change);
@@ -161,7 +162,7 @@ fn whole_scene(name: &str, milliseconds: u64, factor: f64, every: u64) {
             simulation.blocked_steps(),
             simulation.lag()
         );
-        // Whoever is late has been blocked, and the other way round: nothing is made up for.
+        // The clock is late exactly if a step was blocked: lost time is not made up for.
         assert_eq!(simulation.blocked_steps() > 0, simulation.lag() > 0.0);
     }
 }
@@ -188,7 +189,7 @@ fn violent_and_twisted_scenes_in_double_steps_and_with_other_stiffness_are_free(
     }
 }
 
-/// So that the tests above can fail: the same sleeve without the certified effects.
+/// Shows that the tests above can fail: the same sleeve without the certified effects.
 #[test]
 fn without_self_collision_the_sleeve_passes_through_itself() {
     let without = |text: String| text.replace("[effects.self_collision]\nthickness = \"3 mm\"\n", "");
@@ -203,7 +204,7 @@ fn without_self_collision_the_sleeve_passes_through_itself() {
     assert!(crossed > 0);
 }
 
-/// Ropes through these points, thrown as fast as told, at each other, at a sheet and at a ball.
+/// Ropes through these points, thrown at each other, at a sheet and at a ball.
 fn thrown(ropes: &[([DVec3; 3], DVec3)], is_kept: bool) -> Scene {
     let sheet = Cloth::sheet(DVec3::new(-0.1, -0.1, -0.05), [DVec3::X * 0.2, DVec3::Y * 0.2], [6, 6], 0.2);
     let mut scene = Scene::new(sheet.expect("a sheet").named("sheet"), 2e-3);
@@ -232,7 +233,7 @@ fn thrown(ropes: &[([DVec3; 3], DVec3)], is_kept: bool) -> Scene {
     scene
 }
 
-/// How many ways of steps were judged, and what met on them or after them.
+/// The number of paths that were examined, and the intersections on them or after them.
 fn judge(simulation: &mut Simulation, steps: u64) -> (u64, Vec<String>) {
     let (mut judged, mut found) = (0, Vec::new());
     let cuts = |simulation: &Simulation| simulation.contact_counts().map_or(0, |counts| counts.cuts);
@@ -245,7 +246,7 @@ fn judge(simulation: &mut Simulation, steps: u64) -> (u64, Vec<String>) {
         assert!(count < triangles);
         let at_rest = intersections_with_loose_edges(&after, simulation.triangles(), simulation.loose_edges(), count);
         found.extend(at_rest.iter().map(|pair| format!("{pair:?}")));
-        // In parts a way is not straight.
+        // In a step that is cut into parts, a path is not straight.
         if cuts(simulation) == cuts_before {
             judged += 1;
             let on_the_way = edges_that_meet(&before, &after, simulation.loose_edges());
@@ -276,7 +277,7 @@ proptest! {
     }
 }
 
-/// So that the one above can fail.
+/// Shows that the test above can fail.
 #[test]
 fn without_self_collision_ropes_pass_through_each_other() {
     let rope = |axis: DVec3, z: f64, speed: f64| {

@@ -1,5 +1,5 @@
-//! The certified time of impact never misses, is never later than the exact time, is as tight as it says, and takes no
-//! more work than it says; in every floating-point environment.
+//! The certified time of impact never misses, is never later than the exact time, is as tight as documented, and does no more
+//! work than documented, in every floating-point environment.
 
 use crate::support::environment::Environment;
 use proptest::prelude::*;
@@ -13,7 +13,6 @@ use selvedge_core::elementary::{Impact, Limits, Reason};
 use selvedge_core::glam::DVec3;
 use selvedge_core::verification::advance::Work;
 use selvedge_core::{Motion, PrimitivePair, Scalar};
-use selvedge_laboratory::baselines::tight_inclusion;
 use selvedge_verification::generator::{
     Choices, Format, Moment, PairCase, Simplify, check, coplanar_pairs, extraordinary_pairs, from_choices, pairs_of_any_kind,
     touching_pairs,
@@ -40,8 +39,8 @@ impl<S: Format> Question<S> {
         }
     }
 
-    /// Whether the sizes of all numbers are within 2¹⁰⁰ of one another, so that the oracle does not take minutes to tell when
-    /// the pair is first within the separation.
+    /// Returns whether the sizes of all numbers are within 2¹⁰⁰ of one another. Otherwise the oracle may take minutes to find
+    /// when the pair is first within the separation.
     fn is_of_one_size(&self) -> bool {
         let numbers = self.pair.coordinates().chain([self.separation]);
         let sizes = numbers.map(|x| x.to_f64().abs()).filter(|&x| x > 0.0);
@@ -80,8 +79,8 @@ fn answer<S: Format>(pair: &PairCase<S>, tolerance: S, separation: S) -> (Impact
     time_of_impact_and_work(&pair.pair(), &limits)
 }
 
-/// The same question as a caller with many pairs asks it: sweeps of rounds in lanes, then the pair alone from where it is. Three
-/// times the same pair, so that lanes that are not used are there too.
+/// Answers the same question as for many pairs: rounds in lanes, then the pair alone from where it is. The same pair is there
+/// three times, so that there are unused lanes, too.
 fn answer_in_sweeps<S: Format>(pair: &PairCase<S>, tolerance: S, separation: S, level: Level) -> Impact<S> {
     let limits = Limits { tolerance, separation };
     let (kind, rows) = (pair.kind, pair.motions().map(VertexRow::new));
@@ -115,7 +114,7 @@ fn answer_in_sweeps<S: Format>(pair: &PairCase<S>, tolerance: S, separation: S, 
     time_of_impact_within(&pair.pair(), &limits, times[0], S::ONE)
 }
 
-/// The largest difference along an axis between points of the two sets, exactly.
+/// Returns the exact largest difference along an axis between points of the two sets.
 fn extents<S: Format>(pair: &PairCase<S>) -> [Rational; 3] {
     let [first, second] = pair.sets();
     std::array::from_fn(|axis| {
@@ -139,15 +138,15 @@ fn size<S: Format>(pair: &PairCase<S>) -> S {
     if Scalar::is_finite(largest) { largest } else { S::LARGEST }
 }
 
-/// None, or anything from a rounding error of the pair's size to its size.
+/// Chooses no tolerance, or one between a rounding error of the pair's size and its size.
 fn tolerance<S: Format>(pair: &PairCase<S>, choices: &mut Choices<'_>) -> S {
     let precision = S::PRECISION.cast_signed();
     let exponent = choices.pick(&[0, 3, 7, 13, 20, precision, precision + 9]);
     choices.pick(&[S::ZERO, S::ONE]) * size(pair) * S::exact(1, -exponent)
 }
 
-/// Half of the time none; else a part of the pair's size, or exactly how far two of its points are apart along an axis, which
-/// for simple pairs is how close they come.
+/// Chooses no separation half of the time. Else it is a part of the pair's size, or exactly the distance of two of its points
+/// along an axis, which for simple pairs is how close they come.
 fn separation<S: Format>(pair: &PairCase<S>, choices: &mut Choices<'_>) -> S {
     match choices.below(8) {
         0..4 => S::ZERO,
@@ -249,7 +248,7 @@ property!(finds_every_pair_that_touches, 80_000, touching_pairs, |moment| {
     finds_what_touches(moment)
 });
 
-/// The same, computed in every environment that a thread can be in.
+/// The same in every environment of a thread.
 fn finds_what_touches_in_every_environment<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
     let pair = moment.pair();
     let time = moment.time();
@@ -273,7 +272,7 @@ property!(
     |moment| finds_what_touches_in_every_environment(moment)
 );
 
-/// With a separation: the oracle says whether the pair comes that close.
+/// With a separation, the oracle decides whether the pair comes that close.
 fn excludes_only_what_stays_apart<S: Format>(question: &Question<S>) -> Result<(), TestCaseError> {
     let mut excluding = Environment::all();
     excluding.retain(|environment| {
@@ -303,8 +302,8 @@ property!(
     |question| excludes_only_what_stays_apart(question)
 );
 
-/// Found by the test above: where subnormal numbers are taken for zero, a subnormal separation compared as none, and the vertex,
-/// which comes within it of a corner that sinks away from below, was found apart.
+/// Found by the test above: with subnormal numbers flushed, a subnormal separation compared as zero. The vertex comes within it
+/// of a corner that sinks away from below, and was found apart.
 #[test]
 fn a_subnormal_separation_counts_where_subnormal_numbers_are_taken_for_zero() {
     let y = |y: f64| DVec3::new(0.0, y, 0.0);
@@ -323,7 +322,7 @@ fn a_subnormal_separation_counts_where_subnormal_numbers_are_taken_for_zero() {
     }
 }
 
-/// Coplanar at some time: often a contact, often a near miss.
+/// Coplanar at some time, which is often a contact or a near miss.
 fn is_not_late_when_coplanar<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
     let pair = moment.pair();
     is_not_late(&Question {
@@ -337,7 +336,7 @@ property!(is_not_late_for_coplanar_pairs, 12_000, coplanar_pairs, |moment| {
     is_not_late_when_coplanar(moment)
 });
 
-/// What the module's documentation says: δ + s + 64u(δ + s + M_x + M_y + M_z) + 2⁻⁶⁰ or 2⁻⁵⁰⁰.
+/// Returns the documented bound: δ + s + 64u(δ + s + M_x + M_y + M_z) + 2⁻⁶⁰ or 2⁻⁵⁰⁰.
 fn is_tight<S: Format>(question: &Question<S>) -> Result<(), TestCaseError> {
     let Impact::Possible {
         time,
@@ -352,7 +351,7 @@ fn is_tight<S: Format>(question: &Question<S>) -> Result<(), TestCaseError> {
     let sum: Rational = wanted.clone() + x + y + z;
     let rounding = sum * 64 * exact(S::UNIT_ROUNDOFF);
     let vanishing = Rational::from(1) >> if S::NAME == "f32" { 60 } else { 500 };
-    // To a floating-point number, and not below.
+    // Rounds to a floating-point number, and not below.
     let bound: Rational = wanted + rounding + vanishing;
     let bound = bound.to_f64().next_up();
     prop_assert!(
@@ -403,7 +402,7 @@ property!(excludes_nothing_from_bad_input, 20_000, extraordinary_pairs, |pair| {
     excludes_nothing_that_is_not_finite(pair)
 });
 
-/// How many contacts were confirmed.
+/// Counts the confirmed contacts.
 type Confirmed = Cell<u32>;
 
 fn confirms_only_contacts<S: Format>(
@@ -432,7 +431,7 @@ fn confirms_many<S: Format>() {
         asked.set(asked.get() + 1);
         confirms_only_contacts(pair, Environment::DEFAULT, &confirmed)
     });
-    // Three in a hundred, as a rule.
+    // Typically three in a hundred are confirmed.
     let (confirmed, asked) = (confirmed.get(), asked.get());
     assert!(confirmed > asked / 100, "{confirmed} of {asked}");
 }
@@ -467,20 +466,3 @@ fn confirms_contacts_and_nothing_else_in_every_environment_f64() {
 fn confirms_contacts_and_nothing_else_in_every_environment_f32() {
     confirms_in_every_environment::<f32>();
 }
-
-/// The bisection of Wang et al., as a baseline, with a tolerance that keeps its work small.
-fn bisection_is_not_late<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
-    let pair = moment.pair();
-    let limits = Limits {
-        tolerance: size(&pair) * S::exact(1, -3),
-        separation: S::ZERO,
-    };
-    let impact = tight_inclusion::time_of_impact(&pair.pair(), &limits);
-    let found = impact.time().map(|time| time.to_f64());
-    prop_assert!(found.is_some_and(|found| found <= moment.time()), "{impact:?}");
-    Ok(())
-}
-
-property!(bisection_finds_every_pair_that_touches, 8_000, touching_pairs, |moment| {
-    bisection_is_not_late(moment)
-});

@@ -1,7 +1,7 @@
-//! The time of impact's own source on numbers of 9 and 11 significant bits, in every floating-point environment: what its
-//! certificates prove holds in exact arithmetic; and with bounds that are too small they are found out.
+//! The source of the time of impact on numbers of 9 and 11 significant bits, in every floating-point environment. What its
+//! certificates prove holds in exact arithmetic, and bounds that are too small are detected.
 //!
-//! Rounding errors are a large part of such numbers, so that grids of a few values come close to every bound. The tests assert how
+//! Rounding errors are a large part of such numbers, so grids of a few values come close to every bound. The tests assert how
 //! close, and that something is proven at all.
 
 use rug::Integer;
@@ -20,7 +20,7 @@ use selvedge_verification::generator::{Choices, Format, Meeting, Moment, PairCas
 use selvedge_verification::minifloat::{DOWNWARD, FLUSHING, Minifloat, TO_NEAREST, TOWARDS_ZERO, UPWARD, every};
 use selvedge_verification::oracle::collides;
 
-/// By `SplitMix64`.
+/// Random numbers by `SplitMix64`.
 struct Random(u64);
 
 impl Random {
@@ -47,7 +47,7 @@ fn pair_points<T: Copy>(points: &Points<T>) -> PairPoints<T> {
     }
 }
 
-/// Exactly, in units of the smallest number.
+/// Returns the number exactly, in units of the smallest number.
 fn units<const F: u32, const ENVIRONMENT: u32>(position: Vector<Number<F, ENVIRONMENT>>) -> [i128; 3] {
     [position.x, position.y, position.z].map(|x| i128::from(x.units()))
 }
@@ -71,19 +71,19 @@ fn exact_corners<const F: u32, const ENVIRONMENT: u32>(
     pairs.iter().map(corner).collect()
 }
 
-/// A multiple of w·e at the time that is `part` of `whole`.
+/// Returns a multiple of w·e at the time that is `part` of `whole`.
 fn exact_product(w: [i128; 3], [start, end]: ExactCorner, part: i128, whole: i128) -> i128 {
     (0..3).map(|k| w[k] * (start[k] * (whole - part) + end[k] * part)).sum()
 }
 
-/// What was seen of a certificate.
+/// The findings about a certificate.
 #[derive(Debug, Default)]
 struct Seen {
     asked: u64,
     proven: u64,
-    /// Proven until a time between that asked about and the end.
+    /// The number of proofs until a time between the given one and the end.
     until: u64,
-    /// The largest computed value, over its bound, whose exact value is not positive.
+    /// The largest ratio of a computed value to its bound if the exact value is not positive.
     worst: f64,
 }
 
@@ -133,8 +133,8 @@ fn numbers<const F: u32, const ENVIRONMENT: u32, const N: usize>(values: [f64; N
     })
 }
 
-/// Every direction and every motion of a vertex on a grid of three values, over a face that is one point. (Corners count one by one: the
-/// direction's certificate is of each alone.)
+/// Every direction and every motion of a vertex on a grid of three values, over a face that is one point. (Corners count one by
+/// one, since the direction's certificate is about each alone.)
 fn every_constant_direction<const ENVIRONMENT: u32>(grid: [f64; 3], point: [f64; 3]) -> Seen {
     let grid: [Number<8, ENVIRONMENT>; 3] = numbers(grid);
     let times: [Number<8, ENVIRONMENT>; 3] = numbers([0.0, 0.25, 0.806_640_625]);
@@ -164,7 +164,7 @@ fn every_constant_direction_on_a_grid_of_three_values_with_9_bits() {
     for seen in &all {
         assert!(seen.proven > 1000 && seen.until > 100, "{seen:?}");
     }
-    // To nearest. On this grid nothing that is not positive is computed as positive when all is rounded down.
+    // Rounded to nearest. On this grid no nonpositive value is computed as positive when everything is rounded down.
     assert!(all[0].worst > 0.005, "{all:?}");
 }
 
@@ -237,7 +237,7 @@ fn determinant([a, b, c]: [[i128; 3]; 3]) -> i128 {
     a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])
 }
 
-/// A multiple of the volume at the time that is `part` of `whole`, which is a power of two.
+/// Returns a multiple of the volume at the time that is `part` of `whole`, which is a power of two.
 fn exact_volume(corners: &[ExactCorner], part: i128, whole: i128) -> Integer {
     let [k0, k1, k2, k3] = [0, 1, 2, 3].map(|ends: usize| {
         let choices = (0..8_usize).filter(|choice| choice.count_ones() as usize == ends);
@@ -251,7 +251,7 @@ fn exact_volume(corners: &[ExactCorner], part: i128, whole: i128) -> Integer {
     sum + k3 * &part * &part * &part
 }
 
-/// The volume's certificate on random motions: at the times that a clip from some time on has passed, exactly.
+/// Checks the volume's certificate on random motions, exactly, at the times that a clip from some time on has passed.
 fn random_volumes<const ENVIRONMENT: u32>() -> Seen {
     let mut random = Random(7 + u64::from(ENVIRONMENT));
     let times: [Number<10, ENVIRONMENT>; 4] = numbers([0.0, 0.0, 0.25, 0.688_964_843_75]);
@@ -308,7 +308,7 @@ fn random_volumes_with_11_bits() {
     }
 }
 
-/// The whole time of impact, one pair alone, and in rounds as several side by side have them.
+/// Runs the whole time of impact, for one pair alone, and in rounds as for several side by side.
 fn random_times<P: PairShape, const ENVIRONMENT: u32>() -> [u64; 2] {
     type Tiny<const ENVIRONMENT: u32> = Number<8, ENVIRONMENT>;
     let mut random = Random(70 + u64::from(ENVIRONMENT));
@@ -367,13 +367,13 @@ fn random_times_of_impact_with_9_bits_are_never_late() {
 struct Unchanged;
 impl Factors for Unchanged {}
 
-/// 0.02u instead of 20u, 0.064u instead of 64u. (A twentieth was not seen to fail in twenty thousand pairs, to nearest.)
+/// 0.02u instead of 20u, 0.064u instead of 64u. (A twentieth did not fail on twenty thousand pairs, to nearest.)
 struct AThousandth;
 impl Factors for AThousandth {
     const UNIT_ROUNDOFF: f64 = 0.001;
 }
 
-/// How many of some pairs that touch at a known time have a time of impact that is later, or none, with the bounds times `F`.
+/// Returns how many pairs that touch at a known time have a later time of impact, or none, with the bounds times `F`.
 fn late_with_bounds_times<F: Factors, S: Format>() -> u32 {
     let mut random = Random(1);
     let mut late = 0;

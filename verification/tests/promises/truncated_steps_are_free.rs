@@ -1,4 +1,5 @@
-//! Truncation: whatever step is wanted, what is left of it is free of contact by exact arithmetic, and nothing is held back without need.
+//! Truncation: the truncated step is free of contact by exact arithmetic, whatever step is wanted, and points are held back only
+//! if needed.
 
 use super::collision_detector_keeps_its_promises::pairs_of;
 use proptest::prelude::*;
@@ -14,7 +15,7 @@ use selvedge_verification::generator::{Format, MeshCase, PairCase, check, meshes
 use selvedge_verification::oracle::{Pair, collides, within};
 use std::cell::Cell;
 
-/// How many steps were whole, truncated, and truncated with some pair in contact at the start.
+/// Counts whole and truncated steps, and truncated ones with a pair in contact at the start.
 type Met = Cell<[usize; 3]>;
 
 fn are_in_contact(question: &Pair, separation: f64) -> bool {
@@ -109,8 +110,8 @@ fn what_is_left_of_a_step_is_free_but_for_what_is_in_contact_at_the_start_and_re
     assert!(met.get().into_iter().all(|steps| steps > 10), "{:?}", met.get());
 }
 
-/// The lemma itself, on the function itself: each point may go any part of its share, whatever the others do; and from wherever the
-/// direction keeps the pair apart as well, where the shares are of ways from a base.
+/// The lemma, on the function itself: each point may move by any part of its share, whatever the others do. It also holds from
+/// wherever the direction keeps the pair apart, where the shares are those of displacements from a base.
 #[test]
 fn a_pair_keeps_its_separation_for_all_smaller_shares() {
     let (held, from_a_base) = (Cell::new(0), Cell::new(0));

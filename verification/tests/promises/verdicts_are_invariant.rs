@@ -1,9 +1,9 @@
-//! Verdicts do not depend on how a pair is written down, as far as that is true.
+//! Verdicts do not depend on how a pair is written, as far as that is possible.
 //!
-//! Rounding depends on the order of operations, so most rearrangements change the last bits, and with them the verdict of
-//! a pair that is a rounding error away from coplanar. What is the same bit for bit, by construction:
+//! Rounding depends on the order of operations. So most rearrangements change the last bits, and with them the verdict of a pair
+//! that is a rounding error away from coplanar. The following is the same bit for bit, by construction:
 //!
-//! | change | non-coplanarity | segment–box | relative boxes, DOPs, swept boxes |
+//! | change | non-coplanarity | segment–box | relative boxes, swept boxes |
 //! |---|---|---|---|
 //! | time reversed | same: k₀ and k₃, 3k₁ and 3k₂ trade places | sound only | same |
 //! | an axis mirrored | same: every value changes sign, exactly | same | same |
@@ -14,26 +14,24 @@
 //! | first edge's ends exchanged | same: B and C trade places | (swept boxes) | same |
 //! | second edge's ends, or the edges, exchanged | sound only: another point is the base | (swept boxes) | same |
 //! | scaled by a power of two, far from underflow and overflow | same: the underflow term vanishes in rounding | same | same |
-//! | translated, all sums exact | same: differences are | same, if the box is | same on axes; on diagonals sums round |
+//! | translated, all sums exact | same: differences are | same, if the box is | same |
 //!
-//! Swept boxes and relative boxes also keep a pair when the sum of its coordinates overflows, and that depends on the
-//! order: for them the table is about pairs whose sums are finite.
+//! Swept boxes and relative boxes also keep a pair when the sum of its coordinates overflows, which depends on the order. For
+//! them the table is about pairs with finite sums.
 //!
-//! *Sound only*: the verdict may change, but never to a wrong one. The properties of the other files, whose pairs come
-//! in every arrangement, check that; here it is checked for pairs that are coplanar by construction.
+//! *Sound only* means that the verdict may change, but never to a wrong one. The properties of the other files check that, with
+//! pairs in every arrangement; here it is checked for pairs that are coplanar by construction.
 //!
-//! The *plain* filter is not symmetric in time, since it computes from velocities; nothing is promised for it.
+//! The *plain* filter is not symmetric in time, since it computes from velocities. Nothing is promised for it.
 
 use proptest::prelude::*;
 use selvedge_core::PairKind;
 use selvedge_core::Verdict;
-use selvedge_laboratory::methods::CullingTest::{
-    self, CertifiedNonCoplanarity, RelativeBoxes, RelativeBoxesNine, SegmentBox, StoredDop18, SweptBoxes,
-};
+use selvedge_verification::culling::CullingTest::{self, CertifiedNonCoplanarity, RelativeBoxes, SegmentBox, SweptBoxes};
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{Choices, Format, PairCase, check, from_choices, pairs, pairs_of_any_kind};
 
-const EXACT_BOXES: [CullingTest; 4] = [SweptBoxes, StoredDop18, RelativeBoxes, RelativeBoxesNine];
+const EXACT_BOXES: [CullingTest; 2] = [SweptBoxes, RelativeBoxes];
 
 fn all_but<const N: usize>(missing: [CullingTest; N]) -> impl Iterator<Item = CullingTest> {
     let all = EXACT_BOXES.into_iter().chain([SegmentBox, CertifiedNonCoplanarity]);
@@ -45,11 +43,7 @@ fn same<S: Format>(
     pair: &PairCase<S>,
     changed: &PairCase<S>,
 ) -> Result<(), TestCaseError> {
-    let has_dust = pair.has_dust() || changed.has_dust();
     for test in tests.filter(|&test| test == CertifiedNonCoplanarity || pair.sums_are_finite()) {
-        if has_dust && matches!(test, StoredDop18 | RelativeBoxesNine) {
-            continue;
-        }
         let (before, after): (Verdict, Verdict) = (verdict(test, pair), verdict(test, changed));
         prop_assert_eq!(before, after, "{:?}, changed to {:?}", test, changed);
     }
@@ -119,12 +113,12 @@ property!(
         .try_for_each(|order| same(all_but([CertifiedNonCoplanarity]), pair, &pair.reordered(order)))
 );
 
-/// Multiples of 2⁻¹⁰ up to 16 in magnitude. A permanent of them is zero (and so is the value then, and its sign certain to
-/// nobody) or at least 2⁻³⁰. With u = 2⁻²⁴ the bound is then at least 2⁻⁵⁰, of which the last bit is worth 2⁻⁷³, and
-/// (1 + M)²·η < 2⁻¹⁰⁶ vanishes in it. Scaled by 2¹² more so; by 2⁻¹² the last bit is worth 2⁻¹⁰⁹, and M < 1 makes the other term
-/// less than 2⁻¹¹⁵. The segment test's products are larger.
+/// Multiples of 2⁻¹⁰ up to 16 in magnitude. A permanent of them is at least 2⁻³⁰, or zero; then the value is zero, too, and its
+/// sign is never certain. With u = 2⁻²⁴ the bound is at least 2⁻⁵⁰, of which the last bit is worth 2⁻⁷³, and (1 + M)²·η < 2⁻¹⁰⁶
+/// vanishes in it. This holds all the more scaled by 2¹². Scaled by 2⁻¹², the last bit is worth 2⁻¹⁰⁹, and M < 1 makes the other
+/// term less than 2⁻¹¹⁵. The segment test's products are larger.
 fn on_a_grid<S: Format>(kind: PairKind, choices: &mut Choices<'_>) -> PairCase<S> {
-    // A few values only, or any: what is nearly coplanar matters.
+    // Uses a few values only, or any: nearly coplanar pairs matter.
     let limit = choices.pick(&[2, 64, 16_384]);
     let points = std::array::from_fn(|_| {
         std::array::from_fn(|_| {
@@ -153,7 +147,7 @@ property!(scaling_by_a_power_of_two_changes_no_verdict, 30_000, grids(), |pair| 
     same(all_but([]), pair, &pair.map(|x| x * factor))
 }));
 
-// Whole multiples of 2⁻¹⁰ below 2⁵ stay exact when moved by multiples of 2⁻¹⁰ up to 2⁸, and so do sums of two of them.
+// Integer multiples of 2⁻¹⁰ below 2⁵ stay exact when moved by multiples of 2⁻¹⁰ up to 2⁸, and so do sums of two of them.
 property!(an_exact_translation_changes_no_verdict, 30_000, grids(), |pair| {
     let by = [1 << 18, -102_528, 2].map(|whole| S::exact(whole, -10));
     let moved = pair.with_positions(|x| std::array::from_fn(|axis| x[axis] + by[axis]));

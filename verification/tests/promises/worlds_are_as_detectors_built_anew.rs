@@ -1,4 +1,4 @@
-//! A world of meshes that come and go tells the contacts that a detector built anew tells of the same triangles.
+//! A world of meshes that are added and removed reports the contacts of a new detector for the same triangles.
 
 use proptest::prelude::*;
 use selvedge::core::elementary::Limits;
@@ -12,7 +12,7 @@ use selvedge_verification::generator::side_of;
 use std::cell::Cell;
 use std::f64::consts::PI;
 
-/// Numbers that follow from a seed (SplitMix64).
+/// Random numbers from a seed (SplitMix64).
 struct Random(u64);
 
 impl Random {
@@ -32,7 +32,7 @@ impl Random {
         options[self.below(options.len())]
     }
 
-    /// In [-1, 1].
+    /// Returns a number in [-1, 1].
     fn unit(&mut self) -> f64 {
         (self.word() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
@@ -41,7 +41,7 @@ impl Random {
         DVec3::new(self.unit(), self.unit(), self.unit())
     }
 
-    /// With many coordinates in common, or with none.
+    /// Chooses positions with many equal coordinates, or with none.
     fn point(&mut self, on_lattice: bool) -> DVec3 {
         let point = self.vector();
         if on_lattice { (point * 2.0).round() * 0.5 } else { point }
@@ -58,7 +58,7 @@ struct Model<S> {
     handle: MeshHandle,
     topology: Topology,
     shape: Vec<[S; 3]>,
-    /// Where it rests.
+    /// Its positions at rest.
     at: Vec<[S; 3]>,
     groups: Groups,
 }
@@ -91,7 +91,7 @@ impl<S: Scalar> Model<S> {
     }
 }
 
-/// A contact, and what it is beyond its time.
+/// A contact, and its properties other than its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Told<S> {
     kind: PairKind,
@@ -133,7 +133,7 @@ fn told<P: Position>(world: &World<P>, contacts: &[WorldContact<P::Scalar>]) -> 
     Ok(sorted(told))
 }
 
-/// The other questions to a world have the answers that its contacts make.
+/// Checks that the other queries to a world agree with its contacts.
 fn agrees<P: Position>(
     world: &mut World<P>,
     motions: &[(MeshHandle, MeshMotion<'_, P>)],
@@ -147,14 +147,14 @@ fn agrees<P: Position>(
     Ok(())
 }
 
-/// The contacts of some of the meshes, by a detector for all their triangles as one mesh.
+/// Returns the contacts of some of the meshes, by a detector for all their triangles as one mesh.
 fn by_one_detector<S: Scalar>(models: &[(&Model<S>, &Way<S>)], criterion: Criterion<S>) -> Vec<Told<S>>
 where
     [S; 3]: Position<Scalar = S>,
 {
     let (mut triangles, mut of_vertex) = (Vec::new(), Vec::new());
     let (mut start, mut end) = (Vec::new(), Vec::new());
-    // Of each mesh its first vertex, edge and face.
+    // The first vertex, edge and face of each mesh.
     let mut firsts = vec![[0_u32; 3]];
     for (index, (model, way)) in models.iter().enumerate() {
         let [vertices, edges, faces] = *firsts.last().expect("one at least");
@@ -215,7 +215,7 @@ where
     sorted(told)
 }
 
-/// What happens to a world, one after the other.
+/// A change of a world.
 #[derive(Clone, Copy, Debug)]
 enum Event {
     Insertion,
@@ -236,7 +236,7 @@ fn stories() -> impl Strategy<Value = Vec<(Event, u64)>> + Clone {
     prop::collection::vec((event, any::<u64>()), 1..80)
 }
 
-/// How often each was done, and contacts found: within meshes, between them.
+/// Counts each change, and the contacts within meshes and between them.
 #[derive(Clone, Copy, Debug, Default)]
 struct Count {
     insertions: usize,
@@ -363,7 +363,8 @@ where
                 if S::UNIT_ROUNDOFF.to_f64() > f64::EPSILON {
                     prop_assert_eq!(&found, &by_one_detector(&all, criterion));
                 } else {
-                    // In `f64` a pair is looked at in `f32` first if all of its detector's positions are such numbers: two meshes at a time.
+                    // In `f64` a pair is examined in `f32` first if all positions of its detector are such numbers, so meshes are
+                    // compared two at a time.
                     let mut expected = Vec::new();
                     for (index, &one) in all.iter().enumerate() {
                         expected.extend(by_one_detector(&[one], criterion));
@@ -543,7 +544,7 @@ fn what_is_out_of_order_is_told_and_nothing_is_lost() {
 #[test]
 fn geometry_of_what_the_last_step_does_not_have_is_an_error() {
     let mut world = World::<DVec3>::new();
-    // The last vertex is of no triangle.
+    // The last vertex belongs to no triangle.
     let loose = Topology::new(4, vec![[0, 1, 2]]).expect("a triangle");
     let corners = [CORNERS[0], CORNERS[1], CORNERS[2], DVec3::Z];
     let floor = world.insert(loose, &corners, Groups::ALL).expect("in order");
@@ -581,7 +582,7 @@ fn geometry_of_what_the_last_step_does_not_have_is_an_error() {
         let refused = world.contact_geometry(&at_no_time);
         assert!(matches!(refused, Err(WorldError::Step(StepError::BadTime { .. }))));
     }
-    // Of another step it is told as of that one: all rest, a unit below.
+    // In another step the result is that step's: everything rests, one unit below.
     world.contacts(&[], &mut Vec::new()).expect("in order");
     let at_rest = world.contact_geometry(&contact).expect("they are still there");
     assert_eq!((at_rest.geometry.speed, at_rest.geometry.distance[1] > 0.9), (0.0, true));
@@ -594,7 +595,7 @@ fn geometry_of_what_the_last_step_does_not_have_is_an_error() {
 fn pairs_that_rest_or_that_groups_exclude_are_not_looked_at() {
     let mut world = World::<DVec3>::new();
     let touching = |mesh: DVec3| CORNERS.map(|corner| corner + mesh);
-    // Two that rest in one place, and a ghost that goes through both.
+    // Two meshes that rest in one place, and a ghost that passes through both.
     for _ in 0..2 {
         world.insert(triangle(), &CORNERS, Groups::new(1, 1)).expect("in order");
     }
@@ -614,7 +615,7 @@ fn pairs_that_rest_or_that_groups_exclude_are_not_looked_at() {
     assert!(contacts.len() > 10 && contacts.iter().all(|contact| contact.meshes.contains(&ghost)));
 }
 
-/// A body's pose at the start and at the end, and what it makes of a point at a time: Rodrigues' formula.
+/// A body's pose at the start and at the end. It moves a point by Rodrigues' formula.
 #[derive(Clone, Copy, Debug)]
 struct Turn {
     start: (DQuat, DVec3),
@@ -646,7 +647,7 @@ impl Turn {
         self.start.1 + self.translation * time + along + (way - along) * cosine + self.axis.cross(way) * sine
     }
 
-    /// The point of the shape that is there at a time.
+    /// Returns the point of the shape that is there at a time.
     fn shape_of(&self, there: DVec3, time: f64) -> DVec3 {
         let way = there - self.start.1 - self.translation * time;
         let (sine, cosine) = (-self.angle * time).sin_cos();
@@ -655,7 +656,8 @@ impl Turn {
     }
 }
 
-/// Two bodies, at least one of which may turn, and a deforming mesh. What is told is not late, and what is not told is apart.
+/// Two bodies, at least one of which may rotate, and a deforming mesh. No reported contact is late, and pairs that are not
+/// reported are apart.
 fn turning_bodies_are_not_missed(seed: u64, count: &Cell<[usize; 3]>) -> Result<(), TestCaseError> {
     let mut random = Random(seed);
     let turns = [Turn::choose(&mut random), Turn::choose(&mut random)];
@@ -666,7 +668,7 @@ fn turning_bodies_are_not_missed(seed: u64, count: &Cell<[usize; 3]>) -> Result<
         tolerance: 1e-6,
     };
     world.set_criterion(Criterion::Within(limits)).expect("lengths");
-    // A corner of the first body is in the middle of the second's face at a time; the edges of a third mesh cross the first's.
+    // A corner of the first body is in the middle of the second's face at a time. The edges of a third mesh cross the first's.
     let time = 0.5 + 0.5 * random.unit();
     let there = [(); 3].map(|()| turns[0].at(random.vector(), time));
     let middle = (there[0] + there[1] + there[2]) / 3.0;
@@ -721,7 +723,7 @@ fn turning_bodies_are_not_missed(seed: u64, count: &Cell<[usize; 3]>) -> Result<
         _ => sheet_end[0][vertex].lerp(sheet_end[1][vertex], time),
     };
     let edges = world.topology(a).expect("it is there").edges().to_vec();
-    // What is told of each contact beyond its time, but for what the places are rounded by.
+    // The geometry of each contact, up to the rounding of the positions.
     world.set_threads(Threads::Calling).expect("no threads");
     let told = told(&world, &contacts)?;
     for own in &told {
@@ -786,7 +788,7 @@ fn turning_bodies_are_not_missed(seed: u64, count: &Cell<[usize; 3]>) -> Result<
                         let until = told.unwrap_or(1.0);
                         for k in 0..=40 {
                             let time = until * f64::from(k) / 40.0;
-                            // The places are rounded, and so is the distance.
+                            // The positions are rounded, and so is the distance.
                             let is_apart = distance(time) > separation - 1e-10;
                             let is_told = told.is_some_and(|told| time >= told);
                             prop_assert!(is_apart || is_told, "{kind:?} {meshes:?} {i} {j} at {time}: {turns:?}");
@@ -821,14 +823,15 @@ fn no_contact_of_bodies_that_turn_is_missed() {
     );
 }
 
-/// Three pairs meet at one time, but for the last digits. A time on arcs was told some roundings before the same pair's on straight pieces, by
-/// which pairs after the earliest are left out: the earliest contact was not the first of all, and which it was depended on threads.
+/// Three pairs meet at one time, up to the last digits. A time on arcs may be some roundings before the same pair's time on
+/// straight pieces, after which later pairs are left out. So the earliest contact was not the first of all, and depended on
+/// threads.
 #[test]
 fn the_earliest_of_pairs_that_meet_at_nearly_one_time_is_the_first_of_all() {
     turning_bodies_are_not_missed(4_840_163_733_660_535_301, &Cell::new([0; 3])).unwrap_or_else(|error| panic!("{error}"));
 }
 
-/// As in parry's issue 317, of whole meshes: straight ways would lead past each other.
+/// Parry's issue 317, with whole meshes: straight paths would miss each other.
 #[test]
 fn a_plank_that_spins_hits_the_post_beside_it() {
     let mut world = World::<[f32; 3]>::new();
@@ -849,7 +852,7 @@ fn a_plank_that_spins_hits_the_post_beside_it() {
     let mut contacts = Vec::new();
     world.contacts(&[(plank, spins)], &mut contacts).expect("in order");
     let first = contacts.iter().map(|contact| contact.time).fold(1.0, f32::min);
-    // The side that leads, 0.1 from the axis, comes to the post before the middle line does.
+    // The leading side, 0.1 from the axis, reaches the post before the middle line does.
     let exact = ((PI / 2.0 - (0.1_f64 / 1.5).asin()) / 3.0) as f32;
     assert!(first <= exact && first > exact - 1e-5, "{first} {exact}");
     assert!(

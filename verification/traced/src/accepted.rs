@@ -1,7 +1,7 @@
-//! Whether what the code gives a prover to read is what somebody has accepted: digests of it, term by term, in `accepted.sha256`.
+//! Compares what the provers read with what was accepted: `accepted.sha256` has a digest of each term.
 //!
-//! The texts themselves are thousands of lines that nobody reads. They are written anew where a proof is checked, and a digest
-//! notices each change as well as a kept copy would.
+//! The texts have thousands of lines, and are written again whenever a proof is checked. A digest notices each change as well as
+//! a kept copy would.
 
 use crate::{Prover, Text};
 use sha2::{Digest as _, Sha256};
@@ -9,32 +9,32 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The list of what is accepted.
+/// The list of accepted terms.
 #[must_use]
 pub fn path() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("accepted.sha256")
 }
 
-/// What the list would say of what the code gives now: a line for each term, with its digest first.
+/// Returns the list for the current code: a line for each term, with its digest first.
 #[must_use]
 pub fn list() -> String {
     Prover::ALL.into_iter().flat_map(lines).map(|line| line + "\n").collect()
 }
 
-/// Demands that what the code gives a prover is what was accepted.
+/// Checks that the current code gives the provers what was accepted.
 ///
 /// # Errors
-/// If it is not, or the list cannot be read: which terms have changed, how to see what has, and how to accept it.
+/// If it does not, or the list cannot be read. The message names the changed terms and says how to see and to accept the changes.
 pub fn check(prover: Prover) -> Result<(), String> {
     let path = path();
     let list = fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
     compare(prover, &lines(prover), &list)
 }
 
-/// What [`check`] does, of lines and a list.
+/// Checks lines against a list, for [`check`].
 ///
 /// # Errors
-/// As there.
+/// As for [`check`].
 pub fn compare(prover: Prover, given: &[String], list: &str) -> Result<(), String> {
     let of_prover = |line: &&str| {
         line.split_once("  ")
@@ -81,8 +81,8 @@ fn lines(prover: Prover) -> Vec<String> {
         .collect()
 }
 
-/// A file for Coq, parted behind each definition that has a name of its own (`s12` and `m3` have none): what that is made of and
-/// was not defined before stands ahead of it.
+/// Splits a file for Coq after each definition with a name of its own (`s12` and `m3` have none). The auxiliary definitions that
+/// it needs stand before it.
 fn definitions((file, text): Text) -> Vec<Text> {
     let is_numbered = |name: &str| name[1..].bytes().all(|byte| byte.is_ascii_digit());
     let mut parts = Vec::new();

@@ -1,6 +1,6 @@
 //! What the certified filter and the box tests compute, as terms of Coq, written from core's kernels themselves.
 //!
-//! `verification/proofs` speaks of them: what they compute, and what its signs prove.
+//! The proofs in `verification/proofs` are about these terms: what they compute, and what their signs prove.
 
 use crate::Text;
 use crate::gappa::tetrahedron;
@@ -122,7 +122,7 @@ fn format<S: Scalar>(name: &str, [precision, least, greatest]: [i32; 3], text: &
     .expect("a string");
 }
 
-/// Which coordinates each difference is made of, the one that is subtracted second.
+/// Returns the coordinates of each difference, the subtracted one second.
 fn differences<P: PairShape>(name: &str, order: &str, text: &mut String) {
     let (differences, steps) = trace(|| {
         let points = coordinates();
@@ -156,11 +156,11 @@ fn step(number: Traced, trace: &Trace) -> &Step {
     }
 }
 
-/// Definitions of what is used, each term once.
+/// Writes definitions of the terms that are used, each once.
 struct Terms<'a> {
     trace: &'a Trace,
     names: BTreeMap<String, String>,
-    /// What steps and masks are called whose terms have been written.
+    /// The names of steps and masks whose terms are written.
     steps: BTreeMap<usize, String>,
     masks: BTreeMap<usize, String>,
     number_type: &'static str,
@@ -184,7 +184,7 @@ impl<'a> Terms<'a> {
         writeln!(self.text, "Definition {name} : expr := {term}.").expect("a string");
     }
 
-    /// The name of a term, which is defined if it has none.
+    /// Returns the name of a term, and defines the term if it has none.
     fn named(&mut self, letter: char, kind: &str, term: String) -> String {
         if let Some(name) = self.names.get(&term) {
             return name.clone();
@@ -254,7 +254,7 @@ impl<'a> Terms<'a> {
     }
 }
 
-/// The term of an input, from its name: a coordinate's, or one like `b0x`.
+/// Returns the term of an input from its name: a coordinate's name, or one like `b0x`.
 fn leaf(name: &str) -> String {
     if name.starts_with("Coordinate") {
         return format!("Value ({name})");

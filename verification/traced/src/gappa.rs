@@ -1,6 +1,6 @@
 //! Gappa scripts for what core's kernels compute, written from the kernels themselves.
 //!
-//! `verification/gappa/README.md` tells what is proven. In the scripts `@u@` and the like stand for a format's exponents.
+//! See `verification/gappa/README.md` for what is proven. In the scripts `@u@` and similar marks stand for a format's exponents.
 
 use crate::Text;
 use crate::symbols::{Step, Trace, Traced, trace};
@@ -10,15 +10,15 @@ use selvedge_core::verification::vector::Vector;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-/// What is claimed of one control value, in multiples of u and of λ.
+/// The claims about one control value, in multiples of u and of λ.
 struct Claim {
     name: &'static str,
     index: usize,
-    /// Of the rounding error, where all components are at most 1.
+    /// The rounding error, if all components are at most 1.
     roundoffs: u32,
-    /// Of what underflow in its steps adds.
+    /// What underflow in its steps adds.
     of_steps: u32,
-    /// Of what underflow in the three differences of points adds.
+    /// What underflow in the three differences of points adds.
     of_differences: u32,
 }
 
@@ -53,7 +53,7 @@ const CONTROL_VALUES: [Claim; 4] = [
     },
 ];
 
-/// All scripts.
+/// Returns all scripts.
 #[must_use]
 pub fn scripts() -> Vec<Text> {
     let (values, steps) = trace(|| tetrahedron().control_values().0);
@@ -71,7 +71,7 @@ pub fn scripts() -> Vec<Text> {
     scripts
 }
 
-/// With 18 inputs: the differences of points, as computed.
+/// Runs a kernel with 18 inputs: the differences of points, as computed.
 #[must_use]
 pub fn tetrahedron() -> MovingTetrahedron<Traced> {
     let edge =
@@ -160,7 +160,7 @@ fn normal(name: &str, length: Traced, trace: &Trace) -> Text {
     (format!("{name}.g"), text)
 }
 
-/// From (√(larger(larger(n₀·n₀, ¼ h·h), n₁·n₁) + η) + …)·…: the components of n₀, h and n₁.
+/// Reads n₀, h and n₁ off (√(larger(larger(n₀·n₀, ¼ h·h), n₁·n₁) + η) + …)·….
 fn normal_components(length: Traced, trace: &Trace) -> [[Traced; 3]; 3] {
     use Step::{Larger, Product, Root, Sum};
     let step = |x: Traced| match x {
@@ -200,7 +200,7 @@ struct Writer {
 }
 
 impl Writer {
-    /// Of a sum whose last step does not count.
+    /// Returns the claims of a sum whose last step does not count.
     fn new(trace: &Trace, value: Traced) -> Self {
         let mut script = Self::default();
         if let Traced::Step(last) = value
@@ -303,7 +303,7 @@ fn exact(number: Traced, trace: &Trace) -> String {
     named(number, trace, str::to_uppercase, "T")
 }
 
-/// What its steps' underflow adds. Inputs are what was computed.
+/// Returns what underflow in the steps adds. Inputs are computed values.
 fn by_steps(number: Traced, trace: &Trace) -> String {
     named(number, trace, |_| "0".to_owned(), "q")
 }

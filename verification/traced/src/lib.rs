@@ -1,21 +1,21 @@
-//! What core's kernels compute, from the kernels themselves, for those who prove something of it; never published.
+//! What core's kernels compute, taken from the kernels themselves, for proofs about it. This crate is never published.
 //!
-//! | module | what it is |
+//! | module | contents |
 //! |---|---|
 //! | [`symbols`] | core's kernels on symbols: what they compute, in which steps |
-//! | [`gappa`] | scripts for Gappa written from such traces |
-//! | [`coq`] | terms for Coq written from such traces |
-//! | [`accepted`] | whether what is written is what somebody has accepted |
+//! | [`gappa`] | scripts for Gappa, written from such traces |
+//! | [`coq`] | terms for Coq, written from such traces |
+//! | [`accepted`] | the comparison of these texts with the accepted ones |
 
 pub mod accepted;
 pub mod coq;
 pub mod gappa;
 pub mod symbols;
 
-/// A file that a prover reads: its name, and what stands in it.
+/// A file that a prover reads: its name and its text.
 pub type Text = (String, String);
 
-/// Who reads what is written here.
+/// A prover.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Prover {
     /// The scripts of [`gappa`], for `verification/gappa/check.sh`.
@@ -25,10 +25,10 @@ pub enum Prover {
 }
 
 impl Prover {
-    /// All of them.
+    /// All provers.
     pub const ALL: [Self; 2] = [Self::Gappa, Self::Coq];
 
-    /// As it is called on the command line, and in the list of what is accepted.
+    /// Returns its name on the command line and in the list of accepted terms.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -37,7 +37,7 @@ impl Prover {
         }
     }
 
-    /// What the code gives it to read now.
+    /// Returns the texts that the current code gives the prover.
     #[must_use]
     pub fn texts(self) -> Vec<Text> {
         match self {

@@ -1,4 +1,4 @@
-//! Writes what core's kernels compute for Gappa or Coq to read, or accepts it: see `usage` below.
+//! Writes what core's kernels compute for Gappa or Coq, or accepts it: see `usage` below.
 
 use selvedge_traced::{Prover, accepted};
 use std::path::Path;
@@ -29,7 +29,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// In any case: whoever wants to see what has changed needs the texts.
+/// The texts are written in any case, since they show what has changed.
 fn write(prover: Prover, folder: &Path) -> Result<(), String> {
     for (name, text) in prover.texts() {
         let path = folder.join(name);

@@ -1,14 +1,14 @@
 //! Core's kernels run on symbols, to see what they compute: which monomials, in how many rounded steps, in which order.
 //!
-//! The kernels are generic over [`Lanes`], so their source runs on [`Traced`] unchanged. What is read off it are the facts that
-//! the proofs in `verification/gappa` start from: so the proofs are about the code and not about a copy of it.
+//! The kernels are generic over [`Lanes`], so their source runs on [`Traced`] unchanged. The proofs in `verification/gappa` start
+//! from these traces, so they are about the code and not about a copy of it.
 
 use selvedge_core::verification::lanes::{Lanes, Rounding};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
-/// A number that knows how it was computed. Its steps are kept for the thread: see [`trace`].
+/// A number that knows how it was computed. The thread keeps its steps: see [`trace`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Traced {
     /// The result of a step of the current trace.
@@ -17,28 +17,28 @@ pub enum Traced {
     UnitRoundoff,
     /// η.
     Underflow,
-    /// Where pairs are out of range.
+    /// The limit beyond which pairs are out of range.
     LargestEdge,
     /// Where extents are out of range.
     LargestExtent,
     /// μ.
     ExtentUnderflow,
-    /// Where sums of squares may have lost something.
+    /// The limit below which sums of squares may have lost digits.
     SafeSquare,
-    /// The length of what loses all its squares.
+    /// The length of a vector whose squares all underflow.
     LengthUnderflow,
     /// One half.
     Half,
     /// Infinity.
     Infinity,
-    /// A small whole number.
+    /// A small integer.
     Small(u8),
 }
 
-/// One step.
+/// A step of a computation.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Step {
-    /// Where the trace begins: a number of this name.
+    /// An input of this name.
     Input(String),
     /// A rounded sum.
     Sum(Traced, Traced),
@@ -50,39 +50,39 @@ pub enum Step {
     Quotient(Traced, Traced),
     /// A rounded square root.
     Root(Traced),
-    /// Exact.
+    /// An exact negation.
     Negative(Traced),
-    /// Exact.
+    /// An exact magnitude.
     Magnitude(Traced),
-    /// One of the two, exactly.
+    /// The larger of two, exactly.
     Larger(Traced, Traced),
-    /// One of the two, exactly.
+    /// The smaller of two, exactly.
     Smaller(Traced, Traced),
-    /// One of the two, exactly, as a comparison has it.
+    /// One of two, exactly, as a mask selects.
     Selected(Traced, Traced),
 }
 
-/// A truth value that knows how it came about.
+/// A truth value that knows how it was computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Mask {
-    /// Of [`Trace::masks`].
+    /// An index of [`Trace::masks`].
     pub index: usize,
-    /// What it is if all comparisons are false.
+    /// The value if all comparisons are false.
     truth: bool,
 }
 
-/// Where a [`Mask`] comes from.
+/// The origin of a [`Mask`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MaskStep {
     /// True.
     Always,
-    /// Whether the first is greater than the second.
+    /// True if the first is greater than the second.
     Greater(Traced, Traced),
-    /// Both.
+    /// True if both are.
     And(Mask, Mask),
-    /// One of them or both.
+    /// True if at least one is.
     Or(Mask, Mask),
-    /// One of them, not both.
+    /// True if exactly one is.
     Xor(Mask, Mask),
     /// The other truth value.
     Not(Mask),
@@ -100,18 +100,18 @@ thread_local! {
     static ARENA: RefCell<Arena> = RefCell::default();
 }
 
-/// What a kernel did.
+/// The record of a kernel's computation.
 #[derive(Clone, Debug)]
 pub struct Trace {
     /// All steps, each after those that it uses.
     pub steps: Vec<Step>,
-    /// All comparisons: whether the first is greater than the second.
+    /// All comparisons: they are true if the first is greater than the second.
     pub comparisons: Vec<[Traced; 2]>,
-    /// What was made of them.
+    /// The masks made from them.
     pub masks: Vec<MaskStep>,
 }
 
-/// Runs a kernel on symbols. What it computes must not depend on its comparisons, which are all false.
+/// Runs a kernel on symbols. Its computation must not depend on its comparisons, which are all false.
 pub fn trace<T>(kernel: impl FnOnce() -> T) -> (T, Trace) {
     ARENA.take();
     let result = kernel();
@@ -131,7 +131,7 @@ pub fn trace<T>(kernel: impl FnOnce() -> T) -> (T, Trace) {
     )
 }
 
-/// Within [`trace`]: runs a part of which each [`Lanes::any`] says that some lane is true.
+/// Within [`trace`]: runs a part in which each [`Lanes::any`] returns that some lane is true.
 pub fn if_any<T>(part: impl FnOnce() -> T) -> T {
     ARENA.with_borrow_mut(|arena| arena.any_is_true = true);
     let result = part();
@@ -140,7 +140,7 @@ pub fn if_any<T>(part: impl FnOnce() -> T) -> T {
 }
 
 impl Mask {
-    /// True, whatever is compared.
+    /// The mask that is always true.
     #[must_use]
     pub fn always() -> Self {
         Self::record(MaskStep::Always)
@@ -192,7 +192,7 @@ impl Not for Mask {
 }
 
 impl Traced {
-    /// A number with this name.
+    /// Makes a number with this name.
     #[must_use]
     pub fn input(name: impl Into<String>) -> Self {
         Self::record(Step::Input(name.into()))
@@ -294,12 +294,13 @@ impl Lanes for Traced {
 /// A product of inputs and constants by name, in alphabetical order.
 pub type Monomial = Vec<String>;
 
-/// The monomials of a result, each with the largest number of roundings that one of its occurrences passes through on its way.
-/// A minimum or a maximum has the monomials of both.
+/// The monomials of a result, each with the largest number of roundings on the way from one of its occurrences to the result. A
+/// minimum or a maximum has the monomials of both.
 pub type Paths = BTreeMap<Monomial, u32>;
 
 impl Trace {
-    /// Takes each difference of two inputs for an input itself, with both names: what follows is computed from differences of points.
+    /// Treats each difference of two inputs as an input itself, named after both, since computations start from differences of
+    /// points.
     pub fn begin_with_differences(&mut self) {
         let name = |number: &Traced| match number {
             Traced::Step(index) => match &self.steps[*index] {
@@ -320,19 +321,20 @@ impl Trace {
         }
     }
 
-    /// Of a result as it is.
+    /// Returns the monomials of a result.
     ///
     /// # Panics
-    /// If it is no polynomial.
+    /// If it is not a polynomial.
     #[must_use]
     pub fn paths(&self, number: Traced) -> Paths {
         self.paths_with_last_step(number, 1)
     }
 
-    /// Of a result that is compared with a floating-point number: rounding is monotone, so its last step does not count.
+    /// Returns the monomials of a result that is compared with a floating-point number. Rounding is monotone, so its last step
+    /// does not count.
     ///
     /// # Panics
-    /// If it is no polynomial.
+    /// If it is not a polynomial.
     #[must_use]
     pub fn paths_but_last(&self, number: Traced) -> Paths {
         self.paths_with_last_step(number, 0)
@@ -346,7 +348,7 @@ impl Trace {
             Step::Input(name) => Paths::from([(vec![name.clone()], 0)]),
             Step::Sum(a, b) | Step::Difference(a, b) => union([self.paths(*a), self.paths(*b)], last),
             Step::Product(a, b) => {
-                // Powers of two, and whole numbers times the unit roundoff, round nothing.
+                // Powers of two, and integers times the unit roundoff, round nothing.
                 let is_exact = [a, b].into_iter().all(|factor| !matches!(factor, Traced::Step(_)));
                 let rounded = if is_exact { 0 } else { last };
                 let (a, b) = (self.paths(*a), self.paths(*b));

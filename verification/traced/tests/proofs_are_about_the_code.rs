@@ -1,5 +1,5 @@
-//! The proofs in `gappa/` and `proofs/` are about core as it is: what they read is what its code gives, constants and counts of
-//! roundings in scripts are its own. That the proofs hold is checked by `gappa/check.sh` and `proofs/check.sh`.
+//! The proofs in `gappa/` and `proofs/` are about core as it is: they read what its code gives, and the constants and counts of
+//! roundings in scripts are the code's. `gappa/check.sh` and `proofs/check.sh` check that the proofs hold.
 
 use selvedge_core::Scalar;
 use selvedge_core::verification::advance::confirm::{contains_origin, doubled_bounds};
@@ -38,7 +38,7 @@ fn what_gappa_reads_is_what_was_accepted() {
     accepted::check(Prover::Gappa).unwrap_or_else(|why| panic!("{why}"));
 }
 
-/// Of these terms `proofs/Theorems.v` speaks.
+/// The terms that `proofs/Theorems.v` is about.
 #[test]
 fn what_coq_reads_is_what_was_accepted() {
     accepted::check(Prover::Coq).unwrap_or_else(|why| panic!("{why}"));
@@ -69,7 +69,7 @@ fn a_term_that_has_changed_is_named() {
     assert!(complaint.contains("(not there any more)"), "{complaint}");
 }
 
-/// Marked by `#!` (with the number, of which half is not enough) or `#~`: the file, and what stands in it.
+/// Lines marked by `#!` (with the number, half of which does not suffice) or `#~`: the file and the line.
 #[test]
 fn constants_of_the_scripts_are_those_of_the_code() {
     let one_spaced = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -81,7 +81,7 @@ fn constants_of_the_scripts_are_those_of_the_code() {
             };
             let (path, code) = line[mark + 2..].split_once(": ").expect("a file and its code");
             let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(path.trim());
-            // Comments of lines in between do not count.
+            // Comment lines in between do not count.
             let source: String = read(&source)
                 .lines()
                 .filter(|line| !line.trim_start().starts_with("//"))
@@ -140,14 +140,14 @@ fn constants_of_the_formats_are_those_of_core() {
     constants_are_those_of::<f64>(f64::MIN_POSITIVE, 53, f64::INFINITY);
 }
 
-/// The differences of points are the traces' inputs, each rounded once: three to a monomial.
+/// The inputs of the traces are differences of points, each rounded once, and a monomial has three.
 const OF_DIFFERENCES: u32 = 3;
 
 fn most(paths: &Paths) -> u32 {
     paths.values().max().expect("a monomial") + OF_DIFFERENCES
 }
 
-/// `#= NAME COUNT OF_BOUND` in a script: roundings of a control value but for its last addition, and of its bound.
+/// Checks `#= NAME COUNT OF_BOUND` in a script: the roundings of a control value except its last addition, and of its bound.
 fn counts_in(script: &str, name: &str) -> [u32; 2] {
     let script = read(&folder().join(script));
     let prefix = format!("#= {name} ");
@@ -172,8 +172,8 @@ fn roundings_are_as_many_as_the_scripts_say() {
         assert_eq!(most(&whole), of_value + 1, "{name}");
         assert!(most(&whole) <= 10, "volume.g counts on it");
 
-        // The same monomials, all of them, times the constant and u; and the term for underflow, which has three roundings of
-        // 1 + M, two products and the sum. A separation adds one.
+        // The same monomials, all of them, times the constant and u. The term for underflow has three roundings: those of 1 + M,
+        // two products and the sum, of which a separation adds one.
         let bound = of_bounds.paths(bounds[index]);
         let constant = if monomials == 6 { "16" } else { "20" };
         let counts = paths.keys().map(|monomial| {
@@ -205,8 +205,8 @@ fn advance_counts_in(script: &str, name: &str) -> [u32; 3] {
     counts.try_into().expect("three counts")
 }
 
-/// The most roundings of a value's monomials and of its bound's, and the constant that u is multiplied by in all of these.
-/// `differences`: how many rounded differences of points, the traces' inputs, a monomial of the value has.
+/// Returns the most roundings of a value's monomials and of its bound's, and the constant by which u is multiplied in all of
+/// these. `differences` is the number of rounded differences of points in a monomial of the value.
 fn counted(trace: &Trace, value: Traced, bound: Traced, differences: u32) -> [u32; 3] {
     let of_error = |monomial: &[String]| monomial.iter().any(|factor| factor == "u");
     let is_constant = |factor: &&String| factor.parse::<u32>().is_ok();
@@ -257,7 +257,7 @@ fn roundings_of_a_direction_are_as_many_as_the_script_says() {
         direction.bar
     });
     constant.begin_with_differences();
-    // At the time, at the end, at the start and at the end; for each corner.
+    // At the time, at the end, at the start and at the end, for each corner.
     for corner in constant.comparisons.chunks(4) {
         let &[[now, bar_now], [end, bar_end], [at_start, at_end], _] = corner else {
             panic!("{corner:?}")
@@ -276,7 +276,7 @@ fn roundings_of_a_direction_are_as_many_as_the_script_says() {
         are_apart_turning(&before, &from, &after, &to)
     });
     turning.begin_with_differences();
-    // The first comparison is that of one with zero.
+    // The first comparison is with zero.
     for corner in turning.comparisons[1..].chunks(3) {
         let &[_, _, [value, bar]] = corner else { panic!("{corner:?}") };
         assert_eq!(counted(&turning, value, bar, 1), advance_counts_in("corners.g", "turning"));
@@ -293,8 +293,8 @@ fn roundings_of_the_volume_are_as_many_as_the_script_says() {
     steps.begin_with_differences();
     let counts = margins.map(|margin| counted(&steps, margin, error, OF_DIFFERENCES));
     let [most, of_bound, constant] = counts.into_iter().max().expect("four margins");
-    // Looking ahead, by the rule that leads to the margins and to the value at a time, rounds at most 9 times. A monomial of 3k1 has t
-    // itself once among its weights, which is one rounding less than 1 − t.
+    // Looking ahead, by the rule that leads to the margins and to the value at a time, rounds at most 9 times. A monomial of 3k1
+    // has t itself once among its weights, which is one rounding less than 1 − t.
     let [value, ..] = counted(&steps, at, error, OF_DIFFERENCES);
     assert_eq!(value, 12 + 8);
     assert_eq!([most + 9, of_bound, constant], advance_counts_in("volume.g", "volume"));

@@ -1,17 +1,17 @@
-//! One chunk of the run: its pairs, what claims something of them, and whether the claims are right.
+//! One chunk of the run: its pairs, the claims about them, and whether the claims are right.
 
 use super::judge::Judge;
 use super::pairs::{Maker, Random};
-use super::{Claim, Scenes, Source, Tally};
+use super::{Claim, ClaimCounts, Scenes, Source};
 use crate::generator::{Format, PairCase};
+use crate::plain;
 use selvedge_core::PairKind;
-use selvedge_core::batch::{ByPoints, LANES, Level, Test, culled};
+use selvedge_core::batch::{LANES, Level, culled};
 use selvedge_core::elementary::advance::time_of_impact;
 use selvedge_core::elementary::{Impact, Limits};
-use selvedge_core::filter::{Filter, Tier};
-use selvedge_laboratory::baselines::plain::Plain;
+use selvedge_core::filter::Filter;
 
-/// The number format of a chunk: 0 is `f32`, 1 is `f64`.
+/// Returns the number format of a chunk: 0 is `f32`, 1 is `f64`.
 pub(super) const fn format(chunk: u64) -> usize {
     (chunk % 2) as usize
 }
@@ -28,7 +28,7 @@ const fn kind(chunk: u64) -> PairKind {
     }
 }
 
-/// A chunk: one format, one source, one kind of pair.
+/// A chunk: pairs of one format, one source and one kind.
 pub(super) struct Chunk<'a> {
     pub(super) index: u64,
     pub(super) seed: u64,
@@ -39,15 +39,15 @@ pub(super) struct Chunk<'a> {
 }
 
 impl Chunk<'_> {
-    /// Makes its pairs, tests them, and judges every claim: a tally for each.
-    pub(super) fn look_at(&self) -> Vec<Tally> {
+    /// Makes the pairs, tests them, and judges every claim. Returns counts for each claim.
+    pub(super) fn look_at(&self) -> Vec<ClaimCounts> {
         match format(self.index) {
-            0 => self.tallies::<f32>(),
-            _ => self.tallies::<f64>(),
+            0 => self.counts::<f32>(),
+            _ => self.counts::<f64>(),
         }
     }
 
-    fn tallies<S: Format>(&self) -> Vec<Tally> {
+    fn counts<S: Format>(&self) -> Vec<ClaimCounts> {
         const BLOCK: u64 = 1024;
         let mut maker = Maker::new(
             source(self.index),
@@ -55,35 +55,26 @@ impl Chunk<'_> {
             self.scenes,
             Random::new(self.seed, self.index),
         );
-        let mut tallies = vec![Tally::default(); self.claims.len()];
+        let mut counts = vec![ClaimCounts::default(); self.claims.len()];
         let mut cases = Vec::new();
         let mut masks = vec![[0; BLOCK as usize / LANES]; self.claims.len()];
         let mut left = self.pairs;
         while left > 0 {
-            let count = left.min(BLOCK);
-            left -= count;
+            let block = left.min(BLOCK);
+            left -= block;
             cases.clear();
-            maker.make(count as usize, &mut cases);
+            maker.make(block as usize, &mut cases);
             let pairs: Vec<_> = cases.iter().map(PairCase::<S>::pair).collect();
             for (claim, masks) in self.claims.iter().zip(&mut masks) {
-                let test = match claim {
-                    Claim::Filter => {
-                        culled(self.level, Filter::new(Tier::Permanent), &pairs, masks);
-                        continue;
-                    }
-                    Claim::RelativeBoxes => Test::RelativeBoxes,
-                    Claim::SegmentBox => Test::SegmentBox,
-                    Claim::Plain => {
-                        culled(self.level, ByPoints(Plain), &pairs, masks);
-                        continue;
-                    }
-                    Claim::TimeOfImpact => continue,
-                };
-                culled(self.level, test, &pairs, masks);
+                if let Some(tier) = claim.tier() {
+                    culled(self.level, Filter::new(tier), &pairs, masks);
+                } else if let Some(test) = claim.test() {
+                    culled(self.level, test, &pairs, masks);
+                }
             }
             for (index, (case, pair)) in cases.iter().zip(&pairs).enumerate() {
                 let mut judge = Judge::new(case, pair);
-                for ((claim, masks), tally) in self.claims.iter().zip(&masks).zip(&mut tallies) {
+                for ((claim, masks), count) in self.claims.iter().zip(&masks).zip(&mut counts) {
                     let is_claimed = match claim {
                         Claim::TimeOfImpact => {
                             let limits = if index % 2 == 0 {
@@ -96,14 +87,15 @@ impl Chunk<'_> {
                             };
                             time_of_impact(pair, &limits) == Impact::Never
                         }
+                        Claim::Plain => plain::culls(case),
                         _ => masks[index / LANES] >> (index % LANES) & 1 != 0,
                     };
                     if is_claimed {
-                        judge.judge(*claim, tally, self.index);
+                        judge.judge(*claim, count, self.index);
                     }
                 }
             }
         }
-        tallies
+        counts
     }
 }

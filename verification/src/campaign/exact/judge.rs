@@ -1,13 +1,13 @@
-//! Who judges a claim: exact signs, an axis, whole numbers, and the oracle.
+//! Judges claims by exact signs, an axis, integers, and the oracle.
 
-use super::{Claim, SAMPLE, Tally};
+use super::{Claim, ClaimCounts, SAMPLE};
 use crate::generator::{Format, PairCase};
 use crate::oracle;
 use selvedge_core::PrimitivePair;
 use selvedge_core::verification::exact::{control_value_signs, touches};
 use std::cmp::Ordering::{Greater, Less};
 
-/// One pair, and what is proven of it so far.
+/// One pair, and what is proven about it so far.
 pub(super) struct Judge<'a, S: Format> {
     case: &'a PairCase<S>,
     pair: &'a PrimitivePair<S>,
@@ -15,7 +15,7 @@ pub(super) struct Judge<'a, S: Format> {
     is_apart: Option<By>,
 }
 
-/// What proves that the sets stay apart.
+/// The proof that the sets stay apart.
 #[derive(Clone, Copy, PartialEq)]
 enum By {
     Axis,
@@ -34,24 +34,24 @@ impl<'a, S: Format> Judge<'a, S> {
         }
     }
 
-    /// Counts the claim, and whether it is right.
-    pub(super) fn judge(&mut self, claim: Claim, tally: &mut Tally, chunk: u64) {
-        tally.claims += 1;
+    /// Counts the claim and decides whether it is right.
+    pub(super) fn judge(&mut self, claim: Claim, count: &mut ClaimCounts, chunk: u64) {
+        count.claims += 1;
         let by = if claim.is_of_the_volume() {
             if self.has_one_sign() { By::Signs } else { By::Nothing }
         } else {
             self.is_apart()
         };
         match by {
-            By::Axis => tally.by_axis += 1,
-            By::Signs => tally.by_signs += 1,
-            By::WholeNumbers => tally.by_whole_numbers += 1,
+            By::Axis => count.by_axis += 1,
+            By::Signs => count.by_signs += 1,
+            By::WholeNumbers => count.by_whole_numbers += 1,
             By::Nothing => {}
         }
-        if by != By::Nothing && tally.claims % SAMPLE != 1 {
+        if by != By::Nothing && count.claims % SAMPLE != 1 {
             return;
         }
-        tally.by_oracle += 1;
+        count.by_oracle += 1;
         let question = self.case.question();
         let is_wrong = if claim.is_of_the_volume() {
             oracle::coplanar(&question.start, &question.end)
@@ -59,9 +59,9 @@ impl<'a, S: Format> Judge<'a, S> {
             oracle::collides(&question).is_some()
         };
         if is_wrong {
-            tally.wrong += 1;
+            count.wrong += 1;
             let example = (chunk, format!("{:?}", self.case));
-            tally.example = tally.example.take().into_iter().chain([example]).min();
+            count.example = count.example.take().into_iter().chain([example]).min();
         }
     }
 
@@ -89,7 +89,7 @@ impl<'a, S: Format> Judge<'a, S> {
         by
     }
 
-    /// One set ahead of the other along an axis, at both ends of the step.
+    /// Returns whether one set is ahead of the other along an axis, at both ends of the step.
     fn is_apart_along_an_axis(&self) -> bool {
         let [first, second] = self.case.sets();
         let ahead = |one: &[[[S; 3]; 2]], other: &[[[S; 3]; 2]], axis: usize| {

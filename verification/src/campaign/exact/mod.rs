@@ -1,14 +1,13 @@
-//! A billion pairs: every cull of the certified filters and box tests, and every "never" of the time of impact, checked by exact
-//! arithmetic that is fast enough for it.
+//! A billion pairs: exact arithmetic checks every cull of the certified filters and box tests, and every "never" of the time of impact.
 //!
-//! Unlike [`false_culls`](super::false_culls) it is made for speed, a microsecond a pair: tests run in batches, and pairs come from
-//! three [`Source`]s that cost little.
+//! A pair takes about a microsecond: tests run in batches, and pairs come from three cheap [`Source`]s.
 //!
-//! # Who judges
-//! A cull by the volume's signs is right if the exact control values ([`control_value_signs`](selvedge_core::verification::exact::control_value_signs)) have one strict sign. A claim that the
-//! sets stay apart is right if so; or if one axis keeps them in the same order at both ends, which comparisons of coordinates tell;
-//! or if [`touches`](selvedge_core::verification::exact::touches) says so, in whole numbers. Nothing else counts: what none of these proves is decided by the [`oracle`](crate::oracle), and
-//! every [`SAMPLE`]th claim that they do prove is put before the oracle as well.
+//! # Verdicts
+//! A cull by the volume's signs is right if the exact control values
+//! ([`control_value_signs`](selvedge_core::verification::exact::control_value_signs)) have one strict sign. A claim that two sets stay
+//! apart is right in three cases: the signs prove it, one axis keeps the sets in the same order at both ends, or the integer test
+//! [`touches`](selvedge_core::verification::exact::touches) says so. The [`oracle`](crate::oracle) decides all other claims. It also
+//! confirms every [`SAMPLE`]th claim that these prove.
 
 mod chunk;
 mod judge;
@@ -18,58 +17,89 @@ pub use pairs::{Points, Scenes, Source, sample};
 
 use super::{Findings, run as run_chunks};
 use chunk::Chunk;
-use selvedge_core::batch::Level;
+use selvedge_core::batch::{Level, Test};
+use selvedge_core::filter::Tier;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// Of the claims that are proven, every this many the oracle confirms one.
+/// The oracle confirms one in this many of the proven claims.
 pub const SAMPLE: u64 = 20_000;
 
-/// What claims that a pair need not be looked at.
+/// A test that claims something about a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Claim {
-    /// [`Tier::Permanent`](selvedge_core::filter::Tier::Permanent): never coplanar.
+    /// [`Tier::Permanent`] claims that the points are never coplanar, as the tiers below do.
     Filter,
-    /// [`Test::RelativeBoxes`](selvedge_core::batch::Test::RelativeBoxes): never touches, as all below.
+    /// [`Tier::Widened`].
+    Widened,
+    /// [`Tier::Exact`].
+    Exact,
+    /// [`Test::RelativeBoxes`] claims that the sets never touch, as the tests below do.
     RelativeBoxes,
-    /// [`Test::SegmentBox`](selvedge_core::batch::Test::SegmentBox).
+    /// [`Test::SegmentBox`].
     SegmentBox,
-    /// [`time_of_impact`](selvedge_core::elementary::advance::time_of_impact) without a separation, tolerance zero or the default.
+    /// [`time_of_impact`](selvedge_core::elementary::advance::time_of_impact) without a separation, with tolerance zero or the default.
     TimeOfImpact,
-    /// [`Plain`](selvedge_laboratory::baselines::plain::Plain): **not certified**, to show that false culls are found.
+    /// The paper's filter, [`plain`](crate::plain). **It is not certified**; it shows that false culls are found.
     Plain,
 }
 
 impl Claim {
-    /// Those that are certified.
-    pub const CERTIFIED: [Self; 4] = [Self::Filter, Self::RelativeBoxes, Self::SegmentBox, Self::TimeOfImpact];
+    /// The certified ones.
+    pub const CERTIFIED: [Self; 6] = [
+        Self::Filter,
+        Self::Widened,
+        Self::Exact,
+        Self::RelativeBoxes,
+        Self::SegmentBox,
+        Self::TimeOfImpact,
+    ];
 
-    /// Whether it says that the points are never coplanar; else, that the sets never touch.
+    /// Returns the tier of the certified filter.
+    const fn tier(self) -> Option<Tier> {
+        match self {
+            Self::Filter => Some(Tier::Permanent),
+            Self::Widened => Some(Tier::Widened),
+            Self::Exact => Some(Tier::Exact),
+            _ => None,
+        }
+    }
+
+    /// Returns the test that runs in batches, for a claim about the sets.
+    const fn test(self) -> Option<Test> {
+        match self {
+            Self::RelativeBoxes => Some(Test::RelativeBoxes),
+            Self::SegmentBox => Some(Test::SegmentBox),
+            _ => None,
+        }
+    }
+
+    /// Returns true if the claim is that the points are never coplanar, false if it is that the sets never touch.
     const fn is_of_the_volume(self) -> bool {
-        matches!(self, Self::Filter | Self::Plain)
+        matches!(self, Self::Plain) || self.tier().is_some()
     }
 }
 
-/// What was seen of one claim.
+/// Counts of one claim.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Tally {
-    /// How often it was made.
+pub struct ClaimCounts {
+    /// How often the test made it.
     pub claims: u64,
-    /// Of these, proven by exact signs.
+    /// Claims that exact signs prove.
     pub by_signs: u64,
-    /// By an axis.
+    /// Claims that an axis proves.
     pub by_axis: u64,
-    /// By whole numbers.
+    /// Claims that integers prove.
     pub by_whole_numbers: u64,
-    /// Decided or confirmed by the oracle.
+    /// Claims that the oracle decided or confirmed.
     pub by_oracle: u64,
-    /// Wrong.
+    /// Wrong claims.
     pub wrong: u64,
-    /// The first wrong one, by chunk.
+    /// The first wrong claim: its chunk and the pair.
     pub example: Option<(u64, String)>,
 }
 
-impl Tally {
+impl ClaimCounts {
     fn add(&mut self, other: Self) {
         self.claims += other.claims;
         self.by_signs += other.by_signs;
@@ -81,54 +111,54 @@ impl Tally {
     }
 }
 
-/// What a run found, by claim.
+/// The findings of a run, by claim.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Found {
-    /// What is looked at.
+pub struct ExactFindings {
+    /// The claims that are examined.
     pub claims: Vec<Claim>,
-    /// By format, source and claim.
-    pub tallies: [[Vec<Tally>; 3]; 2],
+    /// Counts by format, source and claim.
+    pub counts: [[Vec<ClaimCounts>; 3]; 2],
 }
 
-/// How far a run has come. Chunks go round formats, sources and kinds of pair.
-pub type Progress = super::Progress<Found>;
+/// The state of a run. Chunks cycle through formats, sources and kinds of pair.
+pub type Progress = super::Progress<ExactFindings>;
 
 impl Progress {
-    /// Nothing done yet; at least `pairs` pairs.
+    /// Starts a run over at least `pairs` pairs.
     #[must_use]
     pub fn new(seed: u64, pairs: u64, pairs_per_chunk: u64, scenes: &Scenes, claims: &[Claim]) -> Self {
-        let nothing = || vec![Tally::default(); claims.len()];
+        let nothing = || vec![ClaimCounts::default(); claims.len()];
         let of_format = || [nothing(), nothing(), nothing()];
-        let found = Found {
+        let found = ExactFindings {
             claims: claims.to_vec(),
-            tallies: [of_format(), of_format()],
+            counts: [of_format(), of_format()],
         };
         let depends_on = [("claims", format!("{claims:?}")), ("scenes", scenes.to_string())];
         Self::with_nothing_done(seed, pairs, pairs_per_chunk, &depends_on, found)
     }
 }
 
-impl Findings for Found {
+impl Findings for ExactFindings {
     const CAMPAIGN: &'static str = "exact_campaign";
-    type OfChunk = Vec<Tally>;
+    type OfChunk = Vec<ClaimCounts>;
 
-    fn add(&mut self, chunk: u64, tallies: Vec<Tally>) {
-        let sums = &mut self.tallies[chunk::format(chunk)][chunk::source(chunk) as usize];
-        for (sum, tally) in sums.iter_mut().zip(tallies) {
-            sum.add(tally);
+    fn add(&mut self, chunk: u64, counts: Vec<ClaimCounts>) {
+        let sums = &mut self.counts[chunk::format(chunk)][chunk::source(chunk) as usize];
+        for (sum, count) in sums.iter_mut().zip(counts) {
+            sum.add(count);
         }
     }
 
     fn join(&mut self, other: Self) {
-        let tallies = other.tallies.into_iter().flatten().flatten();
-        for (sum, tally) in self.tallies.iter_mut().flatten().flatten().zip(tallies) {
-            sum.add(tally);
+        let counts = other.counts.into_iter().flatten().flatten();
+        for (sum, count) in self.counts.iter_mut().flatten().flatten().zip(counts) {
+            sum.add(count);
         }
     }
 
     fn wrong(&self) -> u64 {
-        let all = self.tallies.iter().flatten().flatten();
-        all.map(|tally| tally.wrong).sum()
+        let all = self.counts.iter().flatten().flatten();
+        all.map(|count| count.wrong).sum()
     }
 }
 
@@ -140,22 +170,22 @@ impl fmt::Display for Progress {
             "claim", "scalar", "source", "claims", "by signs", "by axis", "whole numbers", "by oracle", "wrong"
         )?;
         let mut examples = Vec::new();
-        for (by_source, scalar) in self.found.tallies.iter().zip(["f32", "f64"]) {
-            for (tallies, source) in by_source.iter().zip(Source::ALL) {
-                for (tally, claim) in tallies.iter().zip(&self.found.claims) {
+        for (by_source, scalar) in self.found.counts.iter().zip(["f32", "f64"]) {
+            for (counts, source) in by_source.iter().zip(Source::ALL) {
+                for (count, claim) in counts.iter().zip(&self.found.claims) {
                     writeln!(
                         f,
                         "{:16} {scalar:6} {:12} {:13} {:13} {:13} {:13} {:9} {:6}",
                         format!("{claim:?}"),
                         format!("{source:?}"),
-                        tally.claims,
-                        tally.by_signs,
-                        tally.by_axis,
-                        tally.by_whole_numbers,
-                        tally.by_oracle,
-                        tally.wrong
+                        count.claims,
+                        count.by_signs,
+                        count.by_axis,
+                        count.by_whole_numbers,
+                        count.by_oracle,
+                        count.wrong
                     )?;
-                    if let Some((_, pair)) = &tally.example {
+                    if let Some((_, pair)) = &count.example {
                         examples.push(format!("{claim:?}, {scalar}, is wrong of\n{pair}"));
                     }
                 }
@@ -167,7 +197,7 @@ impl fmt::Display for Progress {
     }
 }
 
-/// Does what is left, on as many threads, until `stops` says so. `after_chunk` sees each state that may be kept, one at a time.
+/// Runs the remaining chunks on `threads` threads until `stops` returns true. `after_chunk` gets each state that may be kept, one at a time.
 ///
 /// # Panics
 /// If a thread panics.

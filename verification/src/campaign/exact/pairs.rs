@@ -1,18 +1,21 @@
-//! Pairs that cost little to make, and where they come from.
+//! Sources of pairs that cost little to make.
 
 use crate::campaign::Digest;
 use crate::generator::{Choices, Format, PairCase};
+use selvedge::broad_phase::MovingBroadPhase;
+use selvedge::{StepError, Topology};
 use selvedge_core::PairKind;
+use selvedge_core::glam::DVec3;
 use std::fmt;
 
-/// Where pairs come from.
+/// A source of pairs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
-    /// Random coordinates, half of the pairs nearly coplanar.
+    /// Random coordinates; half of the pairs are nearly coplanar.
     Random,
-    /// Pairs of the tests' [generator](crate::generator), each in many variants a few units in the last place away.
+    /// Pairs of the tests' [generator](crate::generator), each in many variants that differ by a few units in the last place.
     Adversarial,
-    /// Pairs of real motion, as they are, nudged, far from the origin, or moved onto one another's plane.
+    /// Pairs from meshes in motion: unchanged, nudged, far from the origin, or moved into one another's plane.
     Scene,
 }
 
@@ -23,23 +26,51 @@ impl Source {
 /// Four moving points.
 pub type Points = [[[f64; 3]; 2]; 4];
 
-/// The pairs of real motion.
+/// Pairs from meshes in motion.
 #[derive(Clone, Debug, Default)]
 pub struct Scenes {
-    /// Vertex and face.
+    /// Vertex–face pairs.
     pub vertex_face: Vec<Points>,
-    /// Two edges.
+    /// Edge–edge pairs.
     pub edge_edge: Vec<Points>,
 }
 
 impl fmt::Display for Scenes {
-    /// How many pairs there are, and a digest of them: machines whose scenes differ, by a file or by a rounding, do not look at the same.
+    /// Writes the number of pairs and a digest of them. So machines whose scenes differ, by a file or by a rounding, do not share
+    /// a run.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let kinds = [&self.vertex_face, &self.edge_edge];
         let coordinates = kinds.into_iter().flatten().flatten().flatten().flatten();
         let digest = Digest::of_bytes(coordinates.map(|x| x.to_le_bytes()));
         let [vertex_face, edge_edge] = kinds.map(Vec::len);
         write!(f, "{vertex_face} VF and {edge_edge} EE pairs, {digest}")
+    }
+}
+
+impl Scenes {
+    /// Adds pairs of a mesh whose moving boxes overlap in a step: at most `limit` of each kind, evenly spaced.
+    ///
+    /// # Errors
+    /// If a position is not finite, or there is not one for each vertex.
+    pub fn add_step(&mut self, topology: &Topology, start: &[DVec3], end: &[DVec3], limit: usize) -> Result<(), StepError> {
+        let mut broad_phase = MovingBroadPhase::new(topology.clone());
+        broad_phase.update(start, end)?;
+        let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
+        broad_phase.candidates(&mut vertex_face, &mut edge_edge);
+        for (kind, mut pairs, found) in [
+            (PairKind::VertexFace, vertex_face, &mut self.vertex_face),
+            (PairKind::EdgeEdge, edge_edge, &mut self.edge_edge),
+        ] {
+            // The order of candidates is not promised.
+            pairs.sort_unstable();
+            let stride = pairs.len().div_ceil(limit).max(1);
+            let points = |pair: [u32; 2]| {
+                let vertices = topology.vertices_of(kind, pair).map(|vertex| vertex as usize);
+                vertices.map(|vertex| [start[vertex].to_array(), end[vertex].to_array()])
+            };
+            found.extend(pairs.into_iter().step_by(stride).map(points));
+        }
+        Ok(())
     }
 }
 
@@ -92,7 +123,8 @@ impl<'a> Maker<'a> {
     }
 }
 
-/// The first `count` pairs of `source` ([`Source::Scene`] has none here, and gives random ones): the same on every machine.
+/// Returns the first `count` pairs of `source`, which are the same on every machine. [`Source::Scene`] has no pairs here, and
+/// random ones are returned.
 #[must_use]
 pub fn sample<S: Format>(source: Source, kind: PairKind, seed: u64, count: usize) -> Vec<PairCase<S>> {
     let (scenes, mut cases) = (Scenes::default(), Vec::new());
@@ -100,14 +132,16 @@ pub fn sample<S: Format>(source: Source, kind: PairKind, seed: u64, count: usize
     cases
 }
 
-/// Whether exact arithmetic takes a hundred times as long as with coordinates of one size: then one variant is enough.
+/// Returns whether coordinates differ so much in size that exact arithmetic takes a hundred times as long. Then one variant is
+/// enough.
 fn is_wide<S: Format>(case: &PairCase<S>) -> bool {
     let sizes = case.coordinates().map(|x| x.to_f64().abs()).filter(|&x| x > 0.0);
     let (low, high) = sizes.fold((f64::MAX, 0.0_f64), |(low, high), x| (low.min(x), high.max(x)));
     high / low > 1e60
 }
 
-/// Three in four pairs have coordinates of few enough bits for whole numbers of one word, which takes a fraction of the time.
+/// Makes a random pair. Three in four pairs have coordinates of so few bits that integers of one word suffice for exact
+/// arithmetic, which takes a fraction of the time.
 fn at_random<S: Format>(kind: PairKind, random: &mut Random) -> PairCase<S> {
     let bits = if random.below(4) > 0 { 26 } else { 52 };
     let motion = [1.0, 0.5, 1.0 / 16.0, 1.0 / 4096.0, 1.0 / 4_194_304.0][random.below(5) as usize];
@@ -124,7 +158,8 @@ fn at_random<S: Format>(kind: PairKind, random: &mut Random) -> PairCase<S> {
     }
 }
 
-/// As it is; or nudged; or far from the origin, where coordinates are rounded; or onto one another's plane.
+/// Returns the pair unchanged, nudged, far from the origin, where coordinates are rounded, or with a point in the plane of the
+/// others.
 fn of_motion<S: Format>(case: PairCase<S>, random: &mut Random) -> PairCase<S> {
     match random.below(4) {
         0 => case,
@@ -139,7 +174,7 @@ fn of_motion<S: Format>(case: PairCase<S>, random: &mut Random) -> PairCase<S> {
     }
 }
 
-/// The first point moved into the plane of the others, but for rounding, at the start, at the end or at both.
+/// Moves the first point into the plane of the others, up to rounding, at the start, at the end or at both.
 fn onto_the_plane<S: Format>(mut case: PairCase<S>, random: &mut Random) -> PairCase<S> {
     let ends = 1 + random.below(3);
     let [p, a, b, c] = &mut case.points;
@@ -153,8 +188,8 @@ fn onto_the_plane<S: Format>(mut case: PairCase<S>, random: &mut Random) -> Pair
     case
 }
 
-/// Some coordinates one or two units in the last place up or down. Zeros seldom: next to numbers of everyday size the smallest
-/// subnormal ones make exact arithmetic take a hundred times as long.
+/// Moves some coordinates up or down by one or two units in the last place. It seldom changes zeros: subnormal numbers beside
+/// numbers of everyday size make exact arithmetic a hundred times as slow.
 fn nudged<S: Format>(mut case: PairCase<S>, count: u64, random: &mut Random) -> PairCase<S> {
     for _ in 0..count {
         let index = random.below(24) as usize;
@@ -172,7 +207,7 @@ fn nudged<S: Format>(mut case: PairCase<S>, count: u64, random: &mut Random) -> 
     case
 }
 
-/// Small and fast (`SplitMix64`): most of the time is to go to the tests.
+/// A small and fast generator of random numbers (`SplitMix64`), since most of the time should go to the tests.
 pub(super) struct Random(u64);
 
 impl Random {
@@ -194,7 +229,7 @@ impl Random {
         ((self.next() >> 32) * count) >> 32
     }
 
-    /// From −1 to 1, in steps of 2^-`bits`; at most 52.
+    /// Returns a number from −1 to 1, in steps of 2^-`bits`, at most 52.
     const fn fraction(&mut self, bits: u32) -> f64 {
         (self.next().cast_signed() >> (63 - bits)) as f64 * (1.0 / (1_u64 << bits) as f64)
     }

@@ -1,4 +1,4 @@
-//! Two bodies in screw motion, and a set of points on each that meet at a known time but for rounding.
+//! Two bodies in screw motion, with a set of points on each. The sets meet at a known time, up to rounding.
 
 use super::interval::Interval;
 use crate::generator::{Choices, Screw, side_of, vector};
@@ -8,7 +8,7 @@ use selvedge_core::glam::DVec3;
 use selvedge_core::paths::{Arc, Path, time_of_impact};
 use std::f64::consts::{PI, TAU};
 
-/// Angles that bodies turn by, at most: few of many turns, which take as many straight pieces.
+/// Angles by which bodies rotate. Few are large, since each turn takes many straight pieces.
 const ANGLES: [f64; 16] = [0.0, 1e-9, 1e-4, 0.01, 0.1, 0.1, 0.5, 0.5, 1.0, 1.0, 2.0, 2.0, PI, PI, PI, TAU];
 
 type Box = [Interval; 3];
@@ -36,10 +36,10 @@ fn cross(a: Box, b: Box) -> Box {
     })
 }
 
-/// A body's motion at some time, enclosed.
+/// An enclosure of a body's pose at some time.
 struct Turned {
     centre: Box,
-    /// Where that is then.
+    /// The place of the centre at that time.
     moved: Box,
     axis: Box,
     sine: Interval,
@@ -50,7 +50,7 @@ impl Turned {
     fn new(screw: &Screw, time: f64) -> Self {
         let [sine, cosine] = Interval::sine_and_cosine(screw.angle, time);
         let centre = about(screw.centre);
-        // By its largest coordinate first: the square may be out of range.
+        // Divides by the largest coordinate first, since the square may overflow.
         let axis = about(screw.axis);
         let axis = axis.map(|x| x / Interval::from(screw.axis.abs().max_element()));
         let length = (axis[0].square() + axis[1].square() + axis[2].square()).root();
@@ -63,7 +63,7 @@ impl Turned {
         }
     }
 
-    /// Where the point is that starts there.
+    /// Returns where the point is that starts at `start`.
     fn at(&self, start: DVec3) -> Box {
         let way = each(about(start), self.centre, |a, b| a - b);
         let along = times(self.axis, dot(self.axis, way));
@@ -75,7 +75,7 @@ impl Turned {
     }
 }
 
-/// Where a point starts that is somewhere at a time: rounded, which is all that this is needed for.
+/// Returns the start of a point that is `there` at `time`, rounded.
 fn start_of(screw: &Screw, there: DVec3, time: f64) -> DVec3 {
     let axis = screw.axis / screw.axis.abs().max_element();
     let axis = axis / axis.length();
@@ -85,28 +85,29 @@ fn start_of(screw: &Screw, there: DVec3, time: f64) -> DVec3 {
     screw.centre + along + (way - along) * cosine + axis.cross(way) * sine
 }
 
-/// See the [module](super).
+/// A case of the campaign; see the [module](super).
 #[derive(Clone, Debug)]
 pub(super) struct Case {
     pub(super) kind: PairKind,
-    /// Of the first set and of the second.
+    /// The motions of the first and of the second body.
     screws: [Screw; 2],
-    /// Where the four points start.
+    /// The starts of the four points.
     starts: [DVec3; 4],
-    /// When they meet, and how far apart they are then at most.
+    /// The time at which they meet.
     pub(super) time: f64,
+    /// A bound on their distance at that time.
     pub(super) distance: f64,
     tolerance: f64,
 }
 
 impl Case {
-    /// `None` where rounding leaves the two sets apart by more than a billionth of the coordinates.
+    /// Chooses a case. Returns `None` if rounding leaves the sets apart by more than a billionth of the coordinates.
     pub(super) fn choose(choices: &mut Choices<'_>) -> Option<Self> {
         let kind = choices.pick(&[PairKind::VertexFace, PairKind::EdgeEdge]);
         let screws = [Screw::choose(&ANGLES, choices), Screw::choose(&ANGLES, choices)];
         let size = choices.pick(&[1.0, 1e-3, 10.0]);
         let places = [(); 4].map(|()| screws[0].centre + size * vector(choices));
-        // Sixteenths, so that weights add up to one exactly; and any time.
+        // Weights are sixteenths, so that they add up to one exactly.
         let sixteenths = |choices: &mut Choices<'_>, most: u32| choices.below(most + 1);
         let time = match choices.below(8) {
             0 => 1.0,
@@ -120,11 +121,11 @@ impl Case {
         };
         let [u, v] = [first, second].map(|part| f64::from(part) / 16.0);
 
-        // Where they are then, as far as rounding goes.
+        // Rounded places at that time.
         let [a, b, c, d] = places;
         let places = match kind {
             PairKind::VertexFace => [b + (c - b) * u + (d - b) * v, b, c, d],
-            // The second edge begins so that its part v is the first one's part u.
+            // The second edge begins where its part v is part u of the first edge.
             PairKind::EdgeEdge => {
                 let way = d - c;
                 let second = a + (b - a) * u - way * v;
@@ -138,7 +139,7 @@ impl Case {
             return None;
         }
 
-        // Where they truly are: the distance of two points that are on the two sets.
+        // Encloses the distance of a point on the one set and a point on the other.
         let turned = screws.each_ref().map(|screw| Turned::new(screw, time));
         let [a, b, c, d] = corners.map(|corner| turned[side(corner)].at(starts[corner]));
         let part = |from: Box, to: Box, share: f64| times(each(to, from, |x, y| x - y), share.into());
@@ -170,9 +171,9 @@ impl Case {
         [0, 1, 2, 3].map(|corner| self.screws[side_of(self.kind, corner)].motion().path(self.starts[corner]))
     }
 
-    /// When core says that the two may first be as near as they certainly are at [`time`](Self::time): on their arcs, or on the chords
-    /// of these.
-    pub(super) fn told(&self, on_chords: bool) -> Option<f64> {
+    /// Returns the first time at which core cannot exclude that the sets are within [`distance`](Self::distance), on their arcs or on
+    /// the chords of these.
+    pub(super) fn first_time(&self, on_chords: bool) -> Option<f64> {
         let limits = Limits {
             separation: self.distance,
             tolerance: self.tolerance,

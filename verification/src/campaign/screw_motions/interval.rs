@@ -3,14 +3,15 @@
 use rug::{Assign, Float};
 use std::ops::{Add, Div, Mul, Sub};
 
-/// All real numbers from the first to the second.
+/// All real numbers from `low` to `high`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Interval {
     pub(super) low: f64,
     pub(super) high: f64,
 }
 
-/// Of two bounds to nearest: the exact ones are between the numbers next to them. NaN, as of infinity minus infinity, becomes all numbers.
+/// Widens two bounds that were rounded to nearest: the exact ones are between their neighbours. NaN, as of infinity minus
+/// infinity, becomes an infinite bound.
 fn outwards(low: f64, high: f64) -> Interval {
     let known = |bound: f64, unknown: f64| if bound.is_nan() { unknown } else { bound };
     Interval {
@@ -26,13 +27,13 @@ impl From<f64> for Interval {
 }
 
 impl Interval {
-    /// That holds a number of more digits.
+    /// Encloses a number of more digits.
     fn of(x: &Float) -> Self {
         let nearest = x.to_f64();
         outwards(nearest, nearest)
     }
 
-    /// Sine and cosine of the product of two numbers.
+    /// Encloses sine and cosine of the product of two numbers.
     pub(super) fn sine_and_cosine(angle: f64, time: f64) -> [Self; 2] {
         // The product of two 53-bit numbers is exact in 128 bits. MPFR rounds sine and cosine correctly to 64 bits, so the error is at most
         // 1/4096 of the distance of two neighbouring `f64`s. Hence the exact value lies between the neighbours of the nearest `f64`.
@@ -52,7 +53,7 @@ impl Interval {
         }
     }
 
-    /// Of what is in it and not less than zero.
+    /// Encloses the square roots of the nonnegative numbers of the interval.
     pub(super) fn root(self) -> Self {
         let root = outwards(self.low.max(0.0).sqrt(), self.high.sqrt());
         Self {
@@ -99,7 +100,7 @@ impl Mul for Interval {
 impl Div for Interval {
     type Output = Self;
 
-    /// By one that is more than zero; else all numbers.
+    /// Divides by a positive interval. For any other divisor the result is all real numbers.
     fn div(self, other: Self) -> Self {
         if other.low <= 0.0 {
             return outwards(f64::NAN, f64::NAN);

@@ -1,12 +1,11 @@
-//! Bodies in screw motion that meet: a hundred million times of impact, none of which may be later than a time at which the two certainly
-//! are as near as the separation that is asked for.
+//! Bodies in screw motion that meet: no time of impact may be later than a time at which the two are certainly within the separation.
 //!
-//! # Who judges
-//! A case is made backwards: two sets of points, one on each body, are put together at a time, and turned back to where they start, in
-//! floating point. Where the starts, as they are rounded, truly lead is then enclosed: sine and cosine correctly rounded to 64 bits, the rest in
-//! intervals of `f64` rounded outwards. So is the distance, at that time, of a point on the one set and a point on the other. It is at most
-//! some rounding, 10⁻¹⁵ of the coordinates or so, and **this bound is the separation that the time of impact is asked for**: on the exact
-//! arcs the two are within it at that time. A time that is told later, or none, is wrong.
+//! # Verdicts
+//! A case is made backwards. Two sets of points, one on each body, are put together at a chosen time, and turned back to their starts in
+//! floating point. Then the true places to which the rounded starts lead are enclosed: sine and cosine are correctly rounded to 64 bits,
+//! and the rest are intervals of `f64`, rounded outwards. These enclose the distance, at that time, of a point on one set and a point on
+//! the other. The distance is at most a few roundings, about 10⁻¹⁵ of the coordinates. **The search uses this bound as its separation**,
+//! so on the exact arcs the two sets are within it at that time. A later time, or none, is wrong.
 
 mod case;
 mod interval;
@@ -19,69 +18,69 @@ use selvedge_core::PairKind;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// What is asked for times.
+/// The paths that the search gets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Ways {
     /// The arcs themselves.
     Arcs,
-    /// Their chords: **not certified**, to show that misses are found.
+    /// Their chords. **They are not certified**; they show that misses are found.
     Chords,
 }
 
-/// What was seen of one kind of pair.
+/// Counts of one kind of pair.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Tally {
+pub struct MeetingCounts {
     /// Pairs that meet.
     pub cases: u64,
-    /// Those whose time is told not long before: in the last hundredth of the time until they meet.
+    /// Pairs whose time is found in the last hundredth of the time until they meet.
     pub sharp: u64,
-    /// Those that meet where they start, or so soon that nothing could be told of it.
+    /// Pairs that are found at the start of the step.
     pub at_once: u64,
-    /// Told too late, or not at all.
+    /// Pairs that are found too late, or not at all.
     pub missed: u64,
-    /// The first of these, by chunk.
+    /// The first missed pair: its chunk and the case.
     pub example: Option<(u64, String)>,
 }
 
-/// What a run found, of vertex–face and edge–edge pairs.
+/// The findings of a run.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Found {
-    /// Of either kind.
-    pub tallies: [Tally; 2],
+pub struct ScrewFindings {
+    /// Counts of vertex–face and of edge–edge pairs.
+    pub counts: [MeetingCounts; 2],
 }
 
-/// How far a run has come.
-pub type Progress = super::Progress<Found>;
+/// The state of a run.
+pub type Progress = super::Progress<ScrewFindings>;
 
 impl Progress {
-    /// Nothing done yet; at least `cases` cases.
+    /// Starts a run over at least `cases` cases.
     #[must_use]
     pub fn new(seed: u64, cases: u64, cases_per_chunk: u64, ways: Ways) -> Self {
         let depends_on = [("ways", format!("{ways:?}"))];
-        Self::with_nothing_done(seed, cases, cases_per_chunk, &depends_on, Found::default())
+        Self::with_nothing_done(seed, cases, cases_per_chunk, &depends_on, ScrewFindings::default())
     }
 }
 
-impl Findings for Found {
+impl Findings for ScrewFindings {
     const CAMPAIGN: &'static str = "screw_motions";
-    type OfChunk = [Tally; 2];
+    type OfChunk = [MeetingCounts; 2];
 
-    fn add(&mut self, _: u64, tallies: [Tally; 2]) {
-        self.join(Self { tallies });
+    fn add(&mut self, _: u64, counts: [MeetingCounts; 2]) {
+        self.join(Self { counts });
     }
 
     fn join(&mut self, other: Self) {
-        for (sum, tally) in self.tallies.iter_mut().zip(other.tallies) {
-            sum.cases += tally.cases;
-            sum.sharp += tally.sharp;
-            sum.at_once += tally.at_once;
-            sum.missed += tally.missed;
-            sum.example = sum.example.take().into_iter().chain(tally.example).min();
+        for (sum, count) in self.counts.iter_mut().zip(other.counts) {
+            sum.cases += count.cases;
+            sum.sharp += count.sharp;
+            sum.at_once += count.at_once;
+            sum.missed += count.missed;
+            sum.example = sum.example.take().into_iter().chain(count.example).min();
         }
     }
 
     fn wrong(&self) -> u64 {
-        self.tallies.iter().map(|tally| tally.missed).sum()
+        self.counts.iter().map(|count| count.missed).sum()
     }
 }
 
@@ -89,17 +88,17 @@ impl fmt::Display for Progress {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [kind, cases, sharp, at_once, missed] = ["pair", "that meet", "sharp", "at once", "missed"];
         writeln!(f, "{kind:12} {cases:>14} {sharp:>14} {at_once:>14} {missed:>10}")?;
-        for (kind, tally) in KINDS.iter().zip(&self.found.tallies) {
-            let Tally {
+        for (kind, count) in KINDS.iter().zip(&self.found.counts) {
+            let MeetingCounts {
                 cases,
                 sharp,
                 at_once,
                 missed,
                 ..
-            } = tally;
+            } = count;
             writeln!(f, "{kind:12} {cases:14} {sharp:14} {at_once:14} {missed:10}")?;
         }
-        let examples = self.found.tallies.iter().filter_map(|tally| tally.example.as_ref());
+        let examples = self.found.counts.iter().filter_map(|count| count.example.as_ref());
         for (chunk, example) in examples {
             writeln!(f, "\nmissed, in chunk {chunk}:\n{example}")?;
         }
@@ -109,7 +108,7 @@ impl fmt::Display for Progress {
 
 const KINDS: [PairKind; 2] = [PairKind::VertexFace, PairKind::EdgeEdge];
 
-/// Does what is left, on as many threads, until `stops` says so. `after_chunk` sees each state that may be kept, one at a time.
+/// Runs the remaining chunks on `threads` threads until `stops` returns true. `after_chunk` gets each state that may be kept, one at a time.
 ///
 /// # Panics
 /// If a thread panics.
@@ -130,10 +129,10 @@ pub fn run(
     )
 }
 
-fn look_at(seed: u64, chunk: u64, cases: u64, ways: Ways) -> [Tally; 2] {
+fn look_at(seed: u64, chunk: u64, cases: u64, ways: Ways) -> [MeetingCounts; 2] {
     let mut random = super::random(seed, chunk);
     let mut bytes = [0; Choices::ENOUGH];
-    let mut tallies = <[Tally; 2]>::default();
+    let mut counts = <[MeetingCounts; 2]>::default();
     let mut left = cases;
     while left > 0 {
         random.fill_bytes(&mut bytes);
@@ -141,21 +140,21 @@ fn look_at(seed: u64, chunk: u64, cases: u64, ways: Ways) -> [Tally; 2] {
             continue;
         };
         left -= 1;
-        let tally = &mut tallies[usize::from(case.kind == PairKind::EdgeEdge)];
-        tally.cases += 1;
-        let told = case.told(ways == Ways::Chords);
-        match told {
+        let count = &mut counts[usize::from(case.kind == PairKind::EdgeEdge)];
+        count.cases += 1;
+        let found = case.first_time(ways == Ways::Chords);
+        match found {
             Some(time) if time <= case.time => {
                 let is_sharp = case.time - time <= 0.01 * case.time;
-                tally.sharp += u64::from(is_sharp && time > 0.0);
-                tally.at_once += u64::from(time == 0.0);
+                count.sharp += u64::from(is_sharp && time > 0.0);
+                count.at_once += u64::from(time == 0.0);
             }
             _ => {
-                tally.missed += 1;
-                let text = format!("told {told:?}, but at {} within {}: {case:?}", case.time, case.distance);
-                tally.example.get_or_insert((chunk, text));
+                count.missed += 1;
+                let text = format!("found {found:?}, but at {} within {}: {case:?}", case.time, case.distance);
+                count.example.get_or_insert((chunk, text));
             }
         }
     }
-    tallies
+    counts
 }

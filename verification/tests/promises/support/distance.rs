@@ -1,7 +1,7 @@
-//! A third opinion: distances in floating point, and stepping through time no faster than they allow.
+//! A third check: distances in floating point, and steps through time that are no longer than they allow.
 //!
-//! Good to about 1e-12 on coordinates of size 1, which decides every case of a small grid: there a
-//! pair either touches or stays apart by far more.
+//! The error is about 1e-12 for coordinates of size 1. That decides every case of a small grid, where a pair either touches or
+//! stays apart by far more.
 
 use glam::DVec3;
 use selvedge_core::glam;
@@ -22,8 +22,8 @@ fn to_segment(x: DVec3, p: DVec3, q: DVec3) -> f64 {
     x.distance(p + along * part)
 }
 
-/// The interior is left to the edges where the triangle is thinner than this (squared): its points
-/// are then within 1e-9 of an edge.
+/// If the squared height of a triangle is less than this, only its edges are examined, since its points are then within 1e-9 of
+/// an edge.
 const THIN: f64 = 1e-18;
 
 fn vertex_face([x, a, b, c]: [DVec3; 4]) -> f64 {
@@ -61,7 +61,7 @@ fn edge_edge([a, b, c, d]: [DVec3; 4]) -> f64 {
     }
 }
 
-/// The distance of the two sides at time `t`.
+/// Returns the distance of the two sides at time `t`.
 pub(crate) fn distance(pair: &Pair, t: f64) -> f64 {
     let points = [0, 1, 2, 3].map(|i| position(pair, i, t));
     match pair.kind {
@@ -70,11 +70,11 @@ pub(crate) fn distance(pair: &Pair, t: f64) -> f64 {
     }
 }
 
-/// What counts as having come down to a distance.
+/// The distance above the separation at which stepping ends.
 pub(crate) const SLACK: f64 = 1e-9;
 
-/// A time not after the first one at which the distance comes down to `separation`, and at which it
-/// is less than `SLACK` above it; `None` if there is none.
+/// Returns a time not after the first one at which the distance comes down to `separation`, and at which it is less than `SLACK`
+/// above it, or `None` if there is none.
 pub(crate) fn advance(pair: &Pair, separation: f64) -> Option<f64> {
     let velocity = |i: usize| DVec3::from(pair.end[i]) - DVec3::from(pair.start[i]);
     let first = match pair.kind {

@@ -1,13 +1,13 @@
-//! The floating-point environments that a thread can be in, really set.
+//! The floating-point environments of a thread, set in the control register.
 //!
-//! Rust assumes that nobody touches the control register, and folds constants to nearest. So the code to be tested is called
-//! through a pointer that the compiler cannot see through, on input that it cannot see through; and what runs between setting
-//! and restoring is that call alone. A call is neither folded nor moved across the assembly.
+//! Rust assumes that the control register is never changed, and folds constants to nearest. So the code under test is called
+//! through a pointer, on input, both of which are hidden from the compiler. Only that call runs between setting and restoring,
+//! and it is neither folded nor moved across the assembly.
 
 use std::fmt;
 use std::hint::black_box;
 
-/// Rounding direction, and what becomes of subnormal numbers.
+/// A rounding direction, and whether subnormal numbers are flushed.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Environment {
     direction: u32,
@@ -15,15 +15,15 @@ pub(crate) struct Environment {
     denormals_are_zero: bool,
 }
 
-/// As the control register of x86 numbers them.
+/// The direction's number in the control register of x86.
 const DIRECTIONS: [&str; 4] = ["to nearest", "downward", "upward", "towards zero"];
 
 impl Environment {
-    /// What every thread starts in.
+    /// The default environment of a thread.
     pub(crate) const DEFAULT: Self = Self::new(0, false, false);
     pub(crate) const DOWNWARD: Self = Self::new(1, false, false);
     pub(crate) const UPWARD: Self = Self::new(2, false, false);
-    /// To nearest, and neither subnormal results nor subnormal operands.
+    /// Rounding to nearest, with subnormal results and operands flushed.
     pub(crate) const FLUSHING: Self = Self::new(0, true, true);
 
     const fn new(direction: u32, flush_to_zero: bool, denormals_are_zero: bool) -> Self {
@@ -34,7 +34,7 @@ impl Environment {
         }
     }
 
-    /// All sixteen; none, with a note, where the test does not know how to set them.
+    /// Returns all sixteen, or none, with a note, where the test cannot set them.
     pub(crate) fn all() -> Vec<Self> {
         if cfg!(not(target_arch = "x86_64")) {
             eprintln!("skipped: floating-point environments are set on x86-64 only");
@@ -45,9 +45,9 @@ impl Environment {
         all.concat()
     }
 
-    /// `f(input)`, computed in this environment.
+    /// Returns `f(input)`, computed in this environment.
     ///
-    /// On processors other than x86-64 there is only the default one.
+    /// Processors other than x86-64 have only the default one.
     pub(crate) fn run<I: ?Sized, T>(self, input: &I, f: impl Fn(&I) -> T) -> T {
         let f: &dyn Fn(&I) -> T = &f;
         let (f, input) = (black_box(f), black_box(input));
@@ -78,7 +78,7 @@ mod register {
     const ROUNDING: u32 = 13;
     const FLUSH_TO_ZERO: u32 = 15;
 
-    /// Puts the register back when it goes, in a panic as well.
+    /// Restores the register when it is dropped, after a panic as well.
     pub(super) struct Restored(u32);
 
     impl Restored {
@@ -88,7 +88,7 @@ mod register {
             let mode = environment.direction << ROUNDING
                 | u32::from(environment.flush_to_zero) << FLUSH_TO_ZERO
                 | u32::from(environment.denormals_are_zero) << DENORMALS_ARE_ZERO;
-            // SAFETY: the register is put back before the caller goes on with floating-point code of its own.
+            // SAFETY: the register is restored before the caller's own floating-point code runs.
             unsafe {
                 asm!("stmxcsr [{}]", in(reg) &raw mut before, options(nostack));
                 let cleared = before & !(3 << ROUNDING | 1 << FLUSH_TO_ZERO | 1 << DENORMALS_ARE_ZERO);
@@ -102,7 +102,7 @@ mod register {
     impl Drop for Restored {
         #[inline(never)]
         fn drop(&mut self) {
-            // SAFETY: what was there before.
+            // SAFETY: this is the register's earlier value.
             unsafe {
                 asm!("ldmxcsr [{}]", in(reg) &raw const self.0, options(nostack));
             }

@@ -1,4 +1,4 @@
-//! What is promised of a contact's geometry, checked against what four points do without rounding.
+//! Checks the promises about a contact's geometry against the motion of four points without rounding.
 
 use super::rationals::rational;
 use super::{Point, dot, point};
@@ -8,26 +8,26 @@ use selvedge_core::PairKind;
 use selvedge_core::separation::geometry::Geometry;
 use selvedge_verification::oracle::within_at_rest;
 
-/// What four points do.
+/// The exact motion of four points.
 pub(crate) struct Truth<'a> {
     pub(crate) kind: PairKind,
-    /// When the geometry was asked for.
+    /// The time of the geometry.
     pub(crate) time: f64,
-    /// Where they are at a time.
+    /// Returns the positions at a time.
     pub(crate) at: &'a dyn Fn(f64) -> [Point; 4],
-    /// At `time`.
+    /// The velocities at `time`.
     pub(crate) velocities: [Point; 4],
-    /// The largest coordinate, of which 96u is allowed to a point.
+    /// The largest coordinate. The error of a point may be 96u of it.
     pub(crate) largest: Rational,
-    /// The largest difference, of which 256u is allowed to the speed.
+    /// The largest difference. The error of the speed may be 256u of it.
     pub(crate) of_speed: Rational,
-    /// By how much the points of the two sides may be off beside that, and by how much the sides' velocities together.
+    /// Further errors of the points of the two sides, and of the difference of the sides' velocities.
     pub(crate) position_errors: [f64; 2],
     pub(crate) velocity_errors: f64,
 }
 
 impl Truth<'_> {
-    /// Everything that is promised. Whether there is a normal.
+    /// Checks everything that is promised. Returns whether there is a normal.
     pub(crate) fn is_promised(&self, found: &Geometry) -> Result<bool, TestCaseError> {
         let unit = rational(f64::EPSILON / 2.0);
         let underflow = rational(f64::MIN_POSITIVE) * 512_u32;
@@ -71,7 +71,7 @@ impl Truth<'_> {
         for (corner, velocity) in self.velocities.iter().enumerate() {
             let sign = if corner < first { 1 } else { -1 };
             for axis in 0..3 {
-                // Of differences, as weights add up to one but for rounding.
+                // Uses differences, since weights add up to one only up to rounding.
                 let way = Rational::from(&velocity[axis] - &self.velocities[0][axis]);
                 speed += way * rational(found.weights[corner]) * &exact_normal[axis] * sign;
             }

@@ -1,8 +1,7 @@
-//! What several modules use; here, a second opinion on contact at rest: convex sets clipped by half-spaces in rational
+//! Shared by several modules. Here, a second way to decide contact at rest: convex sets clipped by half-spaces in rational
 //! arithmetic.
 //!
-//! The oracle decides by signs and never constructs a point; this constructs every corner of the
-//! common part.
+//! The oracle decides by signs and never constructs a point; this constructs every corner of the common part.
 
 pub(crate) mod distance;
 pub(crate) mod environment;
@@ -12,7 +11,7 @@ pub(crate) mod widths;
 
 use rug::Rational;
 
-/// A property of pairs of format `S`, or of other inputs, and a test for each format.
+/// A property of pairs of format `S`, or of other inputs, with a test for each format.
 macro_rules! property {
     ($(#[$about:meta])* $name:ident, $cases:expr, $strategy:expr, |$pair:ident| $property:expr) => {
         property!($(#[$about])* $name, $cases, $strategy, |$pair: PairCase| $property);
@@ -45,7 +44,7 @@ pub(crate) fn point(coordinates: [f64; 3]) -> Point {
     coordinates.map(|x| Rational::from_f64(x).expect("finite"))
 }
 
-/// The position at time `t` of a point that moves linearly.
+/// Returns the position at time `t` of a point that moves linearly.
 pub(crate) fn at(start: [f64; 3], end: [f64; 3], t: &Rational) -> Point {
     let (start, end) = (point(start), point(end));
     std::array::from_fn(|i| Rational::from(&end[i] - &start[i]) * t + &start[i])
@@ -68,13 +67,13 @@ fn is_zero(v: &Point) -> bool {
     v.iter().all(Rational::is_zero)
 }
 
-/// `{ x : direction · (x − through) ≥ 0 }`
+/// The half-space `{ x : direction · (x − through) ≥ 0 }`.
 struct HalfSpace {
     direction: Point,
     through: Point,
 }
 
-/// Half-spaces whose common part is the hull of one, two or three points.
+/// Returns half-spaces whose common part is the hull of one, two or three points.
 fn half_spaces(hull: &[Point]) -> Vec<HalfSpace> {
     let mut half_spaces = Vec::new();
     let mut both_sides = |direction: &Point, through: &Point| {
@@ -101,7 +100,7 @@ fn half_spaces(hull: &[Point]) -> Vec<HalfSpace> {
             return half_spaces;
         }
     }
-    // On one line: the two ends that are farthest apart.
+    // The points are on one line: the two ends are farthest apart.
     let pairs = hull.iter().flat_map(|p| hull.iter().map(move |q| (p, q)));
     let squared = |p: &Point, q: &Point| dot(&minus(q, p), &minus(q, p));
     let (p, q) = pairs.max_by_key(|(p, q)| squared(p, q)).expect("a hull of something");
@@ -122,8 +121,8 @@ fn half_spaces(hull: &[Point]) -> Vec<HalfSpace> {
     half_spaces
 }
 
-/// Points whose hull is the common part of two hulls of one, two or three points each; none if they
-/// have no point in common.
+/// Returns points whose hull is the common part of two hulls of one, two or three points each. There are none if the hulls have
+/// no point in common.
 pub(crate) fn common_part(a: &[Point], b: &[Point]) -> Vec<Point> {
     let mut polygon = a.to_vec();
     for half_space in half_spaces(b) {
@@ -145,7 +144,7 @@ pub(crate) fn common_part(a: &[Point], b: &[Point]) -> Vec<Point> {
     polygon
 }
 
-/// Is x in the hull of one, two or three points?
+/// Returns whether x is in the hull of one, two or three points.
 pub(crate) fn contains(hull: &[Point], x: &Point) -> bool {
     half_spaces(hull)
         .iter()

@@ -1,4 +1,4 @@
-//! The signed volume's control values in rational arithmetic, and the separations where they change the answer.
+//! The signed volume's control values in rational arithmetic, and the separations at which they change the answer.
 
 use rug::{Float, Rational};
 use selvedge_core::PairKind;
@@ -25,8 +25,8 @@ fn dot(a: &Point, b: &Point) -> Rational {
     a.iter().zip(b).map(|(x, y)| Rational::from(x * y)).sum()
 }
 
-/// The volume's control values, the middle ones tripled, and the normals that go with them; by interpolation, not by
-/// the formula of `selvedge-core`.
+/// The volume's control values, the middle ones tripled, and the normals that belong to them. They are computed by interpolation,
+/// not by the formula of `selvedge-core`.
 pub(crate) struct InRationals {
     values: [Rational; 4],
     squared_normals: [Rational; 4],
@@ -82,7 +82,7 @@ impl InRationals {
         [[Greater; 4], [Less; 4]].contains(&self.signs())
     }
 
-    /// Whether the control value exceeds `separation` times the normal.
+    /// Returns whether the control value exceeds `separation` times the normal.
     fn is_beyond(&self, i: usize, separation: &Rational) -> bool {
         let bound = separation.clone().square() * &self.squared_normals[i];
         self.values[i].clone().square() > bound
@@ -92,12 +92,12 @@ impl InRationals {
         self.have_one_sign() && (0..4).all(|i| self.is_beyond(i, separation))
     }
 
-    /// The largest separation that the control values exceed, rounded to `S`, saturating; 0 if they do not have one sign.
+    /// Returns the largest separation that the control values exceed, rounded to `S`, saturating; 0 if they do not have one sign.
     pub(crate) fn critical_separation<S: Format>(&self) -> S {
         if !self.have_one_sign() {
             return S::ZERO;
         }
-        // Where the normal is zero the value, which is not, exceeds it times any separation.
+        // If the normal is zero, the value, which is not, exceeds it times any separation.
         let bounded = (0..4).filter(|&i| self.squared_normals[i].is_positive());
         let squares = bounded.map(|i| self.values[i].clone().square() / &self.squared_normals[i]);
         let smallest = squares.min().expect("were all four zero, the values would be");
@@ -106,7 +106,7 @@ impl InRationals {
     }
 }
 
-/// Separations where the answer changes, and others of every size.
+/// Returns separations at which the answer changes, and others of every size.
 pub(crate) fn separations<S: Format>(pair: &PairCase<S>, exact: &InRationals) -> Vec<S> {
     let critical = exact.critical_separation::<S>();
     let mut separations = vec![S::ZERO.up(), S::LARGEST];

@@ -1,0 +1,11 @@
+//! The laboratory's methods against the exact oracle of `selvedge-verification`, which needs GMP. GMP does not build with Microsoft's
+//! compiler, so there these tests are left out.
+#![cfg(not(target_env = "msvc"))]
+
+mod arm_scene_starts_free;
+mod baselines_are_no_straw_men;
+mod batches_agree_with_one_pair;
+mod culling_tests_never_cull_what_touches;
+mod exact_answers_enclose_the_first_time;
+mod hard_cases_have_exact_answers;
+mod pipeline_distributes_each_pair_once;
