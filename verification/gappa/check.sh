@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Checks every proof of core's rounding constants, for f32 and f64: by Gappa, and what it finds by Coq.
+# Checks every proof of core's rounding constants, for f32 and f64: Gappa finds the proofs, and Coq checks them.
 #
 #   check.sh            installs the tools where they are missing (Debian's gappa, coq, libcoq-gappa, libcoq-flocq)
 #   check.sh --gappa    without Coq
-#   check.sh --install  installs the tools, and that is all
+#   check.sh --install  only installs the tools
 #
-# A script's constants that are marked `#!` are halved one by one as well: then Gappa must fail.
+# Also halves each constant that is marked `#!`, one at a time: then Gappa must fail.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
@@ -29,7 +29,7 @@ as_root() {
 library() { [ -e "$(coqc -where 2>/dev/null)/user-contrib/Gappa/Gappa_library.vo" ]; }
 install() {
     is_there apt-get || {
-        echo "gappa: $1 is missing, and only Debian's packages are known here; see https://gappa.gitlabpages.inria.fr" >&2
+        echo "gappa: $1 is missing, and this script knows only Debian's packages; see https://gappa.gitlabpages.inria.fr" >&2
         exit 1
     }
     as_root apt-get install -y --no-install-recommends "${@:2}" </dev/null >/dev/null ||
@@ -49,7 +49,7 @@ proven=0
 halved=0
 checked=0
 
-# What the kernels compute, step by step: written from them, and refused if nobody has accepted it.
+# The kernels' computations, step by step, written from the kernels. Changes that are not accepted are refused.
 mkdir "$folder/traced"
 cargo run --quiet --manifest-path ../Cargo.toml --package selvedge-traced -- gappa "$folder/traced"
 
@@ -70,21 +70,21 @@ for format in f32 f64; do
             exit 1
         fi
         proven=$((proven + 1))
-        # Each constant that is marked is needed: half of it is not enough.
+        # Half of each marked constant must not suffice.
         for line in $(grep -n '^[a-z_]* = [0-9]*; *#!' "$of_format" | cut -d: -f1); do
             sed -E "${line}s/= ([0-9]+);/= \1 * 0.5;/" "$of_format" >"$folder/halved.g"
             if gappa_says "$folder/halved.g"; then
-                echo "gappa: half of a constant is proven, too; the mark #! is wrong: $script: $(sed -n "${line}p" "$script")" >&2
+                echo "gappa: half of a constant suffices, so the mark #! is wrong: $script: $(sed -n "${line}p" "$script")" >&2
                 exit 1
             fi
             halved=$((halved + 1))
         done
         if $coq; then
-            # Coq takes only names without hyphens and digits in front.
+            # Coq's names have no hyphens, and do not begin with a digit.
             source=$folder/proof_${name//-/_}_$format.v
             gappa -Wno-hint-difference -Bcoq "$of_format" >"$source" 2>/dev/null
             if grep -q '^Hypothesis\|^Axiom\|^Parameter' "$source"; then
-                echo "gappa: the proof of $script takes something for granted" >&2
+                echo "gappa: the proof of $script has an axiom" >&2
                 exit 1
             fi
             checked=$((checked + 1))

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Has Coq check the proofs in this folder, and that they take nothing for granted but the real numbers.
+# Checks the proofs in this folder with Coq, and that their only axioms are those of the real numbers.
 #
 # Installs what is missing (Debian's coq, libcoq-flocq).
 set -euo pipefail
@@ -13,14 +13,14 @@ install() { as_root apt-get install -y --no-install-recommends coq libcoq-flocq 
 
 if ! is_there; then
     command -v apt-get >/dev/null || {
-        echo "proofs: coq and flocq are missing, and only Debian's packages are known here" >&2
+        echo "proofs: coq and flocq are missing, and this script knows only Debian's packages" >&2
         exit 1
     }
     install || { as_root apt-get update >/dev/null && install; }
 fi
 
-# In the order in which they build on each other; the last one prints what its theorems assume. mutations.py reads what stands above those
-# that are written from the kernels:
+# In the order of their dependencies; the last one prints the axioms of its theorems. mutations.py reads the following lists of the files
+# that build on the ones written from the kernels:
 # above Filter: Permanent Magnitudes Witnesses Theorems
 # above Boxes: Apart Certificates Witnesses Theorems
 files=(Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Magnitudes Orders Boxes Apart Certificates Nearest
@@ -28,16 +28,16 @@ files=(Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Pe
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cp ./*.v "$folder"
-# What the kernels compute: refused if nobody has accepted it.
+# The kernels' terms. Changes that are not accepted are refused.
 cargo run --quiet --manifest-path ../Cargo.toml --package selvedge-traced -- coq "$folder"
 cd "$folder"
 
 if [ "$(ls ./*.v | wc -l)" -ne "${#files[@]}" ]; then
-    echo "proofs: a file is not on the list of check.sh" >&2
+    echo "proofs: a file is missing in the list of check.sh" >&2
     exit 1
 fi
 if grep -nwE 'Admitted|Axiom|Axioms|Parameter|Parameters|Conjecture|Abort|admit|give_up' ./*.v; then
-    echo "proofs: something is taken for granted" >&2
+    echo "proofs: an axiom or an unfinished proof" >&2
     exit 1
 fi
 last=${files[-1]}
@@ -52,15 +52,15 @@ coqc -q -Q . Selvedge "$last.v" >says || {
     exit 1
 }
 
-# Coq's real numbers, and the logic that they are built with.
+# The axioms of Coq's real numbers and of their logic.
 known='ClassicalDedekindReals.sig_forall_dec|ClassicalDedekindReals.sig_not_dec|FunctionalExtensionality.functional_extensionality_dep|Classical_Prop.classic'
 if ! grep -q '^Axioms:' says; then
-    echo "proofs: $last.v does not print what it assumes" >&2
+    echo "proofs: $last.v does not print its axioms" >&2
     exit 1
 fi
-# Whatever does not stand in the list of what may stand there is refused; types go on in lines that are indented.
+# Any other line is refused. Indented lines continue a type.
 if grep -vE "^( |Axioms:\$|Closed under the global context\$|($known)( |\$))" says; then
-    echo "proofs: something is assumed that is not of the real numbers" >&2
+    echo "proofs: an axiom that is not of the real numbers" >&2
     exit 1
 fi
 echo "proofs: ${#files[@]} files accepted by Coq in $SECONDS s, $(grep -c '^Axioms:' says) theorems on the axioms of the real numbers alone"

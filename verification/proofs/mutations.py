@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Mutations of core's kernels that the proofs must notice: a sign, a constant, an order of operations, a comparison.
+"""Checks that the proofs notice mutations of core's kernels: of a sign, a constant, an order of operations, a comparison.
 
-    mutations.py [FOLDER]    takes some minutes; needs cargo and what check.sh needs
+    mutations.py [FOLDER]    takes some minutes; needs cargo and the tools of check.sh
 
-Each is made in a copy of core. Its terms are traced anew; if they are the accepted ones, nothing has noticed it and this fails. Then Coq is
-asked about the new terms: it refuses those that it can not prove. What it accepts is refused by the comparison alone (a test), and is as sound
-as the code was. The table goes to docs/proof-mutations.md.
+Makes each mutation in a copy of core and traces its terms. Fails if these are the accepted ones, since then nothing notices the mutation.
+Otherwise Coq tries to prove the new terms. Those that it proves are as sound as the code, and only the comparison of terms (a test) refuses
+them. Writes the table to docs/proof-mutations.md.
 """
 
 import re
@@ -17,10 +17,10 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-# What builds on each file of terms, and which files do on both.
+# The proofs that build on each file of terms, and those that build on both.
 ABOVE = {name: line.split() for name, line in re.findall(r"^# above (\w+): (.*)$", (HERE / "check.sh").read_text(), re.M)}
 
-# File of core/src, the code, what takes its place, and in which of several places (the first is 0).
+# A file of core/src, the code, its replacement, and the occurrence to replace (the first is 0).
 MUTATIONS = [
     ("kernels/coplanarity.rs", "b: [b0 - a0, b1 - a1]", "b: [a0 - b0, b1 - a1]", 0),
     ("kernels/coplanarity.rs", "c: [c0 - a0, c1 - a1]", "c: [c0 - a0, c1 - a0]", 0),
@@ -119,14 +119,14 @@ def main():
     prepare(folder)
     kept, accepted, wrong = trace(folder)
     if not accepted:
-        sys.exit(f"mutations: the terms that the code gives are not the accepted ones {wrong or ''}")
+        sys.exit(f"mutations: the code's terms are not the accepted ones {wrong or ''}")
     proofs = folder / "proofs"
     shutil.copytree(folder / "terms", proofs)
     for path in HERE.glob("*.v"):
         shutil.copy(path, proofs)
     for file in ORDER:
         if not accepts(proofs, file):
-            sys.exit(f"mutations: Coq does not accept {file}.v as it is")
+            sys.exit(f"mutations: Coq does not accept {file}.v without a mutation")
 
     rows, alive = [], 0
     for number, (name, old, new, place) in enumerate(MUTATIONS, 1):
@@ -141,9 +141,9 @@ def main():
         finally:
             path.write_text(source)
         if wrong and "known to the proof" not in wrong:
-            sys.exit(f"mutations: {new} can not be tried: {wrong}")
+            sys.exit(f"mutations: {new} cannot be tried: {wrong}")
         if wrong:
-            said = "the tracer: it is no term of the proofs"
+            said = "the tracer: the proofs have no such term"
         elif accepted:
             said, alive = "**nothing**", alive + 1
         else:
@@ -153,8 +153,8 @@ def main():
         rows.append(f"| {number} | `{name}` | {change}{f' (place {place + 1})' if place else ''} | {said} |")
         print(rows[-1], flush=True)
     head = (
-        "# Mutations that the proofs notice\n\nWritten by `verification/proofs/mutations.py`, which makes each in a copy of core, traces its terms anew, "
-        "compares them with\nthe accepted ones, and has Coq prove the new ones. See [proof.md](proof.md).\n\n"
+        "# Mutations that the proofs notice\n\n`verification/proofs/mutations.py` writes this page. It makes each mutation in a copy of core, traces the new terms, compares "
+        "them with\nthe accepted ones, and has Coq try to prove them. See [proof.md](proof.md).\n\n"
         "| | in `core/src` | mutation | refused by |\n|---|---|---|---|\n"
     )
     (ROOT / "docs/proof-mutations.md").write_text(head + "\n".join(rows) + "\n")

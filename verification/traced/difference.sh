@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# How what the kernels compute differs from what they computed at a commit (the last one, if none is named): as a diff of what Gappa
-# and Coq read. Nothing is changed here.
+# Shows how the kernels' computations differ from those at a commit (the last one by default), as a diff of the texts for Gappa and Coq.
+# Changes nothing.
 #
 #   verification/traced/difference.sh [COMMIT]
 set -euo pipefail
@@ -12,7 +12,7 @@ trap 'git worktree remove --force "$folder/sources" 2>/dev/null; rm -rf "$folder
 git worktree add --quiet --detach "$folder/sources" "$commit"
 export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$PWD/target}
 
-# The program fails where the texts are not accepted ones, which is no news here; without texts something else is wrong.
+# The program fails if the texts are not the accepted ones, which does not matter here. Without texts something else is wrong.
 texts() {
     local prover
     for prover in gappa coq; do
@@ -25,5 +25,5 @@ texts "$folder/sources" "$folder/before"
 texts "$PWD" "$folder/now"
 cd "$folder"
 if diff --recursive --unified before now; then
-    echo "nothing that Gappa or Coq reads has changed"
+    echo "the texts for Gappa and Coq have not changed"
 fi

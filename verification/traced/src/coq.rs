@@ -1,4 +1,4 @@
-//! What the certified filter and the box tests compute, as terms of Coq, written from core's kernels themselves.
+//! Terms of Coq for what the certified filter and the box tests compute, written from core's kernels themselves.
 //!
 //! The proofs in `verification/proofs` are about these terms: what they compute, and what their signs prove.
 

@@ -16,9 +16,9 @@ struct Claim {
     index: usize,
     /// The rounding error, if all components are at most 1.
     roundoffs: u32,
-    /// What underflow in its steps adds.
+    /// The error that underflow in its steps adds.
     of_steps: u32,
-    /// What underflow in the three differences of points adds.
+    /// The error that underflow in the three differences of points adds.
     of_differences: u32,
 }
 

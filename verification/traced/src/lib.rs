@@ -1,4 +1,4 @@
-//! What core's kernels compute, taken from the kernels themselves, for proofs about it. This crate is never published.
+//! Traces of core's kernels, for proofs about what they compute. This crate is never published.
 //!
 //! | module | contents |
 //! |---|---|

@@ -6,8 +6,8 @@ use std::process::ExitCode;
 use std::{env, fs};
 
 const USAGE: &str = "\
-usage: selvedge-traced gappa|coq FOLDER    writes what the code gives, and fails if that is not what was accepted
-       selvedge-traced accept              accepts what the code gives";
+usage: selvedge-traced gappa|coq FOLDER    write the terms of the code; fails if they are not the accepted ones
+       selvedge-traced accept              accept the terms of the code";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = env::args().skip(1).collect();
