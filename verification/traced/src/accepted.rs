@@ -45,7 +45,7 @@ pub fn compare(prover: Prover, given: &[String], list: &str) -> Result<(), Strin
         return Ok(());
     }
     let mut complaint =
-        "what core's kernels compute is not what was accepted (look at the first: names in later ones count what stands before):"
+        "the terms of core's kernels are not the accepted ones (start with the first, since names in later ones depend on it):"
             .to_owned();
     for line in given.iter().filter(|line| !accepted.contains(&line.as_str())) {
         let (_, term) = line.split_once("  ").expect("a digest and a term");
@@ -53,15 +53,15 @@ pub fn compare(prover: Prover, given: &[String], list: &str) -> Result<(), Strin
     }
     let gone = accepted.iter().filter_map(|line| line.split_once("  "));
     for (_, term) in gone.filter(|(_, term)| !given.iter().any(|line| line.ends_with(term))) {
-        write!(complaint, "\n    {term} (not there any more)").expect("a string has room");
+        write!(complaint, "\n    {term} (removed)").expect("a string has room");
     }
     complaint.push_str(
-        "\nTo see what has changed since the last commit, or another: verification/traced/difference.sh [COMMIT]\
-         \nTo accept it: cargo run -p selvedge-traced -- accept",
+        "\nTo see the changes since the last commit, or another one: verification/traced/difference.sh [COMMIT]\
+         \nTo accept them: cargo run -p selvedge-traced -- accept",
     );
     match prover {
-        Prover::Gappa => complaint.push_str("; verification/gappa/check.sh then proves it anew"),
-        Prover::Coq => complaint.push_str("; verification/proofs/check.sh then proves it anew"),
+        Prover::Gappa => complaint.push_str("; then prove them: verification/gappa/check.sh"),
+        Prover::Coq => complaint.push_str("; then prove them: verification/proofs/check.sh"),
     }
     Err(complaint)
 }
