@@ -136,7 +136,7 @@ fn read(path: &Path) -> Result<Vec<(Pair, bool)>> {
         .collect::<Result<_>>()?;
     let (queries, rest) = rows.as_chunks::<8>();
     if !rest.is_empty() {
-        return Err(at(&format!("{} rows are no multiple of 8", rows.len())));
+        return Err(at(&format!("{} rows are not a multiple of 8", rows.len())));
     }
     let pair = |rows: &[([f64; 3], bool); 8]| Pair {
         kind,
@@ -151,7 +151,7 @@ fn parse(row: &[String; 7]) -> Result<([f64; 3], bool)> {
     let integer = |field: &String| {
         field
             .parse::<Integer>()
-            .map_err(|error| format!("{field:?} is no integer: {error}"))
+            .map_err(|error| format!("{field:?} is not an integer: {error}"))
     };
     let mut position = [0.0; 3];
     for (x, fraction) in position.iter_mut().zip(row.as_chunks::<2>().0) {
@@ -162,7 +162,7 @@ fn parse(row: &[String; 7]) -> Result<([f64; 3], bool)> {
         let value = Rational::from((numerator, denominator));
         *x = value.to_f64();
         if Rational::from_f64(*x).as_ref() != Some(&value) {
-            return Err(format!("{value} is no floating-point number"));
+            return Err(format!("{value} is not a floating-point number"));
         }
     }
     match row[6].as_str() {

@@ -115,7 +115,7 @@ impl Scene {
                 (PairKind::VertexFace, [vertex, *a, *b, *c])
             }
             _ => {
-                return Err(format!("[{first}, {second}] is no vertex and face, nor two edges"));
+                return Err(format!("[{first}, {second}] is neither a vertex and a face nor two edges"));
             }
         };
         let [start, end] = [&self.start, &self.end].map(|mesh| vertices.map(|v| mesh.positions[v as usize].to_array()));

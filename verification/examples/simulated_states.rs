@@ -88,7 +88,7 @@ impl Options {
 }
 
 /// Multiplies the number in a line `key = "number unit"` by a factor. Leaves the line unchanged if the factor is one.
-#[expect(clippy::float_cmp, reason = "exactly one where nothing was asked for")]
+#[expect(clippy::float_cmp, reason = "exactly one by default")]
 fn scaled(line: &str, factor: f64) -> Result<String, Failure> {
     if factor == 1.0 {
         return Ok(line.to_owned());
@@ -139,7 +139,7 @@ impl Seen {
         self.ways += 1;
         if !found.is_empty() {
             let step = simulation.steps_done();
-            return Err(format!("in step {step}: these loose edges meet on their way: {found:?}").into());
+            return Err(format!("in step {step}: these loose edges meet on their paths: {found:?}").into());
         }
         Ok(())
     }

@@ -72,8 +72,8 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Minifloat<E, F, ENVIRON
             };
             // Moves one step from the nearest number if that is on the wrong side.
             if number.0.is_infinite() {
-                let goes_on = upwards == (value > 0.0);
-                number.0 = if goes_on { number.0 } else { Self::LARGEST.copysign(value) };
+                let resume = upwards == (value > 0.0);
+                number.0 = if resume { number.0 } else { Self::LARGEST.copysign(value) };
             } else if upwards && number.0 < value {
                 number = Self::nearest(number.0 + Self::step(value));
             } else if !upwards && number.0 > value {

@@ -110,8 +110,8 @@ where
     let progress = match read::<F>(path)? {
         Some(kept) => {
             let asked = fresh(options.seed.unwrap_or(kept.settings.seed));
-            let goes_on = kept.goes_on(asked);
-            goes_on.map_err(|why| format!("{}: {why}; delete it, or name another file", path.display()))?
+            let resume = kept.resume(asked);
+            resume.map_err(|why| format!("{}: {why}; delete it, or name another file", path.display()))?
         }
         None => {
             let now = UNIX_EPOCH.elapsed().map_or(0, |time| time.as_secs());

@@ -20,7 +20,7 @@ pub enum FileError {
         error: io::Error,
     },
     /// The file does not hold a state of this campaign.
-    #[error("{file}: no state of this campaign ({why}); delete it, or name another file", file = .file.display())]
+    #[error("{file}: not a state of this campaign ({why}); delete it, or name another file", file = .file.display())]
     NotAState {
         /// The file.
         file: PathBuf,

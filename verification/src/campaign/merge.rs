@@ -11,7 +11,7 @@ pub enum Refusal {
     #[error("no shards: name the state file of each")]
     NoShards,
     /// The program that wrote the state does not know its commit, so it may be any program.
-    #[error("{file}: by a program that does not know its commit; build it with verification/cluster/build.sh", file = .0.display())]
+    #[error("{file}: written by a program that does not know its commit; build it with verification/cluster/build.sh", file = .0.display())]
     UnknownCommit(PathBuf),
     /// The shards belong to different runs.
     #[error("{first} and {other}: different runs, as {name} is {ours} in one and {theirs} in the other",
@@ -27,7 +27,7 @@ pub enum Refusal {
         theirs: String,
     },
     /// A shard is not finished.
-    #[error("{file}: unfinished, {done} of {chunks} chunks; start it again: {command}", file = .file.display())]
+    #[error("{file}: unfinished, {done} of {chunks} chunks; resume it: {command}", file = .file.display())]
     Unfinished {
         /// Its file.
         file: PathBuf,

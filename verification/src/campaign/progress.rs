@@ -124,7 +124,7 @@ impl<F: Findings> Progress<F> {
     ///
     /// # Errors
     /// If `asked` is another run or another shard.
-    pub fn goes_on(self, asked: Self) -> Result<Self, AnotherRun> {
+    pub fn resume(self, asked: Self) -> Result<Self, AnotherRun> {
         if let Some([name, was, is]) = self.settings.difference(&asked.settings) {
             return Err(AnotherRun::Setting { name, was, is });
         }

@@ -201,7 +201,7 @@ fn merge_refuses_an_unfinished_shard_and_says_how_to_go_on() {
     let refusal = merge(shards).expect_err("an unfinished shard");
     assert_eq!(
         refusal.to_string(),
-        "2/2: unfinished, 3 of 50 chunks; start it again: the command"
+        "2/2: unfinished, 3 of 50 chunks; resume it: the command"
     );
 }
 
@@ -248,13 +248,13 @@ fn merge_refuses_another_commit_an_unknown_one_and_every_other_setting() {
 #[test]
 fn a_state_goes_on_only_as_the_run_and_the_shard_that_it_is_of() {
     let half = || of_shard(100, "1/2");
-    let again = half().goes_on(numbers(100).of_shard(shard("1/2"), Some("a commit"), "another command"));
+    let again = half().resume(numbers(100).of_shard(shard("1/2"), Some("a commit"), "another command"));
     assert_eq!(again.expect("the same shard").command, "another command");
     assert_eq!(
-        half().goes_on(of_shard(100, "2/2")),
+        half().resume(of_shard(100, "2/2")),
         Err(AnotherRun::Shard { was: 0..50, is: 50..100 })
     );
-    let refusal = half().goes_on(numbers(100).of_shard(shard("1/2"), Some("another"), "the command"));
+    let refusal = half().resume(numbers(100).of_shard(shard("1/2"), Some("another"), "the command"));
     assert_eq!(
         refusal.expect_err("another program").to_string(),
         "the state of another run, whose commit is a commit, not another"
@@ -347,7 +347,7 @@ fn a_shard_in_a_process_of_its_own() {
     let asked = fresh_exact(&part.unwrap_or_else(|| "2/3".to_owned()));
     let file = StateFile::open(&state, |_| {}).expect("a lock");
     let progress = match read(&state).expect("a state or none") {
-        Some(kept) => exact::Progress::goes_on(kept, asked).expect("the same shard"),
+        Some(kept) => exact::Progress::resume(kept, asked).expect("the same shard"),
         None => asked,
     };
     let ended = run_exact(progress, 2, |progress| {

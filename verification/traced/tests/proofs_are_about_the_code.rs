@@ -66,7 +66,7 @@ fn a_term_that_has_changed_is_named() {
 
     let fewer = &of_coq(&list)[1..];
     let complaint = accepted::compare(Prover::Coq, fewer, &list).expect_err("a term is missing");
-    assert!(complaint.contains("(not there any more)"), "{complaint}");
+    assert!(complaint.contains("(removed)"), "{complaint}");
 }
 
 /// Lines marked by `#!` (with the number, half of which does not suffice) or `#~`: the file and the line.
