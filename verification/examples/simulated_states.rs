@@ -345,6 +345,6 @@ mod tests {
         std::fs::write(&file, another).unwrap();
         assert!(refusal(&[]).contains("kept by another build of this program; delete it"));
         std::fs::write(&file, "{}").unwrap();
-        assert!(refusal(&[]).contains("no state of this campaign (missing field `program`"));
+        assert!(refusal(&[]).contains("not a state of this campaign (missing field `program`"));
     }
 }

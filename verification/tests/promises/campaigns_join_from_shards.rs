@@ -199,10 +199,7 @@ fn merge_refuses_an_unfinished_shard_and_says_how_to_go_on() {
     };
     shards[1].1 = run(of_shard(100, "2/2"), 1, number, count, || seen.load(Ordering::Relaxed) >= 3);
     let refusal = merge(shards).expect_err("an unfinished shard");
-    assert_eq!(
-        refusal.to_string(),
-        "2/2: unfinished, 3 of 50 chunks; resume it: the command"
-    );
+    assert_eq!(refusal.to_string(), "2/2: unfinished, 3 of 50 chunks; resume it: the command");
 }
 
 #[test]

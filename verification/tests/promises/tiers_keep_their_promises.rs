@@ -44,8 +44,8 @@ fn nothing_culls_what_it_must_not<S: Format>(pair: &PairCase<S>) -> Result<(), T
 }
 
 property!(
-    nothing_certified_culls_what_the_oracle_calls_coplanar_or_touching,
-    25_000,
+    nothing_certified_culls_what_the_oracle_calls_coplanar,
+    100_000,
     pairs_of_any_kind(),
     |pair| nothing_culls_what_it_must_not(pair)
 );
@@ -56,7 +56,7 @@ property!(nothing_certified_culls_a_graze, 8_000, grazes_of_a_box(), |pair| {
 
 property!(
     nothing_certified_culls_what_is_not_finite,
-    15_000,
+    40_000,
     extraordinary_pairs(),
     |pair| {
         if pair.is_finite() {
