@@ -11,7 +11,7 @@ for source in fuzz_targets/*.rs; do
     zip -q -j -r "$OUT/${target}_seed_corpus.zip" "${folders[@]}"
     [ ! -f "dictionaries/$target.dict" ] || cp "dictionaries/$target.dict" "$OUT/"
     case $target in
-    obj | ply) longest=2048 ;;
+    obj | ply | stl | off) longest=2048 ;;
     scene) longest=4096 ;;
     *) longest=700 ;;
     esac

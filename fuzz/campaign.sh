@@ -54,7 +54,7 @@ for target in "${targets[@]}"; do
     kept=("$work/$target" "corpus/$target")
     mkdir -p "corpus/$target"
     [ ! -d "regressions/$target" ] || kept+=("regressions/$target")
-    # Of the zoo, files of other kinds do no harm.
+    # Files of other kinds in the zoo do no harm.
     case $target in obj | ply | stl | off) kept+=(../std-adapter/files/tests/zoo) ;; esac
     # shellcheck disable=SC2046 # words on purpose
     "$work/programs/$target" "${kept[@]}" $(options "$target") -max_total_time=$((60 * minutes)) \
