@@ -160,7 +160,7 @@ impl Question for Filters {
 fn filters() {
     assert_eq!(
         digests::<Filters>(10_000),
-        "61a7f7b0bd284f53 0fd9865b86cefb3b 0b6832972719df30 ffab821f18498c0e"
+        "fc30cf837ca491bc bc82dccb8d9f6438 1096646b7d71c27b ea08f49d3e2a3acd"
     );
 }
 
@@ -215,7 +215,7 @@ impl Question for Boxes {
 fn boxes() {
     assert_eq!(
         digests::<Boxes>(10_000),
-        "a6b840474891c93d 0719da7bbea70685 488470f723a9ce18 a3dcc151d1320fcc"
+        "e61ed86ec81b55a5 a1be679e8570001f d7cf3447c6499e7f 2cf9b7673a198e93"
     );
 }
 
@@ -545,6 +545,6 @@ impl Question for Thresholds {
 fn thresholds() {
     assert_eq!(
         digests::<Thresholds>(200),
-        "bf01fa48ec00a25d 99c995afe42aa287 4ba156b98d077b79 08edbd5f43a51975"
+        "0701931a58f6e8a1 814a87f9c94d04d2 e5afd7e7dd8e9f19 6577c78743e549ba"
     );
 }
