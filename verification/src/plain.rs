@@ -25,7 +25,7 @@ fn cross<S: Format>([a, b, c]: Vector<S>, [x, y, z]: Vector<S>) -> Vector<S> {
 
 /// Returns whether A, B, 2C + F and 2D + E (Lv, He, Mi, equations 1 to 14), as computed, all have the same strict sign.
 ///
-/// One deviation from the paper: the filter keeps a pair if a value is not finite.
+/// One deviation from the paper: the filter keeps a pair if a value, or the sum of their magnitudes, is not finite.
 pub fn culls<S: Format>(case: &PairCase<S>) -> bool {
     // The paper's a, b, c and p; for two edges, its k, u, v and l.
     let order = match case.kind {
@@ -45,6 +45,7 @@ pub fn culls<S: Format>(case: &PairCase<S>) -> bool {
         twice(dot(p0, middle)) + dot(p1, normal_0), // 2C + F (2, 3)
         twice(dot(p1, middle)) + dot(p0, normal_1), // 2D + E (2, 3)
     ];
-    let is_finite = values.iter().all(|&value| S::is_finite(value));
-    is_finite && (values.iter().all(|&value| value > S::ZERO) || values.iter().all(|&value| value < S::ZERO))
+    let [a, b, c, d] = values.map(|value| value.abs());
+    let sum = (a + b) + (c + d);
+    S::is_finite(sum) && (values.iter().all(|&value| value > S::ZERO) || values.iter().all(|&value| value < S::ZERO))
 }
