@@ -39,7 +39,7 @@ done
 options() {
     case $1 in
     obj | ply) echo "-max_len=2048 -dict=dictionaries/$1.dict -malloc_limit_mb=256" ;;
-    stl | off) echo "-max_len=2048 -malloc_limit_mb=256" ;;
+    stl | off | gltf) echo "-max_len=2048 -malloc_limit_mb=256" ;;
     scene) echo "-max_len=4096 -dict=dictionaries/$1.dict -malloc_limit_mb=1024" ;;
     *) echo "-max_len=700 -len_control=0" ;;
     esac
@@ -55,7 +55,7 @@ for target in "${targets[@]}"; do
     mkdir -p "corpus/$target"
     [ ! -d "regressions/$target" ] || kept+=("regressions/$target")
     # Files of other kinds in the zoo do no harm.
-    case $target in obj | ply | stl | off) kept+=(../std-adapter/files/tests/zoo) ;; esac
+    case $target in obj | ply | stl | off | gltf) kept+=(../std-adapter/files/tests/zoo) ;; esac
     # shellcheck disable=SC2046 # words on purpose
     "$work/programs/$target" "${kept[@]}" $(options "$target") -max_total_time=$((60 * minutes)) \
         -print_final_stats=1 -timeout=60 -artifact_prefix="$work/$target.broken/" >"$log" 2>&1 &

@@ -24,7 +24,7 @@ fn replay(name: &str) {
     let zoo = files(&root.join("../std-adapter/files/tests/zoo"));
     paths.extend(
         zoo.into_iter()
-            .filter(|path| path.extension().is_some_and(|extension| extension == name)),
+            .filter(|path| path.extension().is_some_and(|extension| extension == name || name == "gltf" && extension == "glb")),
     );
     assert!(paths.len() >= 10, "only {} kept inputs", paths.len());
     paths.extend(files(&root.join("regressions").join(name)));
@@ -59,6 +59,7 @@ replayed!(
     ply,
     stl,
     off,
+    gltf,
     scene
 );
 

@@ -1,5 +1,6 @@
 use super::message;
 use selvedge::Mesh;
+use selvedge_files::animation;
 use selvedge_files::mesh::{FileFormat, Findings, PlyEncoding, read_bytes, read_bytes_with_loose_features, write_bytes};
 
 const FORMATS: [FileFormat; 4] = [
@@ -27,6 +28,21 @@ pub fn stl(data: &[u8]) {
 /// OFF files; see `check`.
 pub fn off(data: &[u8]) {
     check(data, FileFormat::Off);
+}
+
+/// glTF, text or binary, without other files: see `check`. Its animation is read, or refused, as well.
+pub fn gltf(data: &[u8]) {
+    check(data, FileFormat::Gltf);
+    match animation::read_bytes(data, "".as_ref(), &animation::Choice::default()) {
+        Err(error) => message::check(&error.problem),
+        Ok(figure) => {
+            let mut positions = Vec::new();
+            for time in figure.key_times() {
+                figure.positions_at(time, &mut positions);
+                assert_eq!(positions.len(), figure.mesh().positions.len());
+            }
+        }
+    }
 }
 
 /// A file is refused with a readable message, or read as a mesh whose triangles exist and whose coordinates are finite. Written

@@ -16,7 +16,7 @@ pub use certified_filter::certified_filter;
 pub use detector::detector;
 pub use exact_signs::exact_signs;
 pub use exact_verdict::exact_verdict;
-pub use meshes::{obj, off, ply, stl};
+pub use meshes::{gltf, obj, off, ply, stl};
 pub use scene::scene;
 pub use time_of_impact::time_of_impact;
 
@@ -24,7 +24,7 @@ pub use time_of_impact::time_of_impact;
 pub type Target = (&'static str, fn(&[u8]));
 
 /// Every target.
-pub const ALL: [Target; 11] = [
+pub const ALL: [Target; 12] = [
     ("certified_filter", certified_filter),
     ("box_tests", box_tests),
     ("exact_signs", exact_signs),
@@ -35,5 +35,6 @@ pub const ALL: [Target; 11] = [
     ("ply", ply),
     ("stl", stl),
     ("off", off),
+    ("gltf", gltf),
     ("scene", scene),
 ];

@@ -2,7 +2,7 @@
 
 use super::measures::EdgeStretch;
 use crate::contact::Crossing;
-use selvedge::Mesh;
+use selvedge::{Mesh, first_coincident};
 use selvedge_core::glam::DVec3;
 use std::fmt;
 
@@ -47,6 +47,21 @@ pub struct Tangled {
     pub untangled: Option<Untangled>,
 }
 
+impl Tangled {
+    /// Returns the number of the cloths' vertices that lie in the same place as an earlier one, such as those of split seams.
+    fn coincident_vertices(&self) -> usize {
+        let of_cloths = &self.mesh.triangles[..self.cloth_triangles];
+        let vertices = of_cloths
+            .iter()
+            .flatten()
+            .map(|&vertex| vertex as usize + 1)
+            .max()
+            .unwrap_or(0);
+        let first = first_coincident(&self.mesh.positions[..vertices], 0.0);
+        (0_u32..).zip(first).filter(|(vertex, first)| vertex != first).count()
+    }
+}
+
 impl std::error::Error for Tangled {}
 
 impl fmt::Display for Tangled {
@@ -79,6 +94,14 @@ impl fmt::Display for Tangled {
                 f,
                 "; first the edge {a}, {b} and the face {c}, {d}, {e}, at ({x:.4}, {y:.4}, {z:.4}) m"
             )?;
+        }
+        match (&self.untangled, self.coincident_vertices()) {
+            (Some(_), _) | (None, 0) => {}
+            (None, 1) => f.write_str("; 1 vertex lies in the same place as another: merge them with `weld = \"0\"`")?,
+            (None, count) => write!(
+                f,
+                "; {count} vertices lie in the same place as others: merge them with `weld = \"0\"`"
+            )?,
         }
         f.write_str(match self.untangled {
             None => "; `tangled_start = \"untangle\"` pulls it apart, \"tolerate\" lets it be",

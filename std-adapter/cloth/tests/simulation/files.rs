@@ -1,6 +1,6 @@
 //! Meshes of files in scenes: their groups, units and seams, and figures that share an animation.
 
-use selvedge_cloth::{BodyMotion, Scene};
+use selvedge_cloth::{BodyMotion, Scene, Simulation};
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
@@ -117,4 +117,24 @@ fn nodes_of_one_animation_keep_one_clock() {
     let later = [along("node = \"A\"\nstart = 1"), along("node = \"B\"\nstart = 1")];
     assert_eq!([later[0](1.75), later[1](1.75)].concat(), [0.75, 0.25]);
     assert_eq!(along("unit = \"cm\"")(1.0), [0.01, 0.005]);
+}
+
+#[test]
+fn a_split_seam_is_named_with_its_remedy_and_runs_once_it_is_merged() {
+    let folder = folder();
+    let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 4 5 6\n";
+    fs::write(folder.path().join("square.obj"), square).unwrap();
+    let made = |keys: &str| {
+        let cloth = format!("shape = \"file\"\nfile = \"square.obj\"\n{keys}");
+        let scene = scene(&folder, &cloth, "[effects.self_collision]\nthickness = 0.003").unwrap();
+        Simulation::new(scene, 1).map_err(|error| error.to_string())
+    };
+    let message = made("").err().unwrap();
+    assert!(
+        message.contains("; 2 vertices lie in the same place as others: merge them with `weld = \"0\"`"),
+        "{message}"
+    );
+    let mut welded = made("weld = 0").unwrap();
+    welded.step().unwrap();
+    assert_eq!(welded.positions().len(), 4);
 }

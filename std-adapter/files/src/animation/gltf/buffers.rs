@@ -5,6 +5,7 @@ use crate::animation::error::AnimationProblem;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use gltf::buffer::Source;
+use std::io::{self, Read};
 use std::path::Path;
 
 /// The bytes of all buffers, each as long as the file says.
@@ -23,7 +24,7 @@ pub(super) fn read(document: &gltf::Document, blob: Option<Vec<u8>>, path: &Path
                 Some(data) => inline(data).map_err(wrong)?,
                 None => {
                     let name = plain(uri);
-                    let read = std::fs::read(path.parent().unwrap_or(Path::new("")).join(&name));
+                    let read = beside(path, &name, buffer.length());
                     read.map_err(|error| wrong(format!("is the file '{}', which cannot be read: {error}", short(&name))))?
                 }
             },
@@ -38,6 +39,21 @@ pub(super) fn read(document: &gltf::Document, blob: Option<Vec<u8>>, path: &Path
         Ok(bytes)
     };
     document.buffers().map(one).collect()
+}
+
+/// The first bytes of a file in the folder of `path`; an empty path is that of bytes that came from no file.
+fn beside(path: &Path, name: &str, length: usize) -> io::Result<Vec<u8>> {
+    if path.as_os_str().is_empty() {
+        return Err(io::Error::other("the bytes come without a folder"));
+    }
+    let path = path.parent().unwrap_or(Path::new("")).join(name);
+    // Not a device, which may have no end.
+    if !std::fs::metadata(&path)?.is_file() {
+        return Err(io::Error::other("it is no file"));
+    }
+    let mut bytes = Vec::new();
+    std::fs::File::open(&path)?.take(length as u64).read_to_end(&mut bytes)?;
+    Ok(bytes)
 }
 
 /// The bytes of `TYPE;base64,TEXT`.
