@@ -22,10 +22,10 @@ fn replay(name: &str) {
     let mut paths = files(&root.join("corpus").join(name));
     // Mesh files of every kind, which campaigns start from as well.
     let zoo = files(&root.join("../std-adapter/files/tests/zoo"));
-    paths.extend(
-        zoo.into_iter()
-            .filter(|path| path.extension().is_some_and(|extension| extension == name || name == "gltf" && extension == "glb")),
-    );
+    paths.extend(zoo.into_iter().filter(|path| {
+        path.extension()
+            .is_some_and(|extension| extension == name || name == "gltf" && extension == "glb")
+    }));
     assert!(paths.len() >= 10, "only {} kept inputs", paths.len());
     paths.extend(files(&root.join("regressions").join(name)));
     let mut broken = Vec::new();
