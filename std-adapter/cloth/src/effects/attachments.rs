@@ -87,7 +87,7 @@ impl AttachmentGroup {
             PinMotion::Own(motion @ BodyMotion::Keyframes(_)) => motion.check(self.vertices.len(), world.time_step),
             PinMotion::Own(_) => {
                 let message =
-                    "attachments go by keyframes or `follow` a body, which may be driven; they are not driven themselves";
+                    "attachments follow keyframes or a body (`follow`), which may be driven; they cannot be driven themselves";
                 Err(ValueError::new("driven", message))
             }
         }

@@ -164,10 +164,10 @@ impl<'a> Called<'a> {
         let wrong = |message| Err(self.wrong(name, own, ValueError::new("", message)));
         match self.own[cloth].get(name).map(Effect::scope) {
             Some(Scope::Scene) => wrong(format!(
-                "'{name}' acts on the whole scene, so that no cloth has one of its own: name it in [effects.{name}]"
+                "'{name}' acts on the whole scene, so no cloth may have its own: name it in [effects.{name}]"
             )),
             Some(Scope::AllCloths) if acting < self.cloths.len() => wrong(format!(
-                "'{name}' has to do with what cloths do to each other: name it in [effects.{name}] for all of them, or in every cloth"
+                "'{name}' acts between cloths: name it in [effects.{name}] for all of them, or in every cloth"
             )),
             _ => Ok(()),
         }

@@ -20,7 +20,7 @@ pub(super) const REGISTRATION: Registration = Registration {
         let keyframes = read_keyframes(table)?;
         match given {
             Some(_) if !keyframes.is_empty() => {
-                let message = "inflation is by `pressure` or by `keyframes`, not by both".to_owned();
+                let message = "inflation takes `pressure` or `keyframes`, not both".to_owned();
                 Err(table.error("keyframes", message))
             }
             Some(pressure) => Ok(Box::new(Inflation::at(pressure))),

@@ -63,8 +63,7 @@ impl PinGroup {
                 match &world.bodies[body].motion {
                     BodyMotion::Animated(_) => {
                         let name = &world.bodies[body].name;
-                        let message =
-                            format!("pins cannot follow '{name}', which changes its shape; give them a motion of their own");
+                        let message = format!("pins cannot follow '{name}', which deforms; give them a motion of their own");
                         Err(ValueError::new("follow", message))
                     }
                     _ => Ok(()),

@@ -91,7 +91,7 @@ impl ActsOn {
     pub(super) fn complaint(self, effect: &str, cloth: Option<&Cloth>) -> String {
         let (what, instead) = match self {
             Self::Vertices => ("vertices", ""),
-            Self::Triangles => ("triangles", "; what ropes resist is `rope_stretch` and `rope_bend`"),
+            Self::Triangles => ("triangles", "; ropes use `rope_stretch` and `rope_bend`"),
             Self::LooseEdges => (
                 "loose edges",
                 "; those of shape \"rope\" do, and those of a file with lines `l` for which `linear_density` is given",

@@ -101,7 +101,7 @@ impl Seam {
             let is_step = |two: &[u32]| rest[two[0] as usize] != rest[two[1] as usize];
             let is_stitch = [&self.first, &self.second].iter().all(|row| row.len() == 1);
             if row.len() < 2 && !is_stitch || !row.windows(2).all(is_step) {
-                let message = "a row of a seam needs two vertices or more, each at another place than the one before; or both rows are one vertex";
+                let message = "a row of a seam needs at least two vertices, and successive vertices must differ in place; or both rows are single vertices";
                 return wrong(message.to_owned());
             }
         }
@@ -124,8 +124,9 @@ impl Seam {
         let gap = self.gap.unwrap_or(thickness);
         if gap < thickness {
             let [gap, thickness] = [gap, thickness].map(|length| LENGTH.written(length));
-            let message =
-                format!("`gap` is {gap}, but contact keeps {thickness} between the two rows: take that or more, or none");
+            let message = format!(
+                "`gap` is {gap}, but contact keeps {thickness} between the rows: choose at least that, or leave `gap` out"
+            );
             return Err(ValueError::new(GAP.name, message));
         }
         let Some(closing) = self.closing else { return Ok(()) };
@@ -134,7 +135,7 @@ impl Seam {
         if speed > FASTEST_VERTEX {
             let [speed, most] = [speed, FASTEST_VERTEX].map(|speed| SPEED.written(speed));
             let message =
-                format!("the rows of the seam would close at {speed}, but must not at more than {most}: take a longer `closing`");
+                format!("the rows of the seam would close at {speed}, but the limit is {most}: choose a longer `closing`");
             return Err(ValueError::new(CLOSING.name, message));
         }
         Ok(())

@@ -58,7 +58,7 @@ pub(super) fn read_motion(table: &Table<'_>, world: &SceneParts<'_>) -> Result<P
     match table.text("follow")? {
         None => Ok(PinMotion::Own(BodyMotion::read(table, world.time_step)?)),
         Some(_) if table.has("keyframes") => {
-            let message = "what follows a body (`follow`) has no keyframes of its own".to_owned();
+            let message = "a group that follows a body (`follow`) has no keyframes of its own".to_owned();
             Err(table.error("keyframes", message))
         }
         Some(name) => {
@@ -121,6 +121,9 @@ pub(super) fn check_body(body: usize, world: &SceneParts<'_>) -> Result<(), Valu
     if body < world.bodies.len() {
         return Ok(());
     }
-    let message = format!("there is no body {body}: the scene has {}, from 0 on", world.bodies.len());
+    let message = format!(
+        "there is no body {body}: the scene has {}, numbered from 0",
+        world.bodies.len()
+    );
     Err(ValueError::new("follow", message))
 }

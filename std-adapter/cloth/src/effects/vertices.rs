@@ -31,7 +31,7 @@ pub(super) fn named_cloth(table: &Table<'_>, world: &SceneParts<'_>) -> Result<u
         None if world.cloths.len() == 1 => Ok(0),
         None => {
             let message = format!(
-                "the scene has several cloths: say which with `cloth`{}",
+                "the scene has several cloths: choose one with `cloth`{}",
                 suggestion("", names())
             );
             Err(table.error("cloth", message))
@@ -45,5 +45,5 @@ pub(super) fn named_cloth(table: &Table<'_>, world: &SceneParts<'_>) -> Result<u
 
 /// Returns the message about a vertex that no cloth has.
 pub(super) fn no_vertex(vertex: u32, count: usize) -> String {
-    format!("the scene has no vertex {vertex} of cloth: it has {count}, from 0 on")
+    format!("the scene has no vertex {vertex} of cloth: it has {count}, numbered from 0")
 }

@@ -62,11 +62,11 @@ impl Quantity {
         }
         match self.units.iter().find(|(name, _)| *name == unit) {
             Some((_, size)) => Ok(value * size),
-            None if self.units[0].0.is_empty() => Err(format!("is a plain number and has no unit '{unit}'")),
+            None if self.units[0].0.is_empty() => Err(format!("is a plain number without the unit '{unit}'")),
             None => {
                 let names = self.units.iter().map(|(name, _)| *name);
                 Err(format!(
-                    "must be {}, and '{unit}' is no unit of it{}",
+                    "must be {}, but '{unit}' is not a unit of it{}",
                     self.what,
                     suggestion(unit, names)
                 ))

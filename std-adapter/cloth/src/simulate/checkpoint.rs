@@ -21,7 +21,7 @@ pub enum CheckpointError {
     #[error("this is not a checkpoint of a simulation")]
     NotOne,
     /// Of another scene, or of an earlier version of it.
-    #[error("the checkpoint is of another scene, or of this scene before it was changed")]
+    #[error("the checkpoint belongs to another scene, or to this scene before a change")]
     OtherScene,
     /// Cut short, or with numbers that no simulation has.
     #[error("the checkpoint is damaged")]

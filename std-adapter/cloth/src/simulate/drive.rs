@@ -10,7 +10,7 @@ use selvedge_core::glam::DVec3;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DriveError {
     /// There is no such body.
-    #[error("there is no body {body}: the scene has {bodies}, from 0 on")]
+    #[error("there is no body {body}: the scene has {bodies}, numbered from 0")]
     NoBody {
         /// What was asked for.
         body: usize,
@@ -18,7 +18,7 @@ pub enum DriveError {
         bodies: usize,
     },
     /// There is no such group of pins.
-    #[error("there is no group {group} of pins: the scene has {groups}, from 0 on")]
+    #[error("there is no group {group} of pins: the scene has {groups}, numbered from 0")]
     NoPins {
         /// What was asked for.
         group: usize,

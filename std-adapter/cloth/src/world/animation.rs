@@ -223,10 +223,7 @@ impl Animation {
     pub(super) fn check(&self, vertices: usize, time_step: f64) -> Result<(), ValueError> {
         START.check(self.start)?;
         if self.source.vertices != vertices {
-            let message = format!(
-                "the animation is of {} vertices, but what it moves has {vertices}",
-                self.source.vertices
-            );
+            let message = format!("the animation has {} vertices, but it moves {vertices}", self.source.vertices);
             return Err(ValueError::new("animation", message));
         }
         let Jumps { speed, way } = self.source.jumps;

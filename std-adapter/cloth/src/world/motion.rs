@@ -41,7 +41,7 @@ impl BodyMotion {
         }
         match KeyframeMotion::KEYS.into_iter().find(|key| table.has(key)) {
             None => Ok(Self::Driven(Placement::default())),
-            Some(key) => Err(table.error(key, format!("what is driven from step to step has no `{key}`"))),
+            Some(key) => Err(table.error(key, format!("a driven motion has no `{key}`"))),
         }
     }
 }
@@ -95,7 +95,7 @@ pub struct Keyframe {
 pub(crate) fn check_key_time(time: f64, last: Option<f64>) -> Result<(), ValueError> {
     KEY_TIME.check(time)?;
     if last.is_some_and(|last| time < last + CLOSEST_KEYS) {
-        let message = "keyframes must be in order: each `time` a microsecond or more later than the one before";
+        let message = "keyframes must be in order: each `time` at least a microsecond after the one before";
         return Err(ValueError::new(KEY_TIME.name, message));
     }
     Ok(())
@@ -115,7 +115,7 @@ impl Keyframe {
         let in_a_step = turn.min(1.5 * turn * time_step / (self.time - last.time));
         if in_a_step > FASTEST_TURN {
             let message = format!(
-                "up to this keyframe it turns by {in_a_step:.1} rad in a time step, but must not by more than {FASTEST_TURN}; take a shorter `time_step`, or more time"
+                "before this keyframe the motion turns by {in_a_step:.1} rad per time step, but the limit is {FASTEST_TURN}; choose a shorter `time_step` or a later keyframe"
             );
             return Err(ValueError::new(KEY_ANGLE.name, message));
         }

@@ -41,7 +41,7 @@ impl Cloth {
         points.iter().try_for_each(|&point| POINTS.check_vector(point))?;
         SEGMENTS.check(segments)?;
         if points.len() < 2 || points.windows(2).any(|two| two[0] == two[1]) {
-            let message = "a rope needs two points or more, each at another place than the one before";
+            let message = "a rope needs at least two points, and successive points must differ";
             return Err(ValueError::new(POINTS.name, message));
         }
         let mesh = Mesh {

@@ -218,14 +218,14 @@ fn path(table: &Table<'_>) -> Result<PathBuf, SceneError> {
 pub(super) fn check(mesh: &Mesh) -> Result<(), ValueError> {
     let is_near = |p: &DVec3| p.abs().cmple(DVec3::splat(LARGEST_COORDINATE)).all();
     if let Some(far) = mesh.positions.iter().find(|p| !is_near(p)) {
-        let message = format!("the mesh has a vertex at {far}, more than {LARGEST_COORDINATE} metres away");
+        let message = format!("the mesh has a vertex at {far}, beyond {LARGEST_COORDINATE} metres");
         return Err(ValueError::new("mesh", message));
     }
     let count = mesh.positions.len();
     match mesh.triangles.iter().flatten().find(|&&vertex| vertex as usize >= count) {
         None => Ok(()),
         Some(vertex) => {
-            let message = format!("a triangle of the mesh has the vertex {vertex}, but there are {count}, from 0 on");
+            let message = format!("a triangle of the mesh names the vertex {vertex}, but there are {count}, numbered from 0");
             Err(ValueError::new("mesh", message))
         }
     }

@@ -1,5 +1,6 @@
 //! Air that pushes: inflation by a given pressure, and wind from a field.
 
+use crate::common::{self, assert_messages};
 use selvedge::glam::DVec3;
 use selvedge_cloth::effects::{
     Air, AirDrag, AirSource, Effect, Fan, Inflation, PressureKey, SelfCollision, Stretch, Thickness, Vortex, Wind, WindField,
@@ -19,12 +20,10 @@ fn balloon(is_inside_out: bool) -> Cloth {
 }
 
 /// After so many steps of half a millisecond.
-fn run(cloth: Cloth, effects: impl FnOnce(&mut Scene), steps: u32) -> Simulation {
+fn run(cloth: Cloth, effects: impl FnOnce(&mut Scene), steps: u64) -> Simulation {
     let mut scene = Scene::new(cloth, 5e-4);
     effects(&mut scene);
-    let mut simulation = Simulation::new(scene, 1).unwrap();
-    (0..steps).for_each(|_| simulation.step().unwrap());
-    simulation
+    common::run(scene, steps)
 }
 
 fn mean_radius(simulation: &Simulation) -> f64 {
@@ -214,8 +213,7 @@ const FILE: &str = r#"
 
 #[test]
 fn fields_and_pressures_from_a_file_and_from_code_are_the_same_to_the_last_bit() {
-    let mut of_file = Simulation::new(Scene::parse(FILE, Path::new("s.toml")).unwrap(), 2).unwrap();
-    (0..200).for_each(|_| of_file.step().unwrap());
+    let of_file = common::run(Scene::parse(FILE, Path::new("s.toml")).unwrap(), 200);
     let sources = vec![
         AirSource::Fan(Fan {
             at: DVec3::new(0.1, -0.2, 0.1),
@@ -239,45 +237,23 @@ fn fields_and_pressures_from_a_file_and_from_code_are_the_same_to_the_last_bit()
 
 #[test]
 fn wrong_air_is_named_with_its_unit_and_its_range() {
-    let complaint = |passage: &str, by: &str| {
-        assert_eq!(FILE.matches(passage).count(), 1, "{passage}");
-        let error = Scene::parse(&FILE.replace(passage, by), Path::new("s.toml")).unwrap_err();
-        error.to_string()
-    };
-    for (passage, by, expected) in [
-        (
-            "speed = 2",
-            "speed = \"2 Hz\"",
-            "s.toml:16:13: `speed` must be a speed, and 'Hz' is no unit of it; choose from m/s, cm/s, km/h",
-        ),
-        (
-            "axis = [0, 0, 1]",
-            "axis = [0, 0, 0]",
-            "s.toml:15:12: `axis` must not be zero: it is the direction that the air turns about",
-        ),
-        (
-            "radius = \"10 cm\"",
-            "radius = 0",
-            "s.toml:12:14: `radius` is 0 m, but must be from 0.001 m to 1000 m",
-        ),
-        (
-            "pressure = 5",
-            "pressure = 1e9",
-            "s.toml:19:41: `pressure` is 1e9 Pa, but must be from -1e7 Pa to 1e7 Pa",
-        ),
-        (
-            "time = \"50 ms\"",
-            "time = 0",
-            "s.toml:19:55: keyframes must be in order: each `time` a microsecond or more later than the one before",
-        ),
-        (
-            "[effects.inflation]",
-            "[effects.inflation]\n    pressure = 2",
-            "s.toml:20:17: inflation is by `pressure` or by `keyframes`, not by both",
-        ),
-    ] {
-        assert_eq!(complaint(passage, by), expected);
-    }
+    assert_messages(
+        FILE,
+        r#"
+        speed = 2 => speed = "2 Hz"
+            s.toml:16:13: `speed` must be a speed, but 'Hz' is not a unit of it; choose from m/s, cm/s, km/h
+        axis = [0, 0, 1] => axis = [0, 0, 0]
+            s.toml:15:12: `axis` must not be zero: it is the axis of the vortex
+        radius = "10 cm" => radius = 0
+            s.toml:12:14: `radius` is 0 m, but must be from 0.001 m to 1000 m
+        pressure = 5 => pressure = 1e9
+            s.toml:19:41: `pressure` is 1e9 Pa, but must be from -1e7 Pa to 1e7 Pa
+        time = "50 ms" => time = 0
+            s.toml:19:55: keyframes must be in order: each `time` at least a microsecond after the one before
+        [effects.inflation] => [effects.inflation]\n    pressure = 2
+            s.toml:20:17: inflation takes `pressure` or `keyframes`, not both
+    "#,
+    );
     let refused = |effect: &dyn Fn(&mut Scene)| {
         let mut scene = Scene::new(sheet(), 1e-3);
         effect(&mut scene);

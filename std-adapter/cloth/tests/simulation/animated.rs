@@ -1,23 +1,19 @@
 //! Bodies that change their shape: frames of files and of code, skinned figures.
 
-use crate::{load, scene_file};
-use selvedge::CollisionDetector;
+use crate::common::{assert_same_bits, bits, intersections, load, run, scene_file};
 use selvedge_cloth::effects::{BodyContact, Gravity, PinGroup, PinMotion, Pins, SelfCollision, Stretch, Thickness};
 use selvedge_cloth::files::animation::{Choice, read};
 use selvedge_cloth::files::mesh;
 use selvedge_cloth::glam::DVec3;
-use selvedge_cloth::{Animation, Body, BodyMotion, CHECKPOINT_STEPS, Cloth, Mesh, OnBlocked, Scene, Simulation};
+use selvedge_cloth::{Animation, Body, BodyMotion, CHECKPOINT_STEPS, CheckpointError, Cloth, Mesh, OnBlocked, Scene, Simulation};
 use std::fs;
 use std::path::Path;
 
 /// By the exact test, which shares nothing with the certificate: pairs with a triangle of the cloth that pass through each other.
 fn crossings(simulation: &Simulation) -> usize {
-    let positions = simulation.positions();
-    let topology = selvedge::Topology::new(positions.len(), simulation.triangles().to_vec()).unwrap();
+    let topology = selvedge::Topology::new(simulation.positions().len(), simulation.triangles().to_vec()).unwrap();
     let cloth = |vertex: u32| (vertex as usize) < simulation.cloth_vertices();
-    let mut detector = CollisionDetector::<f64>::new(topology.clone());
-    let mut found = Vec::new();
-    detector.intersections(positions, &mut found).unwrap();
+    let found = intersections(simulation);
     let with_cloth = found.iter().filter(|intersection| match **intersection {
         selvedge::Intersection::EdgeFace { edge, face } => {
             cloth(topology.edges()[edge as usize][0]) || cloth(topology.triangles()[face as usize][0])
@@ -59,11 +55,6 @@ fn on_breathing_ball() -> Scene {
     scene_with(sheet(0.08), vec![Body::animated("ball", triangles, animation)])
 }
 
-fn bits(simulation: &Simulation) -> Vec<[u64; 3]> {
-    let positions = simulation.positions().iter();
-    positions.map(|p| p.to_array().map(f64::to_bits)).collect()
-}
-
 #[test]
 fn at_each_step_a_body_is_exactly_where_its_animation_says_and_rests_before_and_after() {
     let mut simulation = Simulation::new(on_breathing_ball(), 1).unwrap();
@@ -91,20 +82,7 @@ fn at_each_step_a_body_is_exactly_where_its_animation_says_and_rests_before_and_
 
 #[test]
 fn a_body_of_frames_gives_the_same_bits_on_any_number_of_threads_and_resumed() {
-    let new = |threads| Simulation::new(on_breathing_ball(), threads).unwrap();
-    let mut simulations = [new(1), new(2)];
-    for _ in 0..CHECKPOINT_STEPS {
-        simulations.iter_mut().for_each(|simulation| simulation.step().unwrap());
-    }
-    assert!(bits(&simulations[0]) == bits(&simulations[1]));
-    // In the midst of the motion.
-    let mut resumed = new(1);
-    resumed.resume(&simulations[0].checkpoint().unwrap()).unwrap();
-    for _ in 0..60 {
-        resumed.step().unwrap();
-        simulations[1].step().unwrap();
-    }
-    assert!(bits(&resumed) == bits(&simulations[1]));
+    assert_same_bits(on_breathing_ball, CHECKPOINT_STEPS, 60);
     // Of another animation it is another scene.
     let mut scene = on_breathing_ball();
     let (triangles, frames) = breathing(11);
@@ -113,10 +91,8 @@ fn a_body_of_frames_gives_the_same_bits_on_any_number_of_threads_and_resumed() {
         triangles,
         Animation::from_frames(frames, 24.0).unwrap().starting_at(0.1),
     );
-    let other = Simulation::new(scene, 1)
-        .unwrap()
-        .resume(&simulations[0].checkpoint().unwrap_or_default());
-    assert!(other.is_err());
+    let checkpoint = run(on_breathing_ball(), 0).checkpoint().unwrap();
+    assert_eq!(run(scene, 0).resume(&checkpoint), Err(CheckpointError::OtherScene));
 }
 
 /// Two soft bodies that close on the sheet from both sides, pass into each other, and open again.
@@ -208,14 +184,8 @@ fn numbered_files_and_frames_of_code_make_the_same_scene() {
     };
     let animation = Animation::from_frames(frames, 24.0).unwrap().starting_at(0.02);
     let of_code = scene_with(sheet(0.08), vec![Body::animated("ball", triangles, animation)]);
-    let run = |scene| {
-        let mut simulation = Simulation::new(scene, 1).unwrap();
-        (0..100).for_each(|_| simulation.step().unwrap());
-        bits(&simulation)
-    };
-    let expected = run(of_code);
-    assert!(run(of_files("ball-####.ply")) == expected);
-    assert!(run(of_files(".")) == expected);
+    let [expected, pattern, folder] = [of_code, of_files("ball-####.ply"), of_files(".")].map(|scene| bits(&run(scene, 100)));
+    assert!(pattern == expected && folder == expected);
 }
 
 /// Every state of the shipped scene, as far as a test has time for: walking has begun, one arm is up.
@@ -236,19 +206,7 @@ fn a_walking_figure_never_passes_through_its_shirt() {
 
 #[test]
 fn a_skinned_figure_gives_the_same_bits_on_any_number_of_threads_and_resumed() {
-    let new = |threads| load("walker.toml", |text| text, threads);
-    let mut simulations = [new(1), new(2)];
-    for _ in 0..CHECKPOINT_STEPS {
-        simulations.iter_mut().for_each(|simulation| simulation.step().unwrap());
-    }
-    assert!(bits(&simulations[0]) == bits(&simulations[1]));
-    let mut resumed = new(2);
-    resumed.resume(&simulations[0].checkpoint().unwrap()).unwrap();
-    for _ in 0..50 {
-        resumed.step().unwrap();
-        simulations[0].step().unwrap();
-    }
-    assert!(bits(&resumed) == bits(&simulations[0]));
+    assert_same_bits(|| Scene::read(&scene_file("walker.toml")).unwrap(), CHECKPOINT_STEPS, 50);
 }
 
 #[test]
@@ -284,13 +242,12 @@ fn pins_may_be_animated_as_well() {
     };
     let mut scene = scene_with(sheet(0.2), vec![Body::ball("ball", DVec3::ZERO, 0.06, 16).unwrap()]);
     scene.add(pins(top.clone()));
-    let mut simulation = Simulation::new(scene, 1).unwrap();
-    (0..60).for_each(|_| simulation.step().unwrap());
+    let simulation = run(scene, 60);
     assert_eq!(simulation.positions()[top[3] as usize].z, 0.25);
     let mut scene = scene_with(sheet(0.2), vec![Body::ball("ball", DVec3::ZERO, 0.06, 16).unwrap()]);
     scene.add(pins(vec![0, 1]));
     let message = Simulation::new(scene, 1).unwrap_err().to_string();
-    assert_eq!(message, "pins: the animation is of 13 vertices, but what it moves has 2");
+    assert_eq!(message, "pins: the animation has 13 vertices, but it moves 2");
     let mut scene = on_breathing_ball();
     scene.add(Pins {
         groups: vec![PinGroup {
@@ -301,7 +258,7 @@ fn pins_may_be_animated_as_well() {
     let message = Simulation::new(scene, 1).unwrap_err().to_string();
     assert_eq!(
         message,
-        "pins: pins cannot follow 'ball', which changes its shape; give them a motion of their own"
+        "pins: pins cannot follow 'ball', which deforms; give them a motion of their own"
     );
 }
 
@@ -336,7 +293,7 @@ fn animations_that_cannot_be_are_refused_where_they_are_made() {
     let mut scene = scene(other);
     scene.bodies[0].mesh.positions.push(DVec3::ONE);
     let message = Simulation::new(scene, 1).unwrap_err().to_string();
-    assert_eq!(message, "leaf: the animation is of 3 vertices, but what it moves has 4");
+    assert_eq!(message, "leaf: the animation has 3 vertices, but it moves 4");
 }
 
 #[test]

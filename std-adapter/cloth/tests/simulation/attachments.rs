@@ -1,5 +1,6 @@
 //! Attachments hold with a limited force, and tell when they let go.
 
+use crate::common::{advance, assert_messages, assert_same_bits, run};
 use selvedge::glam::DVec3;
 use selvedge_cloth::effects::{
     AirDrag, AttachmentGroup, Attachments, BodyContact, Gravity, PinMotion, Release, Shear, Stretch, Thickness,
@@ -26,12 +27,6 @@ fn hung(groups: Vec<AttachmentGroup>) -> Scene {
     scene
 }
 
-fn simulated(scene: Scene, steps: u64) -> Simulation {
-    let mut simulation = Simulation::new(scene, 1).unwrap();
-    (0..steps).for_each(|_| simulation.step().unwrap());
-    simulation
-}
-
 /// At rest each of two holds half the weight: a spring that gives by a millimetre at twice the weight gives by a quarter of one, downwards. On
 /// fine meshes as well, where a vertex weighs little and pulls go over coarse levels; and no edge there gives way instead.
 #[test]
@@ -42,7 +37,7 @@ fn each_holds_its_share_of_the_weight() {
         let corners = ["top-left", "top-right"].map(|corner| sheet.part(corner).unwrap()[0]);
         let mut scene = hung(vec![AttachmentGroup::resting(corners, 2.0 * WEIGHT)]);
         scene.cloths = vec![sheet];
-        let hanging = simulated(scene, 4000);
+        let hanging = run(scene, 4000);
         assert_eq!(hanging.released(), []);
         let given = corners.map(|v| rest[v as usize] - hanging.positions()[v as usize]);
         for given in given {
@@ -62,7 +57,7 @@ fn each_holds_its_share_of_the_weight() {
 fn what_pulls_more_than_the_limit_comes_loose_and_falls() {
     let [weak, strong] = [(CORNERS[0], 0.2), (CORNERS[1], 5.0)];
     let group = |(corner, share): (u32, f64)| AttachmentGroup::resting([corner], share * WEIGHT);
-    let one = simulated(hung(vec![group(strong), group(weak)]), 1000);
+    let one = run(hung(vec![group(strong), group(weak)]), 1000);
     let released = one.released();
     assert_eq!(released.len(), 1);
     let Release { group: of, vertex, time } = released[0];
@@ -71,10 +66,10 @@ fn what_pulls_more_than_the_limit_comes_loose_and_falls() {
     let height = |vertex: u32| one.positions()[vertex as usize].z - sheet().mesh().positions[vertex as usize].z;
     assert!(height(weak.0) < -0.1 && height(strong.0) > -1e-3);
 
-    let mut both = simulated(hung(vec![AttachmentGroup::resting(CORNERS, 0.2 * WEIGHT)]), 1000);
+    let mut both = run(hung(vec![AttachmentGroup::resting(CORNERS, 0.2 * WEIGHT)]), 1000);
     assert_eq!(both.released().len(), 2);
     let before = both.velocities()[0].z;
-    (0..100).for_each(|_| both.step().unwrap());
+    advance(&mut both, 100);
     assert!(both.velocities()[0].z < before, "it falls ever faster");
 }
 
@@ -148,8 +143,8 @@ const FILE: &str = r#"
     keyframes = [{ time = 0.1 }, { time = 0.5, translation = [0.2, 0, 0.1] }]
 "#;
 
-fn of_file(threads: usize) -> Simulation {
-    Simulation::new(Scene::parse(FILE, Path::new("s.toml")).unwrap(), threads).unwrap()
+fn of_file() -> Scene {
+    Scene::parse(FILE, Path::new("s.toml")).unwrap()
 }
 
 #[test]
@@ -164,9 +159,8 @@ fn attachments_from_a_file_and_from_code_are_the_same_to_the_last_bit() {
     let keys = vec![key(0.1, DVec3::ZERO), key(0.5, DVec3::new(0.2, 0.0, 0.1))];
     let mut moved = AttachmentGroup::resting([CORNERS[1]], 0.1);
     moved.motion = PinMotion::Own(KeyframeMotion::new(DVec3::ZERO, DVec3::Z, keys).unwrap().into());
-    let of_code = simulated(hung(vec![resting, moved]), 600);
-    let mut of_file = of_file(2);
-    (0..600).for_each(|_| of_file.step().unwrap());
+    let of_code = run(hung(vec![resting, moved]), 600);
+    let of_file = run(of_file(), 600);
     assert_eq!(of_file.positions(), of_code.positions());
     assert_eq!(of_file.released(), of_code.released());
     assert_eq!(of_file.released().len(), 1, "the one that is pulled away");
@@ -175,65 +169,34 @@ fn attachments_from_a_file_and_from_code_are_the_same_to_the_last_bit() {
 /// What has let go stays loose.
 #[test]
 fn a_resumed_simulation_knows_what_has_let_go() {
-    let mut whole = of_file(1);
-    while whole.released().is_empty() {
-        whole.step().unwrap();
-    }
-    while !whole.steps_done().is_multiple_of(CHECKPOINT_STEPS) {
-        whole.step().unwrap();
-    }
-    let checkpoint = whole.checkpoint().unwrap();
-    let mut resumed = of_file(2);
-    resumed.resume(&checkpoint).unwrap();
-    assert_eq!((resumed.released(), resumed.energy()), (whole.released(), whole.energy()));
-    for _ in 0..150 {
-        whole.step().unwrap();
-        resumed.step().unwrap();
-    }
-    assert_eq!(resumed.positions(), whole.positions());
+    let before = 2 * CHECKPOINT_STEPS;
+    let simulation = assert_same_bits(of_file, before, 150);
+    assert!(
+        simulation.released()[0].time < 1e-3 * before as f64,
+        "{:?}",
+        simulation.released()
+    );
 }
 
 #[test]
 fn wrong_attachments_are_named_with_their_unit_and_range() {
-    let complaint = |passage: &str, by: &str| {
-        assert_eq!(FILE.matches(passage).count(), 1, "{passage}");
-        let error = Scene::parse(&FILE.replace(passage, by), Path::new("s.toml")).unwrap_err();
-        error.to_string()
-    };
-    for (passage, by, expected) in [
-        (
-            "limit = \"500 mN\"",
-            "",
-            "s.toml:16:5: [effects.attachments.group] needs `limit`, such as 0.5 (in N) or \"5 mN\"",
-        ),
-        (
-            "\"500 mN\"",
-            "\"500 N/m\"",
-            "s.toml:18:13: `limit` must be a force, and 'N/m' is no unit of it; choose from N, mN, kN",
-        ),
-        (
-            "give = \"2 mm\"",
-            "give = 0",
-            "s.toml:19:12: `give` is 0 m, but must be from 1e-6 m to 1 m",
-        ),
-        (
-            "part = \"top-right\"",
-            "part = \"top\"",
-            "s.toml:21:12: vertex 42 is attached twice",
-        ),
-        (
-            "keyframes = [{ time = 0.1 }, { time = 0.5, translation = [0.2, 0, 0.1] }]",
-            "driven = true",
-            "s.toml:23:14: attachments go by keyframes or `follow` a body, which may be driven; they are not driven themselves",
-        ),
-        (
-            "keyframes = [{ time = 0.1 }, { time = 0.5, translation = [0.2, 0, 0.1] }]",
-            "follow = \"arm\"",
-            "s.toml:23:14: there is no body 'arm'; there are none",
-        ),
-    ] {
-        assert_eq!(complaint(passage, by), expected);
-    }
+    assert_messages(
+        FILE,
+        r#"
+        limit = "500 mN" =>
+            s.toml:16:5: [effects.attachments.group] needs `limit`, such as 0.5 (in N) or "5 mN"
+        "500 mN" => "500 N/m"
+            s.toml:18:13: `limit` must be a force, but 'N/m' is not a unit of it; choose from N, mN, kN
+        give = "2 mm" => give = 0
+            s.toml:19:12: `give` is 0 m, but must be from 1e-6 m to 1 m
+        part = "top-right" => part = "top"
+            s.toml:21:12: vertex 42 is attached twice
+        keyframes = [{ time = 0.1 }, { time = 0.5, translation = [0.2, 0, 0.1] }] => driven = true
+            s.toml:23:14: attachments follow keyframes or a body (`follow`), which may be driven; they cannot be driven themselves
+        keyframes = [{ time = 0.1 }, { time = 0.5, translation = [0.2, 0, 0.1] }] => follow = "arm"
+            s.toml:23:14: there is no body 'arm'; there are none
+    "#,
+    );
     let none = hung(Vec::new()).check().unwrap_err().to_string();
     assert_eq!(
         none,

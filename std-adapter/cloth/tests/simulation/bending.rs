@@ -1,9 +1,10 @@
 //! A strip bends under its weight as its flexural rigidity says, whatever its mesh.
 
+use crate::common::{advance, resting, run};
 use crate::irregular;
 use selvedge::Mesh;
 use selvedge::glam::{DQuat, DVec3};
-use selvedge_cloth::effects::{AirDrag, Bend, Gravity, PinGroup, Pins, Shear, Stretch};
+use selvedge_cloth::effects::{AirDrag, Bend, Gravity, Shear, Stretch};
 use selvedge_cloth::{Cloth, Scene, Simulation};
 
 /// In N·m, and in kg/m².
@@ -80,16 +81,14 @@ fn found_over_given(mesh: &Mesh, cells: u32, turn: f64) -> f64 {
             ..Bend::isotropic(RIGIDITY)
         });
     scene.add(AirDrag { rate: 8.0 });
-    scene.add(Pins {
-        groups: vec![PinGroup::resting(pinned)],
-    });
+    scene.add(resting(pinned));
     let mut simulation = Simulation::new(scene, 1).unwrap();
     let middle = |simulation: &Simulation| {
         let all = tip.iter().map(|&v| simulation.positions()[v as usize]);
         all.sum::<DVec3>() / tip.len() as f64
     };
     let length = middle(&simulation).x - clamp;
-    (0..1500).for_each(|_| simulation.step().unwrap());
+    advance(&mut simulation, 1500);
     let tip = middle(&simulation);
     let angle = (-tip.z).atan2(tip.x - clamp);
     weight * length.powi(3) * (0.5 * angle).cos() / (8.0 * angle.tan()) / RIGIDITY
@@ -121,12 +120,8 @@ fn the_weft_has_a_rigidity_of_its_own() {
             weft_stiffness: 1e-5,
             ..Bend::isotropic(1e-4)
         });
-        scene.add(AirDrag { rate: 8.0 }).add(Pins {
-            groups: vec![PinGroup::resting(pinned)],
-        });
-        let mut simulation = Simulation::new(scene, 1).unwrap();
-        (0..1000).for_each(|_| simulation.step().unwrap());
-        simulation.positions().iter().map(|p| -p.z).fold(0.0, f64::max)
+        scene.add(AirDrag { rate: 8.0 }).add(resting(pinned));
+        run(scene, 1000).positions().iter().map(|p| -p.z).fold(0.0, f64::max)
     };
     let [warp, weft] = [droop(0.0), droop(std::f64::consts::FRAC_PI_2)];
     assert!(weft > 1.5 * warp, "{warp} along the warp, {weft} along the weft");

@@ -1,6 +1,6 @@
 //! What happens where bodies leave the cloth no room.
 
-use crate::{scene_file, set_up};
+use crate::common::{scene_file, set_up};
 use selvedge_cloth::{Scene, Simulation};
 
 /// A ball comes down on another one, with the cloth in between, and goes up again.

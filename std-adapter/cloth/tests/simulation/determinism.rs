@@ -1,13 +1,13 @@
 //! The same bits, however a simulation is run.
 
-use crate::load;
+use crate::common::{advance, load};
 use selvedge_cloth::{CHECKPOINT_STEPS, CheckpointError, Simulation};
 
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
     let run = |threads| {
         let mut simulation = load("arm-sleeve-10.toml", |text| text, threads);
-        (0..20).for_each(|_| simulation.step().unwrap());
+        advance(&mut simulation, 20);
         simulation.positions().to_vec()
     };
     assert_eq!(run(1), run(2));
@@ -17,7 +17,7 @@ fn any_number_of_threads_gives_the_same_bits() {
 fn a_resumed_simulation_has_the_same_bits() {
     let fast = |text: String| text.replace("time = \"0.2 s\"", "time = \"0.01 s\"");
     let mut whole = load("arm-sleeve.toml", fast, 1);
-    (0..CHECKPOINT_STEPS).for_each(|_| whole.step().unwrap());
+    advance(&mut whole, CHECKPOINT_STEPS);
     let checkpoint = whole.checkpoint().unwrap();
     let mut resumed = load("arm-sleeve.toml", fast, 1);
     resumed.resume(&checkpoint).unwrap();
@@ -40,7 +40,7 @@ fn a_resumed_simulation_has_the_same_bits() {
 fn a_simulation_resumed_at_any_checkpoint_goes_on_with_the_same_bits() {
     let load = || load("violent.toml", |text| text, 1);
     let until_checkpoint = |simulation: &mut Simulation| {
-        (0..CHECKPOINT_STEPS).for_each(|_| simulation.step().unwrap());
+        advance(simulation, CHECKPOINT_STEPS);
         simulation.checkpoint().unwrap()
     };
     let mut whole = load();

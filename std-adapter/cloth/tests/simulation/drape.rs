@@ -1,6 +1,6 @@
 //! Cusick's drape test: one number of a fabric that laboratories publish.
 
-use crate::scene_file;
+use crate::common::scene_file;
 use selvedge_cloth::{Scene, Simulation};
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;

@@ -1,6 +1,6 @@
 //! Where nothing does work, energy does not grow.
 
-use crate::set_up;
+use crate::common::{advance, set_up};
 use selvedge::glam::DVec3;
 use selvedge_cloth::effects::{Gravity, InternalPressure};
 use selvedge_cloth::{Body, Cloth, Energy, Scene, Simulation, StoredEnergy};
@@ -176,7 +176,7 @@ fn drawn([rest, some]: [&str; 2], way: [f64; 3], effect: &str) -> Energy {
     let mut simulation = set_up(&scene, "square.toml", 1);
     let rest = simulation.energy();
     assert!(rest.elastic().unwrap() < 1e-20 && rest.gravitational().is_none(), "{rest:?}");
-    (0..100).for_each(|_| simulation.step().unwrap());
+    advance(&mut simulation, 100);
     simulation.energy()
 }
 

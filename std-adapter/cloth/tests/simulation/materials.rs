@@ -1,9 +1,10 @@
 //! Materials by name: what was published of them, and what scenes make of their names.
 
+use crate::common::{resting, run};
 use crate::drape::{drape, of_material};
 use selvedge::glam::DVec3;
-use selvedge_cloth::effects::{AirDrag, Bend, Gravity, PinGroup, Pins, Shear, Stretch};
-use selvedge_cloth::{Cloth, Material, Scene, SceneError, Simulation};
+use selvedge_cloth::effects::{AirDrag, Bend, Gravity, Shear, Stretch};
+use selvedge_cloth::{Cloth, Material, Scene, SceneError};
 use std::path::Path;
 
 /// In percent, of a bending length in cm and the angle in degrees by which a small force shears the fabric: Cusick (1965), by regression over
@@ -92,11 +93,8 @@ fn denim_gives_under_its_weight_as_warp_weft_and_bias_say() {
         strip.set_material(Material::DENIM);
         let mut scene = Scene::new(strip, 2e-4);
         scene.add(Gravity::default()).add(AirDrag { rate: 10.0 });
-        scene.add(Pins {
-            groups: vec![PinGroup::resting(top)],
-        });
-        let mut simulation = Simulation::new(scene, 1).unwrap();
-        (0..5000).for_each(|_| simulation.step().unwrap());
+        scene.add(resting(top));
+        let simulation = run(scene, 5000);
         -0.6 - simulation.positions().iter().map(|p| p.z).fold(0.0, f64::min)
     };
     let [warp, weft, bias] = [DVec3::Z, DVec3::X, DVec3::X + DVec3::Z].map(sag);
@@ -125,9 +123,7 @@ fn parsed(more: &str) -> Result<Scene, SceneError> {
 }
 
 fn ends(scene: Scene) -> Vec<DVec3> {
-    let mut simulation = Simulation::new(scene, 1).unwrap();
-    (0..100).for_each(|_| simulation.step().unwrap());
-    simulation.positions().to_vec()
+    run(scene, 100).positions().to_vec()
 }
 
 fn from_code() -> Scene {
@@ -140,9 +136,7 @@ const HELD: &str = "[effects.gravity]\n[[effects.pins.group]]\npart = \"left\"\n
 
 fn held(mut scene: Scene) -> Scene {
     let left = scene.cloths[0].part("left").unwrap().to_vec();
-    scene.add(Gravity::default()).add(Pins {
-        groups: vec![PinGroup::resting(left)],
-    });
+    scene.add(Gravity::default()).add(resting(left));
     scene
 }
 

@@ -1,6 +1,6 @@
 //! An effect that a scene does not name costs nothing.
 
-use crate::{load, set_up};
+use crate::common::{load, set_up};
 use selvedge_cloth::{Simulation, effect_names};
 
 const HEAD: &str = r#"

@@ -1,8 +1,8 @@
 //! Folds that stay when cloth is bent too far.
 
-use crate::set_up;
+use crate::common::{advance, assert_same_bits, resting, run, set_up};
 use selvedge::glam::DVec3;
-use selvedge_cloth::effects::{AirDrag, Bend, Effect, Force, PinGroup, Pins, Plan, PlasticFolds, Shear, Stretch, TimeStep};
+use selvedge_cloth::effects::{AirDrag, Bend, Effect, Force, Plan, PlasticFolds, Shear, Stretch, TimeStep};
 use selvedge_cloth::{CHECKPOINT_STEPS, Cloth, Scene, Simulation};
 use std::path::Path;
 
@@ -38,20 +38,12 @@ fn strip(is_clamped: bool, folds: Option<PlasticFolds>) -> Scene {
     scene.add(Stretch::isotropic(1000.0)).add(Shear::new(300.0));
     scene.add(Bend::isotropic(1e-4)).add(AirDrag { rate: 10.0 }).add(Hand);
     if is_clamped {
-        scene.add(Pins {
-            groups: vec![PinGroup::resting(clamped)],
-        });
+        scene.add(resting(clamped));
     }
     if let Some(folds) = folds {
         scene.add(folds);
     }
     scene
-}
-
-fn after(scene: Scene, steps: u64, threads: usize) -> Simulation {
-    let mut simulation = Simulation::new(scene, threads).unwrap();
-    (0..steps).for_each(|_| simulation.step().unwrap());
-    simulation
 }
 
 /// Of the right end.
@@ -63,7 +55,7 @@ fn height(simulation: &Simulation) -> f64 {
 fn what_is_bent_beyond_the_yield_curvature_stays_bent_and_what_is_not_comes_back() {
     let lifted = |yield_curvature| {
         let folds = Some(PlasticFolds::beyond(yield_curvature));
-        [500, 2500].map(|steps| height(&after(strip(true, folds), steps, 1)))
+        [500, 2500].map(|steps| height(&run(strip(true, folds), steps)))
     };
     let [up, back] = lifted(1e4);
     assert!(up > 0.04 && back.abs() < 1e-4, "{up} {back}");
@@ -76,7 +68,7 @@ fn what_is_bent_beyond_the_yield_curvature_stays_bent_and_what_is_not_comes_back
 
 #[test]
 fn folds_that_never_yield_change_no_bit() {
-    let [with, without] = [Some(PlasticFolds::beyond(1e6)), None].map(|folds| after(strip(true, folds), 600, 1));
+    let [with, without] = [Some(PlasticFolds::beyond(1e6)), None].map(|folds| run(strip(true, folds), 600));
     assert_eq!(with.positions(), without.positions());
 }
 
@@ -105,9 +97,9 @@ fn what_is_held_bent_creeps_until_it_pulls_no_more_than_at_yielding() {
             "#
         )
     };
-    let held = |folds: &str, steps: u32| {
+    let held = |folds: &str, steps: u64| {
         let mut simulation = set_up(&scene(folds), "square.toml", 1);
-        (0..steps).for_each(|_| simulation.step().unwrap());
+        advance(&mut simulation, steps);
         simulation.energy().elastic().unwrap()
     };
     let yielding = |curvature: f64, creep: f64, steps| {
@@ -129,7 +121,7 @@ fn what_is_held_bent_creeps_until_it_pulls_no_more_than_at_yielding() {
 fn folds_push_nothing_as_a_whole() {
     let mut scene = strip(false, Some(PlasticFolds::beyond(2.0)));
     scene.add(AirDrag { rate: 0.0 });
-    let mut free = after(scene, 600, 1);
+    let mut free = run(scene, 600);
     let masses: Vec<f64> = {
         let cloth = &free.triangles()[..free.cloth_triangles()];
         let mut shares = vec![0.0; free.cloth_vertices()];
@@ -138,7 +130,7 @@ fn folds_push_nothing_as_a_whole() {
     };
     let momentum = |now: &Simulation| -> DVec3 { now.velocities().iter().zip(&masses).map(|(v, m)| *v * *m).sum() };
     let before = momentum(&free);
-    (0..500).for_each(|_| free.step().unwrap());
+    advance(&mut free, 500);
     let change = momentum(&free) - before;
     assert!(
         before.z > 1.0 && change.length() < 1e-9 * before.length(),
@@ -147,7 +139,7 @@ fn folds_push_nothing_as_a_whole() {
     // It has folded: it does not go where it would go otherwise.
     let mut elastic = strip(false, None);
     elastic.add(AirDrag { rate: 0.0 });
-    let elastic = after(elastic, 1100, 1);
+    let elastic = run(elastic, 1100);
     let differ = free.positions().iter().zip(elastic.positions()).map(|(a, b)| a.distance(*b));
     assert!(differ.fold(0.0, f64::max) > 1e-3);
 }
@@ -161,13 +153,7 @@ fn folds_are_the_same_bits_on_two_threads_and_resumed_from_a_checkpoint() {
         };
         strip(true, Some(folds))
     };
-    let checkpoint = after(scene(), 2 * CHECKPOINT_STEPS, 2).checkpoint().unwrap();
-    let mut resumed = Simulation::new(scene(), 1).unwrap();
-    resumed.resume(&checkpoint).unwrap();
-    (0..300).for_each(|_| resumed.step().unwrap());
-    let whole = after(scene(), 2 * CHECKPOINT_STEPS + 300, 1);
-    assert_eq!(resumed.positions(), whole.positions());
-    assert_eq!(resumed.energy(), whole.energy());
+    assert_same_bits(scene, 2 * CHECKPOINT_STEPS, 300);
 }
 
 const CRUMPLING: &str = r#"
@@ -232,7 +218,7 @@ fn wrong_folds_are_named_with_their_unit_and_range() {
         ),
         (
             "[effects.bend]\nstiffness = 1e-5\n[effects.plastic_folds]\nyield_curvature = \"5 mm\"",
-            "s.toml:11:19: `yield_curvature` must be a curvature, and 'mm' is no unit of it; choose from 1/m, 1/cm, 1/mm",
+            "s.toml:11:19: `yield_curvature` must be a curvature, but 'mm' is not a unit of it; choose from 1/m, 1/cm, 1/mm",
         ),
         (
             "[effects.bend]\nstiffness = 1e-5\n[effects.plastic_folds]\nyield_curvature = 5\ncreep = -1",

@@ -1,29 +1,15 @@
 //! Ropes, laces and fringes: edges that belong to no triangle.
 
 use crate::air::Even;
-use crate::{scene_file, set_up};
-use selvedge::{CollisionDetector, Topology};
+use crate::common::{assert_messages, assert_same_bits, intersections, resting, run, scene_file, set_up};
 use selvedge_cloth::effects::{
     AirDrag, BodyContact, Force, Friction, Gravity, PinGroup, Pins, Plan, RopeBend, RopeShape, RopeStretch, Seam, Seams,
     SelfCollision, Shear, Stretch, Thickness, TimeStep, Wind, WindField,
 };
 use selvedge_cloth::glam::DVec3;
 use selvedge_cloth::{Body, CHECKPOINT_STEPS, Cloth, Mesh, Scene, Simulation};
-use std::path::Path;
 
 const G: f64 = 9.81;
-
-fn pinned(vertices: &[u32]) -> Pins {
-    Pins {
-        groups: vec![PinGroup::resting(vertices)],
-    }
-}
-
-fn run(scene: Scene, steps: usize) -> Simulation {
-    let mut simulation = Simulation::new(scene, 1).unwrap();
-    (0..steps).for_each(|_| simulation.step().unwrap());
-    simulation
-}
 
 fn length(points: &[DVec3]) -> f64 {
     points.windows(2).map(|two| two[0].distance(two[1])).sum()
@@ -57,7 +43,7 @@ fn hanging(segments: u32, stiffness: f64, time_step: f64) -> Scene {
     scene
         .add(Gravity::default())
         .add(RopeStretch::new(stiffness))
-        .add(pinned(&[0]));
+        .add(resting([0]));
     scene.add(AirDrag { rate: 5.0 });
     scene
 }
@@ -69,7 +55,7 @@ fn a_hung_rope_is_stretched_as_its_stiffness_says() {
         for (stiffness, weight) in [(1e3, 20.0), (1e5, 50.0)] {
             let mut scene = hanging(segments, stiffness, time_step);
             scene.add(Weight(weight));
-            let simulation = run(scene, (1.5 / time_step) as usize);
+            let simulation = run(scene, (1.5 / time_step) as u64);
             let stretch = length(simulation.positions()) - 2.0;
             let theory = (weight * 2.0 + 0.05 * G * 2.0 * 2.0 / 2.0) / stiffness;
             assert!(
@@ -112,7 +98,7 @@ fn a_rope_of_two_hundred_edges_that_holds_a_weight_is_stretched_by_a_thousandth_
             .add(Gravity::default())
             .add(RopeStretch::new(stiffness))
             .add(AirDrag { rate: 5.0 });
-        scene.add(Stretch::isotropic(1e5)).add(Shear::new(1e5)).add(pinned(&[0]));
+        scene.add(Stretch::isotropic(1e5)).add(Shear::new(1e5)).add(resting([0]));
         if is_tied {
             let seam = Seam {
                 gap: Some(gap),
@@ -120,7 +106,7 @@ fn a_rope_of_two_hundred_edges_that_holds_a_weight_is_stretched_by_a_thousandth_
             };
             scene.add(Seams { seams: vec![seam] });
         }
-        let simulation = run(scene, (2.0 / time_step) as usize);
+        let simulation = run(scene, (2.0 / time_step) as u64);
         let stretch = length(&simulation.positions()[..=200]) - length_at_rest;
         let theory = (0.98 * length_at_rest + 0.05 * length_at_rest.powi(2) / 2.0) * G / stiffness;
         assert!(
@@ -166,7 +152,7 @@ fn a_clamped_rope_bends_under_its_weight_as_a_beam() {
             .add(Gravity::default())
             .add(RopeStretch::new(1e5))
             .add(RopeBend::straight(rigidity));
-        scene.add(pinned(&[0, 1])).add(AirDrag { rate: 20.0 });
+        scene.add(resting([0, 1])).add(AirDrag { rate: 20.0 });
         let simulation = run(scene, 1500);
         let tip = -simulation.positions()[segments as usize + 1].z;
         let theory = 0.05 * G * 0.5_f64.powi(4) / (8.0 * rigidity);
@@ -186,7 +172,7 @@ fn a_slack_rope_hangs_in_a_catenary() {
         .add(Gravity::default())
         .add(RopeStretch::new(1e5))
         .add(AirDrag { rate: 5.0 });
-    scene.add(pinned(&[0, 120]));
+    scene.add(resting([0, 120]));
     let simulation = run(scene, 3000);
     let (mut low, mut high) = (0.01, 100.0);
     for _ in 0..100 {
@@ -267,14 +253,10 @@ fn tangle() -> Scene {
 #[test]
 fn ropes_stay_apart_from_each_other_from_cloth_and_from_bodies() {
     let mut simulation = Simulation::new(tangle(), 1).unwrap();
-    let (triangles, loose) = (simulation.triangles().to_vec(), simulation.loose_edges().to_vec());
-    let topology = Topology::with_loose_features(simulation.positions().len(), triangles, &loose, &[]).unwrap();
-    let mut detector = CollisionDetector::<f64>::new(topology);
-    let mut found = Vec::new();
     for step in 0..400 {
         simulation.step().unwrap();
-        detector.intersections(simulation.positions(), &mut found).unwrap();
-        assert!(simulation.is_certified() && found.is_empty(), "{step}: {found:?}");
+        assert!(simulation.is_certified(), "{step}");
+        assert_eq!(intersections(&simulation), [], "{step}");
     }
     let closest = |from: usize| {
         let [one, other] = [0, 1].map(|cloth| simulation.vertices_of_cloth(cloth).unwrap());
@@ -289,17 +271,7 @@ fn ropes_stay_apart_from_each_other_from_cloth_and_from_bodies() {
 
 #[test]
 fn ropes_have_the_same_bits_on_any_number_of_threads_and_resumed() {
-    let steps = |simulation: &mut Simulation, count: u64| (0..count).for_each(|_| simulation.step().unwrap());
-    let mut one = Simulation::new(tangle(), 1).unwrap();
-    let mut two = Simulation::new(tangle(), 2).unwrap();
-    steps(&mut one, CHECKPOINT_STEPS);
-    let mut resumed = Simulation::new(tangle(), 1).unwrap();
-    resumed.resume(&one.checkpoint().unwrap()).unwrap();
-    steps(&mut one, 60);
-    steps(&mut resumed, 60);
-    steps(&mut two, CHECKPOINT_STEPS + 60);
-    assert_eq!(one.positions(), resumed.positions());
-    assert_eq!(one.positions(), two.positions());
+    assert_same_bits(tangle, CHECKPOINT_STEPS, 60);
 }
 
 /// A sheet of 0.2 m, 100 g/m², upright along x, with nine loose rows of five edges, a centimetre each, that hang from its lower side.
@@ -331,7 +303,7 @@ fn a_fringe_hangs_from_the_cloth_that_it_is_of() {
         .add(Stretch::isotropic(1e3))
         .add(RopeStretch::new(100.0));
     scene.add(RopeBend::straight(1e-8)).add(SelfCollision(Thickness::new(2e-3)));
-    scene.add(pinned(&[72, 80]));
+    scene.add(resting([72, 80]));
     let masses: f64 = 0.2 * 0.2 * 0.1 + 9.0 * 0.05 * 0.002;
     let simulation = run(scene, 300);
     let weight = masses * G;
@@ -412,7 +384,7 @@ fn a_scene_file_says_what_code_does() {
         .add(Gravity::default())
         .add(RopeStretch::new(5e3))
         .add(RopeBend::straight(1e-4))
-        .add(pinned(&[0]));
+        .add(resting([0]));
     let mut from_code = Simulation::new(scene, 1).unwrap();
     for _ in 0..50 {
         from_file.step().unwrap();
@@ -434,73 +406,37 @@ fn a_scene_file_says_what_code_does() {
 
 #[test]
 fn what_cannot_be_of_a_rope_is_told_with_its_place_and_unit() {
-    let message = |passage: &str, by: &str| {
-        assert_eq!(ROPE.matches(passage).count(), 1, "'{passage}' must be there once");
-        let error = Scene::parse(&ROPE.replacen(passage, by, 1), Path::new("r.toml")).unwrap_err();
-        error.to_string()
-    };
-    for (passage, by, expected) in [
-        (
-            "\"50 g/m\"",
-            "\"50 g/m2\"",
-            "r.toml:8:18: `linear_density` must be a mass per length, and 'g/m2' is no unit of it; did you mean 'g/m'?",
-        ),
-        (
-            "\"50 g/m\"",
-            "0",
-            "r.toml:8:18: `linear_density` is 0 kg/m, but must be from 1e-6 kg/m to 100 kg/m",
-        ),
-        (
-            "linear_density = \"50 g/m\"",
-            "",
-            "r.toml:4:1: [cloth] needs `linear_density`, such as 0.5 (in kg/m) or \"5 g/m\"",
-        ),
-        (
-            "segments = 20",
-            "segments = 0",
-            "r.toml:7:12: `segments` is 0, but must be from 1 to 100000",
-        ),
-        ("segments = 20", "", "r.toml:4:1: [cloth] needs `segments`, such as 20"),
-        (
-            "[1, 0, 0]]",
-            "[0, 0, 0]]",
-            "r.toml:6:10: a rope needs two points or more, each at another place than the one before",
-        ),
-        (
-            "[[0, 0, 0], [1, 0, 0]]",
-            "\"far\"",
-            "r.toml:6:10: `points` must be a list of points, such as [[0, 0, 0], [1, 0, 0]], but is the text 'far'",
-        ),
-        (
-            "segments = 20",
-            "segments = 20\ndensity = 1",
-            "r.toml:8:1: [cloth] has no key 'density'",
-        ),
-        (
-            "[effects.gravity]",
-            "[effects.shear]\nstiffness = 1",
-            "r.toml:10:1: 'shear' has nothing to act on: no cloth has triangles; what ropes resist is `rope_stretch` and `rope_bend`",
-        ),
-        (
-            "\"5 kN\"",
-            "\"5 kN/m\"",
-            "r.toml:13:13: `stiffness` must be a force, and 'kN/m' is no unit of it",
-        ),
-        (
-            "\"100 uN m2\"",
-            "\"100 uN m\"",
-            "r.toml:16:13: `stiffness` must be a bending stiffness of a rope, and 'uN m' is no unit of it",
-        ),
-        ("\"straight\"", "\"bent\"", "r.toml:17:8: `rest` cannot be 'bent'"),
-        (
-            "part = \"start\"",
-            "part = \"left\"",
-            "r.toml:20:8: this cloth has no part 'left'",
-        ),
-    ] {
-        let found = message(passage, by);
-        assert!(found.starts_with(expected), "{found}\n{expected}");
-    }
+    assert_messages(
+        ROPE,
+        r#"
+        "50 g/m" => "50 g/m2"
+            s.toml:8:18: `linear_density` must be a mass per length, but 'g/m2' is not a unit of it; did you mean 'g/m'?…
+        "50 g/m" => 0
+            s.toml:8:18: `linear_density` is 0 kg/m, but must be from 1e-6 kg/m to 100 kg/m…
+        linear_density = "50 g/m" =>
+            s.toml:4:1: [cloth] needs `linear_density`, such as 0.5 (in kg/m) or "5 g/m"…
+        segments = 20 => segments = 0
+            s.toml:7:12: `segments` is 0, but must be from 1 to 100000…
+        segments = 20 =>
+            s.toml:4:1: [cloth] needs `segments`, such as 20…
+        [1, 0, 0]] => [0, 0, 0]]
+            s.toml:6:10: a rope needs at least two points, and successive points must differ…
+        [[0, 0, 0], [1, 0, 0]] => "far"
+            s.toml:6:10: `points` must be a list of points, such as [[0, 0, 0], [1, 0, 0]], but is the text 'far'…
+        segments = 20 => segments = 20\ndensity = 1
+            s.toml:8:1: [cloth] has no key 'density'…
+        [effects.gravity] => [effects.shear]\nstiffness = 1
+            s.toml:10:1: 'shear' has nothing to act on: no cloth has triangles; ropes use `rope_stretch` and `rope_bend`…
+        "5 kN" => "5 kN/m"
+            s.toml:13:13: `stiffness` must be a force, but 'kN/m' is not a unit of it…
+        "100 uN m2" => "100 uN m"
+            s.toml:16:13: `stiffness` must be a bending stiffness of a rope, but 'uN m' is not a unit of it…
+        "straight" => "bent"
+            s.toml:17:8: `rest` cannot be 'bent'…
+        part = "start" => part = "left"
+            s.toml:20:8: this cloth has no part 'left'…
+    "#,
+    );
 }
 
 #[test]
@@ -531,7 +467,8 @@ fn what_cannot_be_of_loose_edges_is_told_from_code() {
     assert_eq!(made(&[[0, 3]], [0.1, 0.0]).unwrap_err(), weightless);
     let mut scene = Scene::new(Cloth::rope(&[DVec3::ZERO, DVec3::X], 3, 0.1).unwrap().named("line"), 1e-3);
     scene.add_to("line", Stretch::isotropic(1.0));
-    let none = "stretch: 'stretch' has nothing to act on: the cloth 'line' has no triangles; what ropes resist is `rope_stretch` and `rope_bend`";
+    let none =
+        "stretch: 'stretch' has nothing to act on: the cloth 'line' has no triangles; ropes use `rope_stretch` and `rope_bend`";
     assert_eq!(scene.check().unwrap_err().to_string(), none);
     let sheet = Cloth::sheet(DVec3::ZERO, [DVec3::X, DVec3::Y], [2, 2], 0.1).unwrap();
     let mut scene = Scene::new(sheet, 1e-3);

@@ -1,8 +1,7 @@
 //! Rows of vertices that are sewn together.
 
-use selvedge_cloth::effects::{
-    Bend, Gravity, PinGroup, Pins, Seam, Seams, SelfCollision, Shear, StrainLimit, Stretch, Thickness,
-};
+use crate::common::{assert_complaints, assert_messages, assert_same_bits, resting, run};
+use selvedge_cloth::effects::{Bend, Gravity, Seam, Seams, SelfCollision, Shear, StrainLimit, Stretch, Thickness};
 use selvedge_cloth::glam::DVec3;
 use selvedge_cloth::{CHECKPOINT_STEPS, Cloth, Scene, Simulation};
 use std::path::Path;
@@ -46,9 +45,7 @@ fn bag() -> Scene {
     };
     let seams = SIDES.map(seam).into();
     let top = scene.part("front", "top").unwrap();
-    scene.add(Seams { seams }).add(Pins {
-        groups: vec![PinGroup::resting(top)],
-    });
+    scene.add(Seams { seams }).add(resting(top));
     scene
 }
 
@@ -103,16 +100,13 @@ fn a_seam_without_a_time_holds_rows_as_they_lie_and_one_that_is_not_named_lets_t
         scene.add(SelfCollision(Thickness::new(THICKNESS)));
         let row = |cloth, part| scene.part(cloth, part).unwrap();
         let [top, first, second] = [row("upper", "top"), row("upper", "bottom"), row("lower", "top")];
-        scene.add(Pins {
-            groups: vec![PinGroup::resting(top)],
-        });
+        scene.add(resting(top));
         if is_sewn {
             scene.add(Seams {
                 seams: vec![Seam::new(first.clone(), second.clone())],
             });
         }
-        let mut simulation = Simulation::new(scene, 1).unwrap();
-        (0..300).for_each(|_| simulation.step().unwrap());
+        let simulation = run(scene, 300);
         let at = |vertex: u32| simulation.positions()[vertex as usize];
         let pairs = first.iter().zip(&second);
         pairs.map(|(&a, &b)| at(a).distance(at(b))).fold(0.0, f64::max)
@@ -140,70 +134,36 @@ fn seams_have_the_same_bits_on_any_number_of_threads_and_resumed_while_they_clos
         });
         scene
     };
-    let mut whole = Simulation::new(scene(), 1).unwrap();
-    (0..CHECKPOINT_STEPS).for_each(|_| whole.step().unwrap());
-    let mut resumed = Simulation::new(scene(), 2).unwrap();
-    resumed.resume(&whole.checkpoint().unwrap()).unwrap();
-    for _ in 0..150 {
-        whole.step().unwrap();
-        resumed.step().unwrap();
-    }
-    assert_eq!(whole.positions(), resumed.positions());
+    assert_same_bits(scene, CHECKPOINT_STEPS, 150);
 }
 
-#[track_caller]
-fn of(change: impl FnOnce(&mut Seam)) -> String {
-    let mut scene = panels();
-    let [first, second] = rows(&scene, "left");
-    let mut seam = Seam::new(first, second);
-    change(&mut seam);
-    scene.add(Seams { seams: vec![seam] });
-    Simulation::new(scene, 1).unwrap_err().to_string()
+/// Adds a seam at the left sides, with a change.
+fn sewn(change: impl FnOnce(&mut Seam)) -> impl FnOnce(&mut Scene) {
+    |scene| {
+        let [first, second] = rows(scene, "left");
+        let mut seam = Seam::new(first, second);
+        change(&mut seam);
+        scene.add(Seams { seams: vec![seam] });
+    }
 }
 
 #[test]
 fn wrong_seams_from_code_get_errors_that_say_what_would_be_right() {
-    let cases = [
-        (
-            of(|seam| seam.gap = Some(1e-3)),
-            "seams: `gap` is 0.001 m, but contact keeps 0.003 m between the two rows: take that or more, or none",
-        ),
-        (
-            of(|seam| seam.gap = Some(1.0)),
-            "seams: `gap` is 1 m, but must be from 0 m to 0.1 m",
-        ),
-        (
-            of(|seam| seam.closing = Some(0.0)),
-            "seams: `closing` is 0 s, but must be from 1e-6 s to 100000 s",
-        ),
-        (
-            of(|seam| seam.closing = Some(1e-4)),
-            "seams: the rows of the seam would close at 570 m/s, but must not at more than 100 m/s: take a longer `closing`",
-        ),
-        (
-            of(|seam| seam.first.truncate(1)),
-            "seams: a row of a seam needs two vertices or more, each at another place than the one before; or both rows are one vertex",
-        ),
-        (
-            of(|seam| seam.second.insert(0, seam.second[0])),
-            "seams: a row of a seam needs two vertices or more, each at another place than the one before; or both rows are one vertex",
-        ),
-        (
-            of(|seam| seam.second[1] = seam.first[1]),
-            "seams: vertex 11 is in both rows of a seam, but cannot be sewn to itself",
-        ),
-        (
-            of(|seam| seam.second[1] = 9999),
-            "seams: the scene has no vertex 9999 of cloth: it has 284, from 0 on",
-        ),
-    ];
-    for (found, expected) in cases {
-        assert_eq!(found, expected);
+    assert_complaints! { panels();
+        sewn(|seam| seam.gap = Some(1e-3))
+            => "seams: `gap` is 0.001 m, but contact keeps 0.003 m between the rows: choose at least that, or leave `gap` out";
+        sewn(|seam| seam.gap = Some(1.0)) => "seams: `gap` is 1 m, but must be from 0 m to 0.1 m";
+        sewn(|seam| seam.closing = Some(0.0)) => "seams: `closing` is 0 s, but must be from 1e-6 s to 100000 s";
+        sewn(|seam| seam.closing = Some(1e-4))
+            => "seams: the rows of the seam would close at 570 m/s, but the limit is 100 m/s: choose a longer `closing`";
+        sewn(|seam| seam.first.truncate(1))
+            => "seams: a row of a seam needs at least two vertices, and successive vertices must differ in place; or both rows are single vertices";
+        sewn(|seam| seam.second.insert(0, seam.second[0]))
+            => "seams: a row of a seam needs at least two vertices, and successive vertices must differ in place; or both rows are single vertices";
+        sewn(|seam| seam.second[1] = seam.first[1]) => "seams: vertex 11 is in both rows of a seam, but cannot be sewn to itself";
+        sewn(|seam| seam.second[1] = 9999) => "seams: the scene has no vertex 9999 of cloth: it has 284, numbered from 0";
+        |s| _ = s.add(Seams::default()) => "seams: seams need at least one [[effects.seams.seam]]";
     }
-    let mut scene = panels();
-    scene.add(Seams::default());
-    let none = Simulation::new(scene, 1).unwrap_err().to_string();
-    assert_eq!(none, "seams: seams need at least one [[effects.seams.seam]]");
 }
 
 const BAG: &str = r#"
@@ -237,8 +197,7 @@ thickness = "3 mm"
 
 #[test]
 fn a_file_names_rows_by_cloth_and_part_and_reversed_where_they_run_against_each_other() {
-    let mut simulation = Simulation::new(Scene::parse(BAG, Path::new("bag.toml")).unwrap(), 1).unwrap();
-    (0..200).for_each(|_| simulation.step().unwrap());
+    let simulation = run(Scene::parse(BAG, Path::new("bag.toml")).unwrap(), 200);
     // Of the front, row by row from below; of the back from above and from the right, so that its last vertex is the lower left one.
     let [front, back] = [0, 1].map(|cloth| simulation.vertices_of_cloth(cloth).unwrap());
     for row in 0..=15 {
@@ -247,58 +206,27 @@ fn a_file_names_rows_by_cloth_and_part_and_reversed_where_they_run_against_each_
     }
 }
 
-#[track_caller]
-fn message(passage: &str, by: &str) -> String {
-    assert_eq!(BAG.matches(passage).count(), 1, "'{passage}' must be there once");
-    let error = Scene::parse(&BAG.replacen(passage, by, 1), Path::new("s.toml")).unwrap_err();
-    error.to_string()
-}
-
 #[test]
 fn mistakes_with_seams_in_a_file_are_told_with_their_place() {
-    let cases = [
-        (
-            "first = { cloth = \"front\", part = \"left\" }\n",
-            "",
-            "s.toml:20:1: the scene has no [effects.seams.seam.first]",
-        ),
-        (
-            "{ cloth = \"front\", part = \"left\" }",
-            "{ cloth = \"front\" }",
-            "s.toml:21:9: a row of a seam needs either `part` or `vertices`",
-        ),
-        (
-            "part = \"left\"",
-            "part = \"lefft\"",
-            "s.toml:21:35: this cloth has no part 'lefft'; did you mean 'left'?",
-        ),
-        (
-            "part = \"left\"",
-            "vertices = [3, 176]",
-            "s.toml:21:43: `vertices` is 176, but must be from 0 to 175",
-        ),
-        (
-            "gap = \"4 mm\"",
-            "gap = \"4 N\"",
-            "s.toml:24:7: `gap` must be a length, and 'N' is no unit of it; choose from m, mm, cm",
-        ),
-        (
-            "reversed = true",
-            "reversed = 1",
-            "s.toml:23:12: `reversed` must be true or false, but is of type integer",
-        ),
-        (
-            "closing",
-            "close",
-            "s.toml:25:1: [effects.seams.seam] has no key 'close'; did you mean 'closing'?",
-        ),
-        (
-            "gap = \"4 mm\"",
-            "gap = \"2 mm\"",
-            "s.toml:20:11: `gap` is 0.002 m, but contact keeps 0.003 m between the two rows: take that or more, or none",
-        ),
-    ];
-    for (passage, by, expected) in cases {
-        assert_eq!(message(passage, by), expected);
-    }
+    assert_messages(
+        BAG,
+        r#"
+        first = { cloth = "front", part = "left" }\n =>
+            s.toml:20:1: the scene has no [effects.seams.seam.first]
+        { cloth = "front", part = "left" } => { cloth = "front" }
+            s.toml:21:9: a row of a seam needs either `part` or `vertices`
+        part = "left" => part = "lefft"
+            s.toml:21:35: this cloth has no part 'lefft'; did you mean 'left'?
+        part = "left" => vertices = [3, 176]
+            s.toml:21:43: `vertices` is 176, but must be from 0 to 175
+        gap = "4 mm" => gap = "4 N"
+            s.toml:24:7: `gap` must be a length, but 'N' is not a unit of it; choose from m, mm, cm
+        reversed = true => reversed = 1
+            s.toml:23:12: `reversed` must be true or false, but is of type integer
+        closing => close
+            s.toml:25:1: [effects.seams.seam] has no key 'close'; did you mean 'closing'?
+        gap = "4 mm" => gap = "2 mm"
+            s.toml:20:11: `gap` is 0.002 m, but contact keeps 0.003 m between the rows: choose at least that, or leave `gap` out
+    "#,
+    );
 }

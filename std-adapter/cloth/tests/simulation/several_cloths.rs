@@ -1,9 +1,10 @@
 //! Several cloths in a scene, each with what it is made of.
 
+use crate::common::{assert_complaints, assert_messages, assert_same_bits, resting, run};
 use selvedge::core::PairKind;
 use selvedge::core::separation::closest::ClosestPoints;
 use selvedge_cloth::effects::{
-    AirDrag, BodyContact, Friction, Gravity, InternalPressure, PinGroup, Pins, SelfCollision, Shear, Stretch, Thickness, Wind,
+    AirDrag, BodyContact, Friction, Gravity, InternalPressure, SelfCollision, Shear, Stretch, Thickness, Wind,
 };
 use selvedge_cloth::glam::DVec3;
 use selvedge_cloth::{Body, CHECKPOINT_STEPS, Cloth, Scene, Simulation};
@@ -13,11 +14,6 @@ use std::path::Path;
 fn sheet(name: &str, corner: DVec3, cells: u32, density: f64) -> Cloth {
     let cloth = Cloth::sheet(corner, [0.3 * DVec3::X, 0.3 * DVec3::Y], [cells; 2], density).unwrap();
     cloth.named(name)
-}
-
-fn run(mut simulation: Simulation, steps: u64) -> Simulation {
-    (0..steps).for_each(|_| simulation.step().unwrap());
-    simulation
 }
 
 /// The positions of a cloth.
@@ -103,9 +99,7 @@ fn from_code() -> Scene {
     scene.add(Shear::new(40.0)).add(Friction { coefficient: 0.3 });
     scene.add(BodyContact(Thickness::new(4e-3)));
     let corner = scene.part("lining", "bottom-left").unwrap();
-    scene.add(Pins {
-        groups: vec![PinGroup::resting(corner)],
-    });
+    scene.add(resting(corner));
     scene
 }
 
@@ -113,7 +107,7 @@ fn from_code() -> Scene {
 fn code_and_file_make_the_same_scene_of_two_cloths_to_the_last_bit() {
     let [file, code] = [from_file(), from_code()].map(|scene| {
         assert_eq!(scene.effect_names().len(), 8);
-        run(Simulation::new(scene, 1).unwrap(), 100)
+        run(scene, 100)
     });
     assert_eq!(file.cloth_names(), ["shell", "lining"]);
     assert_eq!(file.positions(), code.positions());
@@ -124,13 +118,8 @@ fn code_and_file_make_the_same_scene_of_two_cloths_to_the_last_bit() {
 
 #[test]
 fn several_cloths_have_the_same_bits_on_any_number_of_threads_and_resumed() {
-    let mut whole = run(Simulation::new(from_file(), 1).unwrap(), CHECKPOINT_STEPS);
-    let checkpoint = whole.checkpoint().unwrap();
-    let mut resumed = Simulation::new(from_file(), 2).unwrap();
-    resumed.resume(&checkpoint).unwrap();
-    whole = run(whole, 60);
-    resumed = run(resumed, 60);
-    assert_eq!(whole.positions(), resumed.positions());
+    assert_same_bits(from_file, CHECKPOINT_STEPS, 60);
+    let checkpoint = run(from_file(), 0).checkpoint().unwrap();
     // A cloth's own is part of the scene.
     let mut other = from_code();
     other.add_to("lining", Stretch::isotropic(81.0));
@@ -161,10 +150,8 @@ fn cloths_that_do_not_meet_go_as_each_goes_alone_to_the_last_bit() {
         }
         let corners = scene.cloths.iter().flat_map(|cloth| scene.part(&cloth.name, "left").unwrap());
         let corners: Vec<u32> = corners.collect();
-        scene.add(Pins {
-            groups: vec![PinGroup::resting(corners)],
-        });
-        run(Simulation::new(scene, 1).unwrap(), 200)
+        scene.add(resting(corners));
+        run(scene, 200)
     };
     let together = scene(cloths().into());
     for (index, cloth) in cloths().into_iter().enumerate() {
@@ -194,10 +181,8 @@ fn two_cloths_keep_the_mean_of_their_thicknesses_from_each_other() {
             .add(Gravity::default())
             .add(Stretch::isotropic(500.0))
             .add(Friction { coefficient: 0.5 });
-        scene.add(Pins {
-            groups: vec![PinGroup::resting(rim)],
-        });
-        let simulation = run(Simulation::new(scene, 1).unwrap(), 400);
+        scene.add(resting(rim));
+        let simulation = run(scene, 400);
         let (positions, triangles) = (simulation.positions(), simulation.triangles());
         let distances = (169..290).map(|vertex| {
             let to = |t: &[u32; 3]| {
@@ -233,10 +218,8 @@ fn a_cloth_of_its_own_stiffness_is_stretched_as_that_says() {
         acceleration: -9.81 * DVec3::Y,
     });
     scene.add(Stretch::isotropic(200.0)).add(AirDrag { rate: 5.0 });
-    scene.add(Pins {
-        groups: vec![PinGroup::resting(tops)],
-    });
-    let simulation = run(Simulation::new(scene, 1).unwrap(), 3000);
+    scene.add(resting(tops));
+    let simulation = run(scene, 3000);
     let lengthened = |cloth: usize| -of_cloth(&simulation, cloth)[..9].iter().map(|p| p.y).sum::<f64>() / 9.0;
     let [first, second] = [lengthened(0), lengthened(1)];
     assert!((8.0..12.0).contains(&(second / first)), "{first} {second}");
@@ -253,130 +236,49 @@ fn a_wind_that_changes_blows_on_all_cloths() {
     assert!(simulation.velocities().iter().all(|v| v.z > 0.0));
 }
 
-#[track_caller]
-fn complaint(change: impl FnOnce(&mut Scene)) -> String {
-    let mut scene = from_code();
-    change(&mut scene);
-    Simulation::new(scene, 1).unwrap_err().to_string()
-}
-
 #[test]
 fn what_is_wrong_with_several_cloths_is_told_with_their_names() {
-    let cases = [
-        (
-            complaint(|s| s.cloths.clear()),
-            "the scene has no cloth, but needs one or more",
-        ),
-        (
-            complaint(|s| s.cloths[1].name = "shell".into()),
-            "there are two cloths named 'shell'",
-        ),
-        (
-            complaint(|s| s.cloths[1].density = 0.0),
-            "lining: `density` is 0 kg/m2, but must be from 0.001 kg/m2 to 100 kg/m2",
-        ),
-        (
-            complaint(|s| {
-                s.add_to("lining", Stretch::isotropic(-1.0));
-            }),
-            "stretch of 'lining': `stiffness` is -1 N/m, but must be from 0.001 N/m to 1e9 N/m",
-        ),
-        (
-            complaint(|s| {
-                s.add_to("lining", Gravity::default());
-            }),
-            "gravity of 'lining': 'gravity' acts on the whole scene, so that no cloth has one of its own: name it in [effects.gravity]",
-        ),
-        (
-            complaint(|s| {
-                s.add_to("linen", Gravity::default());
-            }),
-            "there is no cloth 'linen'; did you mean 'lining'?",
-        ),
-        (
-            complaint(|s| s.cloths.push(sheet("patch", DVec3::Z, 2, 0.1))),
-            "self_collision of 'shell': 'self_collision' has to do with what cloths do to each other: name it in \
-             [effects.self_collision] for all of them, or in every cloth",
-        ),
-        (
-            complaint(|s| {
-                s.add(InternalPressure::with_volume_ratio(1.1));
-            }),
-            "internal_pressure of 'shell': internal pressure needs a closed cloth, but this one has 48 open edges",
-        ),
-        (
-            complaint(|s| {
-                s.add(Pins {
-                    groups: vec![PinGroup::resting([290])],
-                });
-            }),
-            "pins: the scene has no vertex 290 of cloth: it has 290, from 0 on",
-        ),
-    ];
-    for (found, expected) in cases {
-        assert_eq!(found, expected);
+    assert_complaints! { from_code();
+        |s| s.cloths.clear() => "the scene has no cloth, but needs one or more";
+        |s| s.cloths[1].name = "shell".into() => "there are two cloths named 'shell'";
+        |s| s.cloths[1].density = 0.0 => "lining: `density` is 0 kg/m2, but must be from 0.001 kg/m2 to 100 kg/m2";
+        |s| _ = s.add_to("lining", Stretch::isotropic(-1.0))
+            => "stretch of 'lining': `stiffness` is -1 N/m, but must be from 0.001 N/m to 1e9 N/m";
+        |s| _ = s.add_to("lining", Gravity::default())
+            => "gravity of 'lining': 'gravity' acts on the whole scene, so no cloth may have its own: name it in [effects.gravity]";
+        |s| _ = s.add_to("linen", Gravity::default()) => "there is no cloth 'linen'; did you mean 'lining'?";
+        |s| s.cloths.push(sheet("patch", DVec3::Z, 2, 0.1))
+            => "self_collision of 'shell': 'self_collision' acts between cloths: name it in [effects.self_collision] for all of them, or in every cloth";
+        |s| _ = s.add(InternalPressure::with_volume_ratio(1.1))
+            => "internal_pressure of 'shell': internal pressure needs a closed cloth, but this one has 48 open edges";
+        |s| _ = s.add(resting([290]))
+            => "pins: the scene has no vertex 290 of cloth: it has 290, numbered from 0";
     }
-}
-
-/// The file with one passage replaced, and the message.
-#[track_caller]
-fn message(passage: &str, by: &str) -> String {
-    assert_eq!(LAYERS.matches(passage).count(), 1, "'{passage}' must be there once");
-    let error = Scene::parse(&LAYERS.replacen(passage, by, 1), Path::new("s.toml")).unwrap_err();
-    error.to_string()
 }
 
 #[test]
 fn mistakes_with_several_cloths_in_a_file_are_told_with_their_place() {
-    let cases = [
-        (
-            "name = \"lining\"",
-            "name = \"shell\"",
-            "s.toml:17:8: there are two cloths named 'shell'",
-        ),
-        (
-            "[cloth.stretch]",
-            "[cloth.strech]",
-            "s.toml:24:8: [cloth] has no key 'strech'; did you mean 'stretch'?",
-        ),
-        (
-            "stiffness = \"80 N/m\"",
-            "stiffnes = 80",
-            "s.toml:25:1: [cloth.stretch] has no key 'stiffnes'; did you mean 'stiffness'?",
-        ),
-        (
-            "\"80 N/m\"",
-            "\"80 N\"",
-            "s.toml:25:13: `stiffness` must be a stiffness of a membrane, and 'N' is no unit of it; choose from N/m, kN/m",
-        ),
-        (
-            "[cloth.stretch]\nstiffness = \"80 N/m\"",
-            "[cloth.gravity]",
-            "s.toml:24:1: 'gravity' acts on the whole scene, so that no cloth has one of its own: name it in [effects.gravity]",
-        ),
-        (
-            "[cloth.self_collision]\nthickness = \"3 mm\"",
-            "",
-            "s.toml:12:1: 'self_collision' has to do with what cloths do to each other: name it in [effects.self_collision] for all \
-             of them, or in every cloth",
-        ),
-        (
-            "thickness = \"3 mm\"",
-            "thickness = \"3 mm\"\nseparation = \"4 mm\"",
-            "s.toml:28:14: `separation` is 0.004 m, but must be at most nine tenths of the thickness, 0.003 m",
-        ),
-        (
-            "cloth = \"lining\"",
-            "",
-            "s.toml:47:1: the scene has several cloths: say which with `cloth`; choose from shell, lining",
-        ),
-        (
-            "cloth = \"lining\"",
-            "cloth = \"linings\"",
-            "s.toml:48:9: there is no cloth 'linings'; did you mean 'lining'?",
-        ),
-    ];
-    for (passage, by, expected) in cases {
-        assert_eq!(message(passage, by), expected);
-    }
+    assert_messages(
+        LAYERS,
+        r#"
+        name = "lining" => name = "shell"
+            s.toml:17:8: there are two cloths named 'shell'
+        [cloth.stretch] => [cloth.strech]
+            s.toml:24:8: [cloth] has no key 'strech'; did you mean 'stretch'?
+        stiffness = "80 N/m" => stiffnes = 80
+            s.toml:25:1: [cloth.stretch] has no key 'stiffnes'; did you mean 'stiffness'?
+        "80 N/m" => "80 N"
+            s.toml:25:13: `stiffness` must be a stiffness of a membrane, but 'N' is not a unit of it; choose from N/m, kN/m
+        [cloth.stretch]\nstiffness = "80 N/m" => [cloth.gravity]
+            s.toml:24:1: 'gravity' acts on the whole scene, so no cloth may have its own: name it in [effects.gravity]
+        [cloth.self_collision]\nthickness = "3 mm" =>
+            s.toml:12:1: 'self_collision' acts between cloths: name it in [effects.self_collision] for all of them, or in every cloth
+        thickness = "3 mm" => thickness = "3 mm"\nseparation = "4 mm"
+            s.toml:28:14: `separation` is 0.004 m, but must be at most nine tenths of the thickness, 0.003 m
+        cloth = "lining" =>
+            s.toml:47:1: the scene has several cloths: choose one with `cloth`; choose from shell, lining
+        cloth = "lining" => cloth = "linings"
+            s.toml:48:9: there is no cloth 'linings'; did you mean 'lining'?
+    "#,
+    );
 }

@@ -1,7 +1,7 @@
 //! No parameter that a scene may give makes a vertex non-finite, or sends it off.
 
-use crate::{folded, load};
-use selvedge_cloth::effects::{BodyContact, PinGroup, Pins, Stretch, Thickness};
+use crate::common::{folded, load, resting};
+use selvedge_cloth::effects::{BodyContact, Stretch, Thickness};
 use selvedge_cloth::glam::DVec3;
 use selvedge_cloth::{Body, Cloth, Scene, Simulation};
 
@@ -56,9 +56,7 @@ fn what_is_pinned_too_near_to_a_body_flings_nothing_away() {
     let ends = (0..4).flat_map(|row| [5 * row, 5 * row + 4]).collect::<Vec<u32>>();
     let mut scene = Scene::new(cloth, 1e-3);
     scene.bodies = vec![Body::from_mesh("wedge", folded(3, -1..5, above))];
-    scene.add(Pins {
-        groups: vec![PinGroup::resting(ends)],
-    });
+    scene.add(resting(ends));
     scene
         .add(Stretch::isotropic(100.0))
         .add(BodyContact(Thickness::new(thickness)));

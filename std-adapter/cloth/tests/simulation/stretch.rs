@@ -1,6 +1,7 @@
 //! Cloth is as stiff as its fabric, whatever its mesh.
 
-use crate::{irregular, set_up};
+use crate::common::{advance, set_up};
+use crate::irregular;
 use selvedge::Mesh;
 use selvedge::glam::DVec3;
 use selvedge_cloth::{Scene, Simulation};
@@ -71,13 +72,9 @@ fn of_mesh(mesh: &Mesh, name: &str, scene: &str) -> Simulation {
     Simulation::new(scene, 1).unwrap()
 }
 
-fn run(simulation: &mut Simulation, steps: u64) {
-    (0..steps).for_each(|_| simulation.step().unwrap());
-}
-
 /// After half a second it lies on the ball, and its corners pull most.
 fn is_hardly_stretched(mut simulation: Simulation) {
-    run(&mut simulation, 500);
+    advance(&mut simulation, 500);
     let stretch = simulation.edge_stretch();
     assert!(stretch.percentile_99 <= 1.03 && stretch.largest <= 1.12, "{stretch:?}");
 }
@@ -106,10 +103,10 @@ fn sag(mut simulation: Simulation) -> f64 {
         cloth.iter().map(|p| p.y).sum::<f64>() / cloth.len() as f64
     };
     let start = height(&simulation);
-    run(&mut simulation, 1000);
+    advance(&mut simulation, 1000);
     let mut sum = 0.0;
     for _ in 0..10 {
-        run(&mut simulation, 100);
+        advance(&mut simulation, 100);
         sum += start - height(&simulation);
     }
     sum / 10.0

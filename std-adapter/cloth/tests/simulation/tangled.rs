@@ -1,10 +1,10 @@
 //! Scenes that start with surfaces passing through each other: refused with a list, tolerated, or untangled.
 
+use crate::common::{assert_same_bits, intersections, scene_file, set_up};
 use crate::garments::{NAMES, garment};
-use crate::{scene_file, set_up};
 use selvedge::{CollisionDetector, Intersection, Topology};
 use selvedge_cloth::effects::Gravity;
-use selvedge_cloth::{Scene, SetupError, Simulation, Tangled, TangledStart, UntanglingProgress};
+use selvedge_cloth::{CHECKPOINT_STEPS, Scene, SetupError, Simulation, Tangled, TangledStart, UntanglingProgress};
 
 /// A garment that starts so.
 fn starting(name: &str, cells: u32, depth: f64, start: TangledStart) -> Scene {
@@ -13,20 +13,11 @@ fn starting(name: &str, cells: u32, depth: f64, start: TangledStart) -> Scene {
     scene
 }
 
-/// What meets, but for bodies among themselves, exactly and by itself.
-fn meeting(simulation: &Simulation) -> Vec<Intersection> {
-    let topology = Topology::new(simulation.positions().len(), simulation.triangles().to_vec()).unwrap();
-    let mut found = Vec::new();
-    let mut detector = CollisionDetector::<f64>::new(topology);
-    detector.intersections(simulation.positions(), &mut found).unwrap();
-    found
-}
-
 /// Whether the cloth meets a body: of the cloth alone nothing is promised without `self_collision`.
 fn meets_a_body(simulation: &Simulation) -> bool {
     let topology = Topology::new(simulation.positions().len(), simulation.triangles().to_vec()).unwrap();
     let is_body = |vertex: u32| vertex as usize >= simulation.cloth_vertices();
-    meeting(simulation).into_iter().any(|own| {
+    intersections(simulation).into_iter().any(|own| {
         let Intersection::EdgeFace { edge, face } = own else {
             return true;
         };
@@ -87,7 +78,7 @@ fn four_fifths_of_tangled_garments_are_free_after_untangling_and_the_others_are_
             all += 1;
             match Simulation::new(starting(name, 20, depth, TangledStart::Untangle), 1) {
                 Ok(simulation) => {
-                    assert_eq!(meeting(&simulation), [], "{name} {depth}");
+                    assert_eq!(intersections(&simulation), [], "{name} {depth}");
                     let untangled = simulation.untangled().unwrap();
                     assert!(
                         untangled.crossings > 0 && untangled.left == 0 && simulation.is_certified(),
@@ -126,7 +117,7 @@ fn what_was_untangled_goes_on_as_any_other_scene_and_is_the_same_on_two_threads(
         for _ in 0..60 {
             simulation.step().unwrap();
         }
-        assert!(simulation.is_certified() && meeting(&simulation).is_empty());
+        assert!(simulation.is_certified() && intersections(&simulation).is_empty());
         simulation.positions().to_vec()
     };
     assert_eq!(run(1), run(2));
@@ -138,11 +129,11 @@ fn what_is_tolerated_is_told_and_nothing_else_comes_to_meet() {
     scene.add(Gravity::default());
     let mut simulation = Simulation::new(scene, 1).unwrap();
     let before = simulation.crossings().len();
-    assert_eq!(before, meeting(&simulation).len());
+    assert_eq!(before, intersections(&simulation).len());
     assert!(before > 10 && simulation.tolerated_pairs() > before && !simulation.is_certified());
     for _ in 0..100 {
         simulation.step().unwrap();
-        let found = meeting(&simulation).len();
+        let found = intersections(&simulation).len();
         assert_eq!(simulation.crossings().len(), found);
         assert_eq!(simulation.is_certified(), simulation.tolerated_pairs() == 0);
         assert!(found == 0 || !simulation.is_certified());
@@ -196,20 +187,8 @@ fn a_tolerated_tangle_goes_on_from_a_checkpoint_to_the_same_bits() {
         scene.add(Gravity::default());
         scene
     };
-    let mut simulation = Simulation::new(scene(), 1).unwrap();
-    (0..200).for_each(|_| simulation.step().unwrap());
-    let saved = simulation.checkpoint().unwrap();
-    assert!(!simulation.crossings().is_empty());
-    let mut resumed = Simulation::new(scene(), 2).unwrap();
-    resumed.resume(&saved).unwrap();
-    assert_eq!(resumed.crossings(), simulation.crossings());
-    assert_eq!(resumed.tolerated_pairs(), simulation.tolerated_pairs());
-    for _ in 0..50 {
-        simulation.step().unwrap();
-        resumed.step().unwrap();
-        assert_eq!(resumed.positions(), simulation.positions());
-        assert_eq!(resumed.tolerated_pairs(), simulation.tolerated_pairs());
-    }
+    let simulation = assert_same_bits(scene, CHECKPOINT_STEPS, 50);
+    assert!(simulation.tolerated_pairs() > 0);
 }
 
 #[test]

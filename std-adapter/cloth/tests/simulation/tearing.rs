@@ -1,6 +1,6 @@
 //! Cloth that tears: above its strength and nowhere else, with nothing lost, and the same bits however it is run.
 
-use crate::{folded, load, set_up};
+use crate::common::{advance, assert_messages, assert_same_bits, folded, load, run, set_up};
 use selvedge_cloth::effects::{
     AttachmentGroup, Attachments, BodyContact, Effect, Force, InternalPressure, PinGroup, PinMotion, Pins, Plan, RopeStretch,
     SelfCollision, Shear, Stretch, Tearing, Thickness, TimeStep,
@@ -44,16 +44,6 @@ fn pulled(tearing: Tearing) -> Scene {
     scene
 }
 
-fn run(simulation: &mut Simulation, steps: u64) {
-    (0..steps).for_each(|_| simulation.step().unwrap());
-}
-
-fn after(scene: Scene, steps: u64) -> Simulation {
-    let mut simulation = Simulation::new(scene, 1).unwrap();
-    run(&mut simulation, steps);
-    simulation
-}
-
 /// How many pieces the cloth is in, by its triangles.
 fn pieces(simulation: &Simulation) -> usize {
     let mut piece: Vec<usize> = (0..simulation.cloth_vertices()).collect();
@@ -76,7 +66,7 @@ fn pieces(simulation: &Simulation) -> usize {
 #[test]
 fn a_strip_tears_through_above_its_strength_and_not_at_all_below() {
     for (strength, expected) in [(120.0, 1), (60.0, 2)] {
-        let simulation = after(pulled(Tearing::perforated(column(5), strength)), 200);
+        let simulation = run(pulled(Tearing::perforated(column(5), strength)), 200);
         assert_eq!(pieces(&simulation), expected, "{strength} N/m");
         let torn = simulation.torn_edges();
         assert_eq!(torn.len(), if expected == 1 { 0 } else { 5 });
@@ -95,7 +85,7 @@ fn a_perforation_tears_where_the_cloth_would_hold_and_nothing_else_does() {
         strength: Some(150.0),
         ..Tearing::perforated(column(5), 50.0)
     };
-    let simulation = after(pulled(tearing), 200);
+    let simulation = run(pulled(tearing), 200);
     let torn = simulation.torn_edges();
     assert_eq!(torn.len(), 5);
     assert!(
@@ -110,7 +100,7 @@ fn a_perforation_tears_where_the_cloth_would_hold_and_nothing_else_does() {
 #[test]
 fn a_tear_within_the_cloth_is_a_slit_and_vertices_that_are_not_split_keep_their_numbers() {
     let slit = &column(5)[1..4];
-    let simulation = after(pulled(Tearing::perforated(slit, 50.0)), 200);
+    let simulation = run(pulled(Tearing::perforated(slit, 50.0)), 200);
     assert_eq!((pieces(&simulation), simulation.torn_edges().len()), (1, 2));
     assert_eq!(simulation.copied_vertices(0), [slit[1]]);
     let gap = simulation.positions()[slit[1] as usize].distance(simulation.positions()[66]);
@@ -123,7 +113,7 @@ fn a_tear_within_the_cloth_is_a_slit_and_vertices_that_are_not_split_keep_their_
 fn what_pins_hold_is_not_split() {
     // Nothing but edges to pinned vertices, and of those an end is at the border only where it is pinned.
     let held = [column(0), column(1)[2..4].to_vec()].concat();
-    let simulation = after(pulled(Tearing::perforated(held, 10.0)), 200);
+    let simulation = run(pulled(Tearing::perforated(held, 10.0)), 200);
     assert!(simulation.copied_vertices(0).iter().all(|copied| !column(0).contains(copied)));
 }
 
@@ -198,7 +188,7 @@ fn a_tear_keeps_mass_momentum_and_the_centre_of_mass() {
 fn torn_cloth_is_the_same_bits_on_two_threads_and_resumed_from_a_checkpoint() {
     let fast = |text: String| text.replace("cells = [60, 40]", "cells = [30, 20]");
     let mut whole = load("tear.toml", fast, 2);
-    run(&mut whole, CHECKPOINT_STEPS);
+    advance(&mut whole, CHECKPOINT_STEPS);
     let mut torn = Vec::new();
     for _ in 0..3 {
         let checkpoint = whole.checkpoint().unwrap();
@@ -210,8 +200,8 @@ fn torn_cloth_is_the_same_bits_on_two_threads_and_resumed_from_a_checkpoint() {
             (resumed.triangles(), resumed.positions()),
             (whole.triangles(), whole.positions())
         );
-        run(&mut whole, CHECKPOINT_STEPS);
-        run(&mut resumed, CHECKPOINT_STEPS);
+        advance(&mut whole, CHECKPOINT_STEPS);
+        advance(&mut resumed, CHECKPOINT_STEPS);
         assert_eq!(resumed.positions(), whole.positions());
         assert_eq!(resumed.triangles(), whole.triangles());
         torn.push([before, whole.torn_edges().len()]);
@@ -226,7 +216,7 @@ fn torn_cloth_is_the_same_bits_on_two_threads_and_resumed_from_a_checkpoint() {
 #[test]
 fn a_checkpoint_of_torn_cloth_that_is_damaged_changes_nothing() {
     let scene = || pulled(Tearing::perforated(column(5), 60.0));
-    let simulation = after(scene(), CHECKPOINT_STEPS);
+    let simulation = run(scene(), CHECKPOINT_STEPS);
     let checkpoint = simulation.checkpoint().unwrap();
     // The first triangle's first vertex, after magic, fingerprint, and the number of copies and these.
     let corner = 16 + 8 + 8 + 4 * simulation.copied_vertices(0).len();
@@ -250,7 +240,7 @@ fn what_names_vertices_of_a_cloth_behind_one_that_tears_goes_on_holding_them() {
     scene.add(Attachments {
         groups: vec![AttachmentGroup::resting(corners, 1000.0)],
     });
-    let simulation = after(scene, 300);
+    let simulation = run(scene, 300);
     assert_eq!(simulation.torn_edges().len(), 5);
     let own = simulation.vertices_of_cloth(1).unwrap();
     assert_eq!(own, 72..138);
@@ -278,18 +268,12 @@ fn with_tassels() -> Scene {
 
 #[test]
 fn torn_cloth_with_tassels_is_resumed_from_a_checkpoint() {
-    let mut whole = after(with_tassels(), CHECKPOINT_STEPS);
-    let mut resumed = Simulation::new(with_tassels(), 1).unwrap();
-    resumed.resume(&whole.checkpoint().unwrap()).unwrap();
-    run(&mut whole, 50);
-    run(&mut resumed, 50);
-    assert_eq!(resumed.positions(), whole.positions());
-    assert_eq!(resumed.loose_edges(), whole.loose_edges());
+    assert_same_bits(with_tassels, CHECKPOINT_STEPS, 50);
 }
 
 #[test]
 fn tassels_stay_with_the_vertices_that_keep_their_numbers() {
-    let simulation = after(with_tassels(), 200);
+    let simulation = run(with_tassels(), 200);
     assert_eq!(simulation.torn_edges().len(), 5);
     let own = simulation.vertices_of_cloth(1).unwrap();
     assert_eq!(own, 74..142);
@@ -324,9 +308,9 @@ fn a_balloon_that_has_torn_holds_no_pressure_any_more() {
             .iter()
             .any(|(name, _)| *name == "internal_pressure")
     };
-    let whole = after(scene(1e4), 100);
+    let whole = run(scene(1e4), 100);
     assert!(whole.torn_edges().is_empty() && elastic(&whole));
-    let burst = after(scene(20.0), 100);
+    let burst = run(scene(20.0), 100);
     assert!(!burst.torn_edges().is_empty() && !elastic(&burst) && burst.is_certified());
 }
 
@@ -379,7 +363,7 @@ fn in_a_groove() -> Scene {
 
 #[test]
 fn a_tear_that_has_no_room_to_open_waits_until_there_is() {
-    let simulation = after(in_a_groove(), 400);
+    let simulation = run(in_a_groove(), 400);
     let torn = simulation.torn_edges();
     assert_eq!(torn.len(), 3);
     assert!(torn.iter().all(|edge| edge.time > 0.35), "{torn:?}");
@@ -388,14 +372,8 @@ fn a_tear_that_has_no_room_to_open_waits_until_there_is() {
 
 #[test]
 fn a_tear_that_waits_at_a_checkpoint_opens_in_the_same_step_when_resumed() {
-    let mut whole = after(in_a_groove(), CHECKPOINT_STEPS);
-    let mut resumed = Simulation::new(in_a_groove(), 1).unwrap();
-    resumed.resume(&whole.checkpoint().unwrap()).unwrap();
-    run(&mut whole, 200);
-    run(&mut resumed, 200);
-    assert!(!whole.torn_edges().is_empty());
-    assert_eq!(whole.torn_edges(), resumed.torn_edges());
-    assert_eq!(whole.positions(), resumed.positions());
+    let simulation = assert_same_bits(in_a_groove, CHECKPOINT_STEPS, 200);
+    assert!(!simulation.torn_edges().is_empty());
 }
 
 #[test]
@@ -425,11 +403,11 @@ fn wind_that_the_caller_has_set_blows_on_through_a_tear() {
     };
     let mut simulation = set_up(&text("1 N/m"), "sheet.toml", 1);
     simulation.set_wind(DVec3::new(0.0, 3.0, 25.0)).unwrap();
-    run(&mut simulation, 60);
+    advance(&mut simulation, 60);
     assert!(!simulation.torn_edges().is_empty());
     let torn = simulation.torn_edges().len();
     let free = simulation.positions().iter().map(|p| p.z).fold(0.0, f64::max);
-    run(&mut simulation, 40);
+    advance(&mut simulation, 40);
     let farther = simulation.positions().iter().map(|p| p.z).fold(0.0, f64::max);
     assert!(farther > free + 0.01, "{torn} torn, from {free} to {farther}");
 }
@@ -454,64 +432,38 @@ strength = "50 N/m"
 fn wrong_ways_to_tear_are_told_with_place_and_unit() {
     assert!(Scene::parse(FILE, Path::new("s.toml")).is_ok());
     let no_perforation = &FILE[FILE.find("[[effects").unwrap()..];
-    let cases = [
-        (
-            "strength = \"2 kN/m\"",
-            "strength = \"2 N\"",
-            "s.toml:11:12: `strength` must be a stiffness of a membrane, and 'N' is no unit of it; choose from N/m, kN/m",
-        ),
-        (
-            "strength = \"2 kN/m\"",
-            "strength = 0",
-            "s.toml:11:12: `strength` is 0 N/m, but must be from 0.001 N/m to 1e9 N/m",
-        ),
-        (
-            "strength = \"50 N/m\"\n",
-            "",
-            "s.toml:12:1: [effects.tearing.perforation] needs `strength`, such as 0.5 (in N/m) or \"5 kN/m\"",
-        ),
-        (
-            "vertices = [5, 16, 27]",
-            "vertices = [5, 27]",
-            "s.toml:13:12: no edge of the cloth has both its ends in this perforation",
-        ),
-        (
-            "vertices = [5, 16, 27]",
-            "vertices = [5, 16, 5]",
-            "s.toml:13:12: vertex 5 is in this perforation twice",
-        ),
-        (
-            "vertices = [5, 16, 27]",
-            "vertices = [5, 66]",
-            "s.toml:13:16: `vertices` is 66, but must be from 0 to 65",
-        ),
-        (
-            "vertices = [5, 16, 27]",
-            "part = \"middle\"",
-            "s.toml:13:8: this cloth has no part 'middle'; choose from",
-        ),
-        (
-            "[effects.stretch]\nstiffness = \"1 kN/m\"\n",
-            "",
-            "s.toml:8:1: 'tearing' has nothing to act on: it needs [effects.stretch] in the scene",
-        ),
-        (
-            "strength = \"2 kN/m\"",
-            "force = \"2 kN/m\"",
-            "s.toml:11:1: [effects.tearing] has no key 'force'; choose from strength, perforation",
-        ),
-    ];
-    for (passage, by, expected) in cases {
-        assert_eq!(FILE.matches(passage).count(), 1, "'{passage}' must be there once");
-        let error = Scene::parse(&FILE.replace(passage, by), Path::new("s.toml")).unwrap_err();
-        assert!(error.to_string().starts_with(expected), "{error}\n{expected}");
-    }
+    assert_messages(
+        FILE,
+        r#"
+        strength = "2 kN/m" => strength = "2 N"
+            s.toml:11:12: `strength` must be a stiffness of a membrane, but 'N' is not a unit of it; choose from N/m, kN/m…
+        strength = "2 kN/m" => strength = 0
+            s.toml:11:12: `strength` is 0 N/m, but must be from 0.001 N/m to 1e9 N/m…
+        strength = "50 N/m"\n =>
+            s.toml:12:1: [effects.tearing.perforation] needs `strength`, such as 0.5 (in N/m) or "5 kN/m"…
+        vertices = [5, 16, 27] => vertices = [5, 27]
+            s.toml:13:12: no edge of the cloth has both its ends in this perforation…
+        vertices = [5, 16, 27] => vertices = [5, 16, 5]
+            s.toml:13:12: vertex 5 is in this perforation twice…
+        vertices = [5, 16, 27] => vertices = [5, 66]
+            s.toml:13:16: `vertices` is 66, but must be from 0 to 65…
+        vertices = [5, 16, 27] => part = "middle"
+            s.toml:13:8: this cloth has no part 'middle'; choose from…
+        [effects.stretch]\nstiffness = "1 kN/m"\n =>
+            s.toml:8:1: 'tearing' has nothing to act on: it needs [effects.stretch] in the scene…
+        strength = "2 kN/m" => force = "2 kN/m"
+            s.toml:11:1: [effects.tearing] has no key 'force'; choose from strength, perforation…
+    "#,
+    );
     let none = FILE.replace("strength = \"2 kN/m\"\n", "").replace(no_perforation, "");
     let error = Scene::parse(&none, Path::new("s.toml")).unwrap_err().to_string();
     assert!(error.contains("tearing needs a `strength`"), "{error}");
     let beyond = pulled(Tearing::perforated([400, 401], 50.0));
     let error = Simulation::new(beyond, 1).unwrap_err().to_string();
-    assert_eq!(error, "tearing: the scene has no vertex 400 of cloth: it has 66, from 0 on");
+    assert_eq!(
+        error,
+        "tearing: the scene has no vertex 400 of cloth: it has 66, numbered from 0"
+    );
     let error = Simulation::new(pulled(Tearing::above(f64::NAN)), 1).unwrap_err().to_string();
     assert_eq!(error, "tearing: `strength` is NaN N/m, but must be from 0.001 N/m to 1e9 N/m");
 }

@@ -46,7 +46,7 @@ impl Drag {
         if self.rope_diameter == 0.0 || world.cloths.iter().any(Cloth::has_loose_edges) {
             return Ok(());
         }
-        let message = "is the diameter of loose edges, but no cloth has any: leave it away, or give the scene a rope";
+        let message = "is the diameter of loose edges, but no cloth has any: remove it, or add a rope";
         Err(ValueError::new(
             ROPE_DIAMETER.name,
             format!("`{}` {message}", ROPE_DIAMETER.name),

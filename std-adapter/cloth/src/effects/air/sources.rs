@@ -117,7 +117,7 @@ impl Vortex {
         TURNING.check(self.speed)?;
         RADIUS.check(self.radius)?;
         if self.axis == DVec3::ZERO {
-            let message = "`axis` must not be zero: it is the direction that the air turns about";
+            let message = "`axis` must not be zero: it is the axis of the vortex";
             return Err(ValueError::new(AXIS.name, message));
         }
         Ok(())

@@ -1,0 +1,145 @@
+//! Set-up that tests share.
+
+use selvedge::{CollisionDetector, Intersection, Topology};
+use selvedge_cloth::effects::{PinGroup, Pins};
+use selvedge_cloth::glam::DVec3;
+use selvedge_cloth::{CHECKPOINT_STEPS, Mesh, Scene, Simulation};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+pub(crate) fn scene_file(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name)
+}
+
+/// A scene that comes with the program, with changes.
+pub(crate) fn load(name: &str, change: impl Fn(String) -> String, threads: usize) -> Simulation {
+    let path = scene_file(name);
+    let text = change(std::fs::read_to_string(&path).unwrap());
+    set_up(&text, name, threads)
+}
+
+/// A scene as if it were in a file beside those that come with the program.
+pub(crate) fn set_up(text: &str, name: &str, threads: usize) -> Simulation {
+    let scene = Scene::parse(text, &scene_file(name)).unwrap();
+    Simulation::new(scene, threads).unwrap()
+}
+
+/// A valley along y with sides at a right angle to each other, of decimetre cells: `columns` on each side, `rows`, and its bottom at
+/// `height` metres. Such sheets of different heights lie over each other, vertex over vertex.
+pub(crate) fn folded(columns: i32, rows: Range<i32>, height: f64) -> Mesh {
+    let across = 2 * columns + 1;
+    let vertex = |row: i32, column: i32| {
+        let [x, y] = [0.07 * f64::from(column), 0.1 * f64::from(row)];
+        DVec3::new(x, y, x.abs() + height)
+    };
+    let positions = rows
+        .clone()
+        .flat_map(|row| (-columns..=columns).map(move |column| vertex(row, column)));
+    let cells = (0..rows.len() as i32 - 1).flat_map(|row| (0..across - 1).map(move |column| across * row + column));
+    let corners = |at: i32| [[at, at + 1, at + across], [at + 1, at + across + 1, at + across]];
+    Mesh {
+        positions: positions.collect(),
+        triangles: cells.flat_map(corners).map(|t| t.map(|corner| corner as u32)).collect(),
+    }
+}
+
+/// Runs a scene on one thread.
+pub(crate) fn run(scene: Scene, steps: u64) -> Simulation {
+    let mut simulation = Simulation::new(scene, 1).unwrap();
+    advance(&mut simulation, steps);
+    simulation
+}
+
+pub(crate) fn advance(simulation: &mut Simulation, steps: u64) {
+    (0..steps).for_each(|_| simulation.step().unwrap());
+}
+
+/// Pins that hold vertices where they are.
+pub(crate) fn resting(vertices: impl Into<Vec<u32>>) -> Pins {
+    Pins {
+        groups: vec![PinGroup::resting(vertices)],
+    }
+}
+
+pub(crate) fn bits(simulation: &Simulation) -> Vec<[u64; 3]> {
+    let positions = simulation.positions().iter();
+    positions.map(|p| p.to_array().map(f64::to_bits)).collect()
+}
+
+/// Intersections by the exact test, which shares nothing with the certificate.
+pub(crate) fn intersections(simulation: &Simulation) -> Vec<Intersection> {
+    let (triangles, loose) = (simulation.triangles().to_vec(), simulation.loose_edges());
+    let topology = Topology::with_loose_features(simulation.positions().len(), triangles, loose, &[]).unwrap();
+    let mut found = Vec::new();
+    let mut detector = CollisionDetector::<f64>::new(topology);
+    detector.intersections(simulation.positions(), &mut found).unwrap();
+    found
+}
+
+/// Asserts that a scene has the same bits on one thread and on two, and resumed after `before` steps, for `after` steps.
+#[track_caller]
+pub(crate) fn assert_same_bits(scene: impl Fn() -> Scene, before: u64, after: u64) -> Simulation {
+    assert!(before.is_multiple_of(CHECKPOINT_STEPS));
+    let mut one = run(scene(), before);
+    let [mut two, mut resumed] = [2, 2].map(|threads| Simulation::new(scene(), threads).unwrap());
+    resumed.resume(&one.checkpoint().unwrap()).unwrap();
+    assert_alike(&resumed, &one);
+    advance(&mut two, before + after);
+    for simulation in [&mut one, &mut resumed] {
+        advance(simulation, after);
+    }
+    assert_alike(&two, &one);
+    assert_alike(&resumed, &one);
+    one
+}
+
+#[track_caller]
+fn assert_alike(one: &Simulation, other: &Simulation) {
+    assert!(bits(one) == bits(other), "step {}", one.steps_done());
+    assert_eq!((one.triangles(), one.loose_edges()), (other.triangles(), other.loose_edges()));
+    assert_eq!((one.torn_edges(), one.released()), (other.torn_edges(), other.released()));
+    assert_eq!(
+        (one.crossings(), one.tolerated_pairs()),
+        (other.crossings(), other.tolerated_pairs())
+    );
+    assert_eq!(one.energy(), other.energy());
+    assert_eq!(one.contact_counts(), other.contact_counts());
+}
+
+/// Asserts the messages of mistakes in a scene file. A case has two lines: a passage of the file, `=>` and its replacement; then the
+/// message. `\n` stands for a line break.
+#[track_caller]
+pub(crate) fn assert_messages(file: &str, cases: &str) {
+    let mut lines = cases.lines().map(str::trim).filter(|line| !line.is_empty());
+    while let Some(case) = lines.next() {
+        let (passage, by) = case.split_once(" =>").unwrap();
+        let [passage, by] = [passage, by.trim_start()].map(|text| text.replace("\\n", "\n"));
+        assert_eq!(file.matches(&passage).count(), 1, "'{passage}' must be there once");
+        let error = Scene::parse(&file.replacen(&passage, &by, 1), Path::new("s.toml")).unwrap_err();
+        assert_message(&error.to_string(), lines.next().unwrap());
+    }
+}
+
+/// Asserts a message, or its beginning if `expected` ends with `…`.
+#[track_caller]
+pub(crate) fn assert_message(found: &str, expected: &str) {
+    match expected.strip_suffix('…') {
+        Some(beginning) => assert!(found.starts_with(beginning), "{found}\nis not\n{expected}"),
+        None => assert_eq!(found, expected),
+    }
+}
+
+/// The message about a scene after a change.
+#[track_caller]
+pub(crate) fn complaint(mut scene: Scene, change: impl FnOnce(&mut Scene)) -> String {
+    change(&mut scene);
+    Simulation::new(scene, 1).unwrap_err().to_string()
+}
+
+/// Asserts the messages of changes to a scene, each as in [`assert_message`].
+macro_rules! assert_complaints {
+    ($scene:expr; $($change:expr => $expected:expr;)*) => {
+        $(crate::common::assert_message(&crate::common::complaint($scene, $change), $expected);)*
+    };
+}
+pub(crate) use assert_complaints;
