@@ -1,4 +1,4 @@
-//! An effect of one's own: a magnet that pulls the cloth's vertices towards a point, and lets go after a second.
+//! Your own effect: a magnet that attracts the cloth's vertices for a second.
 //!
 //! ```text
 //! cargo run --release -p selvedge-cloth --example own_effect
@@ -11,14 +11,14 @@ use selvedge_cloth::glam::DVec3;
 use selvedge_cloth::{Cloth, Scene, Simulation, ValueError};
 use std::error::Error;
 
-/// What a user of the effect says.
+/// The settings of the effect.
 #[derive(Clone, Copy, Debug)]
 struct Magnet {
-    /// In metres.
+    /// The position, in metres.
     at: DVec3,
-    /// In m/s², at ten centimetres; it falls with the square of the distance.
+    /// The acceleration in m/s² at ten centimetres; it falls with the square of the distance.
     strength: f64,
-    /// In seconds.
+    /// The time at which it is switched off, in seconds.
     until: f64,
 }
 
@@ -47,7 +47,7 @@ impl Force for Magnet {
         for (vertex, velocity) in velocities.iter_mut().enumerate() {
             if step.inverse_masses[vertex] > 0.0 {
                 let way = self.at - step.start[vertex];
-                // Nearer than a centimetre it pulls no harder.
+                // The pull does not grow within a centimetre.
                 let squared = way.length_squared().max(1e-4);
                 *velocity += way.normalize_or_zero() * (self.strength * 0.01 / squared * step.h);
             }

@@ -58,7 +58,7 @@ pub use selvedge_core::glam;
 pub use selvedge_files as files;
 pub use simulate::{
     Blocked, CHECKPOINT_STEPS, CheckpointError, DriveError, EdgeStretch, EffectTime, FASTEST, SetupError, Simulation, Tangled,
-    Untangled, UntanglingProgress,
+    Untangled, UntanglingEnd, UntanglingProgress,
 };
 pub use world::{Animation, Body, BodyMotion, Cloth, Keyframe, KeyframeMotion, Material, Placement, sleeve};
 

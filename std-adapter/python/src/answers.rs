@@ -178,6 +178,7 @@ pub(crate) fn show_untangled<'py>(py: Python<'py>, untangled: Option<&Untangled>
         stretch: EdgeStretch { percentile_99, largest },
         farthest,
         seconds,
+        ..
     } = untangled;
     let stretch = (percentile_99, largest);
     class(py, "Untangled")?

@@ -43,7 +43,7 @@ impl Scene {
         ])?;
         let time_step = root.required_number(&TIME_STEP)?;
         let duration = root.required_number(&duration_field(time_step))?;
-        let cloths = read_cloths(&root)?;
+        let (cloths, remarks) = read_cloths(&root)?;
         let bodies = read_bodies(&root, time_step)?;
         let (effects, own) = read_effects(&root, &cloths, &bodies, time_step)?;
         let gravity = match root.table("effects")? {
@@ -73,6 +73,7 @@ impl Scene {
             tangled_start,
             up: gravity.map_or(DVec3::Z, |acceleration| -acceleration),
             text: text.to_owned(),
+            remarks,
             time_step,
             duration,
             own: { cloths.iter() }.map(|cloth| cloth.name.clone()).zip(own).collect(),
@@ -84,14 +85,23 @@ impl Scene {
 }
 
 /// Reads `[cloth]`, or any number of `[[cloth]]`, without their own effects.
-fn read_cloths(root: &Table<'_>) -> Result<Vec<Cloth>, SceneError> {
+///
+/// Returns them with remarks about their files.
+fn read_cloths(root: &Table<'_>) -> Result<(Vec<Cloth>, Vec<String>), SceneError> {
     let mut cloths: Vec<Cloth> = Vec::new();
+    let mut remarks = Vec::new();
     for table in root.one_or_more_tables("cloth")? {
-        let cloth = Cloth::read(&table)?;
+        let (cloth, isolated) = Cloth::read(&table)?;
+        if isolated > 0 {
+            remarks.push(format!(
+                "Isolated vertices in the file of the cloth '{}': {isolated}. They are left out, and the others are numbered without them.",
+                cloth.name
+            ));
+        }
         check_name("cloths", cloths.iter().map(|other| &other.name), &cloth.name).map_err(|error| table.placed(&error))?;
         cloths.push(cloth);
     }
-    Ok(cloths)
+    Ok((cloths, remarks))
 }
 
 fn read_bodies(root: &Table<'_>, time_step: f64) -> Result<Vec<Body>, SceneError> {

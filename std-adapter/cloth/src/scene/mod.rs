@@ -104,6 +104,8 @@ pub struct Scene {
     pub up: DVec3,
     /// The text of the file; empty if there is no file.
     pub text: String,
+    /// Remarks for people about the scene's files, such as vertices that were left out.
+    pub remarks: Vec<String>,
     /// The response when bodies or pins force the cloth into an intersection.
     pub on_blocked: OnBlocked,
     /// The response to intersections at the start.
@@ -136,6 +138,7 @@ impl Scene {
             frame_rate: 60.0,
             up: DVec3::Z,
             text: String::new(),
+            remarks: Vec::new(),
             on_blocked: OnBlocked::default(),
             tangled_start: TangledStart::default(),
             effects: Effects::default(),

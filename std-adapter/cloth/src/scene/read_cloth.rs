@@ -27,8 +27,9 @@ const SHAPES: [(&str, ClothShape); 5] = [
 ];
 
 impl Cloth {
-    /// Reads a cloth without its own effects, whose tables have the names of effects.
-    pub(crate) fn read(table: &Table<'_>) -> Result<Self, SceneError> {
+    /// Reads a cloth without its own effects, whose tables have the names of effects. Returns it with the number of isolated vertices of
+    /// its file, which are left out.
+    pub(crate) fn read(table: &Table<'_>) -> Result<(Self, usize), SceneError> {
         let shape = table.required_choice("shape", &SHAPES)?;
         let of_file = [
             &shapes::FILE_KEYS[..],
@@ -45,6 +46,7 @@ impl Cloth {
         table.expect_keys(&[&["name", "shape", "velocity"], own, &effect_names()].concat())?;
         let material = table.choice("material", &Material::ALL.map(|material| (material.name, material)))?;
         let density = || table.number_or(&DENSITY, |density| density, material.map(|material| material.density));
+        let mut isolated = 0;
         let made = match shape {
             ClothShape::Sleeve => Self::sleeve(table.count(&REFINEMENT)?.unwrap_or(1), density()?),
             ClothShape::Sheet => {
@@ -70,13 +72,15 @@ impl Cloth {
             ),
             ClothShape::File => {
                 let warp = table.vector(&WARP)?.unwrap_or(DVec3::X);
-                match table.number(&LINEAR_DENSITY_OF_EDGES)? {
-                    None => Self::from_mesh(shapes::of_file(table)?, warp, density()?),
+                let linear_density = table.number(&LINEAR_DENSITY_OF_EDGES)?;
+                let read = shapes::cloth_of_file(table, linear_density.is_some())?;
+                isolated = read.left_out;
+                match linear_density {
+                    None => Self::from_mesh(read.mesh, warp, density()?),
                     Some(linear_density) => {
-                        let (mesh, edges) = shapes::of_file_with_loose_edges(table)?;
                         // Without triangles there is no mass per area.
-                        let density = if mesh.triangles.is_empty() { 0.0 } else { density()? };
-                        Self::from_mesh_with_loose_edges(mesh, &edges, warp, [density, linear_density])
+                        let density = if read.mesh.triangles.is_empty() { 0.0 } else { density()? };
+                        Self::from_mesh_with_loose_edges(read.mesh, &read.loose_edges, warp, [density, linear_density])
                     }
                 }
             }
@@ -85,6 +89,6 @@ impl Cloth {
         cloth.velocity = table.vector(&VELOCITY)?.unwrap_or_default();
         cloth.material = material;
         cloth.name = table.text("name")?.unwrap_or(NAME).to_owned();
-        Ok(cloth)
+        Ok((cloth, isolated))
     }
 }

@@ -30,4 +30,4 @@ pub use errors::{Blocked, SetupError};
 pub use measures::{EdgeStretch, EffectTime};
 pub use simulation::Simulation;
 pub use state::FASTEST;
-pub use tangled::{Tangled, Untangled, UntanglingProgress};
+pub use tangled::{Tangled, Untangled, UntanglingEnd, UntanglingProgress};

@@ -6,30 +6,56 @@ use selvedge::{Mesh, first_coincident};
 use selvedge_core::glam::DVec3;
 use std::fmt;
 
-/// How untangling goes.
+/// The progress of untangling.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct UntanglingProgress {
     /// Steps so far.
     pub steps: u32,
-    /// Edges that meet faces now.
+    /// Edges that intersect faces now.
     pub crossings: usize,
 }
 
-/// What was untangled before the first step.
+/// The result of untangling before the first step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Untangled {
-    /// Edges that met faces where the scene starts.
+    /// Edges that intersected faces at the start of the scene.
     pub crossings: usize,
     /// Edges that still do.
     pub left: usize,
-    /// Steps that were taken, without time.
+    /// Steps, during which no time passes.
     pub steps: u32,
-    /// How much edges are stretched now, over their lengths in the scene.
+    /// Why it ended.
+    pub end: UntanglingEnd,
+    /// The stretch of edges now, over their lengths in the scene.
     pub stretch: EdgeStretch,
-    /// How far the cloth was moved where it was moved most, in metres.
+    /// The largest move of a vertex, in metres.
     pub farthest: f64,
-    /// How many seconds it took.
+    /// Seconds of work; zero without the feature `timing`.
     pub seconds: f64,
+}
+
+/// The reason why untangling ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum UntanglingEnd {
+    /// Nothing intersects any more.
+    Free,
+    /// The number of intersections did not fall for many steps.
+    NoProgress,
+    /// No vertex could be moved without new intersections.
+    Stuck,
+    /// The limit of steps was reached.
+    StepLimit,
+}
+
+impl fmt::Display for UntanglingEnd {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Free => "nothing intersects any more",
+            Self::NoProgress => "the number of intersections did not fall any more",
+            Self::Stuck => "nothing could be moved without new intersections",
+            Self::StepLimit => "the limit of steps was reached",
+        })
+    }
 }
 
 /// A scene that starts with surfaces passing through each other: all places.
@@ -69,8 +95,14 @@ impl fmt::Display for Tangled {
         let count = self.crossings.len();
         match &self.untangled {
             None => write!(f, "the scene starts with an intersection: {}", counted(count))?,
-            Some(Untangled { crossings, steps, .. }) => {
-                write!(f, "untangling ended after {steps} steps: {} of {crossings}", counted(count))?;
+            Some(Untangled {
+                crossings, steps, end, ..
+            }) => {
+                write!(
+                    f,
+                    "untangling stopped after {steps} steps, since {end}: {} of {crossings}",
+                    counted(count)
+                )?;
             }
         }
         let mut of_bodies = vec![0; self.body_names.len()];

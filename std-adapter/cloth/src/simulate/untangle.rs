@@ -11,7 +11,7 @@
 
 use super::errors::SetupError;
 use super::simulation::Simulation;
-use super::tangled::{Tangled, Untangled, UntanglingProgress};
+use super::tangled::{Tangled, Untangled, UntanglingEnd, UntanglingProgress};
 use selvedge::Mesh;
 use selvedge::clock::Clock;
 use selvedge_core::glam::DVec3;
@@ -22,6 +22,9 @@ const REACH: f64 = 0.3;
 const TRIES: u32 = 7;
 /// Most steps in which something is led.
 const MOST: u32 = 1000;
+/// Leading ends if the number of intersections has had no new minimum for so many steps. Of the test garments that come apart, none
+/// needs a third of that.
+const HOPELESS: u32 = 1000;
 /// Most steps in which the cloth relaxes. It has if in so many steps the longest edge has not become shorter by this share.
 const MOST_RELAXING: u32 = 500;
 const PATIENCE: u32 = 20;
@@ -67,7 +70,7 @@ impl Simulation {
         let remembered = self.remembered();
         let crossings = self.crossings().len();
         let threads = std::mem::take(&mut self.threads);
-        let steps = threads.run(|| self.pull_apart(REACH * spacing, tell));
+        let (steps, end) = threads.run(|| self.pull_apart(REACH * spacing, tell));
         self.threads = threads;
         (self.made.forces, self.effects) = (forces, times);
         self.state.velocities = velocities;
@@ -78,27 +81,39 @@ impl Simulation {
             crossings,
             left: self.crossings().len(),
             steps,
+            end,
             stretch: self.edge_stretch(),
             farthest: moved.map(|(start, end)| start.distance(*end)).fold(0.0, f64::max),
             seconds: begin.elapsed().as_secs_f64(),
         }
     }
 
-    /// The steps of it; how many.
-    fn pull_apart(&mut self, reach: f64, tell: &mut (dyn FnMut(UntanglingProgress) + Send)) -> u32 {
+    /// Does the steps of untangling. Returns their number and why they ended.
+    fn pull_apart(&mut self, reach: f64, tell: &mut (dyn FnMut(UntanglingProgress) + Send)) -> (u32, UntanglingEnd) {
         let mut ways = vec![DVec3::ZERO; self.state.positions.len()];
-        let Some(contact) = &self.made.contact else { return 0 };
+        let Some(contact) = &self.made.contact else {
+            return (0, UntanglingEnd::Free);
+        };
         let mut untangler = contact.untangler(&self.state.positions);
         let (mut pulled, mut relaxed) = (0, 0);
+        let (mut fewest, mut at_fewest) = (usize::MAX, 0);
         let (mut best, mut at_best) = (f64::INFINITY, 0);
-        loop {
+        let end = loop {
             let crossings = self.crossings().len();
-            let steps = pulled + relaxed;
-            tell(UntanglingProgress { steps, crossings });
+            tell(UntanglingProgress {
+                steps: pulled + relaxed,
+                crossings,
+            });
             let is_tangled = crossings > 0;
             if is_tangled {
+                if crossings < fewest {
+                    (fewest, at_fewest) = (crossings, pulled);
+                }
                 if pulled == MOST {
-                    break;
+                    break UntanglingEnd::StepLimit;
+                }
+                if pulled - at_fewest >= HOPELESS {
+                    break UntanglingEnd::NoProgress;
                 }
                 pulled += 1;
             } else {
@@ -108,18 +123,24 @@ impl Simulation {
                 }
                 let is_relaxed = relaxed - at_best >= PATIENCE && self.is_apart();
                 if is_relaxed || relaxed == MOST_RELAXING {
-                    break;
+                    break UntanglingEnd::Free;
                 }
                 relaxed += 1;
             }
-            let Some(contact) = &mut self.made.contact else { break };
+            let Some(contact) = &mut self.made.contact else {
+                break UntanglingEnd::Free;
+            };
             contact.set_pushes(!is_tangled);
             untangler.find_ways(contact, &self.state.positions, &mut ways);
             if !self.lead(&ways, reach) {
-                break;
+                break if is_tangled {
+                    UntanglingEnd::Stuck
+                } else {
+                    UntanglingEnd::Free
+                };
             }
-        }
-        pulled + relaxed
+        };
+        (pulled + relaxed, end)
     }
 
     /// A step that leads vertices by their way, but by no more than `reach`, or by less if that cannot be; false: not by anything.

@@ -120,18 +120,42 @@ const UNITS: [(&str, f64); 6] = [
     ("ft", 0.3048),
 ];
 
-/// Reads the mesh of the file that `file` names.
+/// Reads the triangles of the file that `file` names, with all vertices.
 pub(crate) fn of_file(table: &Table<'_>) -> Result<Mesh, SceneError> {
     let (mesh, _) = read_file(table, false)?;
     Ok(mesh)
 }
 
-/// Reads a mesh, possibly without triangles, and its loose edges.
-pub(crate) fn of_file_with_loose_edges(table: &Table<'_>) -> Result<(Mesh, Vec<[u32; 2]>), SceneError> {
-    read_file(table, true)
+/// A cloth's mesh from a file.
+pub(crate) struct ClothMesh {
+    pub(crate) mesh: Mesh,
+    pub(crate) loose_edges: Vec<[u32; 2]>,
+    /// The number of isolated vertices, which were left out.
+    pub(crate) left_out: usize,
 }
 
-/// Reads a file whole, or the group of it that `group` names, in metres and with the vertices merged that `weld` says.
+/// Reads a cloth's mesh: triangles, or triangles and loose edges, of which there must be some. Isolated vertices are left out, unless
+/// they belong to loose edges that are not wanted.
+pub(crate) fn cloth_of_file(table: &Table<'_>, with_loose_edges: bool) -> Result<ClothMesh, SceneError> {
+    let (mut mesh, mut loose_edges) = read_file(table, true)?;
+    if with_loose_edges && loose_edges.is_empty() {
+        let message =
+            "`linear_density` is for edges that belong to no triangle (lines `l` of an OBJ file), but the file has none";
+        return Err(table.error("file", message.to_owned()));
+    }
+    let is_whole = with_loose_edges || loose_edges.is_empty();
+    let left_out = match is_whole && !(mesh.triangles.is_empty() && loose_edges.is_empty()) {
+        true => leave_out_isolated(&mut mesh, &mut loose_edges),
+        false => 0,
+    };
+    Ok(ClothMesh {
+        mesh,
+        loose_edges,
+        left_out,
+    })
+}
+
+/// Reads a file, or the group of it that `group` names, in metres and with vertices merged according to `weld`.
 fn read_file(table: &Table<'_>, loose_features: bool) -> Result<(Mesh, Vec<[u32; 2]>), SceneError> {
     let wrong = |message: String| table.error("file", message);
     let path = path(table)?;
@@ -159,18 +183,16 @@ fn read_file(table: &Table<'_>, loose_features: bool) -> Result<(Mesh, Vec<[u32;
         );
         return Err(wrong(message));
     }
-    let (edges, points) = (topology.loose_edges().collect::<Vec<_>>(), topology.points().len());
-    if loose_features && (edges.is_empty() || points > 0) {
-        let message = format!(
-            "`linear_density` is for edges that belong to no triangle (lines `l` of an OBJ file), but the file has {} of them and {points} points",
-            edges.len()
-        );
-        return Err(wrong(message));
-    }
     let triangles = topology.proper_triangles().to_vec();
     let scale = scale(table)?;
     let positions = positions.into_iter().map(|position| position * scale).collect();
-    let (mesh, edges) = merged(Mesh { positions, triangles }, edges, table.number(&WELD)?, only.is_some());
+    let (mut mesh, mut edges) = (Mesh { positions, triangles }, topology.loose_edges().collect());
+    if let Some(tolerance) = table.number(&WELD)? {
+        (mesh, edges) = welded(&mesh, edges, tolerance);
+    }
+    if only.is_some() {
+        leave_out_isolated(&mut mesh, &mut edges);
+    }
     check(&mesh).map_err(|error| wrong(error.message))?;
     Ok((mesh, edges))
 }
@@ -180,30 +202,32 @@ pub(super) fn scale(table: &Table<'_>) -> Result<f64, SceneError> {
     Ok(table.number(&SCALE)?.unwrap_or(1.0) * table.choice("unit", &UNITS)?.unwrap_or(1.0))
 }
 
-/// Merges vertices within a distance, and leaves out those of other groups.
-fn merged(mesh: Mesh, edges: Vec<[u32; 2]>, weld: Option<f64>, is_part: bool) -> (Mesh, Vec<[u32; 2]>) {
-    let (mut mesh, mut edges) = (mesh, edges);
-    if let Some(tolerance) = weld {
-        let welded = mesh.welded(tolerance);
-        let ends = |ends: [u32; 2]| ends.map(|end| welded.vertex_of[end as usize]);
-        edges = edges.into_iter().map(ends).filter(|[from, to]| from != to).collect();
-        mesh = welded.mesh;
-    }
-    if is_part {
-        let mut number = vec![u32::MAX; mesh.positions.len()];
-        let named = mesh.triangles.iter().flatten().chain(edges.iter().flatten());
-        named.for_each(|&vertex| number[vertex as usize] = 0);
-        let used = number.iter_mut().filter(|number| **number == 0);
-        used.zip(0..).for_each(|(number, new)| *number = new);
-        let kept = mesh.positions.iter().zip(&number).filter(|(_, number)| **number != u32::MAX);
-        mesh.positions = kept.map(|(&position, _)| position).collect();
-        let renumbered = |vertex: u32| number[vertex as usize];
-        mesh.triangles
-            .iter_mut()
-            .for_each(|corners| *corners = corners.map(renumbered));
-        edges.iter_mut().for_each(|ends| *ends = ends.map(renumbered));
-    }
-    (mesh, edges)
+/// Merges vertices within a distance, in metres.
+fn welded(mesh: &Mesh, edges: Vec<[u32; 2]>, tolerance: f64) -> (Mesh, Vec<[u32; 2]>) {
+    let welded = mesh.welded(tolerance);
+    let ends = |ends: [u32; 2]| ends.map(|end| welded.vertex_of[end as usize]);
+    let edges = edges.into_iter().map(ends).filter(|[from, to]| from != to).collect();
+    (welded.mesh, edges)
+}
+
+/// Removes isolated vertices and renumbers the others in their order. Returns the number of removed vertices.
+fn leave_out_isolated(mesh: &mut Mesh, loose_edges: &mut [[u32; 2]]) -> usize {
+    let mut number = vec![u32::MAX; mesh.positions.len()];
+    let named = mesh.triangles.as_flattened().iter().chain(loose_edges.as_flattened());
+    named.for_each(|&vertex| number[vertex as usize] = 0);
+    let used = number.iter_mut().filter(|number| **number == 0);
+    used.zip(0..).for_each(|(number, new)| *number = new);
+    let kept = mesh.positions.iter().zip(&number).filter(|(_, number)| **number != u32::MAX);
+    let kept: Vec<DVec3> = kept.map(|(&position, _)| position).collect();
+    let left_out = mesh.positions.len() - kept.len();
+    mesh.positions = kept;
+    let all = mesh
+        .triangles
+        .as_flattened_mut()
+        .iter_mut()
+        .chain(loose_edges.as_flattened_mut());
+    all.for_each(|vertex| *vertex = number[*vertex as usize]);
+    left_out
 }
 
 fn path(table: &Table<'_>) -> Result<PathBuf, SceneError> {
@@ -240,6 +264,18 @@ mod tests {
         let corners = |t: &[u32; 3]| t.map(|v| mesh.positions[v as usize]);
         let parts = mesh.triangles.iter().map(corners);
         parts.map(|[a, b, c]| a.dot(b.cross(c))).sum()
+    }
+
+    #[test]
+    fn isolated_vertices_are_left_out_and_the_others_keep_their_order() {
+        let mut mesh = Mesh {
+            positions: (0..7).map(|x| DVec3::X * f64::from(x)).collect(),
+            triangles: vec![[6, 1, 4]],
+        };
+        let mut loose = [[2, 6]];
+        assert_eq!(leave_out_isolated(&mut mesh, &mut loose), 3);
+        assert_eq!(mesh.positions, [1.0, 2.0, 4.0, 6.0].map(|x| DVec3::X * x));
+        assert_eq!((mesh.triangles, loose), (vec![[3, 0, 2]], [[1, 3]]));
     }
 
     #[test]

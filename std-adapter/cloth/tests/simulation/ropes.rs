@@ -337,6 +337,7 @@ fn the_lines_of_a_file_are_loose_edges_if_they_are_given_a_weight() {
     assert_eq!(scene.all_loose_edges(), [[0, 4], [4, 5], [1, 6]]);
     let simulation = Simulation::new(scene, 1).unwrap();
     assert_eq!((simulation.triangles().len(), simulation.loose_edges().len()), (2, 3));
+    let scene_of_square = read(square, "density = 0.1").unwrap();
     // A net has no area, and needs no weight of one.
     assert!(
         read(
@@ -346,8 +347,18 @@ fn the_lines_of_a_file_are_loose_edges_if_they_are_given_a_weight() {
         .is_ok()
     );
 
+    // Isolated vertices are left out, with a remark.
+    let isolated = read(
+        &format!("v 9 9 9\n{}", square.replace("f 1 2 3 4", "f 2 3 4 5")),
+        "density = 0.1",
+    )
+    .unwrap();
+    assert_eq!(isolated.cloths[0].mesh(), scene_of_square.cloths[0].mesh());
+    assert!(isolated.remarks[0].starts_with("Isolated vertices in the file of the cloth 'cloth': 1."));
+    assert_eq!(scene_of_square.remarks, [""; 0]);
+
     let none = read(square, "density = 0.1\nlinear_density = 0.002").unwrap_err();
-    let expected = "`linear_density` is for edges that belong to no triangle (lines `l` of an OBJ file), but the file has 0 of them and 0 points";
+    let expected = "`linear_density` is for edges that belong to no triangle (lines `l` of an OBJ file), but the file has none";
     assert!(none.ends_with(expected), "{none}");
     let weightless = read(&(square.to_owned() + tassels), "density = 0.1").unwrap_err();
     let expected = "cloth must consist of proper triangles, but the mesh has 1 component, 4 boundary and 1 interior edges, 3 isolated vertices; give `linear_density` if lines `l` of the file join them";

@@ -191,6 +191,7 @@ impl Simulate {
         let path = path.display();
         let (steps, steps_per_frame) = (scene.steps(), scene.steps_per_frame());
         let subject = Subject::new(&scene);
+        let remarks = scene.remarks.clone();
         OutputFiles::check_folder(&self.output)?;
         let mut simulation = self.set_up(scene).map_err(|error| format!("{path}: {error}"))?;
         let mut recorder = SimulationRecorder::new(subject, &simulation)?;
@@ -210,7 +211,7 @@ impl Simulate {
         });
         let result = result.map_err(|failure| Failure::from(format!("{path}: {failure}")));
         let seconds = seconds();
-        for sentence in start_sentences(&simulation) {
+        for sentence in remarks.into_iter().chain(start_sentences(&simulation)) {
             recorder.remark(sentence);
         }
         if let Err(failure) = &result {

@@ -368,6 +368,7 @@ pub(super) fn untangled_json(untangled: &Untangled) -> Value {
         "crossings": untangled.crossings,
         "left": untangled.left,
         "steps": untangled.steps,
+        "end": untangled.end.to_string(),
         "edge_stretch": {"percentile_99": untangled.stretch.percentile_99, "largest": untangled.stretch.largest},
         "farthest": untangled.farthest,
         "seconds": untangled.seconds,
