@@ -63,7 +63,7 @@ pub fn contact_and_evidence<S: Scalar>(pair: &PrimitivePair<S>) -> (ContactVerdi
 /// tolerance.
 ///
 /// ```
-/// use selvedge_core::elementary::{ContactVerdict, Limits, advance::time_of_impact, contact::settled};
+/// use selvedge_core::elementary::{ContactVerdict, Limits, advance::time_of_impact, contact::contact_given_impact};
 /// use selvedge_core::{glam::DVec3, Motion, PrimitivePair};
 /// // It comes to rest above an inclined face, by less than the errors of rounding.
 /// let pair = PrimitivePair::vertex_face(
@@ -72,11 +72,11 @@ pub fn contact_and_evidence<S: Scalar>(pair: &PrimitivePair<S>) -> (ContactVerdi
 /// );
 /// let impact = time_of_impact(&pair, &Limits { tolerance: 1e-6, separation: 0.0 });
 /// assert!(impact.time().is_some());
-/// assert_eq!(settled(&pair, &impact), ContactVerdict::Never);
+/// assert_eq!(contact_given_impact(&pair, &impact), ContactVerdict::Never);
 /// ```
 #[cfg(feature = "batch")]
 #[inline]
-pub fn settled<S: Scalar>(pair: &PrimitivePair<S>, impact: &Impact<S>) -> ContactVerdict {
+pub fn contact_given_impact<S: Scalar>(pair: &PrimitivePair<S>, impact: &Impact<S>) -> ContactVerdict {
     answer(pair, impact).0
 }
 

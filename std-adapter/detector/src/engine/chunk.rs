@@ -30,7 +30,7 @@ use crate::simd::Level;
 use crate::step::Contact;
 use selvedge_core::batch::{LANES, Mask, VertexRow, culled_from_rows};
 use selvedge_core::elementary::advance::time_of_impact_within;
-use selvedge_core::elementary::contact::settled;
+use selvedge_core::elementary::contact::contact_given_impact;
 use selvedge_core::elementary::{ContactVerdict as Verdict, Impact, Limits, Reason};
 use selvedge_core::filter::{Filter, Tier};
 use selvedge_core::narrowing::rounded_up;
@@ -350,7 +350,7 @@ fn touches(step: &StepInput<'_>, kind: PairKind, pair: [u32; 2], time: f64) -> b
         reason: Reason::WithinTolerance,
     };
     let pair = step.primitives(kind, step.numbers.vertices(kind, pair));
-    settled(&pair, &impact) != Verdict::Never
+    contact_given_impact(&pair, &impact) != Verdict::Never
 }
 
 /// Takes the pairs of a traversal into a chunk.

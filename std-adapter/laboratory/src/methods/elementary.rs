@@ -1,6 +1,6 @@
 use super::{Ask, WithTest};
 use crate::baselines::{additive, bernstein_sign, cubic, tight_inclusion, uncertified};
-use selvedge_core::elementary::{ContactVerdict, Limits, advance, contact::settled};
+use selvedge_core::elementary::{ContactVerdict, Limits, advance, contact::contact_given_impact};
 use selvedge_core::{PrimitivePair, Scalar};
 use std::fmt;
 
@@ -84,7 +84,9 @@ impl ElementaryTest {
             Self::TimeOfImpact | Self::Certified(_) => with.with(|pair| advance::time_of_impact(pair, &limits).time()),
             Self::Exact => with.with(|pair| {
                 let impact = advance::time_of_impact(pair, &limits);
-                impact.time().filter(|_| settled(pair, &impact) != ContactVerdict::Never)
+                impact
+                    .time()
+                    .filter(|_| contact_given_impact(pair, &impact) != ContactVerdict::Never)
             }),
             Self::Uncertified(_) => with.with(|pair| uncertified::time_of_impact(pair, &limits).time()),
             Self::TightInclusion(_) => with.with(|pair| tight_inclusion::time_of_impact(pair, &limits).time()),
