@@ -2,7 +2,6 @@
 
 use super::{Findings, Progress};
 use serde::Serialize;
-use serde::de::DeserializeOwned;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -34,25 +33,16 @@ pub enum FileError {
 /// # Errors
 /// If the file cannot be read, or does not hold a state of this campaign.
 pub fn read<F: Findings>(file: &Path) -> Result<Option<Progress<F>>, FileError> {
-    let progress: Option<Progress<F>> = read_as(file)?;
-    match progress.as_ref().and_then(Progress::contradiction) {
-        Some(why) => Err(not_a_state(file, why)),
-        None => Ok(progress),
-    }
-}
-
-/// Reads what [`StateFile::keep`] wrote, of any type, if there is such a file.
-///
-/// # Errors
-/// If the file cannot be read, or does not hold a value of the type.
-pub fn read_as<S: DeserializeOwned>(file: &Path) -> Result<Option<S>, FileError> {
     let bytes = match fs::read(file) {
         Ok(bytes) => bytes,
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
         Err(error) => return Err(system(file)(error)),
     };
-    let state = serde_json::from_slice(&bytes).map_err(|error| not_a_state(file, &error.to_string()))?;
-    Ok(Some(state))
+    let progress: Progress<F> = serde_json::from_slice(&bytes).map_err(|error| not_a_state(file, &error.to_string()))?;
+    match progress.contradiction() {
+        Some(why) => Err(not_a_state(file, why)),
+        None => Ok(Some(progress)),
+    }
 }
 
 /// A state file that only this process writes.

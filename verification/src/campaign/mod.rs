@@ -24,7 +24,7 @@ mod shard;
 
 pub use chunks::Chunks;
 pub use digest::Digest;
-pub use file::{FileError, StateFile, read, read_as};
+pub use file::{FileError, StateFile, read};
 pub use merge::{Refusal, merge};
 pub use progress::{AnotherRun, Progress, Settings};
 pub use shard::Shard;
