@@ -46,7 +46,7 @@ done
 say "every crate: its own tests, exact oracle and properties, kept inputs of the fuzz targets"
 # Examples and benchmarks are compiled by .ci/run's lints.
 cargo test --workspace --tests
-say "every kernel and the whole detector without optimisation, on a small stack"
+say "the whole detector without optimisation, on a small stack"
 cargo test --profile dev --package selvedge --test builds_without_optimisation
 say "the documentation's examples"
 cargo test --workspace --doc

@@ -1,4 +1,4 @@
-//! Hierarchies that are only refitted grow old: whatever is asked of them, they are built anew when that pays.
+//! Tests that every method rebuilds degraded hierarchies when that pays.
 
 use super::detector::CollisionDetector;
 use crate::mesh::Topology;
@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 const SIDE: u32 = 60;
 
-/// A square sheet; `crumpled`: every part of it somewhere in a small ball, neighbours near each other.
+/// Makes a square sheet. Crumpled, every part of it lies in a small ball, and neighbours are near each other.
 fn sheet(is_crumpled: bool) -> Vec<DVec3> {
     let at = |k: u32| {
         let [x, y] = [k % SIDE, k / SIDE].map(f64::from);
@@ -25,7 +25,7 @@ fn topology() -> Arc<Topology> {
     Arc::new(Topology::new((SIDE * SIDE) as usize, triangles.collect()).unwrap())
 }
 
-/// How often hierarchies are built when a question is asked of a crumpled sheet, then of a smooth one, and of that again.
+/// Counts the builds of hierarchies when a method is called for a crumpled sheet, then for a smooth one, and for that again.
 fn builds(threads: usize, ask: impl Fn(&mut CollisionDetector<f64>, &[DVec3]) -> Result<(), StepError>) -> [usize; 3] {
     let mut detector = CollisionDetector::new(topology());
     detector.set_threads(crate::Threads::from_count(threads)).unwrap();
@@ -38,7 +38,7 @@ fn builds(threads: usize, ask: impl Fn(&mut CollisionDetector<f64>, &[DVec3]) ->
 }
 
 #[test]
-fn every_question_has_hierarchies_built_anew_when_a_crumpled_mesh_is_smooth_again_and_not_once_more() {
+fn every_method_rebuilds_hierarchies_once_when_a_crumpled_mesh_becomes_smooth() {
     type Ask = fn(&mut CollisionDetector<f64>, &[DVec3]) -> Result<(), StepError>;
     let questions: [Ask; 5] = [
         |detector, p| detector.contacts(p, p, &mut Vec::new()),

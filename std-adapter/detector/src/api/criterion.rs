@@ -1,4 +1,4 @@
-//! What counts as a contact, and which pairs are looked at.
+//! Criteria for contacts and candidates.
 
 use crate::engine::{Question, Wanted};
 use crate::step::{StepError, check_length};

@@ -1,4 +1,4 @@
-//! What cuts the steps of a detector short: another thread, too many pairs, or too much memory.
+//! Cuts the steps of a detector short: by another thread, by too many pairs, or by too much memory.
 
 use super::detector::CollisionDetector;
 use crate::step::Cancellation;

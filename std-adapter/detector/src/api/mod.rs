@@ -1,4 +1,4 @@
-//! What a program calls: detector and world, their settings and answers.
+//! The public interface: detector and world, with settings and results.
 
 #[cfg(test)]
 mod ageing;

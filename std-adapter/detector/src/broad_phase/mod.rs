@@ -85,7 +85,7 @@ pub struct MovingStatistics {
 pub struct MovingBroadPhase {
     pub(crate) hierarchies: Hierarchies,
     fit: Fit,
-    /// Of VF and EE pairs.
+    /// The tasks of VF and EE pairs.
     tasks: [Vec<BlockPair>; 2],
     stack: Vec<BlockPair>,
     collectors: Vec<Collector>,

@@ -4,7 +4,7 @@
 //! strays at its end, and at its start too unless it starts exactly where the last step ended. The distance is the separation and twice the tolerance,
 //! so a pair that is settled here is no contact of the elementary test either.
 
-use super::{CLASSES, Class, Interest, NearPairs, Reach};
+use super::{CLASSES, Class, Interest, NearPair, NearPairs, Reach};
 use crate::PairKind;
 use crate::broad_phase::mapping_within;
 use crate::mesh::Topology;
@@ -66,12 +66,6 @@ pub(crate) struct Followed {
     pub(crate) is_single: bool,
 }
 
-/// The open pairs of a chunk.
-#[derive(Default)]
-struct OpenPairs {
-    pairs: [Vec<[u32; 2]>; 2],
-}
-
 impl Followed {
     pub(crate) fn new(moving: Option<Vec<bool>>, filter: Option<Arc<CollisionFilter>>) -> Self {
         Self {
@@ -108,45 +102,48 @@ impl Followed {
                 .for_each(|&vertex| self.used[vertex as usize] = true);
         }
         self.is_single = take(motions, &self.used, &mut self.step);
+        let continues = self.step[0] == self.before[1];
+        self.cover(topology, distance, continues);
+        self.find_open(motions, separation, continues);
+    }
+
+    /// Makes the list good for the step.
+    fn cover(&mut self, topology: &Arc<Topology>, distance: f64, continues: bool) {
         let [start, end] = [&self.step[0][..], &self.step[1][..]];
-        let continues = start == self.before[1];
-        match &mut self.near {
-            Some(near) if self.distance == distance => {
-                let ways = self.before[0].iter().zip(&self.before[1]);
-                let bends = start
-                    .iter()
-                    .zip(end)
-                    .zip(ways)
-                    .map(|((&start, &end), (&from, &to))| (end - start) - (to - from));
-                near.set_bends(bends);
-                if continues {
-                    near.advance(1.0);
-                    near.cover(start, end, 1.0);
-                } else {
-                    if start != self.before[0] {
-                        near.advance(1.0);
-                    }
-                    near.cover_from(start, end, 1.0);
-                }
+        if let Some(near) = self.near.as_mut().filter(|_| self.distance == distance) {
+            let steps = start.iter().zip(end).zip(self.before[0].iter().zip(&self.before[1]));
+            near.set_bends(steps.map(|((&start, &end), (&from, &to))| (end - start) - (to - from)));
+            if continues || start != self.before[0] {
+                near.advance(1.0);
             }
-            near => {
-                self.distance = distance;
-                let reach = Reach {
-                    classes: [Class { distance, margin: 0.0 }; CLASSES],
-                    beyond: BEYOND * mean_edge(topology, start),
-                    spare: 0.0,
-                    is_graded: true,
-                    farthest: FARTHEST,
-                    upkeep: UPKEEP,
-                };
-                let wanted = self.moving.clone().unwrap_or_else(|| vec![true; start.len()]);
-                let interest = OfMoving(self.moving.clone());
-                let new = NearPairs::new(Arc::clone(topology), interest, wanted, reach);
-                let near = near.insert(new.expect("edges are lengths"));
-                near.set_filter(self.filter.clone());
+            if continues {
                 near.cover(start, end, 1.0);
+            } else {
+                near.cover_from(start, end, 1.0);
             }
+            return;
         }
+        self.distance = distance;
+        let reach = Reach {
+            classes: [Class { distance, margin: 0.0 }; CLASSES],
+            beyond: BEYOND * mean_edge(topology, start),
+            spare: 0.0,
+            is_graded: true,
+            farthest: FARTHEST,
+            upkeep: UPKEEP,
+        };
+        let wanted = self.moving.clone().unwrap_or_else(|| vec![true; start.len()]);
+        let interest = OfMoving(self.moving.clone());
+        let new = NearPairs::new(Arc::clone(topology), interest, wanted, reach);
+        let near = self.near.insert(new.expect("edges are lengths"));
+        near.set_filter(self.filter.clone());
+        near.cover(start, end, 1.0);
+    }
+
+    /// Finds the listed pairs that no direction keeps apart and whose boxes are near.
+    fn find_open(&mut self, motions: &dyn Motions, separation: f64, continues: bool) {
+        let [start, end] = [&self.step[0][..], &self.step[1][..]];
+        let distance = self.distance;
         let Some(near) = &mut self.near else { return };
         if !continues {
             near.find_strays(start, 0.0);
@@ -158,47 +155,41 @@ impl Followed {
         let largest = largest_coordinate(start).max(largest_coordinate(end));
         let error = GapError::from_largest_coordinate(4.0 * largest);
         let mapping = mapping_within(motions, separation);
-        let mut open = OpenPairs {
-            pairs: std::mem::take(&mut self.open),
+        let is_open = |pair: &mut NearPair<()>| {
+            if !pair.needs_attention(&strays) {
+                if pair.gap() > f32::NEG_INFINITY {
+                    pair.forget_gap();
+                }
+                return false;
+            }
+            if continues && pair.stays_apart(end, distance, error) || pair.keeps_apart([start, end], distance, error) {
+                return false;
+            }
+            let [a, b, c, d] = pair.vertices.map(|vertex| {
+                let vertex = vertex as usize;
+                mapping.vertex(start[vertex].into(), end[vertex].into())
+            });
+            !match pair.kind {
+                PairKind::VertexFace => a.is_apart_from(&b.merged(&c).merged(&d)),
+                PairKind::EdgeEdge => a.merged(&b).is_apart_from(&c.merged(&d)),
+            }
         };
-        open.pairs.iter_mut().for_each(Vec::clear);
+        self.open.iter_mut().for_each(Vec::clear);
         parallel::map_chunks(
             &mut near.list,
-            |_, pairs, open: &mut OpenPairs| {
+            |_, pairs, open: &mut [Vec<[u32; 2]>; 2]| {
                 for pair in pairs {
-                    if !pair.needs_attention(&strays) {
-                        if pair.gap() > f32::NEG_INFINITY {
-                            pair.forget_gap();
-                        }
-                        continue;
-                    }
-                    if continues && pair.stays_apart(end, distance, error) || pair.keeps_apart([start, end], distance, error) {
-                        continue;
-                    }
-                    let [a, b, c, d] = pair.vertices.map(|vertex| {
-                        let vertex = vertex as usize;
-                        mapping.vertex(start[vertex].into(), end[vertex].into())
-                    });
-                    let are_apart = match pair.kind {
-                        PairKind::VertexFace => a.is_apart_from(&b.merged(&c).merged(&d)),
-                        PairKind::EdgeEdge => a.merged(&b).is_apart_from(&c.merged(&d)),
-                    };
-                    if !are_apart {
-                        open.pairs[pair.kind as usize].push(pair.pair);
+                    if is_open(pair) {
+                        open[pair.kind as usize].push(pair.pair);
                     }
                 }
             },
-            &mut open,
-            |all, own| {
-                for (all, own) in all.pairs.iter_mut().zip(own.pairs) {
-                    all.extend(own);
-                }
-            },
+            &mut self.open,
+            |all, own| all.iter_mut().zip(own).for_each(|(all, own)| all.extend(own)),
         );
         near.strays = strays;
         // Pairs that were added to the list come after the others.
-        open.pairs.iter_mut().for_each(|pairs| pairs.sort());
-        self.open = open.pairs;
+        self.open.iter_mut().for_each(|pairs| pairs.sort());
     }
 }
 

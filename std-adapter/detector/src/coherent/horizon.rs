@@ -206,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn far_from_the_origin_for_its_room_a_motion_is_one_step_and_nobody_has_room() {
+    fn far_from_the_origin_a_motion_lasts_one_step_and_no_vertex_has_room() {
         let mut horizon = looking(4);
         let (start, end) = ([DVec3::X * 1e12], [DVec3::X * 1e12 + DVec3::Y]);
         assert_eq!(horizon.begin(&start, &end, 1.0, 0.1), [&start[..], &end[..]]);

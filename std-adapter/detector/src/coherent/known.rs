@@ -36,7 +36,7 @@ fn find_in<'a, D: Copy>(run: &mut &'a [NearPair<D>], order: u128) -> Option<&'a 
     run.first().filter(|first| order_of(first.key()) == order)
 }
 
-/// Pairs that are passed one by one. Mostly it is none.
+/// The number of pairs that are passed one by one; mostly none needs to be.
 const SINGLY: usize = 8;
 
 /// Returns how many pairs come before, in a time that grows with the logarithm of their number.

@@ -34,7 +34,7 @@ pub struct NearPairs<I: Interest> {
     first: usize,
     /// The vertices of these pairs side by side, once they are needed: 16 bytes to read for each pair instead of some 56.
     vertices: Vec<[u32; 4]>,
-    /// Which vertices have [strayed](Self::find_strayed).
+    /// For each vertex, whether it has [strayed](Self::find_strayed).
     strayed: Vec<bool>,
     search: Search<I>,
     horizon: Horizon,
@@ -330,7 +330,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_known_of_a_pair_is_kept_when_all_are_found_anew() {
+    fn data_and_gaps_of_pairs_last_through_a_full_search() {
         let triangle = |height: f64| [DVec3::ZERO, DVec3::X, DVec3::Y].map(|corner| corner + DVec3::Z * height);
         let positions = [triangle(0.0), triangle(0.1)].concat();
         let topology = Arc::new(Topology::new(6, vec![[0, 1, 2], [3, 4, 5]]).unwrap());

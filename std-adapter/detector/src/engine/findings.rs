@@ -1,4 +1,4 @@
-//! What one share of the work finds and counts.
+//! The contacts and counts of one share of the work.
 
 use crate::PairKind;
 use crate::pair_counts::PairCounts;

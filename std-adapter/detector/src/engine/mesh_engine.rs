@@ -37,9 +37,9 @@ pub(crate) struct MeshEngine {
     pub(crate) pairs: PairEngine,
     /// In the mode for coherent motion.
     followed: Option<Box<Followed>>,
-    /// Which vertices move, unless all do.
+    /// For each vertex, whether it moves; `None` if all do.
     moving: Option<Vec<bool>>,
-    /// Which pairs are looked at, unless all are.
+    /// Excludes pairs.
     pub(super) filter: Option<Arc<CollisionFilter>>,
     /// The motion of each vertex as the mesh numbers them, for listed pairs.
     pub(super) rows: Rows,

@@ -38,7 +38,7 @@ struct Work {
     tests: u64,
 }
 
-/// What a thread works in.
+/// The buffers of a thread.
 #[derive(Debug)]
 pub(super) struct Space {
     pub(super) scratch: Scratch,
@@ -57,7 +57,7 @@ pub(super) struct Worker {
     pub(super) seconds: f64,
 }
 
-/// What a share finds of a source.
+/// The result of a share for one source.
 #[derive(Clone, Copy, Debug)]
 struct Visit {
     source: usize,
@@ -184,7 +184,7 @@ impl Worker {
     }
 }
 
-/// What all shares of a run read.
+/// The input of all shares of a run.
 struct Run<'a> {
     sources: &'a [Source<'a>],
     work: &'a [Work],

@@ -1,9 +1,9 @@
-//! What the caller wants of a step.
+//! Questions about a step.
 
 use selvedge_core::elementary::Limits;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Which contacts the caller wants.
+/// The contacts that the caller wants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Wanted {
     /// Every contact.

@@ -1,4 +1,4 @@
-//! What cuts a step short: another thread, too many pairs, or too much memory.
+//! Cuts a step short: by another thread, by too many pairs, or by too much memory.
 
 use crate::step::{Cancellation, StepError};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};

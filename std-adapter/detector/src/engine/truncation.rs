@@ -20,6 +20,7 @@
 use super::mesh_engine::MeshEngine;
 use super::question::Question;
 use crate::PairKind;
+use crate::mesh::Topology;
 use crate::parallel::Workers;
 use crate::step::{Contact, Step, StepError, Truncation};
 use selvedge_core::Motion;
@@ -76,6 +77,21 @@ impl Held<'_> {
     }
 }
 
+impl Held<'_> {
+    /// Replaces `open` by the candidates that move and have a vertex whose share changed in this round.
+    fn find_open(&self, topology: &Topology, end: &[DVec3], candidates: &[Vec<[u32; 2]>; 2], open: &mut [Vec<[u32; 2]>; 2]) {
+        for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
+            let open = &mut open[kind as usize];
+            open.clear();
+            open.extend(candidates[kind as usize].iter().filter(|&&pair| {
+                let vertices = topology.vertices_of(kind, pair).map(|vertex| vertex as usize);
+                let moves = vertices.iter().any(|&vertex| end[vertex] != self.start[vertex]);
+                moves && vertices.iter().any(|&vertex| self.changed[vertex])
+            }));
+        }
+    }
+}
+
 impl MeshEngine {
     /// Replaces `end` by the ends of a step that is free of contact, except for pairs that are in contact at the start. `round` rounds a position to the
     /// caller's format, between the same two numbers.
@@ -127,18 +143,7 @@ impl MeshEngine {
             for vertex in (0..end.len()).filter(|&vertex| held.changed[vertex]) {
                 end[vertex] = round(Motion::new(start[vertex], wanted[vertex]).at(held.shares[vertex]));
             }
-            let topology = self.topology();
-            for (kind, (open, candidates)) in [PairKind::VertexFace, PairKind::EdgeEdge]
-                .into_iter()
-                .zip(open.iter_mut().zip(&candidates))
-            {
-                open.clear();
-                open.extend(candidates.iter().filter(|&&pair| {
-                    let vertices = topology.vertices_of(kind, pair).map(|vertex| vertex as usize);
-                    let moves = vertices.iter().any(|&vertex| end[vertex] != start[vertex]);
-                    moves && vertices.iter().any(|&vertex| held.changed[vertex])
-                }));
-            }
+            held.find_open(self.topology(), end, &candidates, &mut open);
             self.contacts_among(threads, [start, end], question, &open, &mut contacts)?;
             truncation.rounds += 1;
         }

@@ -1,10 +1,10 @@
-//! What a step finds.
+//! The results of a step.
 
 use crate::PairKind;
 
 /// A pair that may touch during the step, with the time of its contact.
 ///
-/// What counts as a contact is the detector's [`Criterion`](crate::Criterion).
+/// The detector's [`Criterion`](crate::Criterion) defines a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact<S> {
     /// Vertex–face or edge–edge.

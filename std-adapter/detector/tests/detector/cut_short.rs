@@ -1,4 +1,4 @@
-//! Steps that are cut short leave a detector that answers as if nothing had been; counts beyond reason are errors.
+//! Steps that are cut short leave a usable detector. Unreasonable counts are errors.
 
 use selvedge::glam::DVec3;
 use selvedge::{CandidateBoxes, CollisionDetector, Contact, PairKind, StepError, Threads, Topology};
@@ -6,7 +6,7 @@ use std::num::NonZeroUsize;
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Triangles that have no vertex in common, each moved on from the one before.
+/// Makes triangles without a common vertex, each moved on from the last.
 fn stack(count: u32, by: DVec3) -> (Topology, Vec<DVec3>) {
     let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
     let positions = (0..count).flat_map(|k| corners.map(|corner| corner + f64::from(k) * by));
@@ -14,7 +14,7 @@ fn stack(count: u32, by: DVec3) -> (Topology, Vec<DVec3>) {
     (Topology::new(3 * count as usize, triangles).unwrap(), positions.collect())
 }
 
-/// Turned upside down within a step.
+/// Makes a stack that turns upside down within a step.
 fn collapsing_stack() -> (Topology, Vec<DVec3>, Vec<DVec3>) {
     let (topology, start) = stack(40, DVec3::new(0.01, 0.0, 0.1));
     let end = start
@@ -35,7 +35,7 @@ fn contacts(detector: &mut CollisionDetector<f64>, start: &[DVec3], end: &[DVec3
     Ok(pairs)
 }
 
-/// Every question, by name.
+/// Calls every method, and returns its name and error.
 fn ask_all(detector: &mut CollisionDetector<f64>, start: &[DVec3], end: &[DVec3]) -> [(&'static str, Option<StepError>); 7] {
     let (mut first, mut second) = (Vec::new(), Vec::new());
     [

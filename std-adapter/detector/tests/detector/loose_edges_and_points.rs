@@ -5,7 +5,7 @@ use selvedge_core::elementary::Limits;
 
 type Frame = Vec<[f64; 3]>;
 
-/// What meets during a step, each by what it is, in order.
+/// Returns the features that meet during a step, in order.
 fn contacts(topology: &Topology, start: &Frame, end: &Frame, separation: f64) -> Vec<FeaturePair> {
     let mut detector = CollisionDetector::<f64>::new(topology.clone());
     detector.set_criterion(criterion(separation)).unwrap();
@@ -21,7 +21,7 @@ fn contacts(topology: &Topology, start: &Frame, end: &Frame, separation: f64) ->
     features
 }
 
-/// All that comes within the separation; without one, only what truly touches.
+/// Reports pairs within the separation, or without one only pairs that truly touch.
 fn criterion(separation: f64) -> Criterion<f64> {
     let tolerance = 1e-6;
     if separation > 0.0 {
@@ -57,7 +57,7 @@ fn statistics_tell_what_is_loose_from_degenerate_triangles() {
     let topology = Topology::with_loose_features(7, vec![[0, 1, 2], [0, 1, 1]], &[[2, 3], [0, 1]], &[5]).unwrap();
     let statistics = topology.statistics();
     assert_eq!((statistics.loose_edges, statistics.points), (2, 1));
-    // The degenerate triangle lies on the edge 0-1, which has two triangles then. A loose one is none.
+    // The degenerate triangle lies on the edge 0-1, which has two triangles then. A loose edge is no triangle.
     let text =
         "2 components, 2 boundary and 1 interior edges, 2 isolated vertices, 1 degenerate triangle, 2 loose edges, 1 point";
     assert_eq!(statistics.to_string(), text);

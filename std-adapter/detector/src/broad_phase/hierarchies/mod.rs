@@ -27,7 +27,7 @@ use std::sync::Arc;
 /// third of a test, and an edge 5.3 tests.
 pub(super) const PRICES: Prices = Prices { build: 0.65, item: 16.0 };
 
-/// What boxes hold.
+/// The contents of boxes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Fit {
     /// The distance beyond which a pair is no candidate; finite, not negative.
@@ -90,23 +90,23 @@ pub(crate) struct Hierarchies {
     pub(super) vertices: Tree<1>,
     pub(super) edges: Tree<2>,
     pub(super) faces: Tree<3>,
-    /// What makes the vertices of an EE pair, for each edge by position.
+    /// The ends and number of each edge, by position.
     edge_ends: Vec<EdgeEnds>,
     /// The position of each of the mesh's vertices; isolated ones have none.
     positions: Vec<u32>,
     rows: Rows,
     boxes: Vec<MovingBox<f32>>,
-    /// Which vertices move, unless all do.
+    /// For each vertex, whether it moves; `None` if all do.
     moving: Option<Vec<bool>>,
-    /// Which pairs are looked at, unless all are.
+    /// Excludes pairs.
     pub(super) filter: Option<Arc<CollisionFilter>>,
-    /// Which pairs have a separation of their own.
+    /// Pairs with a separation of their own.
     neighbours: Option<Arc<Neighbours>>,
     scope: Scope,
     state: State,
     /// The mapping of the boxes of resting vertices, if they are still good.
     resting: Option<Mapping>,
-    /// What the boxes hold.
+    /// The contents of the boxes.
     fit: Fit,
     extent: Aabb<f64>,
     degradation: Degradation,
