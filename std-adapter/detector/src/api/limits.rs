@@ -46,7 +46,8 @@ impl<S: Scalar> CollisionDetector<S> {
     /// one point have contacts in the square of their number: without a limit, a few thousand of them exhaust the memory.
     ///
     /// The limit counts 48 bytes for each contact and 8 for each pair in a list of [`candidates`](Self::candidates). Buffers may be up to twice as long
-    /// while they grow. Hierarchies, positions and the caller's own lists are not counted. The [earliest](Self::earliest) contact and
+    /// while they grow. Hierarchies, positions and the caller's own lists are not counted. With [coherent](Self::set_coherent) steps the search for near
+    /// pairs and their list have to stay within the limit too. The [earliest](Self::earliest) contact and
     /// [`is_free`](Self::is_free) store next to nothing.
     ///
     /// ```

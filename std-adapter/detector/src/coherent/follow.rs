@@ -91,7 +91,16 @@ impl Followed {
 
     /// Finds the pairs of a step that may come within `distance` by directions, and within `separation` by the boxes of a new detector. The separation is
     /// not larger than the distance, and positions are finite.
-    pub(crate) fn find(&mut self, topology: &Arc<Topology>, motions: &dyn Motions, distance: f64, separation: f64) {
+    ///
+    /// Returns false if that needs more than `memory_limit` bytes. The list is then empty, and the next step finds it again.
+    #[must_use]
+    pub(crate) fn find(
+        &mut self,
+        topology: &Arc<Topology>,
+        motions: &dyn Motions,
+        [distance, separation]: [f64; 2],
+        memory_limit: u64,
+    ) -> bool {
         std::mem::swap(&mut self.before, &mut self.step);
         if self.used.is_empty() {
             self.used.resize(motions.len(), false);
@@ -103,15 +112,21 @@ impl Followed {
         }
         self.is_single = take(motions, &self.used, &mut self.step);
         let continues = self.step[0] == self.before[1];
-        self.cover(topology, distance, continues);
+        self.cover(topology, distance, continues, memory_limit);
+        if self.near.as_ref().is_some_and(NearPairs::is_over_memory_limit) {
+            self.near = None;
+            return false;
+        }
         self.find_open(motions, separation, continues);
+        true
     }
 
     /// Makes the list good for the step.
-    fn cover(&mut self, topology: &Arc<Topology>, distance: f64, continues: bool) {
+    fn cover(&mut self, topology: &Arc<Topology>, distance: f64, continues: bool, memory_limit: u64) {
         let [start, end] = [&self.step[0][..], &self.step[1][..]];
         if let Some(near) = self.near.as_mut().filter(|_| self.distance == distance) {
             let steps = start.iter().zip(end).zip(self.before[0].iter().zip(&self.before[1]));
+            near.set_memory_limit(memory_limit);
             near.set_bends(steps.map(|((&start, &end), (&from, &to))| (end - start) - (to - from)));
             if continues || start != self.before[0] {
                 near.advance(1.0);
@@ -137,6 +152,7 @@ impl Followed {
         let new = NearPairs::new(Arc::clone(topology), interest, wanted, reach);
         let near = self.near.insert(new.expect("edges are lengths"));
         near.set_filter(self.filter.clone());
+        near.set_memory_limit(memory_limit);
         near.cover(start, end, 1.0);
     }
 

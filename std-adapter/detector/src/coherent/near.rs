@@ -91,6 +91,16 @@ impl<I: Interest> NearPairs<I> {
         self.search.set_filter(filter);
     }
 
+    /// Sets the most bytes of candidates and near pairs that a search may store.
+    pub(super) const fn set_memory_limit(&mut self, limit: u64) {
+        self.search.set_memory_limit(limit);
+    }
+
+    /// Returns whether the last search needed more. The list is then incomplete.
+    pub(super) const fn is_over_memory_limit(&self) -> bool {
+        self.search.is_over_limit
+    }
+
     /// Returns the interest that the list was made with.
     pub const fn interest(&self) -> &I {
         self.search.interest()

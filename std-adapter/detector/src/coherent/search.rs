@@ -11,6 +11,7 @@ use crate::parallel;
 use crate::step::{CollisionFilter, StepError};
 use selvedge_core::glam::DVec3;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Finds near pairs, with buffers that last.
 #[derive(Debug)]
@@ -22,6 +23,10 @@ pub(super) struct Search<I> {
     /// Whether the broad phase finds pairs of few vertices only.
     is_narrowed: bool,
     broad_phase: MovingBroadPhase,
+    /// The most bytes of candidates and near pairs.
+    memory_limit: u64,
+    /// Whether the last search needed more. It then found no pairs.
+    pub(super) is_over_limit: bool,
     sieve: Sieve,
     vertex_face: Vec<[u32; 2]>,
     edge_edge: Vec<[u32; 2]>,
@@ -44,12 +49,18 @@ impl<I: Interest> Search<I> {
             wanted,
             is_narrowed: false,
             broad_phase,
+            memory_limit: u64::MAX,
+            is_over_limit: false,
             vertex_face: Vec::new(),
             edge_edge: Vec::new(),
             left: Vec::new(),
             by_first: Vec::new(),
             places: Vec::new(),
         }
+    }
+
+    pub(super) const fn set_memory_limit(&mut self, limit: u64) {
+        self.memory_limit = limit;
     }
 
     pub(super) fn set_filter(&mut self, filter: Option<Arc<CollisionFilter>>) {
@@ -130,6 +141,8 @@ impl<I: Interest> Search<I> {
             topology,
             interest,
             broad_phase,
+            memory_limit,
+            is_over_limit,
             sieve,
             vertex_face,
             edge_edge,
@@ -138,7 +151,11 @@ impl<I: Interest> Search<I> {
             places,
             ..
         } = self;
-        broad_phase.candidates(vertex_face, edge_edge);
+        let stored = AtomicU64::new(0);
+        let limit = *memory_limit;
+        let stores = |bytes: usize| stored.fetch_add(bytes as u64, Ordering::Relaxed) + bytes as u64 <= limit;
+        broad_phase.candidates_until(&|pairs| stores(pairs * size_of::<[u32; 2]>()), vertex_face, edge_edge);
+        *is_over_limit = !stores(0);
         let counts = [topology.vertex_count(), topology.edges().len()];
         let only_new = only.is_some() && !reach.is_graded;
         pairs.clear();
@@ -147,9 +164,17 @@ impl<I: Interest> Search<I> {
             (PairKind::EdgeEdge, edge_edge, counts[1]),
         ] {
             let enough = reach.beyond as f32;
+            if *is_over_limit {
+                break;
+            }
             parallel::gather(left, found, |pairs, left| {
                 sieve.leave(topology, interest, enough, (kind, pairs), left);
             });
+            if !stores(left.len() * size_of::<NearPair<I::Data>>()) {
+                *is_over_limit = true;
+                pairs.clear();
+                break;
+            }
             for_each_in_order(left, count, by_first, places, |SievedPair { pair, stray }| {
                 let found = match known.find((kind, pair)) {
                     Some(_) if only_new => None,

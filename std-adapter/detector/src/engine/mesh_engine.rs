@@ -151,7 +151,12 @@ impl MeshEngine {
         let begin = Clock::now();
         let hierarchies = &self.broad_phase.hierarchies;
         let topology = hierarchies.topology();
-        followed.find(topology, motions, distance, separation);
+        let memory_limit = self.pairs.stop.memory_limit();
+        if !followed.find(topology, motions, [distance, separation], memory_limit) {
+            self.pairs.refuse_memory();
+            self.statistics = StepStatistics::default();
+            return true;
+        }
         let vertices = [PairKind::VertexFace, PairKind::EdgeEdge].into_iter().flat_map(|kind| {
             let pairs = followed.open[kind as usize].iter();
             pairs.flat_map(move |&pair| topology.vertices_of(kind, pair))

@@ -155,6 +155,13 @@ impl PairEngine {
         is_whole
     }
 
+    /// Ends a question that would need more memory than allowed, without contacts.
+    pub(super) fn refuse_memory(&mut self) {
+        self.stop.begin();
+        self.stop.exceed_memory();
+        self.workers.clear();
+    }
+
     /// Returns the contacts of the last run with their sources, in order.
     pub(crate) fn contacts(&self) -> impl Iterator<Item = (usize, &[Contact<f64>])> {
         self.workers.iter().flat_map(|worker| {

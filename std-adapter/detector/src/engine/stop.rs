@@ -52,6 +52,15 @@ impl Stop {
         self.stored.fetch_add(bytes as u64, Ordering::Relaxed);
     }
 
+    pub(crate) const fn memory_limit(&self) -> u64 {
+        self.memory_limit
+    }
+
+    /// Takes note that the question needs more memory than allowed.
+    pub(crate) fn exceed_memory(&mut self) {
+        *self.stored.get_mut() = u64::MAX;
+    }
+
     /// Returns whether the question was cut short.
     pub(crate) fn has_stopped(&self) -> bool {
         self.is_cancelled.load(Ordering::Relaxed) || self.has_too_many_pairs() || self.has_stored_too_much()

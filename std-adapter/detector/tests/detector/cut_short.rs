@@ -126,7 +126,7 @@ fn more_pairs_than_the_limit_are_an_error_on_any_number_of_threads_and_not_one_f
 #[test]
 fn contacts_without_end_are_an_error_that_leaves_the_detector_usable_and_the_earliest_needs_no_memory() {
     // All pairs of triangles meet in one place: 15 contacts each.
-    let count = 200;
+    let count = 80;
     let (topology, positions) = stack(count, DVec3::ZERO);
     let all = 15 * u64::from(count * (count - 1) / 2);
     for threads in [1, 3] {
@@ -140,6 +140,20 @@ fn contacts_without_end_are_an_error_that_leaves_the_detector_usable_and_the_ear
         assert_eq!((earliest.pair, earliest.time), ([0, 1], 0.0));
         assert_eq!(detector.is_free(&positions, &positions), Ok(false));
         detector.set_memory_limit(Some(limit + 1));
+        assert_eq!(contacts(&mut detector, &positions, &positions).unwrap().len() as u64, all);
+
+        // Steps that follow near pairs keep these too.
+        detector.set_coherent(true);
+        detector.set_memory_limit(Some(8 * all));
+        for _ in 0..2 {
+            let refused = contacts(&mut detector, &positions, &positions);
+            assert_eq!(refused, Err(StepError::TooMuchMemory { limit: 8 * all }));
+            assert_eq!(
+                detector.is_free(&positions, &positions),
+                Err(StepError::TooMuchMemory { limit: 8 * all })
+            );
+        }
+        detector.set_memory_limit(None);
         assert_eq!(contacts(&mut detector, &positions, &positions).unwrap().len() as u64, all);
     }
 }
