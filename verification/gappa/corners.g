@@ -2,13 +2,14 @@
 #
 # M_k is the largest |e_k| as computed, at both ends; S the sum of |w_k| M_k. An exact e_k is at most M_k / (1 - 2u).
 # 1. w.e(t), e(t) = fl((1 - t) e(0) + t e(1)): the difference, 1 - t, a product, a sum, a product, two additions: 7 roundings. Two
-#    such products, added (a direction that turns): 8. Counted on the code, by traced/tests/proofs_are_about_the_code.rs, like the
+#    such products, added (a direction that turns, or moves on a curve): 8. Counted on the code, by traced/tests/proofs_are_about_the_code.rs, like the
 #    roundings of what they must exceed, and its constant:
 #= product 7 6 20
 #= turning 8 7 20
+#= curving 8 7 20
 #= line 4 6 20
 # 2. The threshold T: a product and two sums in S, its product with 20u, the sum with eta; M's own sum with mu: 6. Where a direction
-#    turns, two of them are added.
+#    turns, two of them are added. On a curve the middle direction is twice the control point, so that no product is doubled.
 # 3. A constant direction. Its values at the ends of the step pass through 4 roundings: the line through them is within 8.1u S of
 #    the exact one. At the quotient q, where that line is T, it is positive. The quotient as computed, with its factor, is below q:
 #    numerator, denominator, quotient and product are rounded.

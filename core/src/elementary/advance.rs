@@ -23,17 +23,19 @@
 //! ```
 //!
 //! # The method
-//! From time t, and starting at 0, go on to a later one up to which the pair is *proven* to be apart, until it is within δ + s, or
+//! From time t, and starting at 0, go to a later one up to which the pair is *proven* to be apart, until it is within δ + s, or
 //! the proof reaches the end of the step. Three proofs are tried, all on the pair's corners (`corners.rs`) alone, so there is no
 //! case for parallel edges, faces without area, coplanar motion:
 //! * a separating direction (`directions.rs`) from the closest points, held constant;
 //! * from the second round on, where the closest points are inside the face or both edges, the signed volume (`volume.rs`): the points
 //!   are not coplanar;
-//! * from the fourth round on a direction that turns: where sets slide past one another, what a constant direction proves shrinks
-//!   with their distance, and a turning one's does not.
+//! * from the fourth round on a direction that turns, or moves on a curve (`turning.rs`): where sets slide past one another, what a constant
+//!   direction proves shrinks with their distance, and a turning one's does not.
 //!
 //! How far to go, and along which direction, is heuristic and in plain floating point. Only the proofs count, and each of them
 //! covers its rounding: see the modules of the three.
+//!
+//! Few pairs use up their rounds. For these `f32` asks `f64`, and `f64` the exact verdict ([`contact`](super::contact)).
 //!
 //! The proofs are written once, for any number of [`Lanes`](crate::lanes::Lanes): here one pair alone, which leaves as soon as it is
 //! decided; in [`round`](crate::kernels::advance::round) many side by side, for [`batch`](crate::batch); and verification runs them on tiny numbers, on
@@ -44,17 +46,27 @@
 //! # What is promised
 //! * **In every floating-point environment**: whatever direction the thread rounds in, and whether or not it flushes subnormal
 //!   numbers to zero; a subnormal separation counts as the smallest normal number. (Not with excess precision or fused operations, which Rust does not use.)
-//! * **A bounded amount of work**, whatever the input: at most [`ROUNDS`] rounds, [`Work`] says of how many steps each.
-//!   Degenerate pairs do not loop.
-//! * **Tight**, where the reason is [`Reason::WithinTolerance`]: at the time returned the exact distance is at most
-//!   δ + s + 64u(δ + s + M_x + M_y + M_z) + 2⁻⁶⁰ (`f64`: 2⁻⁵⁰⁰), M being the largest difference between points of the two sets along
-//!   each axis. The other reasons say nothing of the distance.
-//! * **No answer from bad input**: NaN, infinite or too large differences (above 2²⁹, `f64` 2²⁵⁰) exclude nothing.
+//! * **A bounded amount of work**, whatever the input: at most [`ROUNDS`] rounds, [`ROUNDS_WITH_SEPARATION`] in `f64` with a separation;
+//!   [`Work`] says of how many steps each. Degenerate pairs do not loop. The last resort adds the work of the exact verdict, or that of `f64`.
+//! * **No false alarm**: what is not excluded comes near. M is the largest difference between points of the two sets along each axis,
+//!   τ is 2⁻⁶⁰ (`f64`: 2⁻⁵⁰⁰), u is 2⁻²⁴ (2⁻⁵³), and distances are exact:
+//!
+//! | reason | distance |
+//! |---|---|
+//! | [`WithinTolerance`](Reason::WithinTolerance) | at the time returned at most δ + s + 64u(δ + s + M_x + M_y + M_z) + τ |
+//! | [`WithinError`](Reason::WithinError) | at the time returned at most s + 192u(s + M_x + M_y + M_z) + τ |
+//! | [`LastResort`](Reason::LastResort) | zero at that time or later; with a separation at most s + V/4096 at some time |
+//! | [`OutOfRange`](Reason::OutOfRange) | unknown: differences are above 2²⁹, `f64` 2²⁵⁰ |
+//! | [`NotFinite`](Reason::NotFinite) | undefined: NaN, an infinity, or a separation that is negative |
+//!
+//! V is the longest way of a corner during the step. A round that ends neither within δ + s nor within rounding of s proves that the pair is
+//! apart for as long as the distance beyond s takes at speed V, but for a few u. 4096 rounds that each prove more than a 4096th of the
+//! step would pass its end.
 //!
 //! # Where the answer is loose
 //! Where the sets' distance comes down to the error of a product, about 20u times the size of the corners, nothing can be proven
 //! any more: the answer is that time, [`Reason::WithinError`], though they may touch much later or never. Sets that rest on each
-//! other to the last digit do so from the start.
+//! other to the last digit do so from the start. The [exact verdict](super::contact) settles whether they touch.
 
 #![expect(
     clippy::neg_cmp_op_on_partial_ord,
@@ -66,11 +78,13 @@ mod tests;
 
 use super::{Impact, Limits, Reason};
 use crate::PairKind;
+use crate::exact;
 use crate::kernels::advance::Work;
-use crate::kernels::advance::closest::{Closest, Feature, closest};
+use crate::kernels::advance::closest::{Closest, Feature, closest, closest_of_thin};
 pub use crate::kernels::advance::confirm::certain_contact;
 use crate::kernels::advance::corners::Corners;
-use crate::kernels::advance::directions::{Direction, are_apart_turning, beyond};
+use crate::kernels::advance::directions::{Direction, are_apart_curving, are_apart_turning, beyond};
+use crate::kernels::advance::turning::{along_face, along_side, balanced, farthest, in_the_middle};
 use crate::kernels::advance::volume::{Clipped, SignedVolume};
 use crate::lanes::Number;
 use crate::motion::PrimitivePair;
@@ -78,8 +92,17 @@ use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
 use crate::vector::Vector;
 
-/// The largest number of rounds.
+/// The largest number of rounds without a separation, and in `f32`.
 pub const ROUNDS: u32 = 64;
+
+/// The largest number of rounds in `f64` with a separation, where no exact verdict helps.
+pub const ROUNDS_WITH_SEPARATION: u32 = 4096;
+
+/// A pair that takes more rounds than this slides, or its closest points are hard to find.
+const EASY_ROUNDS: u32 = 3;
+
+/// How many turning directions are tried in one round, at most.
+pub const TURNS: u32 = 10;
 
 /// How often the volume is clipped in one round, at most.
 const CLIPS: u32 = 8;
@@ -120,7 +143,7 @@ pub fn time_of_impact_and_work<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limi
 #[cfg(feature = "verification")]
 #[inline(always)]
 pub fn time_of_impact_of_points<P: PairShape, S: Number>(points: &PairPoints<S>, limits: &Limits<S>) -> (Impact<S>, Work) {
-    advanced::<P, S>(points, limits, [S::ZERO, S::ONE])
+    advanced::<P, S>(points, limits, [S::ZERO, S::ONE], ROUNDS)
 }
 
 /// Within a span of time, with a separation that every thread compares as what it is.
@@ -130,12 +153,46 @@ fn within<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>, span: [S; 2]) 
         separation: limits.separation.raised_to_normal(),
         ..*limits
     };
-    of_kind!(pair.kind, P => advanced::<P, S>(&pair.into(), &limits, span))
+    let is_last = S::FRACTION_BITS == <f64 as Scalar>::FRACTION_BITS && limits.separation > S::ZERO;
+    let rounds = if is_last { ROUNDS_WITH_SEPARATION } else { ROUNDS };
+    let (impact, work) = of_kind!(pair.kind, P => advanced::<P, S>(&pair.into(), &limits, span, rounds));
+    match impact {
+        Impact::Possible {
+            time,
+            reason: Reason::LastResort,
+        } if !is_last => (last_resort(pair, &limits, [time, span[1]]), work),
+        _ => (impact, work),
+    }
+}
+
+/// What advancing in this format has left open: `f64` advances `f32` on, whose errors are half a billion times smaller; whole numbers
+/// decide whether `f64` touches.
+#[cold]
+#[inline(never)]
+fn last_resort<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>, [from, until]: [S; 2]) -> Impact<S> {
+    let reason = Reason::LastResort;
+    if S::FRACTION_BITS == <f64 as Scalar>::FRACTION_BITS {
+        return match exact::touches(pair) {
+            Some(false) => Impact::Never,
+            _ => Impact::Possible { time: from, reason },
+        };
+    }
+    let limits = Limits {
+        tolerance: limits.tolerance.to_f64(),
+        separation: limits.separation.to_f64(),
+    };
+    match impact_within(&pair.widened(), &limits, [from.to_f64(), until.to_f64()]) {
+        Impact::Never => Impact::Never,
+        Impact::Possible { time, reason } => Impact::Possible {
+            time: S::truncated(time).larger(from),
+            reason,
+        },
+    }
 }
 
 /// From the first time of `span` to the second.
 #[inline(always)]
-fn advanced<P: PairShape, S: Number>(points: &PairPoints<S>, limits: &Limits<S>, span: [S; 2]) -> (Impact<S>, Work) {
+fn advanced<P: PairShape, S: Number>(points: &PairPoints<S>, limits: &Limits<S>, span: [S; 2], rounds: u32) -> (Impact<S>, Work) {
     if limits.separation <= S::ZERO && points.are_apart_along_three_axes::<P>() {
         if limits.separation < S::ZERO {
             return not_excluded(S::ZERO, Reason::NotFinite, Work::default());
@@ -145,11 +202,11 @@ fn advanced<P: PairShape, S: Number>(points: &PairPoints<S>, limits: &Limits<S>,
     match P::KIND {
         PairKind::VertexFace => {
             let corners = Corners::of_vertex_face(points);
-            decide(points, corners, limits, span)
+            decide(points, corners, limits, span, rounds)
         }
         PairKind::EdgeEdge => {
             let corners = Corners::of_edge_edge(points);
-            decide(points, corners, limits, span)
+            decide(points, corners, limits, span, rounds)
         }
     }
 }
@@ -166,6 +223,7 @@ fn decide<S: Number, const N: usize>(
     corners: Corners<S, N>,
     limits: &Limits<S>,
     span: [S; 2],
+    rounds: u32,
 ) -> (Impact<S>, Work) {
     let mut work = Work::default();
     if !(points.is_finite() && limits.separation >= S::ZERO) {
@@ -190,6 +248,7 @@ fn decide<S: Number, const N: usize>(
         limits,
         separation,
         span,
+        rounds,
         work: &mut work,
     }
     .run();
@@ -205,6 +264,8 @@ struct Advance<'a, S, const N: usize> {
     separation: Option<S>,
     /// Up to when it is known to be apart, and when the time ends that is asked about.
     span: [S; 2],
+    /// How many rounds are allowed.
+    rounds: u32,
     work: &'a mut Work,
 }
 
@@ -234,13 +295,6 @@ impl<S: Number, const N: usize> Snapshot<S, N> {
         let extent = corners.extent.largest();
         self.closest.direction(&self.positions, extent)
     }
-
-    /// The direction, of unit length but for rounding.
-    #[inline(always)]
-    fn unit(&self, corners: &Corners<S, N>) -> Vector<S> {
-        let direction = self.direction(corners);
-        direction.scaled(S::ONE / direction.dot(direction).sqrt())
-    }
 }
 
 impl<S: Number, const N: usize> Advance<'_, S, N> {
@@ -251,18 +305,15 @@ impl<S: Number, const N: usize> Advance<'_, S, N> {
         let [from, end] = self.span;
         let mut now = Snapshot::new(self.corners, from);
         let possible = |now: &Snapshot<S, N>, reason| Impact::Possible { time: now.time, reason };
-        while self.work.rounds < ROUNDS {
+        while self.work.rounds < self.rounds {
             self.work.rounds += 1;
             if now.closest.squared_distance <= near_squared {
                 return possible(&now, Reason::WithinTolerance);
             }
-            let proven = self
-                .corners
-                .apart_along(&self.direction(now.direction(self.corners)), &now.positions, true);
-            if !(proven.is_apart && proven.until > now.time) {
-                return possible(&now, Reason::WithinError);
-            }
-            let mut until = proven.until;
+            let mut until = match self.apart_until(&now) {
+                Ok(until) => until,
+                Err(reason) => return possible(&now, reason),
+            };
             if until >= beyond(until) {
                 return Impact::Never;
             }
@@ -279,8 +330,8 @@ impl<S: Number, const N: usize> Advance<'_, S, N> {
             if until > end {
                 return Impact::Never;
             }
-            let mut next = Snapshot::new(self.corners, until);
-            if self.work.rounds > 3 && next.closest.squared_distance > near_squared {
+            let mut next = self.snapshot(until);
+            if self.work.rounds > EASY_ROUNDS && next.closest.squared_distance > near_squared {
                 self.turn_on(&now, &mut next);
                 if next.time >= S::ONE || next.time > end {
                     return Impact::Never;
@@ -288,7 +339,53 @@ impl<S: Number, const N: usize> Advance<'_, S, N> {
             }
             now = next;
         }
-        possible(&now, Reason::OutOfRounds)
+        possible(&now, Reason::LastResort)
+    }
+
+    /// The pair at `time`; where rounds are many, with a closest point that is accurate for thin hulls too.
+    #[inline(always)]
+    fn snapshot(&self, time: S) -> Snapshot<S, N> {
+        let mut snapshot = Snapshot::new(self.corners, time);
+        if self.work.rounds > EASY_ROUNDS {
+            snapshot.closest = closest_of_thin(&snapshot.positions);
+        }
+        snapshot
+    }
+
+    /// A later time until which a constant direction keeps the pair apart, or why there is none.
+    #[inline(always)]
+    fn apart_until(&self, now: &Snapshot<S, N>) -> Result<S, Reason> {
+        let w = now.direction(self.corners);
+        self.apart_along(w, now)
+            .map_or_else(|| self.apart_at_second_sight(w, now), Ok)
+    }
+
+    #[inline(always)]
+    fn apart_along(&self, w: Vector<S>, now: &Snapshot<S, N>) -> Option<S> {
+        let proven = self.corners.apart_along(&self.direction(w), &now.positions, true);
+        (proven.is_apart && proven.until > now.time).then_some(proven.until)
+    }
+
+    /// Where the direction of the closest point, `w`, proves nothing: either the sets are too close, or that point is wrong.
+    #[cold]
+    fn apart_at_second_sight(&self, w: Vector<S>, now: &Snapshot<S, N>) -> Result<S, Reason> {
+        if self.hides(&now.closest) {
+            return Err(Reason::WithinError);
+        }
+        self.apart_along(farthest(&now.positions, w), now).ok_or_else(|| {
+            let is_hidden = self.hides(&closest_of_thin(&now.positions));
+            if is_hidden { Reason::WithinError } else { Reason::LastResort }
+        })
+    }
+
+    /// Whether sets of which these are the closest points are no farther apart than the bound of [`Reason::WithinError`].
+    #[inline(always)]
+    fn hides(&self, closest: &Closest<S>) -> bool {
+        let (separation, extent) = (self.limits.separation, self.corners.extent);
+        let sizes = separation + ((extent.x + extent.y) + extent.z);
+        let error = S::small(128) * S::UNIT_ROUNDOFF * sizes + S::small(4) * S::LENGTH_UNDERFLOW;
+        let bound = separation + error;
+        closest.squared_distance <= bound * bound
     }
 
     #[inline(always)]
@@ -318,31 +415,69 @@ impl<S: Number, const N: usize> Advance<'_, S, N> {
 
     /// Moves on from `next`, to which one round has led from `now`, as far as a turning direction proves: nine tenths of the
     /// way to where the last round's approach predicts contact, or less, or not at all.
+    ///
+    /// Each reach that is tried is at most a quarter of the one before, and the last is no longer than a few rounds. Rounding may hide the
+    /// approach; so however far the first reach is, the last is tried.
     #[inline(never)]
     fn turn_on(&mut self, now: &Snapshot<S, N>, next: &mut Snapshot<S, N>) {
         let separation = self.limits.separation;
         let gap = |at: &Snapshot<S, N>| at.closest.squared_distance.sqrt() - separation;
         let (gap_now, gap_next) = (gap(now), gap(next));
         let step = next.time - now.time;
-        let mut goal = S::ONE;
+        let mut reach = S::ONE - next.time;
         if gap_next < gap_now {
             let contact = step * gap_next / (gap_now - gap_next);
-            goal = (next.time + contact * (S::small(9) / S::small(10))).smaller(S::ONE);
+            reach = (contact * (S::small(9) / S::small(10))).smaller(reach);
         }
-        let before = self.direction(next.unit(self.corners));
-        for widest in [32, 4, 4] {
+        let shortest = S::small(4) * step;
+        let mut shrinks = S::small(4);
+        let before = self.turning(next);
+        for turn in 0..TURNS {
+            let goal = (next.time + reach).smaller(S::ONE);
             if !(goal > next.time) {
                 return;
             }
             self.work.turns += 1;
-            let later = Snapshot::new(self.corners, goal);
-            let after = self.direction(later.unit(self.corners));
-            if are_apart_turning(&before, &next.positions, &after, &later.positions) {
+            let later = self.snapshot(goal);
+            if self.keeps_apart(&before, next, &later) {
                 *next = later;
                 return;
             }
-            let quarter = next.time + (goal - next.time) * (S::HALF * S::HALF);
-            goal = quarter.smaller(next.time + S::small(widest) * step);
+            if turn + 5 == TURNS {
+                shrinks = shrinks.larger((reach / shortest).sqrt().sqrt());
+            }
+            reach = reach / shrinks;
         }
+    }
+
+    /// The direction to turn from or to, of unit length but for rounding: the middle of those that keep the pair apart, unless the closest
+    /// point is inside the face or both edges, or it does not keep twice the separation.
+    #[inline(always)]
+    fn turning(&self, at: &Snapshot<S, N>) -> Direction<S> {
+        let middle = if at.closest.feature == Feature::Interior {
+            None
+        } else {
+            in_the_middle(&at.positions)
+        };
+        let keeps_twice = |direction: &Direction<S>| {
+            let twice = direction.bar + direction.bar;
+            at.positions.iter().all(|corner| direction.w.dot(*corner) > twice)
+        };
+        let middle = middle.map(|w| self.direction(w)).filter(keeps_twice);
+        middle.unwrap_or_else(|| self.direction(farthest(&at.positions, at.direction(self.corners))))
+    }
+
+    /// Whether a direction that turns from `before` to another proves that the pair is apart between two times.
+    #[inline(always)]
+    fn keeps_apart(&self, before: &Direction<S>, from: &Snapshot<S, N>, to: &Snapshot<S, N>) -> bool {
+        let after = self.turning(to);
+        let proves = |after| are_apart_turning(before, &from.positions, &after, &to.positions);
+        let balanced = |w| balanced(before.w, &from.positions, w, &to.positions);
+        if proves(after) || proves(self.direction(balanced(after.w))) {
+            return true;
+        }
+        let proves = |curve: [Vector<S>; 3]| are_apart_curving(&curve.map(|w| self.direction(w)), &from.positions, &to.positions);
+        to.closest.feature == Feature::Interior && along_face(&from.positions, &to.positions).is_some_and(proves)
+            || along_side([before.w, after.w], &from.positions, &to.positions, &to.closest).is_some_and(proves)
     }
 }

@@ -46,10 +46,11 @@ pub enum Impact<S> {
 pub enum Reason {
     /// At the returned time, the sets are within the tolerance of the separation.
     WithinTolerance,
-    /// The sets are so close that rounding errors hide whether they are apart.
+    /// The sets are so close at the time returned that rounding errors hide whether they are farther apart than the separation.
     WithinError,
-    /// The allowed number of rounds is used up.
-    OutOfRounds,
+    /// The allowed work is used up. Without a separation, the sets touch at the returned time or later, which whole numbers prove. With one,
+    /// they come within a bound that the documentation of the function states.
+    LastResort,
     /// Coordinates differ too much, or the separation is too large, to be sure that products do not overflow.
     OutOfRange,
     /// A coordinate is NaN or infinite (or their sum is), or the separation is NaN or negative.

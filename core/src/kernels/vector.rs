@@ -81,6 +81,14 @@ impl<L: Lanes> Vector<L> {
         self.x.larger(self.y).larger(self.z)
     }
 
+    /// Returns the vector without its part along `side`.
+    #[inline(always)]
+    #[must_use]
+    pub fn without(self, side: Self) -> Self {
+        let along = self.dot(side) / side.dot(side);
+        self - side.scaled(along)
+    }
+
     /// Returns each component times `factor`.
     #[inline(always)]
     #[must_use]

@@ -23,9 +23,15 @@ const SHORTEST: f64 = 1.0 / 1_073_741_824.0;
 /// Returns from when on a pair on these paths may be within the separation. Certified: no contact is earlier, rounding and the
 /// bend of the paths included, as long as each path's [deviation](super::Piece::deviation) is correct.
 ///
-/// `paths` are the points of one set, then those of the other, as in a [`PrimitivePair`]. With [`Reason::WithinTolerance`], the
-/// distance at that time is at most s + 3δ, but for [rounding](crate::elementary::advance#what-is-promised). Runs at most 4096
-/// straight tests.
+/// `paths` are the points of the one set, then those of the other, as in a [`PrimitivePair`]. Runs at most 4096 straight tests.
+///
+/// # No false alarm
+/// All distances are but for [what is rounded](crate::elementary::advance#what-is-promised).
+/// * [`Reason::WithinTolerance`]: at that time the distance is at most s + 3δ; s + δ + 2D where the paths deviate by D > δ in
+///   parts as short as 2⁻³⁰ of the step, as far from the origin.
+/// * [`Reason::LastResort`]: the pair comes within s + δ + 2D at some time, D being the largest deviation in parts of a 512th of the step. (Each
+///   test leads on by a part and doubles it, or halves it. Of 4096 tests some 2000 lead on, through one step, so that parts no longer than
+///   a 512th are halved; and there the pair did come so near.)
 ///
 /// ```
 /// use selvedge_core::{Motion, PairKind, glam::DVec3, elementary::{Impact, Limits}, paths::{Path, RigidMotion, time_of_impact}};
@@ -99,5 +105,5 @@ pub(super) fn between(kind: PairKind, paths: [&dyn Path; 4], limits: &Limits<f64
             }
         }
     }
-    possible(from, Reason::OutOfRounds)
+    possible(from, Reason::LastResort)
 }

@@ -1,7 +1,7 @@
 use super::pair::{self, Numbers};
 use selvedge::core::PrimitivePair;
 use selvedge::core::elementary::advance::certain_contact;
-use selvedge::core::elementary::advance::{ROUNDS, time_of_impact_and_work};
+use selvedge::core::elementary::advance::{ROUNDS, TURNS, time_of_impact_and_work};
 use selvedge::core::elementary::{Impact, Limits};
 use selvedge_verification::generator::{Format, PairCase};
 use selvedge_verification::oracle::{AlgebraicTime, collides};
@@ -39,7 +39,7 @@ fn check_pair<S: Format>(case: &PairCase<S>, pair: &PrimitivePair<S>, tolerance:
     };
     let (impact, work) = time_of_impact_and_work(pair, &limits);
     assert!(work.rounds <= ROUNDS && work.volume_steps <= 1 + 8 * work.rounds);
-    assert!(work.turns <= 3 * work.rounds);
+    assert!(work.turns <= TURNS * work.rounds);
     if !case.is_finite() {
         assert!(matches!(impact, Impact::Possible { .. }), "{case:?}");
         return;

@@ -115,3 +115,25 @@ pub(crate) fn all_sizes<S: Scalar>() -> Vec<PrimitivePair<S>> {
     };
     (0..COUNT).map(|_| pair()).collect()
 }
+
+/// A point of one set begins and ends its way within 2 to the power of −`exponent` of a corner of the other, along each axis; all other
+/// coordinates are eighths.
+pub(crate) fn sliding<S: Scalar>(kind: PairKind, exponent: i32) -> Vec<PrimitivePair<S>> {
+    let mut random = Random(5);
+    let (mover, corner) = match kind {
+        PairKind::VertexFace => (0, 1),
+        PairKind::EdgeEdge => (1, 3),
+    };
+    let distance = 0.5_f64.powi(exponent);
+    let mut pair = || {
+        let mut points = [(); 4].map(|()| [(); 2].map(|()| random.position(8.0).map(|x| x.round() / 8.0)));
+        for end in 0..2 {
+            points[mover][end] = plus(points[corner][end], random.position(distance));
+        }
+        PrimitivePair {
+            kind,
+            ..vertex_face(points)
+        }
+    };
+    (0..COUNT).map(|_| pair()).collect()
+}

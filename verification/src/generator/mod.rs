@@ -15,6 +15,7 @@ mod moment;
 mod numbers;
 mod pairs;
 mod screw;
+mod sliding;
 mod strategy;
 mod tube;
 
@@ -54,6 +55,11 @@ pub fn touching_pairs<S: Format>() -> impl Strategy<Value = Moment<S>> + Clone {
 /// Generates pairs of either kind that are coplanar at a known time.
 pub fn coplanar_pairs<S: Format>() -> impl Strategy<Value = Moment<S>> + Clone {
     from_choices(|choices| Moment::choose(any_kind(choices), Meeting::Coplanar, choices))
+}
+
+/// Generates pairs of either kind that slide: points of one set travel closely beside a corner, a side or the face of the other.
+pub fn sliding_pairs<S: Format>() -> impl Strategy<Value = PairCase<S>> + Clone {
+    from_choices(|choices| PairCase::choose_sliding(any_kind(choices), choices))
 }
 
 /// Generates vertices whose paths pass an edge of the face's box as closely as possible.

@@ -8,7 +8,8 @@ use selvedge_core::elementary::{Impact, Limits};
 use selvedge_core::glam::DVec3;
 use selvedge_core::paths::{Arc, Moment, Path, Piece, Polyline, RigidMotion, geometry, time_of_impact};
 use selvedge_core::{Motion, PairKind};
-use selvedge_verification::generator::{Choices, Screw, Simplify, check, from_choices};
+use selvedge_verification::generator::{Choices, PairCase, Screw, Simplify, check, from_choices, sliding_pairs};
+use selvedge_verification::oracle::within;
 use std::cell::Cell;
 use std::f64::consts::PI;
 
@@ -392,6 +393,28 @@ fn no_contact_of_bodies_in_screw_motion_is_missed() {
     check(1_500, turning(), |case| contacts_are_found(case, &count));
     let [all, late] = count.get();
     assert!(all > 2_000 && 10 * late > all, "{late} of {all}");
+}
+
+/// Polylines that are straight, but for the rounding of a knot: what is called a contact comes within three tolerances, and the rounding of
+/// knots and places, far less than 2⁻⁴⁰.
+fn comes_near_on_polylines(case: &PairCase<f64>) -> Result<(), TestCaseError> {
+    let knots = case.points.map(|ends| {
+        let [start, end] = ends.map(DVec3::from);
+        [start, (start + end) * 0.5, end]
+    });
+    let paths = knots
+        .each_ref()
+        .map(|knots| Polyline::new(&[0.0, 0.5, 1.0], knots).expect("knots"));
+    let limits = Limits::default();
+    let impact = time_of_impact(case.kind, paths.each_ref().map(|path| path as &dyn Path), &limits);
+    let bound = 3.0 * limits.tolerance + 0.5_f64.powi(40);
+    prop_assert!(impact == Impact::Never || within(&case.question(), bound), "{impact:?}");
+    Ok(())
+}
+
+#[test]
+fn what_slides_on_polylines_and_is_called_a_contact_comes_near() {
+    check(2000, sliding_pairs::<f64>(), comes_near_on_polylines);
 }
 
 /// The case of parry's issue 317: a plank that spins fast hits a box beside it. The plank is clear of the box when the step

@@ -9,7 +9,7 @@ use selvedge_core::PairKind;
 use selvedge_core::elementary::advance::time_of_impact_of_points;
 use selvedge_core::elementary::{Impact, Limits};
 use selvedge_core::verification::advance::corners::Corners;
-use selvedge_core::verification::advance::directions::are_apart_turning;
+use selvedge_core::verification::advance::directions::{are_apart_curving, are_apart_turning};
 use selvedge_core::verification::advance::round::{RoundInput, round};
 use selvedge_core::verification::advance::volume::SignedVolume;
 use selvedge_core::verification::lanes::Rounding;
@@ -228,6 +228,47 @@ fn random_turning_directions_with_9_bits() {
         random_turning_directions::<DOWNWARD>(),
         random_turning_directions::<UPWARD>(),
         random_turning_directions::<{ TOWARDS_ZERO | FLUSHING }>(),
+    ] {
+        assert!(proven > 20, "{proven}");
+    }
+}
+
+/// A direction on a curve, whose control points are those of the corners' middles at three times, checked at seventeen times.
+fn random_curving_directions<const ENVIRONMENT: u32>() -> u64 {
+    let mut random = Random(u64::from(ENVIRONMENT));
+    let times: [Number<8, ENVIRONMENT>; 3] = numbers([0.125, 0.437_5, 0.75]);
+    let mut proven = 0;
+    for _ in 0..20_000 {
+        let points = pair_points(&random_points::<8, ENVIRONMENT>(&mut random));
+        let corners = Corners::of_edge_edge(&points);
+        let [from, middle, to] = times.map(|time| corners.at(time));
+        let curve = [from, middle, to].map(|[a, b, c, d]| (a + b) + (c + d));
+        let [before, middle, after] = curve;
+        let curve = [before, middle + middle, after].map(|w| corners.direction(w, None));
+        if !are_apart_curving(&curve, &from, &to) {
+            continue;
+        }
+        proven += 1;
+        let [before, doubled, after] = curve.map(|direction| units(direction.w));
+        for corner in exact_corners(PairKind::EdgeEdge, &points) {
+            for step in 0..=16 {
+                // The time in 128ths: from 1/8 to 3/4 is five eighths of 16 times 8.
+                let (time, rest) = (16 + 5 * step, 16 - step);
+                let w = std::array::from_fn(|k| before[k] * rest * rest + doubled[k] * rest * step + after[k] * step * step);
+                assert!(exact_product(w, corner, time, 128) > 0, "{points:?} {step}");
+            }
+        }
+    }
+    proven
+}
+
+#[test]
+fn random_curving_directions_with_9_bits() {
+    for proven in [
+        random_curving_directions::<TO_NEAREST>(),
+        random_curving_directions::<DOWNWARD>(),
+        random_curving_directions::<UPWARD>(),
+        random_curving_directions::<{ TOWARDS_ZERO | FLUSHING }>(),
     ] {
         assert!(proven > 20, "{proven}");
     }

@@ -4,7 +4,7 @@
 use selvedge_core::Scalar;
 use selvedge_core::verification::advance::confirm::{contains_origin, doubled_bounds};
 use selvedge_core::verification::advance::corners::Corners;
-use selvedge_core::verification::advance::directions::are_apart_turning;
+use selvedge_core::verification::advance::directions::{are_apart_curving, are_apart_turning};
 use selvedge_core::verification::advance::volume::SignedVolume;
 use selvedge_core::verification::lanes::Rounding;
 use selvedge_core::verification::points::PairPoints;
@@ -280,6 +280,22 @@ fn roundings_of_a_direction_are_as_many_as_the_script_says() {
     for corner in turning.comparisons[1..].chunks(3) {
         let &[_, _, [value, bar]] = corner else { panic!("{corner:?}") };
         assert_eq!(counted(&turning, value, bar, 1), advance_counts_in("corners.g", "turning"));
+    }
+
+    let (_, mut curving) = trace(|| {
+        let corners = edge_edge_corners();
+        let curve = ["u", "v", "w"].map(|name| corners.direction(vector(name), None));
+        let [from, to] = ["s", "t"].map(|name| corners.at(Traced::input(name)));
+        are_apart_curving(&curve, &from, &to)
+    });
+    curving.begin_with_differences();
+    for corner in curving.comparisons[1..].chunks(4) {
+        let &[_, _, first, second] = corner else {
+            panic!("{corner:?}")
+        };
+        for [value, bar] in [first, second] {
+            assert_eq!(counted(&curving, value, bar, 1), advance_counts_in("corners.g", "curving"));
+        }
     }
 }
 

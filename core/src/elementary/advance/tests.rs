@@ -85,6 +85,43 @@ fn points_that_slide_past_each_other_need_few_rounds() {
     assert!(work.rounds < ROUNDS / 2, "{work:?}");
 }
 
+/// An end of one edge travels at a distance of about `near` beside an end of the other.
+fn ends_that_slide(near: f64) -> PrimitivePair<f64> {
+    let at = DVec3::new;
+    PrimitivePair::edge_edge(
+        [
+            Motion::new(at(-0.75, -0.375, -1.0), at(1.0, -0.75, 0.75)),
+            Motion::new(at(0.0, 0.625, -0.625 - near), at(0.625 + near, 0.375, -0.125)),
+        ],
+        [
+            Motion::new(at(0.625, 0.5, -0.5), at(0.0, -0.25, 0.5)),
+            Motion::new(at(0.0, 0.625, -0.625), at(0.625, 0.375, -0.125)),
+        ],
+    )
+}
+
+#[test]
+fn ends_that_slide_past_each_other_are_apart_however_near() {
+    for exponent in [10, 13, 20, 26] {
+        let (impact, work) = time_of_impact_and_work(&ends_that_slide(0.5_f64.powi(exponent)), &limits(0.0));
+        assert_eq!(impact, Impact::Never, "{exponent}");
+        assert!(work.rounds <= 20, "{exponent}: {work:?}");
+    }
+}
+
+/// Both ends: the edges lie along one another, and turn by a right angle.
+#[test]
+fn edges_that_lie_along_one_another_are_apart_however_near() {
+    for exponent in [10, 17, 24, 28] {
+        let above = DVec3::new(0.0, 0.0, 0.5_f64.powi(exponent));
+        let along = [-DVec3::X, DVec3::X].map(|end| Motion::new(end, DVec3::new(0.0, end.x, 0.0)));
+        let other = along.map(|end| Motion::new(1.5 * end.start + above, 0.75 * end.end + 2.0 * above));
+        let (impact, work) = time_of_impact_and_work(&PrimitivePair::edge_edge(along, other), &limits(0.0));
+        assert_eq!(impact, Impact::Never, "{exponent}");
+        assert!(work.rounds <= 20, "{exponent}: {work:?}");
+    }
+}
+
 #[test]
 fn bad_input_excludes_nothing_and_says_why() {
     let nothing = |reason| Impact::Possible { time: 0.0, reason };

@@ -55,10 +55,7 @@ impl<S: Number> Closest<S> {
 
     #[cold]
     fn upright(&self, a: Vector<S>, b: Vector<S>, c: Vector<S>) -> Vector<S> {
-        let perpendicular_to = |side: Vector<S>| {
-            let along = self.point.dot(side) / side.dot(side);
-            self.point - side.scaled(along)
-        };
+        let perpendicular_to = |side| self.point.without(side);
         match self.feature {
             Feature::Corner => self.point,
             Feature::SideAb => perpendicular_to(b - a),
@@ -180,6 +177,61 @@ fn in_parallelogram<S: Number>(a: Vector<S>, b: Vector<S>, c: Vector<S>) -> Clos
     place(s, t, feature(s_is_end, true))
 }
 
+/// [`closest`], as accurate for a hull that is nearly a line: the nearest of the closest points of all sides and of the inside, whose height
+/// above the longest side is computed for itself.
+#[cold]
+pub(crate) fn closest_of_thin<S: Number, const N: usize>(corners: &[Vector<S>; N]) -> Closest<S> {
+    let &[a, b, c, ref rest @ ..] = corners.as_slice() else {
+        return closest(corners);
+    };
+    let (zero, one) = (S::ZERO, S::ONE);
+    let (sides, is_triangle) = match *rest {
+        [d] => (
+            [
+                (a, b, Feature::SideAb),
+                (a, c, Feature::SideAc),
+                (b, d, Feature::SideAc),
+                (c, d, Feature::SideAb),
+            ],
+            false,
+        ),
+        _ => (
+            [
+                (a, b, Feature::SideAb),
+                (a, c, Feature::SideAc),
+                (b, c, Feature::SideBc),
+                (b, c, Feature::SideBc),
+            ],
+            true,
+        ),
+    };
+    let mut best = at(a, Feature::Corner);
+    let mut consider = |found: Closest<S>| {
+        if found.squared_distance < best.squared_distance {
+            best = found;
+        }
+    };
+    for (from, to, feature) in sides {
+        let side = to - from;
+        let weight = -(from.dot(side) / side.dot(side));
+        consider(at(to, Feature::Corner));
+        if weight > zero && weight < one {
+            consider(at(from + side.scaled(weight), feature));
+        }
+    }
+    let (ab, ac) = (b - a, c - a);
+    let (long, short) = if ab.dot(ab) < ac.dot(ac) { (ac, ab) } else { (ab, ac) };
+    let [height, rise] = [short, a].map(|v| v.without(long).without(long));
+    let across = -(rise.dot(height) / height.dot(height));
+    let foot = a + short.scaled(across);
+    let along = -(foot.dot(long) / long.dot(long));
+    let most = if is_triangle { one - across } else { one };
+    if across > zero && across < one && along > zero && along < most {
+        consider(at(foot + long.scaled(along), Feature::Interior));
+    }
+    best
+}
+
 /// The closest point of a hull in each lane, without branches: any of them if there are not three or four corners. Not a number for
 /// some degenerate pairs.
 #[inline(always)]
@@ -260,4 +312,28 @@ fn in_parallelogram_by_selects<L: Lanes>(a: Vector<L>, b: Vector<L>, c: Vector<L
     let t = clamped!(across * s + along_second, second_squared);
     let s = clamped!(across * t - along_first, first_squared);
     (a + first.scaled(s)) - second.scaled(t)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Feature, closest_of_thin};
+    use crate::vector::Vector;
+
+    /// Corners on either side of the origin along x, 2⁻²⁸ high there, and 2⁻³⁴ above it.
+    #[test]
+    fn the_closest_point_of_a_thin_hull_is_found_to_the_last_digits() {
+        let [thin, above] = [28, 34].map(|exponent| 0.5_f64.powi(exponent));
+        let corner = |x: f64, y: f64| Vector::new(x, y, above);
+        let triangle = closest_of_thin(&[corner(-1.0, -thin), corner(0.75, -thin), corner(0.5, 2.0 * thin)]);
+        let parallelogram = closest_of_thin(&[
+            corner(-1.0, -thin),
+            corner(0.75, -thin),
+            corner(-0.5, 2.0 * thin),
+            corner(1.25, 2.0 * thin),
+        ]);
+        for found in [triangle, parallelogram] {
+            assert_eq!(found.feature, Feature::Interior);
+            assert!((found.squared_distance.sqrt() - above).abs() < 1e-15, "{found:?}");
+        }
+    }
 }

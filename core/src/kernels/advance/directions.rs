@@ -138,6 +138,34 @@ pub fn are_apart_turning<L: Lanes, const N: usize>(
     are_apart
 }
 
+/// Whether a direction that moves on a quadratic curve keeps the pair apart throughout, as [`are_apart_turning`] for a straight line. Its
+/// control points are the first of `curve`, half of the second, and the third.
+///
+/// Each product is cubic, with the Bernstein coefficients w₀·e₀, ⅓(w₀·e₁ + m·e₀), ⅓(m·e₁ + w₁·e₀) and w₁·e₁, m the second of `curve`; s·|w|
+/// lies below the quadratic curve with the control values s·|w₀|, ½s·|m| and s·|w₁|, whose cubic coefficients in the middle are a third of
+/// s·|w₀| + s·|m| and of s·|m| + s·|w₁|. So the sums of two products are to exceed the sums of two bars.
+#[inline(always)]
+#[must_use]
+pub fn are_apart_curving<L: Lanes, const N: usize>(
+    curve: &[Direction<L>; 3],
+    from: &[Vector<L>; N],
+    to: &[Vector<L>; N],
+) -> L::Mask {
+    let [before, middle, after] = curve;
+    let (first_bar, second_bar) = (before.bar + middle.bar, middle.bar + after.bar);
+    let mut are_apart = everywhere(first_bar);
+    for (from, to) in from.iter().zip(to) {
+        are_apart = are_apart & before.w.dot(*from).greater(before.bar);
+        are_apart = are_apart & after.w.dot(*to).greater(after.bar);
+        are_apart = are_apart & (before.w.dot(*to) + middle.w.dot(*from)).greater(first_bar);
+        are_apart = are_apart & (middle.w.dot(*to) + after.w.dot(*from)).greater(second_bar);
+        if L::may_leave(are_apart) {
+            break;
+        }
+    }
+    are_apart
+}
+
 /// The length of `w`, or more, but for 8 roundings: the sum of its components' magnitudes where their squares may underflow.
 #[inline(always)]
 fn length_above<L: Lanes>(w: Vector<L>) -> L {

@@ -6,15 +6,17 @@ pub mod corners;
 pub mod directions;
 #[cfg(feature = "batch")]
 pub mod round;
+pub(crate) mod turning;
 pub mod volume;
 
 /// How much was done for one answer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work {
-    /// Rounds of advancing: at most [`ROUNDS`](crate::elementary::advance::ROUNDS). Zero where relative boxes or the volume decide.
+    /// Rounds of advancing: at most [`ROUNDS`](crate::elementary::advance::ROUNDS), or
+    /// [`ROUNDS_WITH_SEPARATION`](crate::elementary::advance::ROUNDS_WITH_SEPARATION). Zero where relative boxes or the volume decide.
     pub rounds: u32,
     /// Steps of clipping the signed volume: at most 1 before the first round, and 8 in each.
     pub volume_steps: u32,
-    /// Attempts with a turning direction: at most 3 in each round.
+    /// Attempts with a turning direction: at most [`TURNS`](crate::elementary::advance::TURNS) in each round.
     pub turns: u32,
 }

@@ -71,8 +71,9 @@ use std::sync::Arc;
 ///
 /// # Guarantees
 /// * **No contact is missed**, and no time is later than the exact one, rounding included, in every floating-point environment
-///   ([`selvedge_core`](crate::core)). Pairs that come within the tolerance of the separation, or too close for rounding to separate, may count as
-///   contacts.
+///   ([`selvedge_core`](crate::core)). A pair that comes within the tolerance of the separation may count as a contact. So may a pair that comes
+///   within 2⁻⁴⁵ of its size of the separation, which rounding hides, and one with coordinates that differ by more than 2²⁵⁰. No pair that stays
+///   farther apart is a contact ([reason by reason](selvedge_core::elementary::advance#what-is-promised)).
 /// * Positions in `f32` give contacts that are as sharp as those of the same positions in `f64`: pairs that `f32` leaves open are decided in `f64`. Times
 ///   are rounded down. Positions in `f64` that are all `f32` numbers take as little time as `f32`.
 /// * The contacts, their times and their order are the same on any number of threads and every instruction set. The order depends on the hierarchies,
@@ -215,8 +216,8 @@ impl<S: Scalar> CollisionDetector<S> {
     ///   ([bounded there](selvedge_core::elementary::advance#what-is-promised)). If the pair approaches at a speed of v lengths per step and comes within
     ///   s, the exact time is about δ/v later. A near miss, a pair that comes within s + δ and turns back, may also count. The exact first contact is
     ///   then that of another pair, or there is none. A near miss at more than s + δ never counts.
-    /// * **Exception.** A pair within some 2⁻⁴⁸ of the size of its differences is too close for rounding to separate. It is reported as soon as contact
-    ///   cannot be ruled out, even if it never happens. For such pairs the result may be a pair that [`contacts`](Self::contacts) does not
+    /// * **Exception.** Rounding hides whether a pair within 2⁻⁴⁵ of the size of its differences touches. It is reported from the time at which it comes
+    ///   so near, even if it never touches. For such pairs the result may be a pair that [`contacts`](Self::contacts) does not
     ///   have, or another time.
     ///
     /// So the result does not prove contact. [`elementary::contact`](selvedge_core::elementary::contact()) decides exactly whether a pair touches.

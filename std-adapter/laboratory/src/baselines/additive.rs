@@ -77,7 +77,7 @@ fn advance<S: Scalar, const N: usize>(
             return possible(time, Reason::WithinError);
         }
     }
-    possible(time, Reason::OutOfRounds)
+    possible(time, Reason::LastResort)
 }
 
 /// The sum of the largest speeds of a point of each set, without their mean motion.

@@ -98,7 +98,7 @@ fn search<S: Scalar, P: PairShape>(points: &PairPoints<S>, limits: &Limits<S>) -
             // This cell and every other open one may hold contact.
             let times = open.iter().map(|cell| cell.low[0]);
             let first = times.fold(time, |first, time| time.smaller(first));
-            return possible(first, Reason::OutOfRounds);
+            return possible(first, Reason::LastResort);
         }
         checks += 1;
         let [low, high] = image_of::<S, P>(points, &cell);

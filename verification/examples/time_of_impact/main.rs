@@ -1,0 +1,66 @@
+//! Whether the certified time of impact keeps its promises on many random pairs, and what pairs that slide cost.
+//!
+//! `cargo run --release -p selvedge-verification --example time_of_impact -- alarms COUNT [SEED]`
+//! `cargo run --release -p selvedge-verification --example time_of_impact -- sliding COUNT PLOT.svg`
+//!
+//! `alarms` makes COUNT pairs that slide, and as many that the tests' generator makes, in each format. It demands that every contact comes as
+//! near as the documentation says, and that no pair that is called apart touches. Exit status 1 if one breaks a promise.
+//!
+//! `sliding` measures COUNT pairs of each kind at each of several distances. It prints a table and draws a plot.
+
+mod alarms;
+mod sliding;
+
+use std::path::Path;
+use std::process::ExitCode;
+
+const USAGE: &str = "usage: time_of_impact alarms COUNT [SEED] | sliding COUNT PLOT.svg";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let number = |text: &str| text.parse::<u64>().ok();
+    let broken = match *arguments {
+        ["alarms", count] => number(count).map(|count| alarms::alarms(count, 1)),
+        ["alarms", count, seed] => number(count)
+            .zip(number(seed))
+            .map(|(count, seed)| alarms::alarms(count, seed)),
+        ["sliding", count, plot] => number(count).map(|count| match sliding::sliding(count, Path::new(plot)) {
+            Ok(()) => 0,
+            Err(error) => {
+                eprintln!("{plot}: {error}");
+                1
+            }
+        }),
+        _ => None,
+    };
+    match broken {
+        Some(0) => ExitCode::SUCCESS,
+        Some(_) => ExitCode::FAILURE,
+        None => {
+            eprintln!("{USAGE}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Marsaglia's xorshift: numbers that look random, the same each time.
+struct Random(u64);
+
+impl Random {
+    const fn new(seed: u64, stream: u64) -> Self {
+        // Not zero, which the generator would never leave.
+        Self((seed ^ stream << 40).wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
+    }
+
+    fn bytes<const N: usize>(&mut self) -> [u8; N] {
+        let mut bytes = [0; N];
+        for four in bytes.chunks_mut(4) {
+            self.0 ^= self.0 << 13;
+            self.0 ^= self.0 >> 7;
+            self.0 ^= self.0 << 17;
+            four.copy_from_slice(&((self.0 >> 32) as u32).to_le_bytes()[..four.len()]);
+        }
+        bytes
+    }
+}
