@@ -1,11 +1,11 @@
-//! What a world costs beyond what moves in it: a cloth alone, and the same cloth beside many meshes that rest; steps before and after a large mesh
-//! is inserted.
+//! Measures the cost of a world beyond that of its moving meshes: a cloth alone, the same cloth beside many resting meshes, and steps before and after
+//! a large mesh is inserted.
 //!
 //! ```sh
 //! cargo bench -p selvedge --bench world
 //! ```
 //!
-//! All worlds of a table take their steps in turn; of each the least time counts.
+//! All worlds of a table take their steps in turn; the shortest time of each counts.
 
 use selvedge::glam::Vec3;
 use selvedge::{CollisionDetector, Groups, MeshHandle, MeshMotion, Topology, World};

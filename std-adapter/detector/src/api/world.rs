@@ -15,7 +15,7 @@ use selvedge_core::glam::{DQuat, DVec3};
 use selvedge_core::narrowing::widened;
 use std::sync::Arc;
 
-/// How a mesh moves in a step.
+/// The motion of a mesh in a step.
 #[derive(Clone, Copy, Debug)]
 pub enum MeshMotion<'a, P> {
     /// Each vertex moves straight, at constant velocity: cloth and soft bodies. Such a mesh can also meet itself.

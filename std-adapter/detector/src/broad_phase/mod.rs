@@ -70,7 +70,7 @@ use std::sync::Arc;
 /// Counts of a [`MovingBroadPhase`]. They do not depend on the number of threads.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MovingStatistics {
-    /// How often the hierarchies were built, the first time included.
+    /// Builds of the hierarchies, including the first one.
     pub builds: usize,
     /// Tests of the last traversal, each of one box against sixteen.
     pub box_tests: u64,
@@ -210,7 +210,7 @@ impl MovingBroadPhase {
             tests += pairing.find_tasks(&mut self.stack, tasks);
             settle(tasks);
         }
-        // So many that a slow one does not keep the others waiting.
+        // With many shares, a slow one does not keep the other threads waiting.
         let shares = match parallel::threads() {
             1 => 1,
             threads => SHARES * threads,

@@ -139,8 +139,8 @@ impl<I: Interest> NearPairs<I> {
         &self.strayed
     }
 
-    /// Forgets all earlier steps, as if there had been none, and finds the pairs for a motion that begins with the step from `start` to `end`, which takes
-    /// a time of `h`.
+    /// Forgets all earlier steps, as if there had been none. Then finds the pairs for a motion that begins with the step from `start` to `end`, which
+    /// takes a time of `h`.
     ///
     /// # Panics
     /// As [`cover`](Self::cover).

@@ -20,7 +20,7 @@ pub(super) struct StageCounts {
 #[derive(Debug, Default)]
 pub(super) struct Findings {
     pub(super) contacts: Vec<Contact<f64>>,
-    /// Where the contacts of the present source begin.
+    /// The first contact of the present source.
     pub(super) first: usize,
     /// The pairs that the filter keeps, as the mesh numbers them, if the caller wants them: VF, EE.
     pub(super) kept: [Vec<[u32; 2]>; 2],

@@ -61,7 +61,7 @@ pub(super) struct Worker {
 #[derive(Clone, Copy, Debug)]
 struct Visit {
     source: usize,
-    /// Where its contacts end.
+    /// The end of its contacts.
     end: usize,
     tests: u64,
     candidates: u64,
@@ -307,7 +307,7 @@ impl Sink for Count {
 /// About how many tasks an estimate looks at.
 const SAMPLES: usize = 32;
 
-/// Shares for each thread: so many that a slow one does not keep the others waiting.
+/// Shares for each thread. With many shares, a slow one does not keep the other threads waiting.
 const SHARES: usize = 16;
 
 /// Returns into how many shares work is split on the present threads.
@@ -337,11 +337,11 @@ pub(super) fn spaces_for_threads(spaces: &mut Vec<Mutex<Space>>) -> &[Mutex<Spac
 /// Returns the space of the calling thread. No other thread uses it: a thread has one share at a time.
 pub(super) fn own_space(spaces: &[Mutex<Space>]) -> MutexGuard<'_, Space> {
     let space = &spaces[parallel::own_index() % spaces.len()];
-    // What a panic leaves behind is cleared before use.
+    // Buffers that a panic leaves are cleared before use.
     space.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Rounds no time up: a contact in the format of the positions.
+/// Returns a contact in the format of the positions, with its time rounded down.
 pub(crate) fn in_format_of_positions<S: selvedge_core::Scalar>(contact: &Contact<f64>) -> Contact<S> {
     let &Contact { kind, pair, time } = contact;
     Contact {

@@ -41,7 +41,7 @@ use selvedge_core::batch::{Mask, VertexRow};
 use selvedge_core::elementary::Limits;
 use selvedge_core::separation::hinge::is_wide_open;
 
-/// Where a traversal looks for pairs at rest.
+/// The tasks of traversals for pairs at rest.
 #[derive(Debug, Default)]
 pub(super) struct RestTasks {
     faces_and_edges: Vec<BlockPair>,
@@ -89,7 +89,7 @@ impl MeshEngine {
                 numbers: Numbers::FacesAndEdges(hierarchies),
                 rows: self.rows.slices(),
                 question: Question {
-                    // How near the sweeps come before the exact verdict. Changes no answer.
+                    // The sweeps stop this near to contact, and the exact verdict decides. The limits change no result.
                     limits: Limits::default(),
                     wanted,
                     keeps_filtered: false,

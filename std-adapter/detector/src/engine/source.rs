@@ -1,4 +1,4 @@
-//! Where candidates come from.
+//! Sources of candidates.
 
 use super::chunk::Numbers;
 use super::given::PrimitiveBoxes;

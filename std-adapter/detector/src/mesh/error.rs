@@ -12,7 +12,7 @@ pub enum TopologyError {
         triangle: usize,
         /// The vertex that it names.
         vertex: u32,
-        /// How many vertices there are.
+        /// The number of vertices.
         vertex_count: usize,
     },
     /// A loose edge, or a point, names a vertex that does not exist.
@@ -23,16 +23,16 @@ pub enum TopologyError {
         is_point: bool,
         /// The vertex that it names.
         vertex: u32,
-        /// How many vertices there are.
+        /// The number of vertices.
         vertex_count: usize,
     },
     /// There are no triangles, and no loose edges or points.
     NoTriangles,
     /// Vertices, or the corners of all triangles, are too many to be numbered by a `u32`.
     TooLarge {
-        /// How many vertices there are.
+        /// The number of vertices.
         vertex_count: usize,
-        /// How many triangles there are.
+        /// The number of triangles.
         triangle_count: usize,
     },
 }

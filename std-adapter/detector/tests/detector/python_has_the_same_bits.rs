@@ -24,7 +24,7 @@ fn faces() -> Vec<[u32; 3]> {
     faces
 }
 
-/// Where a vertex is at a frame: whole numbers of 2⁻¹⁶, from a multiplicative congruence, so that every language has the same.
+/// Returns the position of a vertex in a frame: whole numbers of 2⁻¹⁶, from a multiplicative congruence, so that every language has the same.
 fn frame(number: u32) -> Vec<[f64; 3]> {
     let mut state = number + 1;
     let mut shift = |range: u32| {

@@ -62,9 +62,9 @@ impl Fit {
 enum Scope {
     /// Vertices that move; resting ones once.
     Moving,
-    /// All vertices. What is found does not depend on earlier updates.
+    /// All vertices. The candidates do not depend on earlier updates.
     All,
-    /// Vertices that move, the only ones that changed since the last update. What is found fits what was found then.
+    /// Vertices that move, the only ones that changed since the last update. The candidates complement those found then.
     Narrowed,
 }
 
