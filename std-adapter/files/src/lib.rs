@@ -2,13 +2,15 @@
 //!
 //! | module | what it is |
 //! |---|---|
-//! | [`mesh`] | **start here**: OBJ and PLY files, one mesh, both frames of a step, or numbered frames |
-//! | [`animation`] | skinned and morphing figures of glTF files; reading them needs the feature `gltf` |
+//! | [`mesh`] | **start here**: OBJ, PLY, STL, OFF and glTF files: one mesh, both frames of a step, or numbered frames |
+//! | [`animation`] | skinned and morphing figures of glTF files; reading glTF needs the feature `gltf` |
+//!
+//! A file is read whole, or the report about it lists what was left out: see [`mesh::MeshNotes`].
 
 #![forbid(unsafe_code)]
 
 pub mod animation;
-// What the project's other crates use besides; nothing is promised of it.
+// For the project's other crates; these modules may change at any time.
 #[doc(hidden)]
 pub mod bytes;
 #[doc(hidden)]
@@ -16,3 +18,8 @@ pub mod excerpt;
 pub mod mesh;
 #[doc(hidden)]
 pub mod temporary_file;
+
+/// The readme's examples are tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

@@ -21,7 +21,7 @@ macro_rules! quantities {
 
 quantities! {
     RATIO = "a plain number" ["" 1.0];
-    LENGTH = "a length" ["m" 1.0, "mm" 1e-3, "cm" 1e-2];
+    LENGTH = "a length" ["m" 1.0, "mm" 1e-3, "cm" 1e-2, "um" 1e-6];
     TIME = "a time" ["s" 1.0, "ms" 1e-3, "us" 1e-6];
     CURVATURE = "a curvature" ["1/m" 1.0, "1/cm" 1e2, "1/mm" 1e3];
     ANGLE = "an angle" ["rad" 1.0, "deg" DEGREE];
@@ -120,7 +120,7 @@ mod tests {
     #[test]
     fn values_are_written_in_the_unit_that_fits() {
         let lengths = [3e-3, 0.1 * 3e-3, 0.5, 1e-6].map(|value| LENGTH.written_short(value));
-        assert_eq!(lengths, ["3 mm", "0.3 mm", "0.5 m", "0.001 mm"]);
+        assert_eq!(lengths, ["3 mm", "0.3 mm", "0.5 m", "1 um"]);
         let times = [1e-3, 2.5e-5].map(|value| TIME.written_short(value));
         assert_eq!(times, ["1 ms", "25 us"]);
         assert_eq!(RATIO.written_short(1.0 / 3.0), "0.333333");

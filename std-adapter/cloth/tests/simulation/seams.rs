@@ -220,7 +220,7 @@ fn mistakes_with_seams_in_a_file_are_told_with_their_place() {
         part = "left" => vertices = [3, 176]
             s.toml:21:43: `vertices` is 176, but must be from 0 to 175
         gap = "4 mm" => gap = "4 N"
-            s.toml:24:7: `gap` must be a length, but 'N' is not a unit of it; choose from m, mm, cm
+            s.toml:24:7: `gap` must be a length, but 'N' is not a unit of it; choose from m, mm, cm, um
         reversed = true => reversed = 1
             s.toml:23:12: `reversed` must be true or false, but is of type integer
         closing => close

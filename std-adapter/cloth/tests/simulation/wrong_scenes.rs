@@ -79,7 +79,7 @@ fn twenty_mistakes_get_twenty_messages_that_say_what_to_do() {
         duration = "1 s"\n =>
             s.toml:1:1: a scene needs `duration`, such as 0.5 (in s) or "5 ms"
         "3 mm" => "3 kg"
-            s.toml:25:13: `thickness` must be a length, but 'kg' is not a unit of it; choose from m, mm, cm
+            s.toml:25:13: `thickness` must be a length, but 'kg' is not a unit of it; choose from m, mm, cm, um
         "3 mm" => "thin"
             s.toml:25:13: `thickness` must be a length, such as 0.5 (in m) or "5 mm", not 'thin'
         "3 mm" => 3

@@ -9,7 +9,7 @@ use std::fmt;
 /// Properties of a mesh that often come from its export, and stand in the way of a simulation. None of them is an intersection.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Findings {
-    /// Vertices in the same place as an earlier one, with that one: seams that an exporter has split. Welding merges them.
+    /// Used vertices in the same place as an earlier used one, with that one: seams that an exporter has split. Welding merges them.
     pub coincident_vertices: Vec<[u32; 2]>,
     /// Triangles with the same vertices as an earlier one.
     pub duplicate_triangles: usize,
@@ -42,8 +42,12 @@ impl Findings {
             non_manifold_edges,
             ..
         } = topology.statistics();
+        let mut is_used = vec![false; positions.len()];
+        let named = topology.triangles().iter().flatten();
+        named.for_each(|&vertex| is_used[vertex as usize] = true);
         let first = first_coincident(positions, 0.0);
         let coincident = (0_u32..).zip(&first).filter(|&(vertex, &first)| vertex != first);
+        let coincident = coincident.filter(|&(vertex, &first)| is_used[vertex as usize] && is_used[first as usize]);
         let mut findings = Self {
             coincident_vertices: coincident.map(|(vertex, &first)| [vertex, first]).collect(),
             duplicate_triangles,
