@@ -410,7 +410,7 @@ mod tests {
     }
 
     proptest! {
-        /// Ratios of all sizes are tested against exact arithmetic by the fuzz target `query_csv`.
+        /// `tests/methods/queries_are_read_to_the_nearest.rs` compares ratios of all sizes with another exact arithmetic.
         #[test]
         fn every_double_comes_back_from_its_own_ratio(bits in any::<u64>(), scale in 1..u64::MAX) {
             let value = f64::from_bits(bits);

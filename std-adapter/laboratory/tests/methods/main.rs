@@ -9,3 +9,4 @@ mod culling_tests_never_cull_what_touches;
 mod exact_answers_enclose_the_first_time;
 mod hard_cases_have_exact_answers;
 mod pipeline_distributes_each_pair_once;
+mod queries_are_read_to_the_nearest;
