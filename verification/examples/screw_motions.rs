@@ -11,7 +11,7 @@
 mod campaign;
 
 use campaign::Options;
-use selvedge_verification::campaign::screw_motions::{Progress, Ways, run};
+use selvedge_verification::campaign::screw_motions::{MotionPaths, Progress, run};
 use std::process::ExitCode;
 
 const USAGE: &str = "usage: screw_motions [CASES] [--seed N] [--shard I/N] [--state FILE] [--threads N]";
@@ -24,7 +24,7 @@ fn main() -> ExitCode {
     };
     campaign::exit(
         &options,
-        |seed| Progress::new(seed, options.pairs, CASES_PER_CHUNK, Ways::Arcs),
-        |progress, after_chunk| run(progress, Ways::Arcs, options.threads, after_chunk, || false),
+        |seed| Progress::new(seed, options.pairs, CASES_PER_CHUNK, MotionPaths::Arcs),
+        |progress, after_chunk| run(progress, MotionPaths::Arcs, options.threads, after_chunk, || false),
     )
 }

@@ -57,7 +57,7 @@ fn in_order((kind, mut pair): PrimitivePair) -> PrimitivePair {
     (kind, pair)
 }
 
-/// What the detector finds in a step.
+/// The detector's results for a step.
 #[derive(Debug, PartialEq)]
 struct Step<S: Scalar> {
     candidates: Vec<PrimitivePair>,

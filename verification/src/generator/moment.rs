@@ -8,7 +8,7 @@ use selvedge_core::PairKind;
 use std::fmt;
 use std::marker::PhantomData;
 
-/// What holds at the chosen time.
+/// The property of the points at the chosen time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Meeting {
     /// The vertex is in the face, or the edges have a point in common, often at a corner or an end.

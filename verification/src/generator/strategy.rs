@@ -50,7 +50,7 @@ pub struct Simplification<T> {
     /// The case before the last attempt, until it is known whether the attempt fails the test.
     before: Option<T>,
     attempt: usize,
-    /// Whether this round of attempts has made the case simpler.
+    /// True if this round of attempts has made the case simpler.
     succeeded: bool,
 }
 

@@ -29,8 +29,8 @@ enum Place {
     },
 }
 
-/// How narrow, in bits, [`sign`](Signs::sign) makes an interval before it computes a greatest common divisor to decide whether
-/// the value is zero. Affects speed alone.
+/// The number of bits to which [`sign`](Signs::sign) narrows an interval before a greatest common divisor decides whether the
+/// value is zero. Affects speed alone.
 const BITS_BEFORE_GCD: u32 = 48;
 
 impl AlgebraicTime {

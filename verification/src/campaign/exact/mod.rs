@@ -83,7 +83,7 @@ impl Claim {
 /// Counts of one claim.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ClaimCounts {
-    /// How often the test made it.
+    /// The number of claims.
     pub claims: u64,
     /// Claims that exact signs prove.
     pub by_signs: u64,

@@ -20,7 +20,7 @@ use std::fmt;
 
 /// The paths that the search gets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Ways {
+pub enum MotionPaths {
     /// The arcs themselves.
     Arcs,
     /// Their chords. **They are not certified**; they show that misses are found.
@@ -55,8 +55,8 @@ pub type Progress = super::Progress<ScrewFindings>;
 impl Progress {
     /// Starts a run over at least `cases` cases.
     #[must_use]
-    pub fn new(seed: u64, cases: u64, cases_per_chunk: u64, ways: Ways) -> Self {
-        let depends_on = [("ways", format!("{ways:?}"))];
+    pub fn new(seed: u64, cases: u64, cases_per_chunk: u64, paths: MotionPaths) -> Self {
+        let depends_on = [("paths", format!("{paths:?}"))];
         Self::with_nothing_done(seed, cases, cases_per_chunk, &depends_on, ScrewFindings::default())
     }
 }
@@ -114,7 +114,7 @@ const KINDS: [PairKind; 2] = [PairKind::VertexFace, PairKind::EdgeEdge];
 /// If a thread panics.
 pub fn run(
     progress: Progress,
-    ways: Ways,
+    paths: MotionPaths,
     threads: usize,
     after_chunk: impl Fn(&Progress) + Sync,
     stops: impl Fn() -> bool + Sync,
@@ -123,13 +123,13 @@ pub fn run(
     run_chunks(
         progress,
         threads,
-        |chunk| look_at(seed, chunk, cases, ways),
+        |chunk| look_at(seed, chunk, cases, paths),
         after_chunk,
         stops,
     )
 }
 
-fn look_at(seed: u64, chunk: u64, cases: u64, ways: Ways) -> [MeetingCounts; 2] {
+fn look_at(seed: u64, chunk: u64, cases: u64, paths: MotionPaths) -> [MeetingCounts; 2] {
     let mut random = super::random(seed, chunk);
     let mut bytes = [0; Choices::ENOUGH];
     let mut counts = <[MeetingCounts; 2]>::default();
@@ -142,7 +142,7 @@ fn look_at(seed: u64, chunk: u64, cases: u64, ways: Ways) -> [MeetingCounts; 2] 
         left -= 1;
         let count = &mut counts[usize::from(case.kind == PairKind::EdgeEdge)];
         count.cases += 1;
-        let found = case.first_time(ways == Ways::Chords);
+        let found = case.first_time(paths == MotionPaths::Chords);
         match found {
             Some(time) if time <= case.time => {
                 let is_sharp = case.time - time <= 0.01 * case.time;
