@@ -1,8 +1,8 @@
 //! The certified time of impact: conservative advancement by separating directions.
 //!
-//! [`time_of_impact`] asks from when on two moving sets may be within a distance s of each other (s = 0: touch), up to a
-//! tolerance δ in length units. It never misses: [`Impact::Never`] is a proof, and the time of [`Impact::Possible`] is no later
-//! than the first time at which they are that close.
+//! [`time_of_impact`] returns a time from which two moving sets may be within a distance s of each other (s = 0: touch), up to a
+//! tolerance δ, a length. It never misses: [`Impact::Never`] is a proof, and the time of [`Impact::Possible`] is no later than
+//! the first time at which they are that close.
 //!
 //! ```
 //! use selvedge_core::elementary::{Impact, Limits, Reason, advance::time_of_impact};
@@ -23,33 +23,35 @@
 //! ```
 //!
 //! # The method
-//! From time t, and starting at 0, go to a later one up to which the pair is *proven* to be apart, until it is within δ + s, or
-//! the proof reaches the end of the step. Three proofs are tried, all on the pair's corners (`corners.rs`) alone, so there is no
-//! case for parallel edges, faces without area, coplanar motion:
+//! From time t = 0, the method advances to a later time up to which the pair is *proven* to be apart, until it is within δ + s,
+//! or the proof reaches the end of the step. It tries three proofs. All use only the pair's corners (`corners.rs`), so there are
+//! no special cases for parallel edges, faces without area, or coplanar motion:
 //! * a separating direction (`directions.rs`) from the closest points, held constant;
-//! * from the second round on, where the closest points are inside the face or both edges, the signed volume (`volume.rs`): the points
-//!   are not coplanar;
-//! * from the fourth round on a direction that turns, or moves on a curve (`turning.rs`): where sets slide past one another, what a constant
-//!   direction proves shrinks with their distance, and a turning one's does not.
+//! * from the second round on, where the closest points are inside the face or both edges, the signed volume (`volume.rs`): the
+//!   points are not coplanar;
+//! * from the fourth round on, a direction that turns, or moves on a curve (`turning.rs`). Where sets slide past one another, the
+//!   reach of a constant direction shrinks with their distance, and that of a turning one does not.
 //!
-//! How far to go, and along which direction, is heuristic and in plain floating point. Only the proofs count, and each of them
-//! covers its rounding: see the modules of the three.
+//! The length of an advance and the direction are heuristic, in plain floating point. Only the proofs count, and each covers its
+//! rounding: see their modules.
 //!
-//! Few pairs use up their rounds. For these `f32` asks `f64`, and `f64` the exact verdict ([`contact`](super::contact)).
+//! Few pairs use up their rounds. For these, `f32` continues in `f64`, and `f64` in the exact verdict
+//! ([`contact`](super::contact)).
 //!
-//! The proofs are written once, for any number of [`Lanes`](crate::lanes::Lanes): here one pair alone, which leaves as soon as it is
-//! decided; in [`round`](crate::kernels::advance::round) many side by side, for [`batch`](crate::batch); and verification runs them on tiny numbers, on
-//! symbols, and with other constants.
+//! The proofs are written once, for any number of [`Lanes`](crate::lanes::Lanes). Here they serve one pair, which returns as soon
+//! as it is decided; [`round`](crate::kernels::advance::round) serves many side by side, for [`batch`](crate::batch).
+//! Verification runs them on tiny numbers, on symbols, and with other constants.
 //!
-//! Before all this come the [relative boxes](crate::boxes::relative), exact, and the volume's proof for the whole step.
+//! The exact [relative boxes](crate::boxes::relative) come first, then the volume's proof for the whole step.
 //!
-//! # What is promised
-//! * **In every floating-point environment**: whatever direction the thread rounds in, and whether or not it flushes subnormal
-//!   numbers to zero; a subnormal separation counts as the smallest normal number. (Not with excess precision or fused operations, which Rust does not use.)
-//! * **A bounded amount of work**, whatever the input: at most [`ROUNDS`] rounds, [`ROUNDS_WITH_SEPARATION`] in `f64` with a separation;
-//!   [`Work`] says of how many steps each. Degenerate pairs do not loop. The last resort adds the work of the exact verdict, or that of `f64`.
-//! * **No false alarm**: what is not excluded comes near. M is the largest difference between points of the two sets along each axis,
-//!   τ is 2⁻⁶⁰ (`f64`: 2⁻⁵⁰⁰), u is 2⁻²⁴ (2⁻⁵³), and distances are exact:
+//! # Guarantees
+//! * **Every floating-point environment**: any rounding direction, subnormal numbers flushed or kept. A subnormal separation
+//!   counts as the smallest normal number. (Excess precision and fused operations, which Rust does not use, are excluded.)
+//! * **Bounded work**, whatever the input: at most [`ROUNDS`] rounds, or [`ROUNDS_WITH_SEPARATION`] in `f64` with a separation.
+//!   [`Work`] has the number of steps in each. Degenerate pairs do not loop. The last resort adds the work of the exact verdict,
+//!   or that of `f64`.
+//! * **No false alarm**: a pair that is not excluded comes near. M is the largest difference between points of the two sets along
+//!   each axis, τ is 2⁻⁶⁰ (`f64`: 2⁻⁵⁰⁰), u is 2⁻²⁴ (2⁻⁵³), and distances are exact:
 //!
 //! | reason | distance |
 //! |---|---|
@@ -59,14 +61,14 @@
 //! | [`OutOfRange`](Reason::OutOfRange) | unknown: differences are above 2²⁹, `f64` 2²⁵⁰ |
 //! | [`NotFinite`](Reason::NotFinite) | undefined: NaN, an infinity, or a separation that is negative |
 //!
-//! V is the longest way of a corner during the step. A round that ends neither within δ + s nor within rounding of s proves that the pair is
-//! apart for as long as the distance beyond s takes at speed V, but for a few u. 4096 rounds that each prove more than a 4096th of the
-//! step would pass its end.
+//! V is the longest way of a corner during the step. A round that ends neither within δ + s nor within rounding of s proves that
+//! the pair is apart for the time that the distance beyond s takes at speed V, but for a few u. 4096 rounds that each prove more
+//! than a 4096th of the step pass its end.
 //!
-//! # Where the answer is loose
-//! Where the sets' distance comes down to the error of a product, about 20u times the size of the corners, nothing can be proven
-//! any more: the answer is that time, [`Reason::WithinError`], though they may touch much later or never. Sets that rest on each
-//! other to the last digit do so from the start. The [exact verdict](super::contact) settles whether they touch.
+//! # Loose answers
+//! Where the sets' distance falls to the error of a product, about 20u times the size of the corners, nothing more can be proven.
+//! The answer is that time, [`Reason::WithinError`], although they may touch much later or never. Sets that rest on each other to
+//! the last digit do so from the start. The [exact verdict](super::contact) decides whether they touch.
 
 #![expect(
     clippy::neg_cmp_op_on_partial_ord,
@@ -98,26 +100,26 @@ pub const ROUNDS: u32 = 64;
 /// The largest number of rounds in `f64` with a separation, where no exact verdict helps.
 pub const ROUNDS_WITH_SEPARATION: u32 = 4096;
 
-/// A pair that takes more rounds than this slides, or its closest points are hard to find.
+/// The number of rounds after which a pair is hard: it slides, or its closest points are hard to find.
 const EASY_ROUNDS: u32 = 3;
 
-/// How many turning directions are tried in one round, at most.
+/// The largest number of turning directions in one round.
 pub const TURNS: u32 = 10;
 
-/// How often the volume is clipped in one round, at most.
+/// The largest number of times that the volume is clipped in one round.
 const CLIPS: u32 = 8;
 
-/// From when on the pair may be within the separation. Certified: see the [module](self).
+/// Returns the time from which the pair may be within the separation. Certified: see the [module](self).
 #[inline]
 pub fn time_of_impact<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>) -> Impact<S> {
     impact_within(pair, limits, [S::ZERO, S::ONE])
 }
 
-/// [`time_of_impact`] of a pair that is proven to be apart up to `from`, asked no further than `until`: [`Impact::Never`] says
-/// that it is apart from `from` until then, and a time that is not excluded is no earlier than `from`.
+/// Returns [`time_of_impact`] of a pair that is proven to be apart up to `from`, up to `until` only. [`Impact::Never`] says that
+/// it is apart from `from` until then. A time that is not excluded is no earlier than `from`.
 ///
-/// Both in [0, 1]; else, or if they are NaN, nothing is excluded. So a caller who has advanced pairs side by side
-/// ([`batch`](crate::batch)), or who looks for the earliest contact, goes on from what is known.
+/// Both times must be in [0, 1] and ascend; otherwise nothing is excluded. So a caller who has advanced pairs side by side
+/// ([`batch`](crate::batch)), or who looks for the earliest contact, resumes from what is known.
 #[inline]
 pub fn time_of_impact_within<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>, from: S, until: S) -> Impact<S> {
     if !(from >= S::ZERO && from <= S::ONE && until >= from && until <= S::ONE) {
@@ -126,27 +128,28 @@ pub fn time_of_impact_within<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits
     impact_within(pair, limits, [from, until])
 }
 
-/// Out of line: one such function for each format in a program, of 25 kB, and not one for each that calls it.
+/// Out of line: a program has one such function of 25 kB for each format, rather than one for each caller.
 #[inline(never)]
 fn impact_within<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>, span: [S; 2]) -> Impact<S> {
     within(pair, limits, span).0
 }
 
-/// [`time_of_impact`], and how much work it was.
+/// Returns [`time_of_impact`] and its work.
 #[cfg(feature = "verification")]
 #[inline]
 pub fn time_of_impact_and_work<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>) -> (Impact<S>, Work) {
     within(pair, limits, [S::ZERO, S::ONE])
 }
 
-/// [`time_of_impact_and_work`] of four points in numbers of any format, those of verification too. A separation must not be subnormal.
+/// Returns [`time_of_impact_and_work`] of four points in numbers of any format, verification's included. A separation must not be
+/// subnormal.
 #[cfg(feature = "verification")]
 #[inline(always)]
 pub fn time_of_impact_of_points<P: PairShape, S: Number>(points: &PairPoints<S>, limits: &Limits<S>) -> (Impact<S>, Work) {
     advanced::<P, S>(points, limits, [S::ZERO, S::ONE], ROUNDS)
 }
 
-/// Within a span of time, with a separation that every thread compares as what it is.
+/// Advances within a span of time, with a separation that every thread compares at its value.
 #[inline(always)]
 fn within<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>, span: [S; 2]) -> (Impact<S>, Work) {
     let limits = Limits {
@@ -165,8 +168,8 @@ fn within<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>, span: [S; 2]) 
     }
 }
 
-/// What advancing in this format has left open: `f64` advances `f32` on, whose errors are half a billion times smaller; whole numbers
-/// decide whether `f64` touches.
+/// Decides a pair that advancing in this format left open. For `f32`, advancing continues in `f64`, whose errors are half a
+/// billion times smaller. For `f64`, whole numbers decide whether it touches.
 #[cold]
 #[inline(never)]
 fn last_resort<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>, [from, until]: [S; 2]) -> Impact<S> {
@@ -190,7 +193,7 @@ fn last_resort<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>, [from, un
     }
 }
 
-/// From the first time of `span` to the second.
+/// Advances from the first time of `span` to the second.
 #[inline(always)]
 fn advanced<P: PairShape, S: Number>(points: &PairPoints<S>, limits: &Limits<S>, span: [S; 2], rounds: u32) -> (Impact<S>, Work) {
     if limits.separation <= S::ZERO && points.are_apart_along_three_axes::<P>() {
@@ -216,7 +219,7 @@ const fn not_excluded<S: Copy>(time: S, reason: Reason, work: Work) -> (Impact<S
     (Impact::Possible { time, reason }, work)
 }
 
-/// Everything after the relative boxes.
+/// Runs everything after the relative boxes.
 #[inline(always)]
 fn decide<S: Number, const N: usize>(
     points: &PairPoints<S>,
@@ -255,16 +258,16 @@ fn decide<S: Number, const N: usize>(
     (impact, work)
 }
 
-/// One pair on its way.
+/// One pair that advances.
 struct Advance<'a, S, const N: usize> {
     corners: &'a Corners<S, N>,
     volume: &'a SignedVolume<S>,
     limits: &'a Limits<S>,
     /// The separation, if it is not zero.
     separation: Option<S>,
-    /// Up to when it is known to be apart, and when the time ends that is asked about.
+    /// The time up to which it is proven to be apart, and the end of the requested time.
     span: [S; 2],
-    /// How many rounds are allowed.
+    /// The number of allowed rounds.
     rounds: u32,
     work: &'a mut Work,
 }
@@ -288,8 +291,8 @@ impl<S: Number, const N: usize> Snapshot<S, N> {
         }
     }
 
-    /// Away from the origin: in it the hull is beyond the closest point. Takes longest where that is very near, so that it is best asked
-    /// for after the tolerance.
+    /// Returns a direction away from the origin, along which the hull is beyond the closest point. It is costly where that point
+    /// is very near, so the tolerance is tested first.
     #[inline(always)]
     fn direction(&self, corners: &Corners<S, N>) -> Vector<S> {
         let extent = corners.extent.largest();
@@ -342,7 +345,7 @@ impl<S: Number, const N: usize> Advance<'_, S, N> {
         possible(&now, Reason::LastResort)
     }
 
-    /// The pair at `time`; where rounds are many, with a closest point that is accurate for thin hulls too.
+    /// Returns the pair at `time`. In a pair with many rounds, its closest point is accurate for thin hulls too.
     #[inline(always)]
     fn snapshot(&self, time: S) -> Snapshot<S, N> {
         let mut snapshot = Snapshot::new(self.corners, time);
@@ -352,7 +355,7 @@ impl<S: Number, const N: usize> Advance<'_, S, N> {
         snapshot
     }
 
-    /// A later time until which a constant direction keeps the pair apart, or why there is none.
+    /// Returns a later time until which a constant direction keeps the pair apart, or the reason why there is none.
     #[inline(always)]
     fn apart_until(&self, now: &Snapshot<S, N>) -> Result<S, Reason> {
         let w = now.direction(self.corners);
@@ -366,7 +369,7 @@ impl<S: Number, const N: usize> Advance<'_, S, N> {
         (proven.is_apart && proven.until > now.time).then_some(proven.until)
     }
 
-    /// Where the direction of the closest point, `w`, proves nothing: either the sets are too close, or that point is wrong.
+    /// Handles a direction of the closest point, `w`, that proves nothing: either the sets are too close, or that point is wrong.
     #[cold]
     fn apart_at_second_sight(&self, w: Vector<S>, now: &Snapshot<S, N>) -> Result<S, Reason> {
         if self.hides(&now.closest) {
@@ -378,7 +381,7 @@ impl<S: Number, const N: usize> Advance<'_, S, N> {
         })
     }
 
-    /// Whether sets of which these are the closest points are no farther apart than the bound of [`Reason::WithinError`].
+    /// Returns whether sets with these closest points are no farther apart than the bound of [`Reason::WithinError`].
     #[inline(always)]
     fn hides(&self, closest: &Closest<S>) -> bool {
         let (separation, extent) = (self.limits.separation, self.corners.extent);
@@ -393,7 +396,7 @@ impl<S: Number, const N: usize> Advance<'_, S, N> {
         self.corners.direction(w, self.separation)
     }
 
-    /// Until when the volume proves, from `time` on, that the pair is apart.
+    /// Returns the time until which the volume proves, from `time` on, that the pair is apart.
     #[inline(always)]
     fn clipped_volume(&mut self, time: S) -> Clipped<S> {
         let mut until = time;
@@ -402,7 +405,7 @@ impl<S: Number, const N: usize> Advance<'_, S, N> {
             let next = self.volume.clipped::<false>(until);
             let step = next.until - until;
             until = next.until;
-            // Steps as short as rounding errors lead nowhere.
+            // Steps as short as rounding errors make no progress.
             if next.to_the_end || !(step > S::small(16) * S::UNIT_ROUNDOFF) {
                 return Clipped { until, ..next };
             }
@@ -413,11 +416,11 @@ impl<S: Number, const N: usize> Advance<'_, S, N> {
         }
     }
 
-    /// Moves on from `next`, to which one round has led from `now`, as far as a turning direction proves: nine tenths of the
-    /// way to where the last round's approach predicts contact, or less, or not at all.
+    /// Advances from `next`, which one round reached from `now`, as far as a turning direction proves. It tries nine tenths of
+    /// the way to the contact that the last round's approach predicts, and then less.
     ///
-    /// Each reach that is tried is at most a quarter of the one before, and the last is no longer than a few rounds. Rounding may hide the
-    /// approach; so however far the first reach is, the last is tried.
+    /// Each tried reach is at most a quarter of the one before, and the last is no longer than a few rounds. Rounding may hide
+    /// the approach, so the last is tried however far the first reach is.
     #[inline(never)]
     fn turn_on(&mut self, now: &Snapshot<S, N>, next: &mut Snapshot<S, N>) {
         let separation = self.limits.separation;
@@ -450,8 +453,8 @@ impl<S: Number, const N: usize> Advance<'_, S, N> {
         }
     }
 
-    /// The direction to turn from or to, of unit length but for rounding: the middle of those that keep the pair apart, unless the closest
-    /// point is inside the face or both edges, or it does not keep twice the separation.
+    /// Returns the direction to turn from or to, of unit length but for rounding. It is the middle of those that keep the pair
+    /// apart, unless the closest point is inside the face or both edges, or that direction does not keep twice the separation.
     #[inline(always)]
     fn turning(&self, at: &Snapshot<S, N>) -> Direction<S> {
         let middle = if at.closest.feature == Feature::Interior {
@@ -467,7 +470,7 @@ impl<S: Number, const N: usize> Advance<'_, S, N> {
         middle.unwrap_or_else(|| self.direction(farthest(&at.positions, at.direction(self.corners))))
     }
 
-    /// Whether a direction that turns from `before` to another proves that the pair is apart between two times.
+    /// Returns whether a direction that turns from `before` to another proves that the pair is apart between two times.
     #[inline(always)]
     fn keeps_apart(&self, before: &Direction<S>, from: &Snapshot<S, N>, to: &Snapshot<S, N>) -> bool {
         let after = self.turning(to);

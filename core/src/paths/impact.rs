@@ -25,13 +25,13 @@ const SHORTEST: f64 = 1.0 / 1_073_741_824.0;
 ///
 /// `paths` are the points of the one set, then those of the other, as in a [`PrimitivePair`]. Runs at most 4096 straight tests.
 ///
-/// # No false alarm
-/// All distances are but for [what is rounded](crate::elementary::advance#what-is-promised).
-/// * [`Reason::WithinTolerance`]: at that time the distance is at most s + 3δ; s + δ + 2D where the paths deviate by D > δ in
-///   parts as short as 2⁻³⁰ of the step, as far from the origin.
-/// * [`Reason::LastResort`]: the pair comes within s + δ + 2D at some time, D being the largest deviation in parts of a 512th of the step. (Each
-///   test leads on by a part and doubles it, or halves it. Of 4096 tests some 2000 lead on, through one step, so that parts no longer than
-///   a 512th are halved; and there the pair did come so near.)
+/// # No false alarms
+/// All distances are up to [rounding](crate::elementary::advance#guarantees).
+/// * [`Reason::WithinTolerance`]: at that time the distance is at most s + 3δ. Where the paths deviate by D > δ even in parts as
+///   short as 2⁻³⁰ of the step, as they do far from the origin, it is at most s + δ + 2D.
+/// * [`Reason::LastResort`]: the pair comes within s + δ + 2D at some time, with D the largest deviation in parts of a 512th of
+///   the step. (Each test passes a part and doubles it, or halves it. Some 2000 of 4096 tests pass a part of the one step, so
+///   parts of at most a 512th are halved, and there the pair comes so near.)
 ///
 /// ```
 /// use selvedge_core::{Motion, PairKind, glam::DVec3, elementary::{Impact, Limits}, paths::{Path, RigidMotion, time_of_impact}};

@@ -1,49 +1,49 @@
 //! The point of the corners' hull that is closest to the origin, in plain floating point.
 //!
-//! No certificate relies on how well this is done: they hold for any direction. What is promised is only that the vector is,
-//! but for a few roundings, a point of the hull, so that its length is no less than the distance: each weight lies in [0, 1]
-//! by the comparisons that precede it. The method is Ericson's (Real-Time Collision Detection, 2005, 5.1.5 and 5.1.9).
+//! No certificate relies on the accuracy of this point: they hold for any direction. The vector is only guaranteed to be, but for
+//! a few roundings, a point of the hull, so that its length is no less than the distance. Each weight lies in [0, 1] by the
+//! comparisons that precede it. The method is Ericson's (Real-Time Collision Detection, 2005, 5.1.5 and 5.1.9).
 //!
-//! It is here twice: [`closest`] for one pair, which leaves with the first feature that is the one, and says which; and
-//! `closest_by_selects` for many side by side, where all features are looked at, one quotient serves them all, and nobody asks which
-//! it was.
+//! There are two versions. [`closest`] serves one pair: it returns at the first feature that has the point, and names it.
+//! `closest_by_selects` serves many pairs side by side: it computes all features with one quotient, and does not name the
+//! feature.
 
 use crate::lanes::{Lanes, Number, Rounding};
 use crate::vector::Vector;
 
-/// Where on the hull the closest point was found. The first three corners are a, b, c.
+/// The feature of the hull that has the closest point. The first three corners are a, b, c.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Feature {
-    /// At a corner.
+    /// A corner.
     Corner,
-    /// On a side that is parallel to the one between a and b.
+    /// A side parallel to the one between a and b.
     SideAb,
-    /// On a side that is parallel to the one between a and c.
+    /// A side parallel to the one between a and c.
     SideAc,
-    /// On the side between b and c.
+    /// The side between b and c.
     SideBc,
-    /// On none of these.
+    /// The interior.
     Interior,
 }
 
-/// The closest point and where it was found.
+/// The closest point and its feature.
 #[derive(Clone, Copy, Debug)]
 pub struct Closest<S> {
-    /// Of the hull.
+    /// The closest point of the hull.
     pub point: Vector<S>,
-    /// From the origin.
+    /// Its squared distance from the origin.
     pub squared_distance: S,
-    /// Where it was found.
+    /// The feature that has it.
     pub feature: Feature,
 }
 
 impl<S: Number> Closest<S> {
-    /// A direction in which all of the hull, which has its corners at `positions`, is beyond the closest point. `extent` is
+    /// Returns a direction along which the whole hull, with corners at `positions`, is beyond the closest point. `extent` is
     /// their largest coordinate.
     ///
-    /// The closest point itself will do, unless it is so near that its error, a few u times the extent h, tilts it against
-    /// the side or the face that it is on: by uh/d, where d/h is all that there is room for. So where d² is below
-    /// 2⁶uh² it is made perpendicular to the side, or replaced by the face's normal.
+    /// The closest point itself is such a direction unless it is very near. Then its error, a few u times the extent h, tilts it
+    /// against its side or face by uh/d, where d/h is all the room there is. So where d² is below 2⁶uh², the direction is made
+    /// perpendicular to the side, or replaced by the face's normal.
     #[inline(always)]
     pub fn direction<const N: usize>(&self, positions: &[Vector<S>; N], extent: S) -> Vector<S> {
         let tilted = S::small(64) * S::UNIT_ROUNDOFF * (extent * extent);
@@ -63,7 +63,7 @@ impl<S: Number> Closest<S> {
             Feature::SideBc => perpendicular_to(c - b),
             Feature::Interior => {
                 let normal = (b - a).cross(c - a);
-                // Its size does not matter, but it should not be so small that products underflow.
+                // Its size does not matter, as long as products do not underflow.
                 let normal = normal.scaled(S::ONE / normal.abs().largest());
                 if normal.dot(self.point) < S::ZERO {
                     normal.scaled(-S::ONE)
@@ -75,12 +75,12 @@ impl<S: Number> Closest<S> {
     }
 }
 
-/// In the triangle of three corners, or the parallelogram whose first three of four corners are given, opposite to each
-/// other the last two.
+/// Finds the closest point of the triangle of three corners, or of the parallelogram of four corners, whose last two given ones
+/// are opposite to each other.
 #[inline(always)]
 pub fn closest<S: Number, const N: usize>(corners: &[Vector<S>; N]) -> Closest<S> {
     let &[a, b, c, ..] = corners.as_slice() else {
-        // There are three at least.
+        // There are at least three.
         let nothing = Vector::new(S::ZERO, S::ZERO, S::ZERO);
         return at(nothing, Feature::Corner);
     };
@@ -137,7 +137,7 @@ fn in_triangle<S: Number>(a: Vector<S>, b: Vector<S>, c: Vector<S>) -> Closest<S
     at(a - inwards, Feature::Interior)
 }
 
-/// Corners a, a + (b − a)·t + (c − a)·s for s and t of 0 and 1: the two edges' parameters.
+/// The corners are a + (b − a)·t + (c − a)·s for s and t of 0 and 1: the two edges' parameters.
 #[inline(always)]
 fn in_parallelogram<S: Number>(a: Vector<S>, b: Vector<S>, c: Vector<S>) -> Closest<S> {
     let (zero, one) = (S::ZERO, S::ONE);
@@ -145,7 +145,7 @@ fn in_parallelogram<S: Number>(a: Vector<S>, b: Vector<S>, c: Vector<S>) -> Clos
     let (first_squared, second_squared) = (first.dot(first), second.dot(second));
     let (along_first, along_second) = (first.dot(a), second.dot(a));
     let place = |s: S, t: S, feature| at((a + first.scaled(s)) - second.scaled(t), feature);
-    // The quotient if it lies in [0, 1], else the nearer end; and whether it is an end. NaN becomes an end.
+    // Returns the quotient if it lies in [0, 1], else the nearer end; and true for an end. NaN becomes an end.
     let clamped = |numerator: S, denominator: S| {
         if numerator > zero {
             if numerator < denominator {
@@ -177,8 +177,8 @@ fn in_parallelogram<S: Number>(a: Vector<S>, b: Vector<S>, c: Vector<S>) -> Clos
     place(s, t, feature(s_is_end, true))
 }
 
-/// [`closest`], as accurate for a hull that is nearly a line: the nearest of the closest points of all sides and of the inside, whose height
-/// above the longest side is computed for itself.
+/// [`closest`], accurate also for a hull that is nearly a line: the nearest of the closest points of all sides and of the
+/// interior, whose height above the longest side is computed separately.
 #[cold]
 pub(crate) fn closest_of_thin<S: Number, const N: usize>(corners: &[Vector<S>; N]) -> Closest<S> {
     let &[a, b, c, ref rest @ ..] = corners.as_slice() else {
@@ -232,8 +232,8 @@ pub(crate) fn closest_of_thin<S: Number, const N: usize>(corners: &[Vector<S>; N
     best
 }
 
-/// The closest point of a hull in each lane, without branches: any of them if there are not three or four corners. Not a number for
-/// some degenerate pairs.
+/// Returns the closest point of a hull in each lane, without branches; `otherwise` if there are not three or four corners. The
+/// result is NaN for some degenerate pairs.
 #[inline(always)]
 pub(super) fn closest_by_selects<L: Lanes, const N: usize>(corners: &[Vector<L>; N], otherwise: Vector<L>) -> Vector<L> {
     match *corners.as_slice() {
@@ -261,7 +261,7 @@ fn in_triangle_by_selects<L: Lanes>(a: Vector<L>, b: Vector<L>, c: Vector<L>) ->
     let area_b = ab_c * ac_a - ab_a * ac_c;
     let area_c = ab_a * ac_b - ab_b * ac_a;
 
-    // One quotient serves all: its terms are chosen first. The weight of b is `to_b` times it, that of c `to_c` times.
+    // One quotient serves all features: its terms are selected first. The weight of b is `to_b` times it, that of c `to_c` times.
     let (from_b, from_c) = (ac_b - ab_b, ab_c - ac_c);
     let mut divisor = (area_a + area_b) + area_c;
     let (mut to_b, mut to_c) = (area_b, area_c);

@@ -1,33 +1,34 @@
-//! Proofs that the pair is apart, by separating directions.
+//! Proofs by separating directions that a pair is apart.
 //!
-//! If the products of a direction w with all corners are larger than s·|w| at some time, the hull of the corners is farther
-//! than s from the origin then. Each product with a *constant* w is linear in time; with a w that moves linearly itself it is
-//! quadratic. A direction's [`bar`](Direction::bar) is T + s·|w|, T being the
-//! [error of a product](super::corners): what a computed product must exceed to prove all this.
+//! If the products of a direction w with all corners exceed s·|w| at some time, the hull of the corners is farther than s from
+//! the origin then. Each product with a *constant* w is linear in time; with a w that itself moves linearly, it is quadratic. A
+//! direction's [`bar`](Direction::bar) is T + s·|w|, with T the [error of a product](super::corners): the value that a computed
+//! product must exceed for these proofs.
 
 use super::corners::Corners;
 use crate::lanes::{Lanes, Rounding, less_roundoffs, more_roundoffs};
 use crate::vector::Vector;
 
-/// A direction, and what a computed product with it must exceed.
+/// A direction, and the value that a computed product with it must exceed.
 #[derive(Clone, Copy, Debug)]
 pub struct Direction<L> {
-    /// Of any length.
+    /// The direction, of any length.
     pub w: Vector<L>,
     /// T + s·|w|.
     pub bar: L,
 }
 
-/// Until when a direction certainly keeps the pair apart.
+/// The time until which a direction certainly keeps the pair apart.
 #[derive(Clone, Copy, Debug)]
 pub struct Proven<L: Lanes> {
-    /// Whether it does so at the time that was asked about, of the lanes that were.
+    /// Lanes, among the requested ones, in which it keeps the pair apart at the given time.
     pub is_apart: L::Mask,
-    /// Then it does so until this time, which may be the same, or earlier; [`beyond`] the step if to its end. Else it means nothing.
+    /// The time until which those lanes stay apart, which may be the same or earlier; [`beyond`] the step if they do to its end.
+    /// Other lanes mean nothing.
     pub until: L,
 }
 
-/// A time that no proof reaches: "to the end of the step".
+/// Returns a time after every step, which means "to the end of the step".
 #[inline(always)]
 #[must_use]
 pub fn beyond<L: Lanes>(like: L) -> L {
@@ -35,9 +36,9 @@ pub fn beyond<L: Lanes>(like: L) -> L {
 }
 
 impl<L: Lanes, const N: usize> Corners<L, N> {
-    /// Whether all corners are beyond `separation` along one coordinate axis, on the same side, at both ends of the step: the
-    /// [relative boxes](crate::boxes::relative) with a separation. A difference as computed is off by 2u of itself and 3λ, less
-    /// than the 8u of the separation and η by which it is to exceed it.
+    /// Returns whether all corners are beyond `separation` along one coordinate axis, on the same side, at both ends of the step:
+    /// the [relative boxes](crate::boxes::relative) with a separation. A computed difference is off by 2u of itself and 3λ, less
+    /// than the 8u of the separation and η by which it must exceed it.
     #[inline(always)]
     #[must_use]
     pub fn are_beyond_along_an_axis(&self, separation: L) -> L::Mask {
@@ -56,7 +57,7 @@ impl<L: Lanes, const N: usize> Corners<L, N> {
         along(|corner| corner.x) | along(|corner| corner.y) | along(|corner| corner.z)
     }
 
-    /// The direction `w`, of any length, for pairs that are to stay farther than `separation` apart, if that is not zero.
+    /// Returns the direction `w`, of any length, for pairs that must stay farther than `separation` apart, if that is not zero.
     #[inline(always)]
     #[must_use]
     pub fn direction(&self, w: Vector<L>, separation: Option<L>) -> Direction<L> {
@@ -67,16 +68,16 @@ impl<L: Lanes, const N: usize> Corners<L, N> {
         Direction { w, bar }
     }
 
-    /// Until when `direction`, held constant, keeps the pair apart that has its corners at `positions` at some time. Lanes that are not
-    /// `among` those asked about prove nothing.
+    /// Returns the time until which `direction`, held constant, keeps apart the pair with corners at `positions` at some time.
+    /// Lanes that are not `among` the requested ones prove nothing.
     ///
-    /// With f(τ) = w·e(τ), f₀ and f₁ its values at the ends as computed and T the bar, it is
-    /// q = (f₀ − T)/(f₀ − f₁), where the line through f₀ and f₁ comes down to T, the least over the corners. At any time that
-    /// line is within 4εS of f, less than the errors in T allow for: so f(q) is positive (above s·|w|), and as f is at the
-    /// time of `positions` too, it is in between. The quotient passes through 4 roundings, its product with 1 − 32u through one more.
+    /// Let f(τ) = w·e(τ), f₀ and f₁ its computed values at the ends, and T the bar. The time is q = (f₀ − T)/(f₀ − f₁), where the
+    /// line through f₀ and f₁ falls to T, the least over the corners. At any time that line is within 4εS of f, less than the
+    /// errors in T allow for. So f(q) is positive (above s·|w|), and since f is positive at the time of `positions` too, it is so
+    /// in between. The quotient passes through 4 roundings, its product with 1 − 32u through one more.
     ///
-    /// f₀ > f₁ is demanded: otherwise, where rounding has f₁ ≤ T and f₀ ≤ f₁, the quotient means nothing. Where flushing makes it
-    /// 0/0, or rounding has f₀ ≤ T, nothing is proven.
+    /// f₀ > f₁ is required: otherwise, where rounding gives f₁ ≤ T and f₀ ≤ f₁, the quotient means nothing. Where flushing makes
+    /// it 0/0, or rounding gives f₀ ≤ T, nothing is proven.
     #[inline(always)]
     #[must_use]
     pub fn apart_along(&self, direction: &Direction<L>, positions: &[Vector<L>; N], among: L::Mask) -> Proven<L> {
@@ -84,7 +85,7 @@ impl<L: Lanes, const N: usize> Corners<L, N> {
         let zero = bar.splat(L::Scalar::ZERO);
         let mut is_apart = among;
         let mut until = beyond(bar);
-        // No loop: of several lanes' worth it would not be unrolled.
+        // No loop: with several lanes, the compiler would not unroll it.
         macro_rules! corner {
             ($index:literal) => {
                 if let (Some(&[start, end]), Some(&position)) = (self.ends.get($index), positions.get($index)) {
@@ -111,12 +112,12 @@ impl<L: Lanes, const N: usize> Corners<L, N> {
     }
 }
 
-/// Whether a direction that turns from `before` to `after`, while the corners move from `from` to `to`, keeps the pair apart
-/// throughout.
+/// Returns whether a direction that turns from `before` to `after`, while the corners move from `from` to `to`, keeps the pair
+/// apart throughout.
 ///
-/// Both move linearly, so each product is quadratic, with the Bernstein coefficients w₀·e₀, ½(w₀·e₁ + w₁·e₀) and w₁·e₁; s·|w|
-/// lies below the line between its values at the ends, whose middle coefficient is the mean. All three above the bar proves
-/// it, where the bar of the middle one is the mean of the two: its error is at most 8ε times the mean of S₀ and S₁.
+/// Both move linearly, so each product is quadratic, with the Bernstein coefficients w₀·e₀, ½(w₀·e₁ + w₁·e₀) and w₁·e₁. s·|w|
+/// lies below the line between its values at the ends, whose middle coefficient is the mean. All three coefficients above the bar
+/// prove it, where the bar of the middle one is the mean of the two: its error is at most 8ε times the mean of S₀ and S₁.
 #[inline(always)]
 #[must_use]
 pub fn are_apart_turning<L: Lanes, const N: usize>(
@@ -138,12 +139,12 @@ pub fn are_apart_turning<L: Lanes, const N: usize>(
     are_apart
 }
 
-/// Whether a direction that moves on a quadratic curve keeps the pair apart throughout, as [`are_apart_turning`] for a straight line. Its
-/// control points are the first of `curve`, half of the second, and the third.
+/// Returns whether a direction that moves on a quadratic curve keeps the pair apart throughout, as [`are_apart_turning`] does for
+/// a straight line. Its control points are the first of `curve`, half of the second, and the third.
 ///
-/// Each product is cubic, with the Bernstein coefficients w₀·e₀, ⅓(w₀·e₁ + m·e₀), ⅓(m·e₁ + w₁·e₀) and w₁·e₁, m the second of `curve`; s·|w|
-/// lies below the quadratic curve with the control values s·|w₀|, ½s·|m| and s·|w₁|, whose cubic coefficients in the middle are a third of
-/// s·|w₀| + s·|m| and of s·|m| + s·|w₁|. So the sums of two products are to exceed the sums of two bars.
+/// Each product is cubic, with the Bernstein coefficients w₀·e₀, ⅓(w₀·e₁ + m·e₀), ⅓(m·e₁ + w₁·e₀) and w₁·e₁, m the second of
+/// `curve`. s·|w| lies below the quadratic curve with the control values s·|w₀|, ½s·|m| and s·|w₁|. Its cubic coefficients in the
+/// middle are a third of s·|w₀| + s·|m| and of s·|m| + s·|w₁|. So the sums of two products must exceed the sums of two bars.
 #[inline(always)]
 #[must_use]
 pub fn are_apart_curving<L: Lanes, const N: usize>(
@@ -166,7 +167,8 @@ pub fn are_apart_curving<L: Lanes, const N: usize>(
     are_apart
 }
 
-/// The length of `w`, or more, but for 8 roundings: the sum of its components' magnitudes where their squares may underflow.
+/// Returns the length of `w`, or more, but for 8 roundings: the sum of its components' magnitudes where their squares may
+/// underflow.
 #[inline(always)]
 fn length_above<L: Lanes>(w: Vector<L>) -> L {
     let squared = w.dot(w);
@@ -176,7 +178,7 @@ fn length_above<L: Lanes>(w: Vector<L>) -> L {
     L::select(is_safe, squared.sqrt(), (magnitudes.x + magnitudes.y) + magnitudes.z)
 }
 
-/// True in each lane.
+/// Returns a mask that is true in each lane.
 #[inline(always)]
 fn everywhere<L: Lanes>(like: L) -> L::Mask {
     like.splat(L::Scalar::ONE).greater(like.splat(L::Scalar::ZERO))

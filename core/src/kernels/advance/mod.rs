@@ -1,4 +1,4 @@
-//! The proofs of the certified [time of impact](crate::elementary::advance), and what goes with them, on the corners of a pair alone.
+//! The proofs of the certified [time of impact](crate::elementary::advance) and their tools, for the corners of a pair alone.
 
 pub mod closest;
 pub mod confirm;
@@ -9,7 +9,7 @@ pub mod round;
 pub(crate) mod turning;
 pub mod volume;
 
-/// How much was done for one answer.
+/// The work of one answer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work {
     /// Rounds of advancing: at most [`ROUNDS`](crate::elementary::advance::ROUNDS), or

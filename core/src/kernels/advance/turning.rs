@@ -1,10 +1,10 @@
-//! Which directions to try where sets slide past one another. All of this is heuristic: the [proofs](super::directions) hold for any
+//! Directions to try where sets slide past one another. All of this is heuristic: the [proofs](super::directions) hold for any
 //! direction, and decide.
 //!
 //! Between two times the corners move from `from` to `to`, and a direction turns from w₀ to w₁. Three ways to turn are tried:
 //! * straight, where the lengths of w₀ and w₁ [balance](balanced);
-//! * from and to the [middle](in_the_middle) of the directions that keep the pair apart. Next to a side the direction of the closest
-//!   point is perpendicular to that side, but for an angle as small as the distance, which leaves no room to turn;
+//! * from and to the [middle](in_the_middle) of the directions that keep the pair apart. Next to a side, the direction of the
+//!   closest point is perpendicular to that side, but for an angle as small as the distance, which leaves no room to turn;
 //! * on a curve that stays [perpendicular to a side](along_side). Where two corners on opposite sides are far away, only
 //!   directions perpendicular to the line between them keep the pair apart.
 //!
@@ -17,22 +17,22 @@ use super::closest::{Closest, Feature, closest};
 use crate::lanes::Number;
 use crate::vector::Vector;
 
-/// The longest that a direction is made.
+/// Returns the greatest length of a direction.
 fn longest<S: Number>() -> S {
     S::small(64) * S::small(64)
 }
 
-/// The vector at unit length, but for rounding. Not a number if its squares vanish.
+/// Returns the vector at unit length, but for rounding; NaN if its squares vanish.
 #[inline(always)]
 pub(crate) fn unit<S: Number>(v: Vector<S>) -> Vector<S> {
     v.scaled(S::ONE / v.dot(v).sqrt())
 }
 
-/// Of the directions of all corners, perpendicular to all sides and to the face, and of `w`, the one in which the hull is farthest from the
-/// origin, of unit length but for rounding.
+/// Returns the direction in which the hull is farthest from the origin, of unit length but for rounding. It tries the directions
+/// of all corners, those perpendicular to all sides and to the face, and `w`.
 ///
-/// The closest point of a hull that is nearly a line may be wrong by far more than a rounding error, and tilts its direction. One of these
-/// belongs to the feature that truly is the closest, and each is computed perpendicular to what it must be, but for a few u.
+/// The closest point of a hull that is nearly a line may be wrong by far more than a rounding error, and tilts its direction. One
+/// of these directions belongs to the true closest feature, and each is perpendicular to its feature but for a few u.
 #[cold]
 pub(crate) fn farthest<S: Number, const N: usize>(positions: &[Vector<S>; N], w: Vector<S>) -> Vector<S> {
     let &[a, b, c, ref rest @ ..] = positions.as_slice() else {
@@ -69,8 +69,8 @@ pub(crate) fn farthest<S: Number, const N: usize>(positions: &[Vector<S>; N], w:
     best
 }
 
-/// The middle of the directions that keep the pair apart, where one corner is at most an eighth as far as its two neighbours: the closest
-/// point of the three, each moved to distance one.
+/// Returns the middle of the directions that keep the pair apart, where one corner is at most an eighth as far as its two
+/// neighbours: the closest point of the three, each moved to distance one.
 pub(crate) fn in_the_middle<S: Number, const N: usize>(positions: &[Vector<S>; N]) -> Option<Vector<S>> {
     let &[a, b, c, ref rest @ ..] = positions.as_slice() else {
         return None;
@@ -94,8 +94,8 @@ pub(crate) fn in_the_middle<S: Number, const N: usize>(positions: &[Vector<S>; N
     (w.dot(w) > S::ZERO).then(|| unit(w))
 }
 
-/// `w1` at a length at which the middle coefficients w₀·e₁ + w₁·e₀ are positive for all corners, if there is one; at most 2¹² times as
-/// long, or as short.
+/// Returns `w1` at a length at which the middle coefficients w₀·e₁ + w₁·e₀ are positive for all corners, if there is one; at most
+/// 2¹² times as long, or as short.
 #[inline(always)]
 pub(crate) fn balanced<S: Number, const N: usize>(
     w0: Vector<S>,
@@ -114,7 +114,7 @@ pub(crate) fn balanced<S: Number, const N: usize>(
             most = most.smaller(x / -y);
         }
     }
-    // Twice as far from the bounds as need be, or in the middle between them.
+    // Twice as far from the bounds as needed, or in the middle between them.
     let (double, half) = (S::small(2) * least, S::HALF * most);
     w1.scaled(if double > half {
         (least.smaller(limit) * most).sqrt()
@@ -123,10 +123,12 @@ pub(crate) fn balanced<S: Number, const N: usize>(
     })
 }
 
-/// The control points of a direction that moves quadratically and stays perpendicular to a side: the first, twice the second, the third.
+/// Returns the control points of a direction that moves quadratically and stays perpendicular to a side: the first, twice the
+/// second, the third.
 ///
-/// With u(t) the side and a(t) a vector that moves linearly too, w = a × u is such a direction, and a = u × w/u² is the vector for a given w at
-/// one time. The side is that of the closest point at `to`, or the line between the two corners farthest from each other.
+/// Let u(t) be the side, and a(t) a vector that also moves linearly. Then w = a × u is such a direction, and a = u × w/u² gives
+/// the vector for a given w at one time. The side is that of the closest point at `to`, or the line between the two corners
+/// farthest from each other.
 pub(crate) fn along_side<S: Number, const N: usize>(
     [w0, w1]: [Vector<S>; 2],
     from: &[Vector<S>; N],
@@ -142,7 +144,8 @@ pub(crate) fn along_side<S: Number, const N: usize>(
     points.iter().all(is_short).then_some(points)
 }
 
-/// The control points of a direction that stays perpendicular to the face, or to both edges: their normal moves quadratically.
+/// Returns the control points of a direction that stays perpendicular to the face, or to both edges: their normal moves
+/// quadratically.
 pub(crate) fn along_face<S: Number, const N: usize>(from: &[Vector<S>; N], to: &[Vector<S>; N]) -> Option<[Vector<S>; 3]> {
     let (&[a0, b0, c0, ..], &[a1, b1, c1, ..]) = (from.as_slice(), to.as_slice()) else {
         return None;
@@ -160,7 +163,7 @@ fn is_short<S: Number>(w: &Vector<S>) -> bool {
     w.abs().largest() <= longest()
 }
 
-/// The corners at the ends of a feature that is a side, else those that are farthest from each other.
+/// Returns the corners at the ends of a feature that is a side, else those that are farthest from each other.
 fn side_of<S: Number, const N: usize>(positions: &[Vector<S>; N], feature: Feature) -> Option<[usize; 2]> {
     match feature {
         Feature::SideAb => return Some([0, 1]),
