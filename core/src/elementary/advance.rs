@@ -36,7 +36,7 @@
 //! rounding: see their modules.
 //!
 //! Few pairs use up their rounds. For these, `f32` continues in `f64`, and `f64` in the exact verdict
-//! ([`contact`](super::contact)).
+//! ([`contact`](super::contact())).
 //!
 //! The proofs are written once, for any number of [`Lanes`](crate::lanes::Lanes). Here they serve one pair, which returns as soon
 //! as it is decided; [`round`](crate::kernels::advance::round) serves many side by side, for [`batch`](crate::batch).
@@ -68,7 +68,7 @@
 //! # Loose answers
 //! Where the sets' distance falls to the error of a product, about 20u times the size of the corners, nothing more can be proven.
 //! The answer is that time, [`Reason::WithinError`], although they may touch much later or never. Sets that rest on each other to
-//! the last digit do so from the start. The [exact verdict](super::contact) decides whether they touch.
+//! the last digit do so from the start. The [exact verdict](super::contact()) decides whether they touch.
 
 #![expect(
     clippy::neg_cmp_op_on_partial_ord,

@@ -13,6 +13,11 @@
 //! longer than that along an axis. So a product with a corner is at most 3·2¹³ times the largest extent, 2²⁹ or 2²⁵⁰, and no sum of
 //! such products and bars comes near the largest number.
 
+#![expect(
+    clippy::neg_cmp_op_on_partial_ord,
+    reason = "a comparison is false with NaN, which must then take the side that finds no direction"
+)]
+
 use super::closest::{Closest, Feature, closest};
 use crate::lanes::Number;
 use crate::vector::Vector;
