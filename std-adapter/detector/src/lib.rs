@@ -50,9 +50,7 @@ pub use selvedge_core as core;
 pub use selvedge_core::glam;
 pub use selvedge_core::separation::geometry::Geometry;
 pub use selvedge_core::{PairKind, ParsePairKindError, Position, Scalar};
-pub use step::{
-    Cancellation, CollisionFilter, Contact, Frame, Groups, Intersection, StepError, Truncation, check_frames, check_length,
-};
+pub use step::{Cancellation, CollisionFilter, Contact, Frame, Groups, Intersection, StepError, Truncation, check_frames};
 
 /// Runs the examples of the readme as tests.
 #[cfg(doctest)]

@@ -2,28 +2,16 @@
 
 /// Prices of builds and items, in box tests.
 #[derive(Clone, Copy, Debug)]
-pub struct Prices {
+pub(super) struct Prices {
     /// The price of a build for each item and halving, in box tests.
-    pub build: f64,
+    pub(super) build: f64,
     /// The price of an item in a search, in units of the price of a pair.
-    pub item: f64,
+    pub(super) item: f64,
 }
 
 /// Sums what searches cost more than they would just after a build.
-///
-/// ```
-/// use selvedge::broad_phase::{Degradation, Prices};
-///
-/// let prices = Prices { build: 0.65, item: 16.0 };
-/// let mut degradation = Degradation::default();
-/// // Just after the build 1,000 items and 100 pairs take 5,000 box tests; later they take 20,000.
-/// degradation.observe(prices, 5_000, 1_000, 100, true);
-/// assert!(!degradation.is_worth_a_build(prices, 1_000));
-/// degradation.observe(prices, 20_000, 1_000, 100, false);
-/// assert!(degradation.is_worth_a_build(prices, 1_000));
-/// ```
 #[derive(Debug, Default)]
-pub struct Degradation {
+pub(super) struct Degradation {
     /// Box tests for each unit of size just after the build, if a search was measured then. The size is that of items, at their price, and pairs.
     fresh: Option<f64>,
     /// The same for other searches.
@@ -38,20 +26,19 @@ const TYPICAL: f64 = 0.5;
 
 impl Degradation {
     /// Notes a search that found `pairs` among `items` in this number of box tests. `is_new` says that it is the first one after the build.
-    pub fn observe(&mut self, prices: Prices, box_tests: u64, items: usize, pairs: usize, is_new: bool) {
+    pub(super) fn observe(&mut self, prices: Prices, box_tests: u64, items: usize, pairs: usize, is_new: bool) {
         let size = size(prices, items, pairs);
         self.excess += excess(&mut self.fresh, 0.0, box_tests as f64, size, is_new);
     }
 
     /// Notes a search with other boxes, or for other pairs. Such searches may be of several kinds, so the first one says less.
-    pub fn observe_another(&mut self, prices: Prices, box_tests: u64, items: usize, pairs: usize, is_new: bool) {
+    pub(super) fn observe_another(&mut self, prices: Prices, box_tests: u64, items: usize, pairs: usize, is_new: bool) {
         let size = size(prices, items, pairs);
         self.excess += excess(&mut self.fresh_of_others, TYPICAL, box_tests as f64, size, is_new);
     }
 
     /// Returns whether searches since the build cost more, beyond their cost just after it, than another build.
-    #[must_use]
-    pub fn is_worth_a_build(&self, prices: Prices, items: usize) -> bool {
+    pub(super) fn is_worth_a_build(&self, prices: Prices, items: usize) -> bool {
         let items = items as f64;
         self.excess > prices.build * items * items.log2()
     }

@@ -64,11 +64,11 @@ pub(super) fn order_by_hub(centres: &mut Vec<Centre>, hub: impl Fn(u32) -> u32) 
             NO_HUB => 0,
             _ => same.len() / GROUP * GROUP,
         };
-        order::<LEAF>(same);
+        order(same);
         centres.extend_from_slice(&same[..grouped]);
         others.extend_from_slice(&same[grouped..]);
     }
-    order::<LEAF>(&mut others);
+    order(&mut others);
     centres.append(&mut others);
 }
 

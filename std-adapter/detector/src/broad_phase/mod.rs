@@ -47,10 +47,8 @@ mod rows;
 mod traversal;
 mod tree;
 
-pub use degradation::{Degradation, Prices};
 pub(crate) use hierarchies::{Fit, Hierarchies, mapping_within};
 pub use neighbours::Neighbours;
-pub use order::{Centre, LEAF, order};
 pub(crate) use over_meshes::MeshHierarchy;
 pub(crate) use pairing::{FacesAndEdges, Pairing};
 pub(crate) use pairs::{CHUNK, Sink};
@@ -163,7 +161,7 @@ impl MovingBroadPhase {
 
     /// Finds only pairs with a `wanted` vertex from the next update on. Only wanted vertices may have moved since the last update. The hierarchies
     /// are not built then.
-    pub fn narrow_to(&mut self, wanted: Vec<bool>) {
+    pub(crate) fn narrow_to(&mut self, wanted: Vec<bool>) {
         self.hierarchies.narrow_to(wanted);
     }
 

@@ -94,7 +94,7 @@ impl<const N: usize> Tree<N> {
         }));
         match hub {
             Some(hub) => order_by_hub(&mut self.centres, hub),
-            None => order::<LANES>(&mut self.centres),
+            None => order(&mut self.centres),
         }
         self.primitives.clear();
         self.primitives.extend(self.centres.iter().map(|centre| centre.item));

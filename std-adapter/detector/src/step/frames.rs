@@ -13,7 +13,7 @@ use selvedge_core::{Motion, Position, Scalar};
 ///
 /// # Errors
 /// [`StepError::BadLimit`] otherwise.
-pub fn check_length<S: Scalar>(length: S) -> Result<(), StepError> {
+pub(crate) fn check_length<S: Scalar>(length: S) -> Result<(), StepError> {
     if length >= S::ZERO && length.is_finite() {
         Ok(())
     } else {

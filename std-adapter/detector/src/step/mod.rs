@@ -11,5 +11,5 @@ pub(crate) use collision_filter::Members;
 pub use collision_filter::{CollisionFilter, Groups};
 pub use contact::{Contact, Intersection, Truncation};
 pub use error::{Frame, StepError};
-pub(crate) use frames::{Motions, Step, check_frame, check_pair, exactly, nearest, rounded};
-pub use frames::{check_frames, check_length};
+pub use frames::check_frames;
+pub(crate) use frames::{Motions, Step, check_frame, check_length, check_pair, exactly, nearest, rounded};
