@@ -12,6 +12,7 @@ mod statistics;
 mod world;
 mod world_contacts;
 mod world_error;
+mod world_geometry;
 
 pub use criterion::{CandidateBoxes, Criterion};
 pub use detector::CollisionDetector;

@@ -4,7 +4,9 @@
 //! strays at its end, and at its start too unless it starts exactly where the last step ended. The distance is the separation and twice the tolerance,
 //! so a pair that is settled here is no contact of the elementary test either.
 
-use super::{CLASSES, Class, Interest, NearPair, NearPairs, Reach};
+use super::interest::{CLASSES, Class, Interest, Reach};
+use super::near::NearPairs;
+use super::pair::NearPair;
 use crate::PairKind;
 use crate::broad_phase::mapping_within;
 use crate::mesh::Topology;
@@ -81,7 +83,7 @@ impl Followed {
         }
     }
 
-    pub(crate) fn statistics(&self) -> super::NearStatistics {
+    pub(crate) fn statistics(&self) -> super::near::NearStatistics {
         self.near.as_ref().map_or_else(Default::default, |near| near.statistics())
     }
 

@@ -125,7 +125,7 @@ impl Horizon {
         is_certain(room, self.largest).then_some([&self.origin, &self.far])
     }
 
-    /// Raises the stray of each vertex to that from the motion, a time of `h` later, in the measure of [`Reach::beyond`](super::Reach::beyond). The stray
+    /// Raises the stray of each vertex to that from the motion, a time of `h` later, in the measure of [`Reach::beyond`](super::interest::Reach::beyond). The stray
     /// is infinite where it cannot be measured.
     pub(super) fn find_strays(&self, end: &[DVec3], h: f64, beyond: f64, strays: &mut [f32]) {
         let time = time_after(self.elapsed, h, self.span).unwrap_or(f64::NAN);

@@ -7,10 +7,10 @@
 //! b·(|d₁| + |d₂| + |d₃|) + h − m. If few vertices stray farther, their pairs are found again and added; otherwise all pairs are found again.
 
 use super::horizon::Horizon;
+use super::interest::{Interest, Reach};
 use super::known::Known;
 use super::pair::NearPair;
 use super::search::Search;
-use super::{Interest, Reach};
 use crate::PairKind;
 use crate::buffer::append_selected;
 use crate::mesh::Topology;
@@ -313,7 +313,7 @@ fn add<D: Copy>(pairs: &mut Vec<NearPair<D>>, first: usize, found: &mut Vec<Near
 
 #[cfg(test)]
 mod tests {
-    use super::super::{CLASSES, Class, OfClass};
+    use super::super::interest::{CLASSES, Class, OfClass};
     use super::*;
     use proptest::prelude::*;
     use selvedge_core::separation::gap::GapError;

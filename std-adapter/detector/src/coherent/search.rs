@@ -1,9 +1,9 @@
 //! Finds the pairs that may come near each other on a motion, by [hierarchies of moving boxes](crate::broad_phase) and a [sieve](super::sieve).
 
+use super::interest::{Interest, Reach};
 use super::known::Known;
 use super::pair::NearPair;
 use super::sieve::{Sieve, SievedPair};
-use super::{Interest, Reach};
 use crate::PairKind;
 use crate::broad_phase::MovingBroadPhase;
 use crate::mesh::Topology;
@@ -249,7 +249,7 @@ const FEW: usize = 64;
 
 #[cfg(test)]
 mod tests {
-    use super::super::{CLASSES, Class};
+    use super::super::interest::{CLASSES, Class};
     use super::*;
     use crate::broad_phase::Neighbours;
     use proptest::prelude::*;

@@ -3,7 +3,7 @@
 //! Boxes along three axes leave many pairs that are farther apart than their reach, such as most pairs of triangles side by side. The distance that a
 //! pair keeps while its vertices stray is its [clearance](selvedge_core::separation::clearance).
 
-use super::{CLASSES, Class, Interest, Reach};
+use super::interest::{CLASSES, Class, Interest, Reach};
 use crate::PairKind;
 use crate::buffer::append_selected;
 use crate::mesh::Topology;
@@ -91,7 +91,7 @@ impl Sieve {
 
 #[cfg(test)]
 mod tests {
-    use super::super::OfClass;
+    use super::super::interest::OfClass;
     use super::*;
     use proptest::prelude::*;
     use selvedge_core::separation::closest::ClosestPoints;

@@ -18,14 +18,14 @@
 //! end of the time range are rounded up.
 
 use super::findings::{Findings, count_of};
+use super::numbers::Numbers;
 use super::question::{Bound, Question, Wanted};
 use super::source::Source;
 use super::stop::Stop;
 use super::sweep::{MOST, Open, Sweep, Undecided};
 use crate::PairKind;
-use crate::broad_phase::{CHUNK, Hierarchies, Pairing, RowSlices, Sink};
+use crate::broad_phase::{CHUNK, RowSlices, Sink};
 use crate::clock::Clock;
-use crate::mesh::Topology;
 use crate::simd::Level;
 use crate::step::Contact;
 use selvedge_core::batch::{LANES, Mask, VertexRow, culled_from_rows};
@@ -41,64 +41,6 @@ const SWEEPS: usize = 16;
 
 /// Sweeps in `f32` before those in `f64`, where `f32` is exact. On a large cloth, 4, 6 and 8 take the same time, and 12 take a tenth more.
 const SINGLE_SWEEPS: usize = 4;
-
-/// Says how pairs are numbered.
-#[derive(Clone, Copy)]
-pub(super) enum Numbers<'a> {
-    /// Positions in the hierarchies.
-    Positions(&'a Hierarchies),
-    /// The mesh's own numbers.
-    Mesh(&'a Topology),
-    /// The mesh's own numbers, with rows by positions in the hierarchies.
-    Placed(&'a Hierarchies),
-    /// Positions of faces and edges in the hierarchies. An edge is a vertex that moves from one end to the other; its row comes after those of all
-    /// vertices.
-    FacesAndEdges(&'a Hierarchies),
-    /// Positions in the hierarchies of two meshes, with the first row of each.
-    Between(Pairing<'a>, [u32; 2]),
-}
-
-impl Numbers<'_> {
-    /// Returns the rows of a pair's vertices.
-    #[inline(always)]
-    fn vertices(&self, kind: PairKind, pair: [u32; 2]) -> [u32; 4] {
-        match self {
-            Self::Positions(hierarchies) => hierarchies.vertices(kind, pair),
-            Self::Mesh(topology) => topology.vertices_of(kind, pair),
-            Self::Placed(hierarchies) => {
-                let vertices = hierarchies.topology().vertices_of(kind, pair);
-                vertices.map(|vertex| hierarchies.position_of(vertex))
-            }
-            Self::FacesAndEdges(hierarchies) => {
-                let [face, edge] = pair;
-                let [a, b, c] = hierarchies.face_corners(face);
-                [hierarchies.vertex_positions() as u32 + edge, a, b, c]
-            }
-            Self::Between(pairing, first_rows) => pairing.rows_of(pair, *first_rows),
-        }
-    }
-
-    /// Replaces `rows` by those of many pairs of one kind.
-    fn vertices_of_all(&self, kind: PairKind, pairs: &[[u32; 2]], rows: &mut [[u32; 4]]) {
-        match self {
-            Self::Positions(hierarchies) => hierarchies.vertices_of_all(kind, pairs, rows),
-            _ => {
-                for (rows, &pair) in rows.iter_mut().zip(pairs) {
-                    *rows = self.vertices(kind, pair);
-                }
-            }
-        }
-    }
-
-    fn in_mesh(&self, kind: PairKind, pair: [u32; 2]) -> [u32; 2] {
-        match self {
-            Self::Positions(hierarchies) => hierarchies.in_mesh(kind, pair),
-            Self::Mesh(_) | Self::Placed(_) => pair,
-            Self::FacesAndEdges(hierarchies) => hierarchies.face_edge_in_mesh(pair),
-            Self::Between(pairing, _) => pairing.in_meshes(pair),
-        }
-    }
-}
 
 /// The input of all chunks of a source.
 #[derive(Clone, Copy)]

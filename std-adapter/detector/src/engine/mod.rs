@@ -6,7 +6,10 @@
 mod chunk;
 mod findings;
 mod given;
+mod hinge_chunk;
+mod intersections;
 mod mesh_engine;
+mod numbers;
 mod pair_engine;
 mod question;
 mod rest;

@@ -2,8 +2,8 @@
 
 use super::chunk::{Chunk, ChunkSink, StepInput};
 use super::findings::Findings;
+use super::hinge_chunk::HingeChunk;
 use super::question::{Bound, Wanted};
-use super::rest::HingeChunk;
 use super::source::{Candidates, Source};
 use super::stop::Stop;
 use crate::broad_phase::{BlockPair, CHUNK, Scratch, Sink};

@@ -26,19 +26,15 @@
 //! exception. A triangle that names a vertex twice is an edge, whose end may touch a face that contains its other end. A triangle that names one
 //! vertex only is a point without edges, so it is tested with every face.
 
-use super::chunk::{Chunk, ChunkSink, Numbers, StepInput, drop_never_coplanar};
+use super::chunk::{Chunk, ChunkSink, StepInput, drop_never_coplanar};
 use super::findings::Findings;
-use super::mesh_engine::MeshEngine;
-use super::pair_engine::{Space, own_space, shares, spaces_for_threads};
-use super::question::{Bound, Question, Wanted};
+use super::numbers::Numbers;
+use super::pair_engine::Space;
+use super::question::Wanted;
 use crate::PairKind;
-use crate::broad_phase::{BlockPair, CHUNK, FacesAndEdges, Fit, Hierarchies, Pairing, Rows, Sink};
-use crate::mesh::{Hinge, Hinges};
-use crate::parallel::{self, Workers};
-use crate::step::{Contact, Intersection, Motions};
-use selvedge_core::Motion;
-use selvedge_core::batch::{Mask, VertexRow};
-use selvedge_core::elementary::Limits;
+use crate::broad_phase::{BlockPair, CHUNK, FacesAndEdges, Hierarchies, Pairing, Sink};
+use crate::mesh::Hinges;
+use crate::step::{Contact, Intersection};
 use selvedge_core::separation::hinge::is_wide_open;
 
 /// The tasks of traversals for pairs at rest.
@@ -50,90 +46,9 @@ pub(super) struct RestTasks {
     stack: Vec<BlockPair>,
 }
 
-impl MeshEngine {
-    /// Replaces `found` by the intersections of a mesh at rest, or by some of them if any will do.
-    pub(crate) fn intersections(
-        &mut self,
-        threads: &Workers,
-        motions: &dyn Motions,
-        wanted: Wanted,
-        found: &mut Vec<Intersection>,
-    ) {
-        // Whether a state is free does not depend on the collision filter.
-        let filter = self.filter.take();
-        if filter.is_some() {
-            self.broad_phase.set_filter(None);
-        }
-        threads.run(|| self.intersections_here(motions, wanted, found));
-        if filter.is_some() {
-            self.broad_phase.set_filter(filter.clone());
-            self.filter = filter;
-        }
-    }
-
-    fn intersections_here(&mut self, motions: &dyn Motions, wanted: Wanted, found: &mut Vec<Intersection>) {
-        found.clear();
-        self.pairs.stop.begin();
-        let hierarchies = &mut self.broad_phase.hierarchies;
-        hierarchies.fit_boxes(motions, &Fit::default());
-        let hierarchies = &*hierarchies;
-        set_rows(&mut self.rows, hierarchies);
-        let hinges = self.hinges.get_or_insert_with(|| Hinges::new(hierarchies.topology()));
-        let mut tests = self.rest_tasks.find(hierarchies, hinges);
-
-        spaces_for_threads(&mut self.pairs.spaces);
-        let bound = Bound::new(1.0);
-        let search = RestSearch {
-            step: StepInput {
-                level: hierarchies.level(),
-                numbers: Numbers::FacesAndEdges(hierarchies),
-                rows: self.rows.slices(),
-                question: Question {
-                    // The sweeps stop this near to contact, and the exact verdict decides. The limits change no result.
-                    limits: Limits::default(),
-                    wanted,
-                    keeps_filtered: false,
-                    is_exact: true,
-                },
-                bound: &bound,
-                stop: &self.pairs.stop,
-            },
-            hierarchies,
-            hinges,
-            tasks: &self.rest_tasks,
-        };
-        let mut candidates = 0;
-        for part in [Part::FacesAndEdges, Part::Hinges, Part::LooseFeatures] {
-            let shares = shares();
-            self.pairs.workers.resize_with(shares, Default::default);
-            let spaces = &self.pairs.spaces;
-            parallel::for_each(&mut self.pairs.workers, |share, worker| {
-                worker.findings.clear();
-                worker.tests = 0;
-                if !search.has_enough() {
-                    worker.tests = search.share(part, [share, shares], &mut own_space(spaces), &mut worker.findings);
-                }
-            });
-            for worker in &self.pairs.workers {
-                if matches!(part, Part::FacesAndEdges) {
-                    tests += worker.tests;
-                    candidates += worker.findings.counts.candidates.total();
-                }
-                found.extend(worker.findings.contacts.iter().map(|contact| part.intersection(contact)));
-            }
-        }
-        // Where a traversal ends early depends on which thread is first.
-        if !search.has_enough() {
-            self.broad_phase.hierarchies.observe_face_edge(tests, candidates as usize);
-        }
-        found.sort_unstable();
-        found.dedup();
-    }
-}
-
 impl RestTasks {
     /// Finds where to look. Returns the box tests for faces and edges.
-    fn find(&mut self, hierarchies: &Hierarchies, hinges: &Hinges) -> u64 {
+    pub(super) fn find(&mut self, hierarchies: &Hierarchies, hinges: &Hinges) -> u64 {
         self.vertices_and_faces.clear();
         if hinges.has_loose_features() {
             let [vertex_face, _] = Pairing::all_within(hierarchies);
@@ -150,34 +65,16 @@ fn part_of<T>(list: &[T], [share, shares]: [usize; 2]) -> &[T] {
     &list[place(share)..place(share + 1)]
 }
 
-/// The hinges of one thread.
-#[derive(Debug, Default)]
-pub(super) struct HingeChunk {
-    hinges: Vec<Hinge>,
-    /// For each hinge that may be coplanar, its index twice, and the rows of its vertices.
-    indices: Vec<[u32; 2]>,
-    rows: Vec<[u32; 4]>,
-    masks: Vec<Mask>,
-}
-
-impl HingeChunk {
-    fn clear(&mut self) {
-        self.hinges.clear();
-        self.indices.clear();
-        self.rows.clear();
-    }
-}
-
 /// The parts of a search, one after the other.
 #[derive(Clone, Copy, Debug)]
-enum Part {
+pub(super) enum Part {
     FacesAndEdges,
     Hinges,
     LooseFeatures,
 }
 
 impl Part {
-    fn intersection(self, contact: &Contact<f64>) -> Intersection {
+    pub(super) fn intersection(self, contact: &Contact<f64>) -> Intersection {
         let [first, second] = contact.pair;
         match (self, contact.kind) {
             (Self::FacesAndEdges, _) => Intersection::EdgeFace {
@@ -194,23 +91,23 @@ impl Part {
 }
 
 /// The input of all threads.
-struct RestSearch<'a> {
+pub(super) struct RestSearch<'a> {
     /// For edges and faces.
-    step: StepInput<'a>,
-    hierarchies: &'a Hierarchies,
-    hinges: &'a Hinges,
-    tasks: &'a RestTasks,
+    pub(super) step: StepInput<'a>,
+    pub(super) hierarchies: &'a Hierarchies,
+    pub(super) hinges: &'a Hinges,
+    pub(super) tasks: &'a RestTasks,
 }
 
 impl RestSearch<'_> {
     /// Returns whether the search is complete, or was cut short.
-    fn has_enough(&self) -> bool {
+    pub(super) fn has_enough(&self) -> bool {
         let is_answered = self.step.question.wanted == Wanted::Any && self.step.bound.is_lowered();
         is_answered || !self.step.stop.continues(0)
     }
 
     /// Searches one share of a part. Returns the number of box tests.
-    fn share(&self, part: Part, [share, shares]: [usize; 2], space: &mut Space, findings: &mut Findings) -> u64 {
+    pub(super) fn share(&self, part: Part, [share, shares]: [usize; 2], space: &mut Space, findings: &mut Findings) -> u64 {
         space.chunk.clear();
         match part {
             Part::FacesAndEdges => return self.faces_and_edges([share, shares], space, findings),
@@ -333,30 +230,4 @@ impl Sink for TiedSink<'_> {
         self.tied.extend(pairs.iter().copied().filter(must_be_looked_at));
         self.chunk.take(self.step, PairKind::VertexFace, self.tied, self.findings)
     }
-}
-
-/// Rows that one thread makes at a time.
-const ROWS: usize = 4096;
-
-/// Makes a row for each vertex, at rest, and then one for each edge, from one end to the other.
-fn set_rows(rows: &mut Rows, hierarchies: &Hierarchies) {
-    let vertices = hierarchies.rows().double();
-    let edges = hierarchies.edge_ends();
-    let point = |position: u32| vertices[position as usize].motion().start;
-    let row = |index: usize| match index.checked_sub(vertices.len()) {
-        None => VertexRow::new(Motion::resting(point(index as u32))),
-        Some(edge) => {
-            let [from, to] = edges[edge].map(point);
-            VertexRow::new(Motion::new(from, to))
-        }
-    };
-    let all = rows.resize(vertices.len() + edges.len());
-    let mut chunks: Vec<_> = all.chunks_mut(ROWS).collect();
-    parallel::for_each(&mut chunks, |chunk, rows| {
-        for (offset, own) in rows.iter_mut().enumerate() {
-            *own = row(chunk * ROWS + offset);
-        }
-    });
-    drop(chunks);
-    rows.narrow();
 }

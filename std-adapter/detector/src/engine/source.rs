@@ -1,7 +1,7 @@
 //! Sources of candidates.
 
-use super::chunk::Numbers;
 use super::given::PrimitiveBoxes;
+use super::numbers::Numbers;
 use super::question::Question;
 use crate::PairKind;
 use crate::broad_phase::{Hierarchies, Pairing, RowSlices};

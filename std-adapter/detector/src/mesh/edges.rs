@@ -1,7 +1,12 @@
 //! Finds the edges of a list of triangles.
 
-use super::topology::Topology;
 use std::borrow::Cow;
+
+/// Stands for no edge.
+pub(super) const NO_EDGE: u32 = u32::MAX;
+
+/// The most triangles. Three edges of each must have numbers below [`NO_EDGE`].
+pub(super) const MAX_TRIANGLES: usize = (u32::MAX / 3) as usize;
 
 /// The vertices that triangles name. Where few vertices have a triangle, they are numbered again, so that a list of them is short.
 pub(super) struct Named<'a> {
@@ -56,7 +61,7 @@ pub(super) fn find_edges(named: &Named<'_>) -> (Vec<[u32; 2]>, Vec<[u32; 3]>) {
     let groups = ByKey::new(named.vertex_count, slots);
 
     let mut edges: Vec<[u32; 2]> = Vec::with_capacity(triangles.len() * 3 / 2);
-    let mut triangle_edges = vec![[Topology::NO_EDGE; 3]; triangles.len()];
+    let mut triangle_edges = vec![[NO_EDGE; 3]; triangles.len()];
     for (larger, group) in groups.iter() {
         for same_edge in group.chunk_by(|a, b| a.0 == b.0) {
             for &(_, slot) in same_edge {

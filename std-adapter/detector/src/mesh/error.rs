@@ -1,9 +1,9 @@
 //! Reasons for refusing a list of triangles.
 
-use super::topology::Topology;
+use super::edges::MAX_TRIANGLES;
 use std::fmt;
 
-/// The reason why a list of triangles has no [`Topology`].
+/// The reason why a list of triangles has no [`Topology`](crate::Topology).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TopologyError {
     /// A triangle names a vertex that does not exist.
@@ -66,7 +66,7 @@ impl fmt::Display for TopologyError {
                 f,
                 "the mesh has {vertex_count} vertices and {triangle_count} triangles: more than {} vertices or {} triangles cannot be numbered",
                 u32::MAX,
-                Topology::MAX_TRIANGLES
+                MAX_TRIANGLES
             ),
         }
     }

@@ -1,6 +1,6 @@
 //! The vertices, edges and triangles of a mesh, and how they are connected.
 
-use super::edges::{Named, find_edges};
+use super::edges::{MAX_TRIANGLES, NO_EDGE, Named, find_edges};
 use super::error::TopologyError;
 use super::features::FeaturePair;
 use super::statistics::firsts;
@@ -38,10 +38,10 @@ pub struct Topology {
 
 impl Topology {
     /// Stands for no edge in [`triangle_edges`](Self::triangle_edges), where both ends are the same vertex.
-    pub const NO_EDGE: u32 = u32::MAX;
+    pub const NO_EDGE: u32 = NO_EDGE;
 
     /// The most triangles. Three edges of each must have numbers below [`NO_EDGE`](Self::NO_EDGE).
-    pub const MAX_TRIANGLES: usize = (u32::MAX / 3) as usize;
+    pub const MAX_TRIANGLES: usize = MAX_TRIANGLES;
 
     /// Finds the edges of `triangles`.
     ///

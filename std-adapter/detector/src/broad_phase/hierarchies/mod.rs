@@ -6,10 +6,10 @@ mod refit;
 
 pub(crate) use refit::mapping_within;
 
-use super::MovingStatistics;
 use super::degradation::{Degradation, Prices};
 use super::neighbours::Neighbours;
 use super::rows::Rows;
+use super::statistics::MovingStatistics;
 use super::tree::Tree;
 use crate::mesh::Topology;
 use crate::simd::{Level, best_level};
