@@ -53,9 +53,10 @@ impl<S: Scalar> GapError<S> {
         Self(self.0.larger(other.0))
     }
 
-    /// The error as a length.
+    /// The error as a length, in the unit of the positions.
     #[inline(always)]
-    pub(super) const fn length(self) -> S {
+    #[must_use]
+    pub const fn length(self) -> S {
         self.0
     }
 }

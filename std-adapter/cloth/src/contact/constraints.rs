@@ -1,21 +1,26 @@
 //! Contacts as constraints: pairs that are nearer to each other than their thickness are pushed apart.
 //!
-//! A constraint is C = n·Σwᵢxᵢ − h ≥ 0 with the direction n and the weights w of the closest points at the start of the step. A pair that
-//! starts nearer than that comes apart at [`RECOVERY`] at most, whatever the length of the step: a push must not become a
-//! velocity. On a fine mesh neighbours at rest may be nearer than the thickness; such a pair's is at most half its distance at rest,
-//! or the mesh would lock, and [less](super::neighbours). What was tangled has no such distance at rest, and the two sides of a tear have none
-//! at all: they come apart to at least the thickness of neighbours.
+//! Each contact is a [row](super::rows) of the closest points at the start of the step. On a fine mesh neighbours at rest may be nearer than the
+//! thickness. Then the thickness of such a pair is at most half its distance at rest, or the mesh would lock, and [less](super::neighbours). What was
+//! tangled has no such distance at rest, and the two sides of a tear have none at all: they come apart to at least the thickness of neighbours.
 //!
-//! **Only where it matters.** ClosestPoints points are found when it is the turn of a pair to push, and not if the direction that it remembers
+//! Contacts with a body are those with its [surface](super::cones).
+//!
+//! **Only where it matters.** Closest points are found when it is the turn of a pair to push, and not if the direction that it remembers
 //! keeps it at its thickness by then: where cloth lies on something each vertex has many pairs, and a push or two see to all of them. On a
 //! figure that walks in a shirt a third of the pairs that would come too near by themselves are left. A pair that remembers no direction is
 //! not kept by any: where that is so of many, as after a checkpoint, closest points are found of [several at once](Known).
 
 use super::candidate::{Aim, Candidate, ClosestOfSome};
+use super::cones::Cones;
+use super::crossing::PairKey;
 use super::exempt::Exempt;
 use super::neighbours::{are_neighbours, at_rest};
-use super::settings::{ContactSettings, MARGIN, RECOVERY, Thickness};
-use crate::model::step::{TimeStep, Touch, Touches, mobility};
+use super::rows::{Memory, ProximityPair, Row};
+use super::settings::{ContactSettings, MARGIN, Thickness};
+use crate::model::step::{TimeStep, Touches};
+use crate::model::touches::LEAST_MISSING;
+use selvedge::PairKind;
 use selvedge::parallel;
 use selvedge::parallel::append_selected;
 use selvedge::simd::Level;
@@ -31,23 +36,71 @@ use std::hint::select_unpredictable;
 pub(super) struct Contacts {
     /// The candidates that may have to be pushed, by their places, in order, as they are found.
     open: Vec<u32>,
-    /// The same as they are pushed: pairs of cloth with itself, and pairs with a body.
-    open_of: [Vec<u32>; 2],
-    /// Those of them that were near, and not kept apart yet, when it was their turn.
-    near: Vec<ProximityPair>,
+    /// Pairs of cloth with itself, and pairs with a body.
+    of: [Class; 2],
+    memory: Memory,
+    /// Sweeps so far.
+    sweeps: u32,
 }
 
-/// A pair that is near at the start of a step, and was not seen to be kept at its thickness by what pushed before it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ProximityPair {
-    /// Vertex and face, or first edge and second edge; the cloth's vertices, then those of bodies.
-    pub vertices: [u32; 4],
-    /// Of each vertex in the way between the closest points: positive on the first side, where they add up to one, negative on the other.
-    pub weights: [f64; 4],
-    /// From the second side to the first, of length one.
-    pub normal: DVec3,
-    /// How far apart the pair is to be, in metres.
-    pub thickness: f64,
+/// Contacts with bodies, or those of cloth.
+#[derive(Debug, Default)]
+struct Class {
+    /// The candidates that may have to be pushed, by their places, in order.
+    open: Vec<u32>,
+    /// Of each of them what it is.
+    found: Vec<Found>,
+    rows: Vec<Row>,
+    /// Candidates that begin with a push, and their rows.
+    begun: Vec<(u32, u32)>,
+    /// The candidates without those; kept for its memory.
+    others: Vec<u32>,
+    /// Whether all have had their turn once.
+    is_found: bool,
+}
+
+impl Class {
+    /// Gives the candidates that begin with a push their places among those that may have to be pushed.
+    fn merge(&mut self) {
+        let Self {
+            open,
+            found,
+            begun,
+            others,
+            ..
+        } = self;
+        if begun.is_empty() {
+            return;
+        }
+        begun.sort_unstable();
+        std::mem::swap(open, others);
+        open.clear();
+        let mut own = begun.drain(..).peekable();
+        for place in others.drain(..) {
+            while let Some((before, row)) = own.next_if(|&(own, _)| own < place) {
+                open.push(before);
+                found.push(Found::Row(row));
+            }
+            let row = own.next_if(|&(own, _)| own == place);
+            open.push(place);
+            found.push(row.map_or(Found::Kept, |(_, row)| Found::Row(row)));
+        }
+        for (place, row) in own {
+            open.push(place);
+            found.push(Found::Row(row));
+        }
+    }
+}
+
+/// What came of a candidate's turn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Found {
+    /// The direction that it remembers keeps it apart so far.
+    Kept,
+    /// It is not near, or is no contact.
+    Nothing,
+    /// Its place among the rows.
+    Row(u32),
 }
 
 /// What is asked of pairs.
@@ -62,6 +115,10 @@ pub(super) struct Rules<'a> {
     pub(super) error: GapError<f64>,
     /// The instructions by which closest points are found.
     pub(super) level: Level,
+    /// Of bodies.
+    pub(super) cones: &'a Cones,
+    /// Vertices from here on are bodies'.
+    pub(super) cloth_vertices: u32,
 }
 
 /// What starts within this may come within `aim`.
@@ -72,8 +129,54 @@ fn reach(aim: f64) -> f64 {
 impl Contacts {
     pub(super) fn clear(&mut self) {
         self.open.clear();
-        self.open_of.iter_mut().for_each(Vec::clear);
-        self.near.clear();
+        for class in &mut self.of {
+            class.open.clear();
+            class.found.clear();
+            class.rows.clear();
+            class.is_found = false;
+        }
+        self.sweeps = 0;
+    }
+
+    /// Forgets what pushed in the last step as well.
+    pub(super) fn forget(&mut self) {
+        self.clear();
+        self.memory.clear();
+    }
+
+    /// Remembers what has pushed, as the step was made.
+    pub(super) fn remember(&mut self, touches: &Touches, h: f64) {
+        self.memory.remember(self.of.iter().flat_map(|class| &class.rows), touches, h);
+    }
+
+    /// What pushed in the last step, and what it begins a step of `h` seconds with.
+    pub(super) fn remembered(&self, h: f64) -> impl Iterator<Item = (PairKey, f64)> {
+        self.memory.begin(h)
+    }
+
+    /// Lets the candidates at these places begin with a push over their mobility. Their turns stay in the order of all candidates, since the
+    /// result depends on it a little.
+    pub(super) fn begin(
+        &mut self,
+        places: &[(usize, f64)],
+        pairs: &mut [Candidate],
+        rules: Rules<'_>,
+        (step, positions): (&TimeStep<'_>, &mut [DVec3]),
+    ) {
+        for &(place, push) in places {
+            let pair = &mut pairs[place];
+            if rules.exempt.is_tangled(pair) {
+                continue;
+            }
+            if let Some((near, distance)) = near(pair, None, rules, step) {
+                let class = &mut self.of[usize::from(pair.data.is_with_body())];
+                let mut row = Row::new(pair.key(), near, distance, step);
+                row.begin_with(push, step, positions);
+                class.begun.push((place as u32, class.rows.len() as u32));
+                class.rows.push(row);
+            }
+        }
+        self.of.iter_mut().for_each(Class::merge);
     }
 
     /// Replaces them by those of the pairs that are near at the start of the step, and that the direction which kept them apart there does
@@ -92,42 +195,120 @@ impl Contacts {
             self.open.retain(|&place| !rules.exempt.is_tangled(&pairs[place as usize]));
         }
         for &place in &self.open {
-            self.open_of[usize::from(pairs[place as usize].data.is_with_body())].push(place);
+            let with_body = pairs[place as usize].data.is_with_body();
+            self.of[usize::from(with_body)].open.push(place);
         }
     }
 
-    /// Pushes once along the contacts with bodies, or along those of cloth; returns how many pushed.
+    /// Finds the contacts that are too near at the start of the step, and records what they miss, before anything pushes.
+    pub(super) fn find_missing(
+        &mut self,
+        pairs: &mut [Candidate],
+        rules: Rules<'_>,
+        (step, positions): (&TimeStep<'_>, &[DVec3]),
+        touches: &mut Touches,
+    ) {
+        let closing = farthest_way(step, positions);
+        for class in self.of.iter_mut().rev() {
+            class.found.resize(class.open.len(), Found::Kept);
+            for (&place, turn) in class.open.iter().zip(&mut class.found) {
+                let pair = &mut pairs[place as usize];
+                let closing = if pair.data.is_with_body() { closing } else { 0.0 };
+                if *turn == Found::Kept && may_miss(pair, closing) && !is_kept(pair, positions) {
+                    *turn = match near(pair, None, rules, step) {
+                        Some((near, distance)) => {
+                            class.rows.push(Row::new(pair.key(), near, distance, step));
+                            Found::Row(class.rows.len() as u32 - 1)
+                        }
+                        None => Found::Nothing,
+                    };
+                }
+                if let Found::Row(row) = *turn {
+                    class.rows[row as usize].record_missing(step, positions, touches);
+                }
+            }
+        }
+    }
+
+    /// Pushes once along the contacts with bodies, or along those of cloth; returns how many push that did not before.
     pub(super) fn push(
         &mut self,
         with_body: bool,
         pairs: &mut [Candidate],
         rules: Rules<'_>,
         (step, positions): (&TimeStep<'_>, &mut [DVec3]),
-        touches: &mut Touches,
     ) -> u64 {
+        let Class {
+            open,
+            found: turns,
+            rows,
+            is_found,
+            ..
+        } = &mut self.of[usize::from(with_body)];
+        let is_first = !std::mem::replace(is_found, true);
+        turns.resize(open.len(), Found::Kept);
         let mut pushed = 0;
         let mut known = Known::default();
-        for places in self.open_of[usize::from(with_body)].chunks(LANES) {
-            let are_known = known.find(places, pairs, rules, step.start);
-            for (lane, &place) in places.iter().enumerate() {
-                let pair = &mut pairs[place as usize];
-                let found = are_known.then_some((&known, lane));
-                // What remembers nothing is not kept.
-                if found.is_none() && is_kept(pair, positions) {
-                    continue;
+        for (places, turns) in open.chunks(LANES).zip(turns.chunks_mut(LANES)) {
+            let are_known = is_first && known.find(places, pairs, rules, step.start);
+            for (lane, (&place, turn)) in places.iter().zip(turns).enumerate() {
+                if *turn == Found::Kept {
+                    let pair = &mut pairs[place as usize];
+                    let found = are_known.then_some((&known, lane));
+                    // What remembers nothing is not kept.
+                    if found.is_none() && is_kept(pair, positions) {
+                        continue;
+                    }
+                    *turn = match near(pair, found, rules, step) {
+                        Some((near, distance)) => {
+                            rows.push(Row::new(pair.key(), near, distance, step));
+                            Found::Row(rows.len() as u32 - 1)
+                        }
+                        None => Found::Nothing,
+                    };
                 }
-                if let Some(near) = near(pair, found, rules, step) {
-                    pushed += u64::from(project(&near, step, positions, touches));
-                    self.near.push(near);
+                if let Found::Row(row) = *turn {
+                    pushed += u64::from(rows[row as usize].settle(step, positions));
                 }
             }
         }
         pushed
     }
 
-    /// Those that were near, and not kept apart yet, when it was their turn.
+    /// Lets the contacts that were found push or take back, once each, in one order and then in the other.
+    pub(super) fn sweep(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3]) {
+        let is_reversed = self.sweeps.is_multiple_of(2);
+        for with_body in [!is_reversed, is_reversed] {
+            let Class { found, rows, .. } = &mut self.of[usize::from(with_body)];
+            let mut settle = |turn: &Found| {
+                if let Found::Row(row) = *turn {
+                    rows[row as usize].settle(step, positions);
+                }
+            };
+            if is_reversed {
+                found.iter().rev().for_each(&mut settle);
+            } else {
+                found.iter().for_each(&mut settle);
+            }
+        }
+        self.sweeps += 1;
+    }
+
+    /// Lets all contacts follow the shift.
+    pub(super) fn follow_shift(&mut self, step: &TimeStep<'_>, positions: &[DVec3], touches: &Touches) {
+        let rows = self.of.iter_mut().flat_map(|class| &mut class.rows);
+        rows.for_each(|row| row.follow_shift(step, positions, touches));
+    }
+
+    /// Records what pushes now, for friction.
+    pub(super) fn record(&mut self, touches: &mut Touches) {
+        let rows = self.of.iter_mut().rev().flat_map(|class| &mut class.rows);
+        rows.for_each(|row| row.record(touches));
+    }
+
+    /// The pairs that were near, and not kept apart yet, when it was their turn: those with bodies first.
     pub(super) fn near_pairs(&self) -> impl Iterator<Item = ProximityPair> {
-        self.near.iter().copied()
+        self.of.iter().rev().flat_map(|class| &class.rows).map(|row| row.near)
     }
 }
 
@@ -141,10 +322,24 @@ fn is_open(pair: &Candidate, predicted: &[DVec3]) -> bool {
     !pair.is_kept_at(distance, predicted)
 }
 
-/// Whether the direction that a pair remembers keeps it at its thickness.
+/// Whether a pair may be nearer than its thickness at the start of the step, as far as it remembers, or is when bodies have come nearer by `closing`.
+#[inline(always)]
+fn may_miss(pair: &Candidate, closing: f64) -> bool {
+    f64::from(pair.gap()) < (1.0 - LEAST_MISSING) * pair.data.aim.length() + closing
+}
+
+/// How far the fastest kinematic vertex goes in the step.
+fn farthest_way(step: &TimeStep<'_>, positions: &[DVec3]) -> f64 {
+    let ways = step.start.iter().zip(positions).zip(step.inverse_masses);
+    let kinematic = ways.filter(|(_, inverse_mass)| **inverse_mass == 0.0);
+    let squared = kinematic.map(|((start, end), _)| start.distance_squared(*end));
+    squared.fold(0.0, f64::max).sqrt()
+}
+
+/// Whether the direction that a pair remembers keeps it at its thickness, but for what is not worth a push.
 #[inline(always)]
 fn is_kept(pair: &Candidate, positions: &[DVec3]) -> bool {
-    pair.is_kept_at(pair.data.aim.length(), positions)
+    pair.is_kept_at((1.0 - LEAST_MISSING) * pair.data.aim.length(), positions)
 }
 
 /// Where up to sixteen pairs are closest, if that is found at once.
@@ -174,8 +369,13 @@ impl Known {
     }
 }
 
-/// The pair as it is at the start of the step, if it is near there. `known` may say where it is closest, at a place in it.
-fn near(pair: &mut Candidate, known: Option<(&Known, usize)>, rules: Rules<'_>, step: &TimeStep<'_>) -> Option<ProximityPair> {
+/// The pair as it is at the start of the step, and its distance, if it is a contact there. `known` may say where it is closest, at a place in it.
+fn near(
+    pair: &mut Candidate,
+    known: Option<(&Known, usize)>,
+    rules: Rules<'_>,
+    step: &TimeStep<'_>,
+) -> Option<(ProximityPair, f64)> {
     let closest = match known {
         Some((known, place)) => &known.at_start.found()[place],
         None => &pair.closest(step.start),
@@ -189,12 +389,31 @@ fn near(pair: &mut Candidate, known: Option<(&Known, usize)>, rules: Rules<'_>, 
         let at_rest = || known.map_or_else(|| pair.closest(rules.rest), |(known, place)| known.at_rest.found()[place]);
         pair.data.aim = Aim::own(thickness_of(pair, at_rest, rules)?);
     }
-    Some(ProximityPair {
+    if pair.data.is_with_body() && !is_of_surface(pair, closest, rules, step.start) {
+        return None;
+    }
+    let near = ProximityPair {
         vertices: pair.vertices,
         weights: closest.weights,
         normal: closest.direction,
-        thickness: pair.data.aim.length().min(distance + RECOVERY * step.h),
-    })
+        thickness: pair.data.aim.length(),
+    };
+    Some((near, distance))
+}
+
+/// Whether the point of the body is the closest of its [surface](super::cones), and not only of one of its faces or edges.
+fn is_of_surface(pair: &Candidate, closest: &ClosestPoints, rules: Rules<'_>, positions: &[DVec3]) -> bool {
+    let of_first = match pair.kind {
+        PairKind::VertexFace => 1,
+        PairKind::EdgeEdge => 2,
+    };
+    let (first, second) = pair.vertices.split_at(of_first);
+    let (of_first, of_second) = closest.weights.split_at(of_first);
+    if second[0] >= rules.cloth_vertices {
+        rules.cones.contain(second, of_second, positions, closest.direction)
+    } else {
+        rules.cones.contain(first, of_first, positions, -closest.direction)
+    }
 }
 
 /// The thickness that a pair can have: the one that is asked for, but for neighbours in one cloth.
@@ -226,30 +445,4 @@ fn thickness_of(pair: &Candidate, closest_at_rest: impl FnOnce() -> ClosestPoint
     } else {
         own
     })
-}
-
-/// Pushes a pair apart, if it is too near; whether it was.
-fn project(pair: &ProximityPair, step: &TimeStep<'_>, positions: &mut [DVec3], touches: &mut Touches) -> bool {
-    let vertices = pair.vertices.map(|v| v as usize);
-    let mut distance = -pair.thickness;
-    for (vertex, weight) in vertices.into_iter().zip(pair.weights) {
-        distance += weight * pair.normal.dot(positions[vertex]);
-    }
-    let mobility = mobility(step.inverse_masses, pair.vertices, pair.weights);
-    if distance >= 0.0 || !(mobility > 0.0) {
-        return false;
-    }
-    let push = -distance;
-    let along = pair.normal * (push / mobility);
-    for (vertex, weight) in vertices.into_iter().zip(pair.weights) {
-        positions[vertex] += along * (step.inverse_masses[vertex] * weight);
-    }
-    touches.record(|| Touch {
-        vertices: pair.vertices,
-        weights: pair.weights,
-        normal: pair.normal,
-        push,
-        drift: DVec3::ZERO,
-    });
-    true
 }

@@ -5,7 +5,8 @@
 //! | `settings` | what effects ask for |
 //! | `candidates` | which pairs are looked at, followed from step to step by the detector; `neighbours`: those near each other at rest |
 //! | `candidate` | one pair: what contact keeps of it, its certified time of impact |
-//! | `constraints` | contacts as constraints of the solver |
+//! | `constraints`, `rows` | contacts as constraints of the solver |
+//! | `cones` | which contacts are with a body's surface |
 //! | `pass` | no step is accepted that is not certified |
 //! | `relaxation`, `impact_zones`, `truncation` | what is done about a step that is not |
 //! | `solver` | all of it, as the simulation calls it |
@@ -20,6 +21,7 @@
 
 mod candidate;
 mod candidates;
+mod cones;
 mod constraints;
 mod contours;
 mod crossing;
@@ -30,6 +32,7 @@ mod opening;
 mod pass;
 mod relaxation;
 mod report;
+mod rows;
 mod separations;
 mod settings;
 mod sides;
@@ -37,12 +40,12 @@ mod solver;
 mod truncation;
 mod untangling;
 
-pub use constraints::ProximityPair;
 pub use crossing::Crossing;
 pub(crate) use crossing::PairKey;
 pub(crate) use pass::LARGEST_TURN;
 pub(crate) use report::Blocker;
 pub use report::{ContactCounts, ContactSeconds};
+pub use rows::ProximityPair;
+pub(crate) use settings::ContactSettings;
 pub use settings::Thickness;
-pub(crate) use settings::{ContactSettings, RECOVERY};
 pub(crate) use solver::ContactSolver;

@@ -6,10 +6,19 @@
 //!                                                      └▶ cut: half the step
 //! ```
 //!
-//! **What is kept.** A pair keeps m_P = min(m, c·d_P), m the separation asked for and d_P its distance at the start: so a pair
-//! that starts nearer than m may stay, and a zone that is carried rigidly is free: translations change no distance, and a carrier
-//! that turns by θ shrinks distances on the straight paths of its points by cos(θ/2) at most, which [`LARGEST_TURN`] keeps above
-//! c. The margin 1 − c = 10⁻⁵ is far above all rounding.
+//! **What is kept.** A pair keeps m_P = min(m, c·d_P − 3E). Here m is its [separation](super::separations), d_P the lower bound of its distance at the
+//! start, along the direction of its closest points there, and E the error of gaps ([`GapError`]). So a pair that starts nearer than m may stay, and
+//! a zone that is carried rigidly is free:
+//!
+//! * A carrier that turns by θ shrinks distances on the straight paths of its points by cos(θ/2) at most, which [`LARGEST_TURN`] keeps above c.
+//! * A translation rounds each coordinate once. With |x| ≤ B and the unit roundoff u that moves the gap along a fixed direction by at most 6.1uB, and
+//!   the two computed gaps are off by 49uB each: 105uB in all, less than 2E, as E is 64uB. A computed lower bound is less than the computed gap
+//!   by E and a factor σ = 1 + 2⁻²⁰, at both ends. So the bound at the end is at least d_P − 2E, which is more than m_P.
+//!
+//! That takes the *same* direction at both ends, in full precision. The direction of points d apart has an error of some uB/d, which tilts a pair of
+//! size L by uBL/d, as good as any other. But two such directions differ by that much, and what a pair remembers is rounded to `f32`: for pairs much
+//! longer than they are apart either would cost more than a share 1 − c of the distance. A pair with d_P ≤ 3E is nearer than rounding can tell, and
+//! is refused where the simulation starts.
 //!
 //! **Relaxation.** Pairs that are not free become active; positions are relaxed until all that are active are kept apart, and the pairs of
 //! what has moved are looked at: those that are not free become active as well ([`relaxation`](super::relaxation)). On sleeves that bend,
@@ -32,10 +41,12 @@ use selvedge::parallel;
 use selvedge::simd::Level;
 use selvedge_core::batch::LANES;
 use selvedge_core::glam::DVec3;
-use selvedge_core::separation::gap::GapError;
+use selvedge_core::separation::gap::{GapError, distance_from_below};
 
 /// c of the module.
 const KEPT: f64 = 1.0 - 1e-5;
+/// What is no farther apart than this many errors of a gap is nearer than rounding can tell.
+pub(super) const TOO_NEAR: f64 = 3.0;
 /// The largest turn of a body in one step, in radians: cos(θ/2) ≥ 1 − θ²/8 ≥ 1 − ½·10⁻⁵.
 pub(crate) const LARGEST_TURN: f64 = 6.3e-3;
 /// Of the relaxation of what is wanted.
@@ -248,9 +259,7 @@ impl ContactSolver {
 
     /// m_P of the module.
     pub(super) fn kept(&self, pair: &Candidate, start: &[DVec3]) -> f64 {
-        let thickness = self.settings.of(pair);
-        let separation = thickness.map_or(0.0, |thickness| thickness.separation);
-        kept(pair, start, separation, self.error)
+        kept(pair, start, self.separation(pair).unwrap_or(0.0), self.error)
     }
 
     pub(super) fn separation(&self, pair: &Candidate) -> Option<f64> {
@@ -319,10 +328,18 @@ fn is_free_by_time(pair: &mut Candidate, path: [&[DVec3]; 2], separation: f64, e
         return true;
     }
     let kept = kept(pair, path[0], separation, error);
-    kept < separation && impact(pair, path, kept, error).is_none()
+    kept < separation && (is_kept_along_start(pair, path, kept, error) || impact(pair, path, kept, error).is_none())
+}
+
+/// Whether the direction of the closest points at the start certainly keeps the pair more than `kept` apart on the way: the gap along it is linear in
+/// time.
+fn is_kept_along_start(pair: &Candidate, path: [&[DVec3]; 2], kept: f64, error: GapError<f64>) -> bool {
+    let direction = pair.closest(path[0]).direction;
+    let bound = |positions| distance_from_below(pair.kind, pair.points(positions), direction, error);
+    path.into_iter().all(|positions| bound(positions) > kept)
 }
 
 /// m_P of the module.
 fn kept(pair: &Candidate, start: &[DVec3], separation: f64, error: GapError<f64>) -> f64 {
-    separation.min(KEPT * pair.distance_from_below(start, error))
+    separation.min((KEPT * pair.distance_from_below(start, error) - TOO_NEAR * error.length()).max(0.0))
 }

@@ -9,7 +9,8 @@
 //! Each projection aims at a little more than is needed, so that rounds end if there are positions that are all of that.
 
 use super::candidate::Candidate;
-use crate::model::step::{TimeStep, mobility};
+use crate::model::mobility::mobility;
+use crate::model::step::TimeStep;
 use selvedge::PairKind;
 use selvedge_core::glam::DVec3;
 use std::collections::BTreeMap;

@@ -25,12 +25,16 @@ impl<'a> Separations<'a> {
     }
 
     /// The separation that a pair is asked to keep; `None` if none is promised.
+    ///
+    /// A pair of neighbours may have a [thickness of its own](super::candidate::Aim) that is less than the separation, since it is nearer at rest. It
+    /// keeps no more than that, or it could come apart, but never back to where it rests.
     #[inline(always)]
     pub(super) fn of(&self, pair: &Candidate) -> Option<f64> {
-        match self.of_all {
+        let separation = match self.of_all {
             Some(of_all) => of_all[usize::from(pair.data.is_with_body())],
             None => self.of_single(pair),
-        }
+        };
+        separation.map(|separation| separation.min(pair.data.aim.length()))
     }
 
     #[cold]

@@ -183,8 +183,6 @@ impl ContactSettings {
 
 /// Pairs that start this much farther apart than their thickness get a constraint too if they come near.
 pub(super) const MARGIN: f64 = 2.0 / 3.0;
-/// How fast what is too near comes apart, in m/s.
-pub(crate) const RECOVERY: f64 = 1.0;
 
 /// Pairs of cloth are neighbours if their boxes are nearer at rest than this, in thicknesses: among them are all whose thickness is
 /// half their distance at rest, and all that would be candidates for good where cloth lies flat. Of other pairs 1 + [`MARGIN`] thicknesses and what is

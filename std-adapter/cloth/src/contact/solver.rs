@@ -2,12 +2,15 @@
 
 use super::candidate::{Candidate, time_of_impact_of};
 use super::candidates::{Candidates, candidates};
-use super::constraints::{Contacts, ProximityPair, Rules};
+use super::cones::Cones;
+use super::constraints::{Contacts, Rules};
 use super::crossing::{Crossing, PairKey};
 use super::exempt::{Exempt, Tangle};
 use super::impact_zones::ImpactZones;
+use super::pass::TOO_NEAR;
 use super::relaxation::Relaxation;
 use super::report::{ContactCounts, ContactSeconds};
+use super::rows::ProximityPair;
 use super::settings::ContactSettings;
 use crate::model::step::{Carrier, TimeStep, Touches};
 use selvedge::clock::Clock;
@@ -31,6 +34,11 @@ pub(crate) struct ContactSolver {
     pub(super) error: GapError<f64>,
     pub(super) level: Level,
     contacts: Contacts,
+    /// Candidates that begin with a push, and what that is; kept for its memory.
+    begun: Vec<(usize, f64)>,
+    /// Of bodies.
+    cones: Cones,
+    cloth_vertices: u32,
     pub(super) moved: Vec<bool>,
     /// The candidates that are looked at after something has moved; kept for its memory.
     pub(super) places: Vec<usize>,
@@ -57,6 +65,8 @@ impl ContactSolver {
         time_step: f64,
     ) -> Self {
         Self {
+            cones: Cones::new(&topology, cloth_vertices),
+            cloth_vertices: cloth_vertices as u32,
             candidates: candidates(&mut settings, topology, rest, carriers, cloth_vertices, time_step),
             settings,
             carriers: carriers.to_vec(),
@@ -64,6 +74,7 @@ impl ContactSolver {
             error: GapError::from_largest_coordinate(0.0),
             level: best_level(),
             contacts: Contacts::default(),
+            begun: Vec::new(),
             moved: vec![false; rest.len()],
             places: Vec::new(),
             relaxation: Relaxation::default(),
@@ -79,6 +90,7 @@ impl ContactSolver {
     pub(crate) fn refresh(&mut self, start: &[DVec3], end: &[DVec3], h: f64) {
         let begin = Clock::now();
         self.candidates.refresh(start, end, h);
+        self.contacts.forget();
         self.stages.candidates += begin.elapsed().as_secs_f64();
     }
 
@@ -91,7 +103,12 @@ impl ContactSolver {
         let mut tangle = Tangle::new(self.candidates.interest(), positions.len());
         let error = gap_error(positions, positions);
         let touches = |pair: &&Candidate| {
-            pair.distance_from_below(positions, error) == 0.0 && time_of_impact_of(pair, [positions, positions], 0.0).is_some()
+            let distance = pair.distance_from_below(positions, error);
+            if distance > 0.0 {
+                distance <= TOO_NEAR * error.length()
+            } else {
+                time_of_impact_of(pair, [positions, positions], 0.0).is_some()
+            }
         };
         let touching: Vec<&Candidate> = self.candidates.list.iter().filter(touches).collect();
         let parting = touching.iter().map(|pair| pair.key()).collect();
@@ -117,10 +134,51 @@ impl ContactSolver {
     }
 
     /// Pushes apart what is too near: cloth and bodies, or cloth and cloth.
-    pub(crate) fn push(&mut self, with_body: bool, step: &TimeStep<'_>, positions: &mut [DVec3], touches: &mut Touches) {
+    pub(crate) fn push(&mut self, with_body: bool, step: &TimeStep<'_>, positions: &mut [DVec3]) {
         let (contacts, pairs, rules) = self.parts();
-        let pushed = contacts.push(with_body, pairs, rules, (step, positions), touches);
+        let pushed = contacts.push(with_body, pairs, rules, (step, positions));
         self.counts.pushed += pushed;
+    }
+
+    /// Lets the contacts that pushed in the last step begin with that push.
+    pub(crate) fn begin(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3]) {
+        if !self.pushes {
+            return;
+        }
+        let mut places = std::mem::take(&mut self.begun);
+        places.clear();
+        let remembered = self.contacts.remembered(step.h);
+        places.extend(remembered.filter_map(|(key, push)| Some((self.candidates.place_of(key)?, push))));
+        let (contacts, pairs, rules) = self.parts();
+        contacts.begin(&places, pairs, rules, (step, positions));
+        self.counts.pushed += places.len() as u64;
+        self.begun = places;
+    }
+
+    /// Remembers what has pushed, as the step was made.
+    pub(crate) fn remember(&mut self, touches: &Touches, h: f64) {
+        self.contacts.remember(touches, h);
+    }
+
+    /// Records what contacts miss of their thickness at the start of the step.
+    pub(crate) fn find_missing(&mut self, step: &TimeStep<'_>, positions: &[DVec3], touches: &mut Touches) {
+        let (contacts, pairs, rules) = self.parts();
+        contacts.find_missing(pairs, rules, (step, positions), touches);
+    }
+
+    /// Lets contacts follow the shift of what is too near.
+    pub(crate) fn follow_shift(&mut self, step: &TimeStep<'_>, positions: &[DVec3], touches: &Touches) {
+        self.contacts.follow_shift(step, positions, touches);
+    }
+
+    /// Lets the contacts that were found push or take back once more.
+    pub(crate) fn sweep(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3]) {
+        self.contacts.sweep(step, positions);
+    }
+
+    /// Records what pushes now, for friction.
+    pub(crate) fn record(&mut self, touches: &mut Touches) {
+        self.contacts.record(touches);
     }
 
     /// The contacts, the candidates that they are of, and what is asked of these.
@@ -131,6 +189,8 @@ impl ContactSolver {
             rest: &self.rest,
             error: self.error,
             level: self.level,
+            cones: &self.cones,
+            cloth_vertices: self.cloth_vertices,
         };
         (&mut self.contacts, &mut self.candidates.list, rules)
     }

@@ -5,12 +5,14 @@
 
 use super::registration::{Effect, Registration, Scope};
 use super::thickness;
-use crate::contact::{RECOVERY, Thickness};
+use crate::contact::Thickness;
 use crate::effects::plan::Plan;
 use crate::input::ValueError;
-use crate::model::step::{Constraint, TimeStep, Touch, Touches};
+use crate::model::step::{Constraint, TimeStep, Touches};
+use crate::model::touches::Touch;
 use crate::world::{Pose, SceneParts};
 use selvedge_core::glam::DVec3;
+use std::ops::Range;
 
 pub(super) const REGISTRATION: Registration = Registration {
     keys: &["thickness", "separation"],
@@ -45,7 +47,8 @@ impl Effect for BodyContact {
 
     fn register(&self, plan: &mut Plan<'_>) {
         plan.contact.keep_from_bodies(plan.effect, self.0);
-        let cloth_vertices = plan.scene.cloth.mesh.positions.len();
+        let first = plan.first_vertex() as usize;
+        let vertices = first..first + plan.scene.cloth.mesh.positions.len();
         let bodies = plan.scene.bodies.iter().enumerate();
         let capsules: Vec<_> = bodies
             .filter_map(|(carrier, body)| {
@@ -54,9 +57,9 @@ impl Effect for BodyContact {
             })
             .collect();
         if !capsules.is_empty() {
-            plan.add_constraint(Push {
+            plan.add_push(Push {
                 capsules,
-                cloth_vertices,
+                vertices,
                 thickness: self.0.thickness,
             });
         }
@@ -74,7 +77,8 @@ struct Capsule {
 #[derive(Debug)]
 struct Push {
     capsules: Vec<Capsule>,
-    cloth_vertices: usize,
+    /// Of the cloth, among the scene's.
+    vertices: Range<usize>,
     thickness: f64,
 }
 
@@ -105,27 +109,37 @@ impl Constraint for Push {
             let [from, to] = capsule.ends.map(|end| now.apply(end));
             let axis = to - from;
             let reach = capsule.radius + self.thickness;
-            let cloth = positions[..self.cloth_vertices].iter_mut().enumerate();
-            for (vertex, position) in cloth {
-                let way = *position - nearest(from, axis, *position);
+            for vertex in self.vertices.clone() {
+                let position = positions[vertex];
+                let way = position - nearest(from, axis, position);
                 let distance = way.length();
                 if !(distance < reach && distance > 0.0 && step.inverse_masses[vertex] > 0.0) {
                     continue;
                 }
-                // What starts too deep comes out slowly.
+                let normal = way / distance;
                 let start = step.start[vertex];
-                let depth = outward(capsule, &before, start).length();
-                let push = reach.min(depth + RECOVERY * step.h) - distance;
+                let touch = Touch {
+                    drift: before.carry(&now, start) - start,
+                    ..Touch::new([vertex as u32; 4], [1.0, 0.0, 0.0, 0.0], normal, 0.0)
+                };
+                // What starts too deep is shifted out, not pushed.
+                let at_start = outward(capsule, &before, start).length();
+                let missing = reach - at_start;
+                let start_to_end = (start - nearest(from, axis, start)).length();
+                let at_start = match touches.shift().get(vertex) {
+                    Some(shift) => at_start + normal.dot(*shift),
+                    None => at_start,
+                };
+                let push = reach.min(at_start) - distance;
+                touches.record_missing(
+                    touch,
+                    [missing, missing.max(reach - start_to_end)],
+                    self.thickness,
+                    step.inverse_masses,
+                );
                 if push > 0.0 {
-                    let normal = way / distance;
-                    *position += normal * push;
-                    touches.record(|| Touch {
-                        vertices: [vertex as u32; 4],
-                        weights: [1.0, 0.0, 0.0, 0.0],
-                        normal,
-                        push,
-                        drift: before.carry(&now, start) - start,
-                    });
+                    positions[vertex] += normal * push;
+                    touches.record(|| Touch { push, ..touch });
                 }
             }
         }

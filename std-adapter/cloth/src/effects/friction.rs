@@ -1,11 +1,14 @@
 //! Friction: Coulomb's law on positions (Macklin et al. 2014), for every contact that pushed in this step.
 //!
-//! A contact that moved its two sides apart by p may undo up to μ·p of their sliding since the start of the step.
+//! A contact that moved its two sides apart by p may undo up to μ·p of their sliding since the start of the step. It remembers what it has
+//! undone in the step. So friction may act again when other constraints have moved the cloth or contacts have pushed further: each time the whole of
+//! what it undoes is brought to the sliding that is left, within the cone (projected Gauss-Seidel).
 
 use super::registration::{Effect, Registration, Scope};
 use crate::effects::plan::Plan;
 use crate::input::{Field, RATIO, ValueError};
-use crate::model::step::{Constraint, TimeStep, Touches, mobility};
+use crate::model::mobility::mobility;
+use crate::model::step::{Constraint, TimeStep, Touches};
 use crate::world::SceneParts;
 use selvedge_core::glam::DVec3;
 
@@ -51,20 +54,24 @@ impl Effect for Friction {
 
 impl Constraint for Friction {
     fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], touches: &mut Touches) {
-        for touch in &touches.list {
+        for touch in &mut touches.list {
             let vertices = touch.vertices.map(|v| v as usize);
             let mut sliding = -touch.drift;
             for (vertex, weight) in vertices.into_iter().zip(touch.weights) {
                 sliding += (positions[vertex] - step.start[vertex]) * weight;
             }
             let mobility = mobility(step.inverse_masses, touch.vertices, touch.weights);
-            sliding -= touch.normal * sliding.dot(touch.normal);
-            let length = sliding.length();
-            if !(length > 0.0 && mobility > 0.0) {
+            if !(mobility > 0.0) {
                 continue;
             }
-            let undone = (self.coefficient * touch.push / length).min(1.0);
-            let back: DVec3 = sliding * (-undone / mobility);
+            sliding -= touch.normal * sliding.dot(touch.normal);
+            // Its own sliding, as if nothing had rubbed it so far.
+            let rubbed = (touch.rubbed + sliding).clamp_length_max(self.coefficient * touch.push);
+            let back: DVec3 = (touch.rubbed - rubbed) / mobility;
+            if !back.is_finite() {
+                continue;
+            }
+            touch.rubbed = rubbed;
             for (vertex, weight) in vertices.into_iter().zip(touch.weights) {
                 positions[vertex] += back * (step.inverse_masses[vertex] * weight);
             }

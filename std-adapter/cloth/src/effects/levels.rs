@@ -84,6 +84,10 @@ impl<C: Constraint> Constraint for OnLevels<C> {
         self.mesh.project(step, positions, touches);
     }
 
+    fn is_inner(&self) -> bool {
+        self.mesh.is_inner()
+    }
+
     /// Returns the mesh's own energy: levels only speed up convergence.
     fn energy(&self, now: &Configuration<'_>) -> Option<StoredEnergy> {
         self.mesh.energy(now)

@@ -80,6 +80,24 @@ impl<T: Constraint> Constraint for OfCloth<T> {
         self.action.energy(&self.configuration(now))
     }
 
+    fn is_inner(&self) -> bool {
+        self.action.is_inner()
+    }
+
+    fn joints(&self) -> Vec<[u32; 2]> {
+        let first = self.vertices.start as u32;
+        let own = self.action.joints().into_iter();
+        own.map(|joint| joint.map(|vertex| first + vertex)).collect()
+    }
+
+    fn acts_among_contacts(&self) -> bool {
+        self.action.acts_among_contacts()
+    }
+
+    fn over_limit(&self, positions: &[DVec3]) -> Option<f64> {
+        self.action.over_limit(&positions[self.vertices.clone()])
+    }
+
     fn memory(&self) -> Option<&dyn Memory> {
         self.action.memory().is_some().then_some(self)
     }

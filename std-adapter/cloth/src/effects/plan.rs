@@ -64,6 +64,7 @@ pub struct Plan<'a> {
     pub(crate) forces: Vec<Entry<dyn Force>>,
     pub(crate) constraints: Vec<Entry<dyn Constraint>>,
     pub(crate) contact: ContactSettings,
+    pub(crate) pushes: Vec<Entry<dyn Constraint>>,
     pub(crate) friction: Vec<Entry<dyn Constraint>>,
     /// Cloths that may tear.
     pub(crate) tearable: Vec<Tearable>,
@@ -96,6 +97,7 @@ impl<'a> Plan<'a> {
             forces: Vec::new(),
             constraints: Vec::new(),
             contact: ContactSettings::new(scene.cloths.iter().map(|cloth| cloth.mesh.positions.len())),
+            pushes: Vec::new(),
             friction: Vec::new(),
             tearable: Vec::new(),
         }
@@ -177,6 +179,11 @@ impl<'a> Plan<'a> {
     /// Returns the number in the scene of the cloth's first vertex.
     pub(crate) fn first_vertex(&self) -> u32 {
         self.part().map_or(0, |vertices| vertices.start as u32)
+    }
+
+    /// Adds a constraint that runs after all others, whenever contacts push. It numbers vertices as the scene does.
+    pub(crate) fn add_push(&mut self, push: impl Constraint + 'static) {
+        self.pushes.push(self.entry(Box::new(push)));
     }
 
     /// Adds a constraint that runs after all contacts.

@@ -101,6 +101,10 @@ impl Constraint for Filling {
         }
     }
 
+    fn is_inner(&self) -> bool {
+        true
+    }
+
     fn energy(&self, now: &Configuration<'_>) -> Option<StoredEnergy> {
         let excess = self.walls.volume(now.positions) - self.goal;
         Some(StoredEnergy::Elastic(0.5 * excess * excess / self.compliance))

@@ -11,7 +11,9 @@ use crate::effects::plan::Plan;
 use crate::input::{Count, Field, RATIO, ValueError};
 use crate::model::membrane::{Membrane, SquaredStretch, all, image, of_triangles};
 use crate::model::schedule::{Local, Schedule};
-use crate::world::SceneParts;
+use crate::model::step::{Constraint, TimeStep, Touches};
+use crate::world::{Cloth, SceneParts};
+use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
 
 const LIMIT: Field = Field::new("limit", RATIO, 1.0, 10.0);
@@ -84,7 +86,47 @@ impl Effect for StrainLimit {
         let levels = plan.levels(f64::INFINITY, self.levels);
         let limits = of_triangles(cloth, |membrane, _| Limit { membrane, limit });
         let limits = Schedule::in_blocks(limits, &cloth.mesh.positions, self.sweeps.into());
-        plan.add_constraint(OnLevels::new(levels, limits, |triangle| Tension::limit(triangle, limit)));
+        plan.add_constraint(Limits {
+            limits: OnLevels::new(levels, limits, |triangle| Tension::limit(triangle, limit)),
+            longest: longest(cloth, limit),
+        });
+    }
+}
+
+/// The limit of a cloth.
+#[derive(Debug)]
+struct Limits {
+    limits: OnLevels<Schedule<Limit, 3>>,
+    /// The edges of the triangles, each with one over the square of the length that is allowed.
+    longest: Vec<([u32; 2], f64)>,
+}
+
+fn longest(cloth: &Cloth, limit: f64) -> Vec<([u32; 2], f64)> {
+    let Mesh { positions, triangles } = &cloth.mesh;
+    let ends = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+    let mut edges: Vec<[u32; 2]> = ends.map(|[a, b]| [a.min(b), a.max(b)]).collect();
+    edges.sort_unstable();
+    edges.dedup();
+    let longest = |edge: [u32; 2]| {
+        let [a, b] = edge.map(|vertex| positions[vertex as usize]);
+        (edge, (a.distance_squared(b) * limit * limit).recip())
+    };
+    edges.into_iter().map(longest).collect()
+}
+
+impl Constraint for Limits {
+    fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], touches: &mut Touches) {
+        self.limits.project(step, positions, touches);
+    }
+
+    fn is_inner(&self) -> bool {
+        true
+    }
+
+    fn over_limit(&self, positions: &[DVec3]) -> Option<f64> {
+        let over =
+            |&([a, b], per_square): &([u32; 2], f64)| positions[a as usize].distance_squared(positions[b as usize]) * per_square;
+        Some(self.longest.iter().map(over).fold(0.0, f64::max).sqrt())
     }
 }
 

@@ -3,6 +3,7 @@
 //! Vertices of bodies and pinned vertices are **kinematic**: they follow a prescribed motion, as if their mass were infinite.
 
 use super::energy::{Configuration, StoredEnergy};
+pub use super::touches::Touches;
 use crate::world::Pose;
 use selvedge_core::glam::DVec3;
 use std::fmt::Debug;
@@ -53,6 +54,29 @@ pub trait Constraint: Debug + Send + Sync {
 
     /// Returns the stored energy; `None` if there is none. It is called on request, never in a step.
     fn energy(&self, _: &Configuration<'_>) -> Option<StoredEnergy> {
+        None
+    }
+
+    /// Reports whether it does nothing but inner forces: between vertices of cloth, without a sum and without a moment. A step then keeps the
+    /// momentum of what [`joints`](Self::joints) and the edges of the cloth connect, which corrections at other positions than those at the start of
+    /// the step would change. A constraint of which this is not known does whatever it says.
+    fn is_inner(&self) -> bool {
+        false
+    }
+
+    /// Returns the pairs of vertices between which inner forces act, but for those that edges of the cloth connect.
+    fn joints(&self) -> Vec<[u32; 2]> {
+        Vec::new()
+    }
+
+    /// Reports whether it acts again between the sweeps of contacts: what holds together what contacts push apart.
+    fn acts_among_contacts(&self) -> bool {
+        false
+    }
+
+    /// Returns the largest of the lengths that it limits, at these positions of all vertices, over its limit; `None`, always, if it limits none. Where
+    /// that is more than a percent above one after contacts have pushed, the constraint acts again.
+    fn over_limit(&self, _positions: &[DVec3]) -> Option<f64> {
         None
     }
 
@@ -107,96 +131,7 @@ pub struct Release {
     pub time: f64,
 }
 
-/// One contact that pushed, for friction.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Touch {
-    pub(crate) vertices: [u32; 4],
-    /// The weight of each vertex in the relative motion. If both sides consist of vertices the weights sum to zero.
-    pub(crate) weights: [f64; 4],
-    pub(crate) normal: DVec3,
-    /// The distance by which the contact moved its two sides apart.
-    pub(crate) push: f64,
-    /// The motion of the other side in this step, if it has no vertices.
-    pub(crate) drift: DVec3,
-}
-
-/// The contacts that pushed in this step, in order, if friction needs them.
-#[derive(Debug, Default)]
-pub struct Touches {
-    /// Whether friction needs them.
-    pub(crate) wanted: bool,
-    pub(crate) list: Vec<Touch>,
-}
-
-impl Touches {
-    #[inline]
-    pub(crate) fn record(&mut self, touch: impl FnOnce() -> Touch) {
-        if self.wanted {
-            self.list.push(touch());
-        }
-    }
-}
-
-/// Returns Σ wᵢ²/mᵢ, the compliance of weighted vertices to a push along a direction that is shared by weight and mass. Zero if
-/// none of them can move.
-///
-/// A push of p moves vertex i by p·wᵢ/mᵢ over that. If a pinned or heavy vertex has nearly all of the weight, a vertex with
-/// little weight would move far to compensate. The result is then larger, so that no vertex moves farther than twice the push.
-/// Free vertices of a face never do if none is more than four times as heavy as another: with that ratio r, w²·r + (1 − w)²/2 ≥
-/// w·r/2 for all w.
-pub(crate) fn mobility<const N: usize>(inverse_masses: &[f64], vertices: [u32; N], weights: [f64; N]) -> f64 {
-    let (mut mobility, mut fastest) = (0.0, 0.0_f64);
-    for (vertex, weight) in vertices.into_iter().zip(weights) {
-        let speed = inverse_masses[vertex as usize] * weight;
-        mobility += speed * weight;
-        fastest = fastest.max(speed.abs());
-    }
-    mobility.max(0.5 * fastest)
-}
-
 /// The kinematic motion of a vertex: its index among the motions.
 pub(crate) type Carrier = u32;
 /// No motion: the solver moves the vertex.
 pub(crate) const FREE: Carrier = u32::MAX;
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    /// Weights of a vertex and a point of a face, arbitrarily near to a corner or a side.
-    fn weights() -> impl Strategy<Value = [f64; 4]> {
-        let share = || prop_oneof![0.0..=1.0, Just(0.0), (-60..0).prop_map(|e| 2.0_f64.powi(e))];
-        (share(), share()).prop_map(|(s, t): (f64, f64)| [1.0, -s, -(1.0 - s) * t, -(1.0 - s) * (1.0 - t)])
-    }
-
-    proptest! {
-        #[test]
-        fn no_vertex_goes_farther_than_twice_the_push(
-            weights in weights(),
-            inverse_masses in prop::array::uniform4(prop_oneof![Just(0.0), 1e-3..1e3_f64]),
-        ) {
-            let mobility = mobility(&inverse_masses, [0, 1, 2, 3], weights);
-            for (inverse_mass, weight) in inverse_masses.into_iter().zip(weights) {
-                let way = inverse_mass * weight / mobility;
-                prop_assert!(inverse_mass * weight == 0.0 || way.abs() <= 2.0, "{way}");
-            }
-        }
-
-        /// A push has its full effect where something can move.
-        #[test]
-        fn free_vertices_of_like_masses_share_a_push_by_mass_and_weight_alone(
-            weights in weights(),
-            inverse_masses in prop::array::uniform4(1.0..4.0_f64),
-            is_kinematic in any::<bool>(),
-        ) {
-            let mut inverse_masses = inverse_masses;
-            if is_kinematic {
-                inverse_masses[0] = 0.0;
-            }
-            let all: f64 = inverse_masses.into_iter().zip(weights).map(|(inverse_mass, weight)| inverse_mass * weight * weight).sum();
-            let mobility = mobility(&inverse_masses, [0, 1, 2, 3], weights);
-            prop_assert!((mobility - all).abs() <= 1e-12 * all, "{mobility} instead of {all}");
-        }
-    }
-}

@@ -7,7 +7,8 @@
 //! A stitch is C = |a − (1 − s)·b − s·c| ≤ L, without compliance: Δx = −(|p| − L)·wₖ·∇C/Σw·|∇C|². It only pulls. Contact keeps
 //! the rows apart.
 
-use crate::model::step::{Constraint, TimeStep, Touches, mobility};
+use crate::model::mobility::mobility;
+use crate::model::step::{Constraint, TimeStep, Touches};
 use selvedge_core::glam::DVec3;
 
 /// A vertex, and a point between two others.
@@ -143,6 +144,19 @@ impl Constraint for Sewing {
             let length = length_at_end(step, *start, self.gap, self.closing);
             stitch.draw(length, step.inverse_masses, positions);
         }
+    }
+
+    fn is_inner(&self) -> bool {
+        true
+    }
+
+    fn acts_among_contacts(&self) -> bool {
+        true
+    }
+
+    fn joints(&self) -> Vec<[u32; 2]> {
+        let each = self.stitches.iter().map(|(stitch, _)| stitch.vertices);
+        each.flat_map(|[a, b, c]| [[a, b], [a, c]]).collect()
     }
 }
 

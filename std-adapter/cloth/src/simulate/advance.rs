@@ -1,20 +1,21 @@
-//! A step, whole or in parts: forces, prediction, constraints, contact, and the certified end.
+//! A step: whole, or in as many [substeps](super::substep) as it needs.
 
 use super::assembly::Assembly;
 use super::checkpoint::CHECKPOINT_STEPS;
 use super::errors::Blocked;
-use super::measures::EffectTime;
 use super::simulation::Simulation;
-use super::state::{FASTEST, limited};
+use super::state::FASTEST;
 use crate::contact::{Blocker, LARGEST_TURN};
-use crate::effects::plan::Entry;
-use crate::model::step::{FREE, TimeStep};
+use crate::model::step::Carrier;
 use crate::scene::OnBlocked;
 use crate::world::Kinematic;
-use selvedge::clock::Clock;
+use selvedge_core::glam::DVec3;
 
 /// The shortest part of a step that is tried, in steps, or in parts of one in which nothing turns too far: so a step has an end.
 const SHORTEST: f64 = 1.0 / 64.0;
+
+/// An edge that is longer than this, over its limit, is reported.
+const OVERSTRETCHED: f64 = 1.05;
 
 /// What the clock of bodies and pins did in a step.
 enum BodyClock {
@@ -29,13 +30,42 @@ impl Simulation {
     /// If bodies or pins force the cloth where it cannot go without intersecting, and the scene wants to stop then. What is
     /// done of the step stays.
     pub fn step(&mut self) -> Result<(), Blocked> {
+        let h = self.time_step;
+        self.drive(h, |simulation| {
+            let clock = simulation.whole_step(h)?;
+            simulation.state.since += 1;
+            Ok(clock)
+        })
+    }
+
+    /// Does the steps of one frame of so many seconds.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step).
+    pub(super) fn steps_of_frame(&mut self, seconds: f64, steps: u32) -> Result<(), Blocked> {
+        let h = seconds / f64::from(steps);
+        let end = self.time() + seconds;
+        self.drive(seconds, |simulation| {
+            let mut of_frame = BodyClock::Went;
+            for left in (0..steps).rev() {
+                if matches!(simulation.whole_step(h)?, BodyClock::Waited) {
+                    of_frame = BodyClock::Waited;
+                }
+                (simulation.state.before, simulation.state.since) = (end - f64::from(left) * h, 0);
+            }
+            Ok(of_frame)
+        })
+    }
+
+    /// Runs steps that take so many seconds in all, through which the caller's bodies and pins move evenly.
+    fn drive(&mut self, seconds: f64, steps: impl FnOnce(&mut Self) -> Result<BodyClock, Blocked> + Send) -> Result<(), Blocked> {
         // Taken out so that they can run what borrows the rest.
         let threads = std::mem::take(&mut self.threads);
         let clock = self.state.clock;
         for driven in self.made.motions.iter_mut().filter_map(Kinematic::driven_mut) {
-            driven.begin(clock, self.time_step, &self.state.positions, &self.carried);
+            driven.begin(clock, seconds, &self.state.positions, &self.carried);
         }
-        let result = threads.run(|| self.whole_step());
+        let result = threads.run(|| steps(self));
         let clock = self.state.clock;
         let has_arrived = matches!(result, Ok(BodyClock::Went));
         for driven in self.made.motions.iter_mut().filter_map(Kinematic::driven_mut) {
@@ -45,8 +75,8 @@ impl Simulation {
         result.map(drop)
     }
 
-    fn whole_step(&mut self) -> Result<BodyClock, Blocked> {
-        let mut left = self.time_step;
+    fn whole_step(&mut self, h: f64) -> Result<BodyClock, Blocked> {
+        let mut left = h;
         let mut of_the_step = BodyClock::Went;
         let mut was_blocked = false;
         let mut longest = left;
@@ -75,6 +105,7 @@ impl Simulation {
         }
         self.state.step += 1;
         self.state.blocked_steps += u64::from(was_blocked);
+        self.state.overstretched_steps += u64::from(self.is_overstretched());
         if let Some(contact) = &mut self.made.contact {
             contact.take_back(&self.state.positions);
         }
@@ -85,6 +116,13 @@ impl Simulation {
             self.state.begin_anew(contact, self.time_step);
         }
         Ok(of_the_step)
+    }
+
+    /// Whether an edge is longer than its limit by more than is [tolerated](OVERSTRETCHED).
+    fn is_overstretched(&self) -> bool {
+        let limiting = self.made.bounding.iter().map(|&index| &self.made.constraints[index].action);
+        let mut over = limiting.filter_map(|action| action.over_limit(&self.state.positions));
+        over.any(|over| over > OVERSTRETCHED)
     }
 
     /// Goes on by as much of `left` seconds as possible: returns how much. Half of it if that fails, and so on, but not by less than
@@ -104,17 +142,50 @@ impl Simulation {
         }
     }
 
-    /// `h`, halved until no body or pin turns by more in that time than contact can certify.
+    /// `h`, halved until no body or pin turns by more in that time than contact can certify. A body that is [far](Self::is_far) from all cloth may turn
+    /// as it likes.
     fn without_large_turn(&self, mut h: f64) -> f64 {
+        if self.made.contact.is_none() {
+            return h;
+        }
         let clock = self.state.clock;
-        let turns_too_far =
-            |motion: &Kinematic, h: f64| (motion.pose(clock + h).angle - motion.pose(clock).angle).abs() > LARGEST_TURN;
-        if self.made.contact.is_some() {
-            while self.made.motions.iter().any(|motion| turns_too_far(motion, h)) {
-                h *= 0.5;
+        let turns_too_far = |carrier: usize, h: f64| {
+            let motion = &self.made.motions[carrier];
+            (motion.pose(clock + h).angle - motion.pose(clock).angle).abs() > LARGEST_TURN
+        };
+        for carrier in 0..self.made.motions.len() {
+            if turns_too_far(carrier, h) && !self.is_far(carrier, h) {
+                while turns_too_far(carrier, h) {
+                    h *= 0.5;
+                }
             }
         }
         h
+    }
+
+    /// Whether a body that carries no cloth cannot meet any within `h` seconds, however it turns: the ball about its centre of rotation that has all of
+    /// it keeps away from the box of the cloth by more than the two can move.
+    fn is_far(&self, carrier: usize, h: f64) -> bool {
+        let Assembly {
+            body_vertices,
+            carriers,
+            cloth_vertices,
+            motions,
+            ..
+        } = &self.made;
+        let (cloth, carriers) = (&self.state.positions[..*cloth_vertices], &carriers[..*cloth_vertices]);
+        let Some(own) = body_vertices.get(carrier) else { return false };
+        let [now, then] = [0.0, h].map(|ticks| motions[carrier].pose(self.state.clock + ticks));
+        if !(now.is_rigid() && then.is_rigid()) || carriers.contains(&(carrier as Carrier)) {
+            return false;
+        }
+        let low = cloth.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+        let high = cloth.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let centre = now.centre();
+        let own = self.state.positions[own.clone()].iter();
+        let radius = own.map(|point| point.distance(centre)).fold(0.0, f64::max);
+        let moved = centre.distance(then.centre()) + 2.0 * FASTEST * h;
+        (low - centre).max(centre - high).max(DVec3::ZERO).length() > radius + moved
     }
 
     fn described(&self, blocker: Blocker) -> Blocked {
@@ -124,119 +195,4 @@ impl Simulation {
             body: blocker.body.map(|body| self.body_names[body].clone()),
         }
     }
-
-    /// Goes on by `h` seconds, bodies and pins by `ticks` seconds of their clock. If that is not possible nothing changes.
-    pub(super) fn attempt(&mut self, h: f64, ticks: f64) -> Result<(), Blocker> {
-        let Self {
-            state,
-            work,
-            carried,
-            effects,
-            made,
-            ..
-        } = self;
-        let Assembly {
-            inverse_masses,
-            carriers,
-            contact,
-            motions,
-            forces,
-            constraints,
-            friction,
-            remembering,
-            ..
-        } = made;
-        let clock = state.clock;
-        work.poses.clear();
-        let poses = |motion: &Kinematic| [clock, clock + ticks].map(|time| motion.pose(time));
-        work.poses.extend(motions.iter().map(poses));
-        work.touches.list.clear();
-        let step = TimeStep {
-            time: state.step as f64 * self.time_step,
-            h,
-            start: &state.positions,
-            inverse_masses,
-            held: &[],
-            poses: &work.poses,
-        };
-        let velocities = &mut work.velocities;
-        velocities.clone_from(&state.velocities);
-        for Entry { effect, action } in &mut *forces {
-            timed(effects, *effect, || action.apply(&step, velocities));
-        }
-        // Where inertia leads, and bodies and pins go.
-        let predicted = |vertex: usize| match step.poses.get(carriers[vertex] as usize) {
-            Some([_, pose]) if pose.is_rigid() => pose.apply(carried[vertex]),
-            Some(_) => step.start[vertex],
-            None => step.start[vertex] + limited(velocities[vertex], FASTEST) * h,
-        };
-        let (positions, touches) = (&mut work.predicted, &mut work.touches);
-        positions.clear();
-        positions.extend((0..step.start.len()).map(predicted));
-        motions.iter_mut().for_each(|motion| motion.put(clock + ticks, positions));
-        work.held.clear();
-        for &index in &*remembering {
-            let Entry { effect, action } = &constraints[index];
-            if let Some(memory) = action.memory() {
-                timed(effects, *effect, || memory.hold(h, &mut work.held));
-            }
-        }
-        let step = if work.held.is_empty() {
-            step
-        } else {
-            let own = &mut work.inverse_masses;
-            own.clone_from(inverse_masses);
-            for &(vertex, mass) in &work.held {
-                let inverse_mass = &mut own[vertex as usize];
-                *inverse_mass /= 1.0 + *inverse_mass * mass;
-            }
-            TimeStep {
-                inverse_masses: own,
-                held: &work.held,
-                ..step
-            }
-        };
-        for Entry { effect, action } in &mut *constraints {
-            timed(effects, *effect, || action.project(&step, positions, touches));
-        }
-        if let Some(contact) = contact {
-            contact.prepare(step.start, positions);
-            for with_body in [true, false] {
-                if let Some(effect) = contact.settings.effect(with_body) {
-                    timed(effects, effect, || contact.push(with_body, &step, positions, touches));
-                }
-            }
-        }
-        for Entry { effect, action } in &mut *friction {
-            timed(effects, *effect, || action.project(&step, positions, touches));
-        }
-        for (vertex, position) in positions.iter_mut().enumerate() {
-            if carriers[vertex] == FREE {
-                let start = step.start[vertex];
-                *position = start + limited(*position - start, FASTEST * h);
-            }
-        }
-        if let Some(contact) = contact {
-            contact.certify(&step, positions)?;
-        }
-        for &index in &*remembering {
-            let Entry { effect, action } = &mut constraints[index];
-            if let Some(memory) = action.memory_mut() {
-                timed(effects, *effect, || memory.settle(&step, positions));
-            }
-        }
-        for (vertex, &position) in positions.iter().enumerate() {
-            state.velocities[vertex] = (position - state.positions[vertex]) / h;
-        }
-        std::mem::swap(&mut state.positions, positions);
-        state.clock += ticks;
-        Ok(())
-    }
-}
-
-/// Runs what an effect does, and adds the time to it.
-fn timed(effects: &mut [EffectTime], effect: usize, action: impl FnOnce()) {
-    let begin = Clock::now();
-    action();
-    effects[effect].seconds += begin.elapsed().as_secs_f64();
 }

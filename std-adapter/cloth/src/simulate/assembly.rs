@@ -1,6 +1,7 @@
 //! What a simulation has of a scene's meshes and effects: made where it begins, and anew when cloth has torn.
 
 use super::errors::SetupError;
+use super::momentum::Pieces;
 use crate::contact::ContactSolver;
 use crate::effects::plan::{Entry, Plan};
 use crate::model::step::{Carrier, Constraint, Force, Memory};
@@ -37,9 +38,18 @@ pub(super) struct Assembly {
     pub(super) constraints: Vec<Entry<dyn Constraint>>,
     /// Those of them that remember something.
     pub(super) remembering: Vec<usize>,
+    /// Those of them that act again between the sweeps of contacts.
+    pub(super) among_contacts: Vec<usize>,
+    /// Those of them that limit lengths.
+    pub(super) bounding: Vec<usize>,
+    pub(super) pushes: Vec<Entry<dyn Constraint>>,
     pub(super) friction: Vec<Entry<dyn Constraint>>,
     pub(super) contact: Option<ContactSolver>,
     pub(super) tearable: Vec<Tearable>,
+    /// Of all cloths: what keeps its momentum.
+    pub(super) pieces: Pieces,
+    /// The mean length of the cloths' edges at rest, in metres, each counted once for each triangle.
+    pub(super) mean_edge: f64,
 }
 
 impl Assembly {
@@ -58,6 +68,7 @@ impl Assembly {
             forces,
             constraints,
             contact,
+            pushes,
             friction,
             tearable,
             ..
@@ -77,6 +88,10 @@ impl Assembly {
         inverse_masses.resize(rest.len(), 0.0);
         let remembers = |&index: &usize| constraints[index].action.memory().is_some();
         let remembering = (0..constraints.len()).filter(remembers).collect();
+        let bounds = |&index: &usize| constraints[index].action.over_limit(&rest).is_some();
+        let bounding = (0..constraints.len()).filter(bounds).collect();
+        let acts = |&index: &usize| constraints[index].action.acts_among_contacts();
+        let among_contacts = (0..constraints.len()).filter(acts).collect();
         let loose_edges = scene.all_loose_edges();
         let contact = match contact.asks_for_any() {
             true => {
@@ -94,6 +109,15 @@ impl Assembly {
             }
             false => None,
         };
+        let ends = triangles[..cloth_triangles]
+            .iter()
+            .flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+        let joints = constraints.iter().flat_map(|entry| entry.action.joints());
+        let edges = ends.chain(loose_edges.iter().copied()).chain(joints);
+        let lengths = edges.clone().map(|[a, b]| rest[a as usize].distance(rest[b as usize]));
+        let (sum, count) = lengths.fold((0.0, 0.0), |(sum, count), length| (sum + length, count + 1.0));
+        let mean_edge = sum / count;
+        let pieces = Pieces::new(&inverse_masses[..cloth_vertices], edges);
         Ok(Self {
             effects,
             contact,
@@ -111,8 +135,13 @@ impl Assembly {
             forces,
             constraints,
             remembering,
+            among_contacts,
+            bounding,
+            pushes,
             friction,
             tearable,
+            pieces,
+            mean_edge,
         })
     }
 

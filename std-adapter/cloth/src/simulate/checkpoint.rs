@@ -12,7 +12,7 @@ use selvedge_files::bytes::Reader;
 /// the state, which a resumed simulation does not know either.
 pub const CHECKPOINT_STEPS: u64 = 200;
 
-const MAGIC: &[u8; 16] = b"selvedge state 3";
+const MAGIC: &[u8; 16] = b"selvedge state 4";
 
 /// Bytes from which a simulation cannot go on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -145,8 +145,11 @@ impl Checkpoint {
             write_torn(torn, &mut bytes);
         }
         let state = &self.state;
-        let numbers = [state.step, state.blocked_steps, state.clock.to_bits()];
-        bytes.extend(numbers.into_iter().flat_map(u64::to_le_bytes));
+        let times = [state.before, state.clock].map(f64::to_bits);
+        let numbers = [state.step, state.blocked_steps, state.overstretched_steps, state.since]
+            .into_iter()
+            .chain(times);
+        bytes.extend(numbers.flat_map(u64::to_le_bytes));
         let vectors = state.positions.iter().chain(&state.velocities);
         let numbers = vectors.flat_map(|vector| vector.to_array());
         bytes.extend(numbers.flat_map(f64::to_le_bytes));
@@ -209,7 +212,8 @@ impl Checkpoint {
         let state = &checkpoint.state;
         let all = state.positions.iter().chain(&state.velocities);
         let remembered = checkpoint.memories.iter().all(|number| number.is_finite());
-        let is_finite = remembered && state.clock.is_finite() && { all }.all(|vector| vector.is_finite());
+        let is_finite = remembered && [state.clock, state.before].iter().all(|time| time.is_finite()) && { all }
+            .all(|vector| vector.is_finite());
         if is_finite && reader.0.is_empty() {
             Ok(checkpoint)
         } else {
@@ -219,7 +223,8 @@ impl Checkpoint {
 
     fn read_on(reader: &mut Reader<'_>, sizes: Sizes) -> Option<Self> {
         let [step, blocked_steps] = [reader.u64()?, reader.u64()?];
-        let clock = reader.f64()?;
+        let [overstretched_steps, since] = [reader.u64()?, reader.u64()?];
+        let [before, clock] = [reader.f64()?, reader.f64()?];
         let mut vectors = || {
             let vector = |_| {
                 let [x, y, z] = [reader.f64()?, reader.f64()?, reader.f64()?];
@@ -244,6 +249,9 @@ impl Checkpoint {
             state: State {
                 step,
                 blocked_steps,
+                overstretched_steps,
+                before,
+                since,
                 clock,
                 positions,
                 velocities,
@@ -337,6 +345,9 @@ mod tests {
             state: State {
                 step: 400,
                 blocked_steps: 3,
+                overstretched_steps: 5,
+                before: 0.25,
+                since: 7,
                 clock: 0.1,
                 positions: vec![DVec3::new(1.0, -0.0, 1e-300), DVec3::X],
                 velocities: vec![DVec3::Y, DVec3::splat(f64::MIN_POSITIVE)],

@@ -76,6 +76,9 @@ impl Simulation {
         let state = State {
             step: 0,
             blocked_steps: 0,
+            overstretched_steps: 0,
+            before: 0.0,
+            since: 0,
             clock: 0.0,
             velocities,
             positions,
@@ -110,10 +113,7 @@ impl Simulation {
             threads,
             state,
             work: Work {
-                touches: Touches {
-                    wanted: !made.friction.is_empty(),
-                    list: Vec::new(),
-                },
+                touches: Touches::new(!made.friction.is_empty()),
                 ..Work::default()
             },
             carried,

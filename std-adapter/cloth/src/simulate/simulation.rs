@@ -76,6 +76,8 @@ pub(super) struct Work {
     pub(super) held: Vec<(u32, f64)>,
     /// As constraints see them, if any are held.
     pub(super) inverse_masses: Vec<f64>,
+    /// Where the step starts, shifted, if vertices are.
+    pub(super) shifted: Vec<DVec3>,
 }
 
 impl Simulation {
@@ -94,7 +96,7 @@ impl Simulation {
     /// The time simulated so far, in seconds.
     #[must_use]
     pub fn time(&self) -> f64 {
-        self.state.step as f64 * self.time_step
+        self.state.time(self.time_step)
     }
 
     /// Where everything is: the vertices of each cloth, then the bodies'. Where cloth [tears](crate::effects::Tearing) there are more from then
@@ -238,6 +240,13 @@ impl Simulation {
     #[must_use]
     pub fn blocked_steps(&self) -> u64 {
         self.state.blocked_steps
+    }
+
+    /// Returns the number of steps after which an edge was longer than its [limit](crate::effects::StrainLimit) by more than 5 %: shorter steps, or
+    /// [frames](Self::advance), keep it.
+    #[must_use]
+    pub fn overstretched_steps(&self) -> u64 {
+        self.state.overstretched_steps
     }
 
     /// Edges that meet faces now although effects are to keep them apart, of a scene that starts tangled and

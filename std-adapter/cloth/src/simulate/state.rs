@@ -13,6 +13,12 @@ pub(crate) struct State {
     pub(crate) step: u64,
     /// Steps in which bodies or pins had to wait, or to be let pass.
     pub(crate) blocked_steps: u64,
+    /// Steps at whose end an edge was longer than its limit by more than is tolerated.
+    pub(crate) overstretched_steps: u64,
+    /// The time before the last steps of the scene's length, in seconds.
+    pub(crate) before: f64,
+    /// The number of these steps.
+    pub(crate) since: u64,
     /// Of bodies and pins, in seconds; behind the time when they had to wait.
     pub(crate) clock: f64,
     pub(crate) positions: Vec<DVec3>,
@@ -20,6 +26,11 @@ pub(crate) struct State {
 }
 
 impl State {
+    /// Returns the time in seconds, if the scene's steps take `h` seconds each.
+    pub(super) fn time(&self, h: f64) -> f64 {
+        self.before + self.since as f64 * h
+    }
+
     /// Has contact forget all but the state, which everything is expected to go on from straight ahead in steps of `h` seconds: so a
     /// simulation that goes on from here, and one that is resumed here, are alike.
     pub(super) fn begin_anew(&self, contact: &mut ContactSolver, h: f64) {

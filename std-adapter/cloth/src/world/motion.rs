@@ -259,6 +259,11 @@ impl Pose {
         self.deformed.is_none()
     }
 
+    /// Returns the point that does not move as the body turns, if the pose is [rigid](Self::is_rigid).
+    pub(crate) fn centre(&self) -> DVec3 {
+        self.pivot + self.translation
+    }
+
     /// Returns where a point of the body at rest is, if the pose is [rigid](Self::is_rigid).
     pub(crate) fn apply(&self, point: DVec3) -> DVec3 {
         let point = self.base.map_or(point, |base| base.apply(point));

@@ -210,6 +210,10 @@ impl Constraint for Bending {
         }
     }
 
+    fn is_inner(&self) -> bool {
+        true
+    }
+
     fn energy(&self, now: &Configuration<'_>) -> Option<StoredEnergy> {
         let beyond = self.beyond.as_ref().and_then(|beyond| beyond.energy(now));
         let beyond = beyond.map_or(0.0, StoredEnergy::joules);

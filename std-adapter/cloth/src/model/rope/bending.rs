@@ -94,6 +94,10 @@ impl Constraint for Bending {
         }
     }
 
+    fn is_inner(&self) -> bool {
+        true
+    }
+
     fn energy(&self, now: &Configuration<'_>) -> Option<StoredEnergy> {
         let of_row = |row: &Row| -> f64 {
             let joints = row.vertices.windows(3).zip(&row.joints);

@@ -155,6 +155,20 @@ impl Constraint for Stretching {
         }
     }
 
+    fn is_inner(&self) -> bool {
+        true
+    }
+
+    /// The ties, which connect it with other cloths.
+    fn joints(&self) -> Vec<[u32; 2]> {
+        let tied = |piece: &Piece| {
+            let edges = piece.vertices.windows(2).zip(&piece.edges);
+            let tied = edges.filter(|(_, edge)| matches!(edge, Edge::Tied(_)));
+            tied.map(|(two, _)| [two[0], two[1]]).collect::<Vec<_>>()
+        };
+        self.pieces.iter().flat_map(tied).collect()
+    }
+
     fn energy(&self, now: &Configuration<'_>) -> Option<StoredEnergy> {
         let at = |vertex: u32| now.positions[vertex as usize];
         let of_piece = |piece: &Piece| -> f64 {

@@ -131,6 +131,10 @@ impl<C: Local<N>, const N: usize> Constraint for Schedule<C, N> {
         }
     }
 
+    fn is_inner(&self) -> bool {
+        true
+    }
+
     fn energy(&self, now: &Configuration<'_>) -> Option<StoredEnergy> {
         let joules = { self.blocks.iter() }.map(|block| block.energy(now.positions));
         let joules = joules.sum::<Option<f64>>()?;

@@ -1,0 +1,154 @@
+//! Normal cones: which closest points of a body are those of its surface, and not only of one of its faces or edges.
+//!
+//! A flat body of many triangles has many edges and vertices that are not there for what slides on it. If cloth is pushed along the way from such an
+//! edge, which is aslant, it is held back and thrown up. The way d from the closest point of a feature to the cloth is in the feature's *normal cone*
+//! if no way along the surface leads nearer to the cloth:
+//!
+//! * a vertex: d·e ≤ 0 for each edge e that leaves it;
+//! * an edge: d·p ≤ 0 for each face beside it, with p in the face, perpendicular to the edge, towards the face;
+//! * a face: always, as d is its normal.
+//!
+//! **Dropping is safe.** Where the way leaves the cone, another feature of the body is strictly nearer to the same cloth, hence another pair, and the
+//! nearest of all such pairs is never dropped. That holds for concave, open and non-manifold surfaces too, as it asks about edges and faces one by
+//! one, and needs no normals and no orientation. It concerns pushes alone: certificates see every pair.
+//!
+//! Cones are those of the body as it is at the start of the step, so that it may change its shape. Cloth against cloth has none: a fold lies
+//! beside itself, and the pairs that keep it open are those that a cone would drop.
+
+use selvedge::Topology;
+use selvedge_core::glam::DVec3;
+
+/// Weights below this are zero: the closest point is on the feature without that vertex.
+const LEAST_WEIGHT: f64 = 1e-9;
+/// The sine of the angle up to which a way counts as within the cone. Faces in a plane have a sine of zero, but for rounding: some 10⁻¹⁶ times
+/// coordinates over distance, and below this for coordinates up to 10⁷ times the distance.
+const TOLERANCE: f64 = 1e-6;
+const NONE: u32 = u32::MAX;
+
+/// The edges that leave each vertex of a mesh, with the faces beside them.
+#[derive(Debug, Default)]
+pub(super) struct Cones {
+    /// Of each vertex the place of its first spoke, and the end of all.
+    first: Vec<u32>,
+    spokes: Vec<Spoke>,
+}
+
+/// An edge from a vertex, and up to two corners opposite of it; an edge with more faces has several spokes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Spoke {
+    to: u32,
+    opposite: [u32; 2],
+}
+
+impl Cones {
+    /// Of the vertices of a mesh from `first` on; others have no spokes.
+    pub(super) fn new(topology: &Topology, first: usize) -> Self {
+        let mut sides: Vec<[u32; 3]> = Vec::new();
+        for &[a, b, c] in topology.triangles().iter().filter(|corners| corners[0] as usize >= first) {
+            for [from, to, opposite] in [[a, b, c], [b, c, a], [c, a, b]] {
+                sides.push([from, to, opposite]);
+                sides.push([to, from, opposite]);
+            }
+        }
+        sides.sort_unstable();
+        let mut cones = Self::default();
+        let mut sides = sides.chunk_by(|one, other| one[..2] == other[..2]).peekable();
+        for vertex in 0..topology.vertex_count() as u32 {
+            cones.first.push(cones.spokes.len() as u32);
+            while let Some(own) = sides.next_if(|own| own[0][0] == vertex) {
+                for two in own.chunks(2) {
+                    cones.spokes.push(Spoke {
+                        to: own[0][1],
+                        opposite: [two[0][2], two.get(1).map_or(NONE, |side| side[2])],
+                    });
+                }
+            }
+        }
+        cones.first.push(cones.spokes.len() as u32);
+        cones
+    }
+
+    fn of(&self, vertex: u32) -> &[Spoke] {
+        let vertex = vertex as usize;
+        &self.spokes[self.first[vertex] as usize..self.first[vertex + 1] as usize]
+    }
+
+    /// Whether a direction, from the point with these weights of these vertices, is in the normal cone there.
+    pub(super) fn contain(&self, vertices: &[u32], weights: &[f64], positions: &[DVec3], direction: DVec3) -> bool {
+        let mut on = [NONE; 3];
+        let mut count = 0;
+        for (&vertex, &weight) in vertices.iter().zip(weights) {
+            if weight.abs() > LEAST_WEIGHT {
+                on[count] = vertex;
+                count += 1;
+            }
+        }
+        let at = |vertex: u32| positions[vertex as usize];
+        let leads_away = |way: DVec3| direction.dot(way) <= TOLERANCE * way.length();
+        match on[..count] {
+            [vertex] => self.of(vertex).iter().all(|spoke| leads_away(at(spoke.to) - at(vertex))),
+            [from, to] => {
+                let edge = at(to) - at(from);
+                let squared = edge.length_squared();
+                let beside = self.of(from).iter().filter(|spoke| spoke.to == to);
+                let mut opposite = beside.flat_map(|spoke| spoke.opposite).filter(|&vertex| vertex != NONE);
+                opposite.all(|vertex| {
+                    let way = at(vertex) - at(from);
+                    leads_away(way - edge * (way.dot(edge) / squared))
+                })
+            }
+            _ => true,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two triangles beside the edge from 0 to 1, whose other corners are at these places.
+    fn ridge(left: DVec3, right: DVec3) -> (Cones, Vec<DVec3>) {
+        let topology = Topology::new(4, vec![[0, 1, 2], [1, 0, 3]]).unwrap();
+        (Cones::new(&topology, 0), vec![DVec3::ZERO, DVec3::Y, left, right])
+    }
+
+    fn contains(ridge: &(Cones, Vec<DVec3>), direction: DVec3) -> [bool; 2] {
+        let (cones, positions) = ridge;
+        let direction = direction.normalize();
+        let contain = |weights: &[f64]| cones.contain(&[0, 1, 2], weights, positions, direction);
+        [contain(&[0.5, 0.5, 0.0]), contain(&[1.0, 0.0, 0.0])]
+    }
+
+    #[test]
+    fn an_edge_in_a_plane_has_the_normal_alone_and_a_ridge_what_is_between_its_normals() {
+        let flat = ridge(DVec3::new(-1.0, 0.5, 0.0), DVec3::new(1.0, 0.5, 0.0));
+        assert_eq!(contains(&flat, DVec3::Z), [true; 2]);
+        assert_eq!(contains(&flat, -DVec3::Z), [true; 2], "from below as well");
+        assert_eq!(contains(&flat, DVec3::new(0.01, 0.0, 1.0)), [false; 2]);
+        let convex = ridge(DVec3::new(-1.0, 0.5, -1.0), DVec3::new(1.0, 0.5, -1.0));
+        assert!(contains(&convex, DVec3::new(0.9, 0.0, 1.0))[0]);
+        assert!(!contains(&convex, DVec3::new(1.1, 0.0, 1.0))[0]);
+        assert!(contains(&convex, DVec3::new(0.0, -0.5, 1.0))[1], "beyond the end of the edge");
+        let concave = ridge(DVec3::new(-1.0, 0.5, 1.0), DVec3::new(1.0, 0.5, 1.0));
+        assert!(!contains(&concave, DVec3::Z)[0]);
+    }
+
+    #[test]
+    fn an_open_edge_has_a_half_space_and_three_faces_are_all_asked() {
+        let open = Topology::new(3, vec![[0, 1, 2]]).unwrap();
+        let cones = Cones::new(&open, 0);
+        let positions = [DVec3::ZERO, DVec3::Y, DVec3::new(1.0, 0.5, 0.0)];
+        let contain = |direction: DVec3| cones.contain(&[0, 1, 2], &[0.5, 0.5, 0.0], &positions, direction.normalize());
+        assert!(contain(-DVec3::X) && contain(DVec3::Z) && !contain(DVec3::new(0.1, 0.0, 1.0)));
+        let three = Topology::new(5, vec![[0, 1, 2], [0, 1, 3], [1, 0, 4]]).unwrap();
+        let cones = Cones::new(&three, 0);
+        let at = |x: f64, z: f64| DVec3::new(x, 0.5, z);
+        for last in [at(0.0, 1.0), at(-1.0, 0.2)] {
+            let positions = [DVec3::ZERO, DVec3::Y, at(-1.0, -1.0), at(1.0, -1.0), last];
+            let up = cones.contain(&[0, 1, 2], &[0.5, 0.5, 0.0], &positions, DVec3::Z);
+            assert!(!up, "a third face leads up: {last}");
+        }
+        let without = [DVec3::ZERO, DVec3::Y, at(-1.0, -1.0), at(1.0, -1.0), at(0.0, -1.0)];
+        assert!(cones.contain(&[0, 1, 2], &[0.5, 0.5, 0.0], &without, DVec3::Z));
+    }
+}

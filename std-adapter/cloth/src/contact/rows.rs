@@ -1,0 +1,200 @@
+//! Rows of the contact solver: C = n·Σwᵢxᵢ − r ≥ 0, with the direction n and the weights w of the closest points at the start of the step.
+//!
+//! A row pushes its two sides apart to its rest distance r, and may take back later what it has pushed, but no more (projected Gauss-Seidel with
+//! accumulated pushes): so several sweeps over all rows end where each pushes as much as it has to.
+//!
+//! Each sweep passes a push on by one layer. So a row that pushed in the last step begins with that push, in proportion to h², as a force that lasts
+//! would have it. Squeezed contacts begin with none: where they push back and forth that would add energy.
+//!
+//! r is the thickness, but no more than the distance at the start: a push must not become a velocity. What is missing is made up for by the
+//! [shift](crate::model::touches), which r follows.
+
+use super::crossing::PairKey;
+use crate::model::mobility::mobility;
+use crate::model::step::{TimeStep, Touches};
+use crate::model::touches::{Touch, along};
+use selvedge_core::glam::DVec3;
+
+/// A pair that is near at the start of a step, and was not seen to be kept at its thickness by what pushed before it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ProximityPair {
+    /// Vertex and face, or first edge and second edge; the cloth's vertices, then those of bodies.
+    pub vertices: [u32; 4],
+    /// Of each vertex in the way between the closest points: positive on the first side, where they add up to one, negative on the other.
+    pub weights: [f64; 4],
+    /// From the second side to the first, of length one.
+    pub normal: DVec3,
+    /// How far apart the pair is to be, in metres.
+    pub thickness: f64,
+}
+
+/// A contact that may push.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Row {
+    key: PairKey,
+    pub(super) near: ProximityPair,
+    /// r of the module.
+    rest: f64,
+    mobility: f64,
+    /// By how much it has moved its sides apart in this step.
+    push: f64,
+    /// Its place among touches; `NONE` until it has pushed.
+    touch: u32,
+    /// Its place among what is too near; `NONE` if it is not.
+    recovery: u32,
+}
+
+/// What rows pushed with in the last step that was made, each over its mobility, by their pairs in order.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Memory {
+    pushes: Vec<(PairKey, f64)>,
+    /// The length of that step, in seconds.
+    h: f64,
+}
+
+impl Memory {
+    pub(super) fn clear(&mut self) {
+        self.pushes.clear();
+    }
+
+    /// Replaces it by what the rows of a step of `h` seconds have pushed, but for those that are squeezed.
+    pub(super) fn remember<'a>(&mut self, rows: impl Iterator<Item = &'a Row>, touches: &Touches, h: f64) {
+        self.pushes.clear();
+        let pushed = rows.filter(|row| row.push > LEAST_PUSH * row.near.thickness && !touches.is_squeezed(row.recovery));
+        self.pushes.extend(pushed.map(|row| (row.key, row.push / row.mobility)));
+        self.pushes.sort_unstable_by_key(|push| push.0);
+        self.h = h;
+    }
+
+    /// The pairs, and what each begins a step of `h` seconds with, over its mobility.
+    pub(super) fn begin(&self, h: f64) -> impl Iterator<Item = (PairKey, f64)> {
+        let scale = (h / self.h).powi(2);
+        self.pushes.iter().map(move |&(key, push)| (key, push * scale))
+    }
+}
+
+const NONE: u32 = u32::MAX;
+/// Pushes of less than this share of the thickness are not remembered: they are rounding.
+const LEAST_PUSH: f64 = 1e-9;
+
+impl Row {
+    /// A pair that is this far apart at the start of the step.
+    pub(super) fn new(key: PairKey, near: ProximityPair, distance: f64, step: &TimeStep<'_>) -> Self {
+        Self {
+            key,
+            recovery: NONE,
+            near,
+            rest: near.thickness.min(distance),
+            mobility: mobility(step.inverse_masses, near.vertices, near.weights),
+            push: 0.0,
+            touch: NONE,
+        }
+    }
+
+    /// Records what it misses of its thickness at the start of the step, as long as there is no shift: and how much that would be if bodies moved and the
+    /// cloth did not.
+    #[inline]
+    pub(super) fn record_missing(&mut self, step: &TimeStep<'_>, positions: &[DVec3], touches: &mut Touches) {
+        let ProximityPair {
+            vertices,
+            weights,
+            normal,
+            thickness,
+        } = self.near;
+        let missing = [self.rest, self.rest.min(self.left(step, positions))].map(|distance| thickness - distance);
+        let touch = Touch::new(vertices, weights, normal, 0.0);
+        let recovery = touches.record_missing(touch, missing, thickness, step.inverse_masses);
+        self.recovery = recovery.unwrap_or(self.recovery);
+    }
+
+    /// How far apart its sides are along the normal if bodies are where they end and the cloth where it starts.
+    fn left(&self, step: &TimeStep<'_>, positions: &[DVec3]) -> f64 {
+        let ProximityPair {
+            vertices,
+            weights,
+            normal,
+            ..
+        } = self.near;
+        let at = |vertex: usize| {
+            let is_free = step.inverse_masses[vertex] > 0.0;
+            if is_free { step.start[vertex] } else { positions[vertex] }
+        };
+        let parts = vertices.into_iter().zip(weights);
+        parts.fold(0.0, |sum, (vertex, weight)| sum + weight * normal.dot(at(vertex as usize)))
+    }
+
+    /// Pushes its sides apart, or takes back what it has pushed, until they are at its rest distance. Returns whether it pushes now and did not
+    /// before.
+    #[inline]
+    pub(super) fn settle(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3]) -> bool {
+        let ProximityPair {
+            vertices,
+            weights,
+            normal,
+            ..
+        } = self.near;
+        let missing = self.rest - along(positions, vertices, weights, normal);
+        self.push_by(missing.max(-self.push), step, positions)
+    }
+
+    /// Begins with a push over its mobility.
+    pub(super) fn begin_with(&mut self, push: f64, step: &TimeStep<'_>, positions: &mut [DVec3]) {
+        self.push_by(push * self.mobility, step, positions);
+    }
+
+    /// Returns whether it pushes now and did not before.
+    #[inline(always)]
+    fn push_by(&mut self, push: f64, step: &TimeStep<'_>, positions: &mut [DVec3]) -> bool {
+        let ProximityPair {
+            vertices,
+            weights,
+            normal,
+            ..
+        } = self.near;
+        // What is not a number pushes nothing.
+        if !(push != 0.0 && push.is_finite() && self.mobility > 0.0) {
+            return false;
+        }
+        let is_new = self.push == 0.0;
+        let way = normal * (push / self.mobility);
+        for (vertex, weight) in vertices.into_iter().zip(weights) {
+            positions[vertex as usize] += way * (step.inverse_masses[vertex as usize] * weight);
+        }
+        self.push += push;
+        is_new
+    }
+
+    /// Lets the rest distance follow the shift, which may take neighbours of this contact nearer to it.
+    ///
+    /// Where contacts are squeezed there is no room for what they are to keep. They push no more than it takes to keep the cloth where it was, beside
+    /// bodies where they are now: pads that close would otherwise throw out what is between them.
+    pub(super) fn follow_shift(&mut self, step: &TimeStep<'_>, positions: &[DVec3], touches: &Touches) {
+        if touches.is_squeezed(self.recovery) {
+            let left = self.left(step, positions);
+            self.rest = self.rest.min(left);
+        }
+        let shifted = touches.shift_along(self.near.vertices, self.near.weights, self.near.normal);
+        self.rest = self.near.thickness.min(self.rest + shifted);
+    }
+
+    /// Records how much it has pushed so far.
+    pub(super) fn record(&mut self, touches: &mut Touches) {
+        if !touches.wanted {
+            return;
+        }
+        match touches.list.get_mut(self.touch as usize) {
+            Some(touch) => touch.push = self.push,
+            None if self.push > 0.0 => {
+                let ProximityPair {
+                    vertices,
+                    weights,
+                    normal,
+                    ..
+                } = self.near;
+                self.touch = touches.list.len() as u32;
+                touches.list.push(Touch::new(vertices, weights, normal, self.push));
+            }
+            None => (),
+        }
+    }
+}

@@ -1,0 +1,308 @@
+//! What contacts leave for friction and for recovery in a substep.
+//!
+//! **Recovery is no push.** Two sides that are nearer than their thickness where a substep starts have to come apart, but a push would leave them a
+//! velocity. So pushes keep such a contact at the distance that it has, and a *shift* takes it apart: a change of place that is taken out of the
+//! velocity again (split impulses: Guendelman, Bridson and Fedkiw 2003 separate the two in the same way).
+//!
+//! The shift s solves contacts as soft ones. Contact i misses eᵢ of its thickness along nᵢ, moves its sides apart by pᵢ ≥ 0, and gives way as much
+//! as its sides do:
+//!
+//! ```text
+//! nᵢ·s + pᵢ = eᵢ  or  pᵢ = 0,      s = Σ W·nᵢ·pᵢ / mobilityᵢ
+//! ```
+//!
+//! So opposed contacts balance: a sheet between two pads is shifted to the middle, in whatever direction that is, and by nothing once it is there. Then
+//! pᵢ exceeds nᵢ·s by what presses from the other side, and that *squeeze* carries friction. n contacts in one direction come apart by n/(n + 1) of
+//! what they miss. As that would bend a sheet that lies flat, contacts that are not squeezed then give way no longer, and miss nothing.
+//!
+//! Squeezes are found among contacts with what is kinematic. Layers of cloth that lie on each other have room to come apart, at the open end.
+//!
+//! Pads that close squeeze a sheet as soon as they touch it. So squeezes are found with what contacts miss as bodies end the step. A contact that is not
+//! squeezed is shifted by what it misses at the start alone: the rest is for pushes, as a body that moves does push the cloth.
+
+use super::mobility::mobility;
+use selvedge_core::glam::DVec3;
+
+/// The share of the shift that a second has time for: a millisecond takes a twentieth of it, so that the cloth's own forces can follow.
+const RATE: f64 = 50.0;
+/// How fast a vertex is shifted at most, in m/s.
+const FASTEST: f64 = 1.0;
+/// Sweeps over all recoveries. Each leaves half of what two opposed contacts are out of balance.
+const SWEEPS: usize = 4;
+/// A squeeze of less than this share of what a contact misses is none.
+const LEAST_SQUEEZE: f64 = 0.01;
+/// What misses less than this share of its thickness stays as it is: nobody sees it, and cloth at rest has nothing to recover.
+pub(crate) const LEAST_MISSING: f64 = 1e-5;
+
+/// One contact that pushed, for friction.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Touch {
+    pub(crate) vertices: [u32; 4],
+    /// Of each vertex in the relative motion; their sum over both sides is zero if both are vertices.
+    pub(crate) weights: [f64; 4],
+    pub(crate) normal: DVec3,
+    /// By how much the contact has moved its two sides apart in this substep.
+    pub(crate) push: f64,
+    /// How far the other side moves in this step, if it is no vertex.
+    pub(crate) drift: DVec3,
+    /// The sliding that friction has undone so far in this substep.
+    pub(crate) rubbed: DVec3,
+}
+
+impl Touch {
+    /// A touch of vertices alone that nothing has rubbed.
+    pub(crate) const fn new(vertices: [u32; 4], weights: [f64; 4], normal: DVec3, push: f64) -> Self {
+        Self {
+            vertices,
+            weights,
+            normal,
+            push,
+            drift: DVec3::ZERO,
+            rubbed: DVec3::ZERO,
+        }
+    }
+}
+
+/// A contact whose sides are nearer than their thickness where a substep starts.
+#[derive(Clone, Copy, Debug)]
+struct Recovery {
+    touch: Touch,
+    mobility: f64,
+    /// Whether a whole side of it is kinematic.
+    is_on_kinematic: bool,
+    /// At the start of the step, and as bodies end it.
+    missing: f64,
+    at_end: f64,
+    /// p of the module.
+    apart: f64,
+    /// By how much p exceeds the shift.
+    squeeze: f64,
+}
+
+/// The contacts of a substep, in order: those that pushed, if friction asks for them, and those that are too near.
+#[derive(Debug, Default)]
+pub struct Touches {
+    /// Whether friction asks for them.
+    pub(crate) wanted: bool,
+    pub(crate) list: Vec<Touch>,
+    recoveries: Vec<Recovery>,
+    /// Of each vertex; empty if nothing is too near.
+    shift: Vec<DVec3>,
+    /// Whether the shift was found already.
+    is_shifted: bool,
+}
+
+impl Touches {
+    /// None yet; `wanted` says whether friction asks for them.
+    pub(crate) fn new(wanted: bool) -> Self {
+        Self {
+            wanted,
+            ..Self::default()
+        }
+    }
+
+    /// Forgets the contacts of the last substep.
+    pub(crate) fn clear(&mut self) {
+        self.list.clear();
+        self.recoveries.clear();
+        self.shift.clear();
+        self.is_shifted = false;
+    }
+
+    #[inline]
+    pub(crate) fn record(&mut self, touch: impl FnOnce() -> Touch) {
+        if self.wanted {
+            self.list.push(touch());
+        }
+    }
+
+    /// Records that a contact misses so much of a thickness at the start of the step, and so much as bodies end it: not once the shift was found.
+    /// Returns its place among such contacts, if it is one.
+    pub(crate) fn record_missing(
+        &mut self,
+        touch: Touch,
+        [missing, at_end]: [f64; 2],
+        thickness: f64,
+        inverse_masses: &[f64],
+    ) -> Option<u32> {
+        let mobility = mobility(inverse_masses, touch.vertices, touch.weights);
+        if self.is_shifted || !(at_end > LEAST_MISSING * thickness && mobility > 0.0) {
+            return None;
+        }
+        let is_kinematic = |sign: f64| {
+            let mut own = touch.vertices.into_iter().zip(touch.weights);
+            own.all(|(vertex, weight)| weight * sign <= 0.0 || inverse_masses[vertex as usize] == 0.0)
+        };
+        self.recoveries.push(Recovery {
+            touch,
+            mobility,
+            is_on_kinematic: is_kinematic(1.0) || is_kinematic(-1.0),
+            missing: missing.max(0.0),
+            at_end,
+            apart: 0.0,
+            squeeze: 0.0,
+        });
+        Some(self.recoveries.len() as u32 - 1)
+    }
+
+    /// Whether a contact that is too near is squeezed.
+    pub(crate) fn is_squeezed(&self, place: u32) -> bool {
+        self.recoveries
+            .get(place as usize)
+            .is_some_and(|recovery| recovery.squeeze > 0.0)
+    }
+
+    /// By how much vertices are shifted in this substep; empty if none are.
+    pub(crate) fn shift(&self) -> &[DVec3] {
+        &self.shift
+    }
+
+    /// By how much the shift takes the two sides of a contact apart.
+    pub(crate) fn shift_along(&self, vertices: [u32; 4], weights: [f64; 4], normal: DVec3) -> f64 {
+        if self.shift.is_empty() {
+            return 0.0;
+        }
+        along(&self.shift, vertices, weights, normal)
+    }
+
+    /// Finds the shift of a substep of `h` seconds, and records what is squeezed.
+    pub(crate) fn find_shift(&mut self, inverse_masses: &[f64], h: f64) {
+        let Self {
+            wanted,
+            list,
+            recoveries,
+            shift,
+            is_shifted,
+        } = self;
+        *is_shifted = true;
+        if recoveries.is_empty() {
+            return;
+        }
+        shift.resize(inverse_masses.len(), DVec3::ZERO);
+        for sweep in 0..SWEEPS {
+            sweep_over(recoveries, sweep, |recovery| {
+                if recovery.is_on_kinematic {
+                    recovery.settle(inverse_masses, shift);
+                }
+            });
+        }
+        for recovery in &mut *recoveries {
+            if recovery.is_on_kinematic {
+                let squeeze = recovery.apart - recovery.along(shift);
+                // A contact alone has none, but for rounding.
+                recovery.squeeze = if squeeze > LEAST_SQUEEZE * recovery.at_end {
+                    squeeze
+                } else {
+                    0.0
+                };
+            }
+            if *wanted && recovery.squeeze > 0.0 {
+                list.push(Touch {
+                    push: recovery.squeeze.min(FASTEST * h),
+                    ..recovery.touch
+                });
+            }
+        }
+        for sweep in 0..SWEEPS {
+            sweep_over(recoveries, sweep, |recovery| recovery.finish(inverse_masses, shift));
+        }
+        let share = (RATE * h).min(1.0);
+        for own in shift {
+            *own = (*own * share).clamp_length_max(FASTEST * h);
+        }
+    }
+}
+
+/// Visits all recoveries, in one order in even sweeps and in the other in odd ones.
+fn sweep_over(recoveries: &mut [Recovery], sweep: usize, visit: impl FnMut(&mut Recovery)) {
+    if sweep.is_multiple_of(2) {
+        recoveries.iter_mut().for_each(visit);
+    } else {
+        recoveries.iter_mut().rev().for_each(visit);
+    }
+}
+
+impl Recovery {
+    /// By how much the shift takes its sides apart.
+    fn along(&self, shift: &[DVec3]) -> f64 {
+        along(shift, self.touch.vertices, self.touch.weights, self.touch.normal)
+    }
+
+    /// Moves its sides apart, or together again, until its own equation holds: they move by as much as it gives way.
+    fn settle(&mut self, inverse_masses: &[f64], shift: &mut [DVec3]) {
+        let open = self.at_end - self.along(shift) - self.apart;
+        self.push((0.5 * open).max(-self.apart), inverse_masses, shift);
+    }
+
+    /// Lets it give way no longer, unless it is squeezed.
+    fn finish(&mut self, inverse_masses: &[f64], shift: &mut [DVec3]) {
+        if self.squeeze == 0.0 {
+            let open = self.missing - self.along(shift);
+            self.push(open.max(-self.apart), inverse_masses, shift);
+        }
+    }
+
+    fn push(&mut self, push: f64, inverse_masses: &[f64], shift: &mut [DVec3]) {
+        let Touch {
+            vertices,
+            weights,
+            normal,
+            ..
+        } = self.touch;
+        let way = normal * (push / self.mobility);
+        for (vertex, weight) in vertices.into_iter().zip(weights) {
+            shift[vertex as usize] += way * (weight * inverse_masses[vertex as usize]);
+        }
+        self.apart += push;
+    }
+}
+
+/// n·Σ w·x.
+pub(crate) fn along(of_vertices: &[DVec3], vertices: [u32; 4], weights: [f64; 4], normal: DVec3) -> f64 {
+    let parts = vertices.into_iter().zip(weights);
+    parts.fold(0.0, |sum, (vertex, weight)| {
+        sum + weight * normal.dot(of_vertices[vertex as usize])
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const VERTEX: [u32; 4] = [0; 4];
+    const ALONE: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
+
+    /// The shift of one vertex with these contacts, as a share of what a second has time for, and the squeezes.
+    fn shifted(contacts: &[(DVec3, f64)]) -> (DVec3, Vec<f64>) {
+        let h = 1e-3;
+        let mut touches = Touches::new(true);
+        for &(normal, missing) in contacts {
+            touches.record_missing(Touch::new(VERTEX, ALONE, normal, 0.0), [missing; 2], 1e-3, &[2.0]);
+        }
+        touches.find_shift(&[2.0], h);
+        let shift = touches.shift().first().copied().unwrap_or_default();
+        (shift / (RATE * h), touches.list.iter().map(|touch| touch.push).collect())
+    }
+
+    #[test]
+    fn many_contacts_in_one_direction_shift_by_no_more_than_they_miss() {
+        let (one, squeezed) = shifted(&[(DVec3::X, 1e-4)]);
+        assert!(
+            (one - DVec3::X * 1e-4).length() < 1e-12 && squeezed.is_empty(),
+            "{one} {squeezed:?}"
+        );
+        let (ten, squeezed) = shifted(&[(DVec3::X, 1e-4); 10]);
+        assert!((ten - one).length() < 1e-9 && squeezed.is_empty(), "{ten} {squeezed:?}");
+        assert_eq!(shifted(&[(DVec3::X, 1e-9)]).0, DVec3::ZERO);
+    }
+
+    #[test]
+    fn opposed_contacts_shift_to_the_middle_whatever_their_direction_and_squeeze() {
+        for normal in [DVec3::X, DVec3::new(0.48, 0.6, 0.64)] {
+            let (still, squeezed) = shifted(&[(normal, 1e-4), (-normal, 1e-4)]);
+            assert!(still.length() < 4e-6 && squeezed.len() == 2, "{still}");
+            let (moved, _) = shifted(&[(normal, 2e-4), (-normal, 1e-4)]);
+            assert!(moved.dot(normal) > 2e-5 && moved.cross(normal).length() < 1e-12, "{moved}");
+        }
+    }
+}

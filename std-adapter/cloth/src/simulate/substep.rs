@@ -1,0 +1,380 @@
+//! One substep: a whole step, or the part of one that can be made at once.
+//!
+//! Forces, prediction, constraints, contact, friction, and the certified end, a method each.
+
+use super::assembly::Assembly;
+use super::measures::EffectTime;
+use super::momentum::Pieces;
+use super::simulation::{Simulation, Work};
+use super::state::{FASTEST, limited};
+use crate::contact::{Blocker, ContactSolver};
+use crate::effects::plan::Entry;
+use crate::model::step::{Carrier, Constraint, FREE, Force, TimeStep, Touches};
+use crate::world::Kinematic;
+use selvedge::clock::Clock;
+use selvedge_core::glam::DVec3;
+
+/// Sweeps over the contacts that were found.
+const SWEEPS: usize = 4;
+/// How much longer than its limit an edge may be: less is not worth another round.
+const TOLERANCE: f64 = 1.01;
+/// Most rounds of limits and contacts.
+const ROUNDS: usize = 4;
+
+/// A substep under way. It changes nothing of the state until it is accepted.
+pub(super) struct Substep<'a> {
+    step: TimeStep<'a>,
+    /// The clock of bodies and pins at the end, in seconds.
+    clock: f64,
+    /// The inverse masses without what [holds](crate::model::step::Memory::hold) vertices.
+    inverse_masses: &'a [f64],
+    effects: &'a mut [EffectTime],
+    carriers: &'a [Carrier],
+    carried: &'a [DVec3],
+    motions: &'a mut [Kinematic],
+    forces: &'a mut [Entry<dyn Force>],
+    constraints: &'a mut [Entry<dyn Constraint>],
+    among_contacts: &'a [usize],
+    bounding: &'a [usize],
+    pushes: &'a mut [Entry<dyn Constraint>],
+    friction: &'a mut [Entry<dyn Constraint>],
+    remembering: &'a [usize],
+    pieces: &'a mut Pieces,
+    contact: Option<&'a mut ContactSolver>,
+    velocities: &'a mut Vec<DVec3>,
+    positions: &'a mut Vec<DVec3>,
+    touches: &'a mut Touches,
+    /// Where the step starts, shifted; kept for its memory.
+    shifted: &'a mut Vec<DVec3>,
+}
+
+impl Simulation {
+    /// Advances the cloth by `h` seconds, and bodies and pins by `ticks` seconds of their clock.
+    ///
+    /// # Errors
+    /// If no motion is found that is certainly free. Then nothing has changed.
+    pub(super) fn attempt(&mut self, h: f64, ticks: f64) -> Result<(), Blocker> {
+        let mut substep = Substep::begin(self, h, ticks);
+        substep.apply_forces();
+        substep.predict();
+        substep.constrain();
+        substep.separate();
+        substep.slow_down();
+        substep.certify()?;
+        substep.settle();
+        let Self { state, work, .. } = self;
+        let ways = work.predicted.iter().zip(&state.positions).map(|(end, start)| *end - *start);
+        state.velocities.clear();
+        state.velocities.extend(ways.map(|way| way / h));
+        work.leave_out_shift(&mut state.velocities, h);
+        std::mem::swap(&mut state.positions, &mut work.predicted);
+        state.clock += ticks;
+        Ok(())
+    }
+}
+
+impl Work {
+    /// Takes the shift out of velocities: all of it, so that momentum is kept even where certification has held vertices back.
+    fn leave_out_shift(&self, velocities: &mut [DVec3], h: f64) {
+        for (velocity, shift) in velocities.iter_mut().zip(self.touches.shift()) {
+            *velocity -= *shift / h;
+        }
+    }
+}
+
+impl<'a> Substep<'a> {
+    /// Finds the poses of bodies and pins, and the masses that constraints see.
+    fn begin(simulation: &'a mut Simulation, h: f64, ticks: f64) -> Self {
+        let Simulation {
+            state,
+            work,
+            carried,
+            effects,
+            made,
+            ..
+        } = simulation;
+        let Assembly {
+            inverse_masses,
+            carriers,
+            contact,
+            motions,
+            forces,
+            constraints,
+            among_contacts,
+            bounding,
+            pushes,
+            friction,
+            remembering,
+            pieces,
+            ..
+        } = made;
+        let clock = state.clock;
+        work.poses.clear();
+        let poses = |motion: &Kinematic| [clock, clock + ticks].map(|time| motion.pose(time));
+        work.poses.extend(motions.iter().map(poses));
+        work.touches.clear();
+        work.held.clear();
+        for &index in &*remembering {
+            let Entry { effect, action } = &constraints[index];
+            if let Some(memory) = action.memory() {
+                timed(effects, *effect, || memory.hold(h, &mut work.held));
+            }
+        }
+        let weighed = if work.held.is_empty() {
+            &*inverse_masses
+        } else {
+            let own = &mut work.inverse_masses;
+            own.clone_from(inverse_masses);
+            for &(vertex, mass) in &work.held {
+                let inverse_mass = &mut own[vertex as usize];
+                *inverse_mass /= 1.0 + *inverse_mass * mass;
+            }
+            own
+        };
+        work.velocities.clone_from(&state.velocities);
+        Self {
+            step: TimeStep {
+                time: state.time(simulation.time_step),
+                h,
+                start: &state.positions,
+                inverse_masses: weighed,
+                held: &work.held,
+                poses: &work.poses,
+            },
+            clock: clock + ticks,
+            inverse_masses,
+            effects,
+            carriers,
+            carried,
+            motions,
+            forces,
+            constraints,
+            among_contacts,
+            bounding,
+            pushes,
+            friction,
+            remembering,
+            pieces,
+            contact: contact.as_mut(),
+            velocities: &mut work.velocities,
+            positions: &mut work.predicted,
+            touches: &mut work.touches,
+            shifted: &mut work.shifted,
+        }
+    }
+
+    /// Forces change velocities. They see the masses without what holds vertices.
+    fn apply_forces(&mut self) {
+        let step = TimeStep {
+            inverse_masses: self.inverse_masses,
+            held: &[],
+            ..self.step
+        };
+        for Entry { effect, action } in &mut *self.forces {
+            timed(self.effects, *effect, || action.apply(&step, self.velocities));
+        }
+    }
+
+    /// Predicts where inertia leads, and puts bodies and pins where their motion leads by the end.
+    fn predict(&mut self) {
+        let Self {
+            step,
+            carriers,
+            carried,
+            velocities,
+            positions,
+            ..
+        } = self;
+        let predicted = |vertex: usize| match step.poses.get(carriers[vertex] as usize) {
+            Some([_, pose]) if pose.is_rigid() => pose.apply(carried[vertex]),
+            Some(_) => step.start[vertex],
+            None => step.start[vertex] + limited(velocities[vertex], FASTEST) * step.h,
+        };
+        positions.clear();
+        positions.extend((0..step.start.len()).map(predicted));
+        for motion in &mut *self.motions {
+            motion.put(self.clock, positions);
+        }
+    }
+
+    /// Constraints correct the positions, one after the other. Inner forces among them keep the [momentum](super::momentum).
+    fn constrain(&mut self) {
+        let mut is_inner = false;
+        for index in 0..self.constraints.len() {
+            let is_next_inner = self.constraints[index].action.is_inner();
+            match (is_inner, is_next_inner) {
+                (false, true) => self.pieces.begin(self.positions),
+                (true, false) => self.pieces.project(&self.step, self.positions),
+                _ => (),
+            }
+            is_inner = is_next_inner;
+            self.correct(index);
+        }
+        if is_inner {
+            self.pieces.project(&self.step, self.positions);
+        }
+    }
+
+    /// Lets one constraint correct the positions.
+    fn correct(&mut self, index: usize) {
+        let Entry { effect, action } = &mut self.constraints[index];
+        timed(self.effects, *effect, || {
+            action.project(&self.step, self.positions, self.touches);
+        });
+    }
+
+    /// Pushes apart what comes too near, rubs what pushes, and brings back what that stretches beyond its limit.
+    ///
+    /// Friction and pushes stretch the cloth, and limits pull it into what it touches: each acts in rounds until all limits hold. Without a limit
+    /// there is one round.
+    fn separate(&mut self) {
+        if let Some(contact) = &mut self.contact {
+            contact.prepare(self.step.start, self.positions);
+            contact.begin(&self.step, self.positions);
+        }
+        self.recover();
+        self.push();
+        for _ in 1..SWEEPS {
+            self.act_again(self.among_contacts);
+            self.sweep();
+        }
+        self.rub();
+        for _ in 0..ROUNDS {
+            if self.holds() {
+                break;
+            }
+            self.act_again(self.bounding);
+            self.act_again(self.among_contacts);
+            self.push();
+            self.rub();
+        }
+    }
+
+    /// Pushes cloth off smooth bodies.
+    fn push_off_smooth_bodies(&mut self) {
+        for Entry { effect, action } in &mut *self.pushes {
+            timed(self.effects, *effect, || {
+                action.project(&self.step, self.positions, self.touches);
+            });
+        }
+    }
+
+    /// Pushes cloth off bodies, then cloth off cloth.
+    fn push(&mut self) {
+        self.push_off_smooth_bodies();
+        let Some(contact) = &mut self.contact else { return };
+        for with_body in [true, false] {
+            if let Some(effect) = contact.settings.effect(with_body) {
+                timed(self.effects, effect, || {
+                    contact.push(with_body, &self.step, self.positions);
+                });
+            }
+        }
+    }
+
+    /// Shifts what is too near since the start of the step.
+    fn recover(&mut self) {
+        self.push_off_smooth_bodies();
+        if let Some(contact) = &mut self.contact {
+            contact.find_missing(&self.step, self.positions, self.touches);
+        }
+        self.touches.find_shift(self.step.inverse_masses, self.step.h);
+        if self.touches.shift().is_empty() {
+            return;
+        }
+        for (position, shift) in self.positions.iter_mut().zip(self.touches.shift()) {
+            *position += *shift;
+        }
+        if let Some(contact) = &mut self.contact {
+            contact.follow_shift(&self.step, self.positions, self.touches);
+        }
+    }
+
+    /// Lets all contacts push again, or take back what they have pushed.
+    fn sweep(&mut self) {
+        let Some(contact) = &mut self.contact else { return };
+        let any = contact.settings.effect(false).or(contact.settings.effect(true));
+        if let Some(effect) = any {
+            timed(self.effects, effect, || contact.sweep(&self.step, self.positions));
+        }
+    }
+
+    /// Rubs what has pushed. Sliding is without the shift.
+    fn rub(&mut self) {
+        if self.friction.is_empty() {
+            return;
+        }
+        if let Some(contact) = &mut self.contact {
+            contact.record(self.touches);
+        }
+        let mut step = self.step;
+        if !self.touches.shift().is_empty() {
+            self.shifted.clear();
+            let shifted = self.step.start.iter().zip(self.touches.shift());
+            self.shifted.extend(shifted.map(|(start, shift)| *start + *shift));
+            step.start = self.shifted;
+        }
+        for Entry { effect, action } in &mut *self.friction {
+            timed(self.effects, *effect, || action.project(&step, self.positions, self.touches));
+        }
+    }
+
+    /// Whether all lengths that constraints limit are within their limits, but for a percent.
+    fn holds(&mut self) -> bool {
+        self.bounding.iter().all(|&index| {
+            let Entry { effect, action } = &self.constraints[index];
+            let mut over = None;
+            timed(self.effects, *effect, || over = action.over_limit(self.positions));
+            over.is_none_or(|over| over <= TOLERANCE)
+        })
+    }
+
+    /// Lets inner constraints correct the positions once more.
+    fn act_again(&mut self, constraints: &[usize]) {
+        if constraints.is_empty() {
+            return;
+        }
+        self.pieces.begin(self.positions);
+        for &index in constraints {
+            self.correct(index);
+        }
+        self.pieces.project(&self.step, self.positions);
+    }
+
+    /// Keeps free vertices below the [fastest](FASTEST) speed.
+    fn slow_down(&mut self) {
+        let farthest = FASTEST * self.step.h;
+        for (vertex, position) in self.positions.iter_mut().enumerate() {
+            if self.carriers[vertex] == FREE {
+                let start = self.step.start[vertex];
+                *position = start + limited(*position - start, farthest);
+            }
+        }
+    }
+
+    /// Turns the motion into one that is certainly free.
+    fn certify(&mut self) -> Result<(), Blocker> {
+        if let Some(contact) = &mut self.contact {
+            contact.certify(&self.step, self.positions)?;
+            contact.remember(self.touches, self.step.h);
+        }
+        Ok(())
+    }
+
+    /// Constraints take note of a substep that is accepted.
+    fn settle(&mut self) {
+        for &index in self.remembering {
+            let Entry { effect, action } = &mut self.constraints[index];
+            if let Some(memory) = action.memory_mut() {
+                timed(self.effects, *effect, || memory.settle(&self.step, self.positions));
+            }
+        }
+    }
+}
+
+/// Runs an action of an effect, and adds the time that it takes.
+fn timed(effects: &mut [EffectTime], effect: usize, action: impl FnOnce()) {
+    let begin = Clock::now();
+    action();
+    effects[effect].seconds += begin.elapsed().as_secs_f64();
+}
