@@ -132,7 +132,7 @@ mod tests {
         assert_eq!(LENGTH.parse("2.5cm"), Ok(0.025));
         assert_eq!(LENGTH.parse(" -1e1 "), Ok(-10.0));
         assert_eq!(ANGLE.parse("180 deg"), Ok(std::f64::consts::PI));
-        assert!(LENGTH.parse("3 kg").unwrap_err().contains("no unit of it"));
+        assert!(LENGTH.parse("3 kg").unwrap_err().contains("not a unit of it"));
         assert!(LENGTH.parse("3 Mm").unwrap_err().contains("did you mean"));
         assert!(RATIO.parse("1 m").unwrap_err().contains("plain number"));
         assert!(TIME.parse("soon").unwrap_err().contains("a time"));

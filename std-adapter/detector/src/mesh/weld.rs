@@ -67,11 +67,7 @@ impl Mesh {
 /// Returns, for each position, the lowest number of those that are merged with it: see [`Mesh::welded`].
 #[must_use]
 pub fn first_coincident(positions: &[DVec3], tolerance: f64) -> Vec<u32> {
-    let mut first: Vec<u32> = (0..positions.len() as u32).collect();
-    let mut seen = HashMap::with_capacity(positions.len());
-    for (vertex, position) in positions.iter().enumerate().filter(|(_, position)| !position.is_nan()) {
-        first[vertex] = *seen.entry(bits(*position)).or_insert(vertex as u32);
-    }
+    let mut first = first_equal(positions);
     if tolerance.is_nan() || tolerance <= 0.0 {
         return first;
     }
@@ -99,6 +95,38 @@ pub fn first_coincident(positions: &[DVec3], tolerance: f64) -> Vec<u32> {
     }
     first
 }
+
+/// Returns, for each position, the lowest number of an equal one.
+fn first_equal(positions: &[DVec3]) -> Vec<u32> {
+    const EMPTY: u32 = u32::MAX;
+    // A table of at least twice as many places, whose size is a power of two; a taken place leads to the next.
+    let bits_of_size = (2 * positions.len()).next_power_of_two().trailing_zeros().max(1);
+    let mut table = vec![EMPTY; 1 << bits_of_size];
+    let mask = table.len() - 1;
+    let mut first: Vec<u32> = (0..positions.len() as u32).collect();
+    for (vertex, &position) in positions.iter().enumerate().filter(|(_, position)| !position.is_nan()) {
+        let [x, y, z] = bits(position);
+        let mixed = (x.wrapping_mul(MIX).rotate_left(23) ^ y).wrapping_mul(MIX).rotate_left(23) ^ z;
+        let mut place = (mixed.wrapping_mul(MIX) >> (64 - bits_of_size)) as usize;
+        loop {
+            match table[place] {
+                EMPTY => {
+                    table[place] = vertex as u32;
+                    break;
+                }
+                other if positions[other as usize] == position => {
+                    first[vertex] = other;
+                    break;
+                }
+                _ => place = (place + 1) & mask,
+            }
+        }
+    }
+    first
+}
+
+/// An odd number whose bits look random: 2⁶⁴ over the golden ratio.
+const MIX: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// Equal for equal coordinates: zero has one sign.
 fn bits(position: DVec3) -> [u64; 3] {

@@ -3,7 +3,6 @@
 use robust::{Coord, orient2d};
 use selvedge::{Topology, TopologyStatistics, first_coincident};
 use selvedge_core::glam::DVec3;
-use std::collections::HashMap;
 use std::fmt;
 
 /// Properties of a mesh that often come from its export, and stand in the way of a simulation. None of them is an intersection.
@@ -53,7 +52,7 @@ impl Findings {
             duplicate_triangles,
             unused_vertices: isolated_vertices,
             non_manifold_edges,
-            inconsistent_edges: inconsistent_edges(topology.proper_triangles()),
+            inconsistent_edges: inconsistent_edges(topology),
             size: size(positions),
             ..Self::default()
         };
@@ -152,18 +151,25 @@ fn is_thin([a, b, c]: [DVec3; 3]) -> bool {
     sides[0].cross(sides[1]).length() < THIN * longest
 }
 
-fn inconsistent_edges(triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
-    // How often triangles run along an edge upwards, and downwards.
-    let mut along: HashMap<[u32; 2], [u32; 2]> = HashMap::with_capacity(2 * triangles.len());
-    for &[a, b, c] in triangles {
-        for [from, to] in [[a, b], [b, c], [c, a]] {
-            along.entry([from.min(to), from.max(to)]).or_default()[usize::from(from > to)] += 1;
+fn inconsistent_edges(topology: &Topology) -> Vec<[u32; 2]> {
+    // How many triangles run along each edge from its first to its second vertex, and back; three is enough to know.
+    let mut ways = vec![[0_u8; 2]; topology.edges().len()];
+    for (corners, edges) in topology.proper_triangles().iter().zip(topology.triangle_edges()) {
+        for (k, &edge) in edges.iter().enumerate() {
+            // A triangle that names a vertex twice has no edge there.
+            let Some(&[first, _]) = topology.edges().get(edge as usize) else {
+                continue;
+            };
+            let way = &mut ways[edge as usize][usize::from(corners[k] != first)];
+            *way = way.saturating_add(1);
         }
     }
-    let wrong = along.into_iter().filter(|(_, ways)| matches!(ways, [2, 0] | [0, 2]));
-    let mut edges: Vec<[u32; 2]> = wrong.map(|(edge, _)| edge).collect();
-    edges.sort_unstable();
-    edges
+    let wrong = topology
+        .edges()
+        .iter()
+        .zip(ways)
+        .filter(|(_, ways)| matches!(ways, [2, 0] | [0, 2]));
+    wrong.map(|(&edge, _)| edge).collect()
 }
 
 #[cfg(test)]
