@@ -545,6 +545,6 @@ impl Question for Thresholds {
 fn thresholds() {
     assert_eq!(
         digests::<Thresholds>(200),
-        "0701931a58f6e8a1 814a87f9c94d04d2 e5afd7e7dd8e9f19 6577c78743e549ba"
+        "27ee97e3824389a5 a870719b4a17a017 adc81e539e5f1f0f 708c67f479a3d5cc"
     );
 }
