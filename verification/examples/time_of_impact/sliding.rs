@@ -25,6 +25,9 @@ struct Cost {
     most_rounds: u32,
 }
 
+/// One of the costs.
+type Value = fn(&Cost) -> f64;
+
 /// Measures `count` pairs of each kind at each distance in `f64`, prints a table, and writes a plot.
 pub(crate) fn sliding(count: u64, plot: &Path) -> std::io::Result<()> {
     println!("kind        distance  ns a pair  rounds: mean, most");
@@ -76,7 +79,7 @@ fn svg(costs: &[(&str, Vec<Cost>); 2]) -> String {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" font-size=\"11\" fill=\"#1f2328\">\n\
          <rect width=\"{width}\" height=\"{height}\" fill=\"#fdfdfc\"/>\n"
     );
-    let value_of: [(&str, f64, fn(&Cost) -> f64); 2] = [
+    let value_of: [(&str, f64, Value); 2] = [
         ("nanoseconds for a pair, f64", 200.0, |cost| cost.nanoseconds),
         ("rounds in the mean", 2.0, |cost| cost.mean_rounds),
     ];
@@ -104,7 +107,7 @@ fn panel(
     [title, across]: [&str; 2],
     [largest, tick]: [f64; 2],
     costs: &[(&str, Vec<Cost>); 2],
-    value: fn(&Cost) -> f64,
+    value: Value,
 ) {
     let (first, last) = (f64::from(*EXPONENTS.start()), f64::from(*EXPONENTS.end()));
     let bottom = ROOM[1] + SIZE[1];
