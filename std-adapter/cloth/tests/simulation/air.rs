@@ -1,4 +1,4 @@
-//! Air that pushes: inflation by a given pressure, and wind from a field.
+//! Moving air: inflation by a prescribed pressure, and wind from a field.
 
 use crate::common::{self, assert_messages};
 use selvedge::glam::DVec3;
@@ -10,7 +10,7 @@ use std::path::Path;
 
 const RADIUS: f64 = 0.1;
 
-/// A ball of cloth about (1, 0, 0), its triangles turned inside if that is asked for.
+/// A ball of cloth about (1, 0, 0), with its triangles facing inwards if `is_inside_out`.
 fn balloon(is_inside_out: bool) -> Cloth {
     let mut mesh = Body::ball("ball", DVec3::X, RADIUS, 24).unwrap().mesh;
     if is_inside_out {
@@ -19,7 +19,7 @@ fn balloon(is_inside_out: bool) -> Cloth {
     Cloth::from_mesh(mesh, DVec3::Z, 0.2).unwrap()
 }
 
-/// After so many steps of half a millisecond.
+/// Runs with steps of half a millisecond.
 fn run(cloth: Cloth, effects: impl FnOnce(&mut Scene), steps: u64) -> Simulation {
     let mut scene = Scene::new(cloth, 5e-4);
     effects(&mut scene);
@@ -32,7 +32,7 @@ fn mean_radius(simulation: &Simulation) -> f64 {
     positions.iter().map(|p| p.distance(DVec3::X)).sum::<f64>() / count as f64
 }
 
-/// Of a ball with the tension T = k·(r − R)/R in its skin: p = 2T/r. Shorter steps leave less of the pull to the next.
+/// A ball with the tension T = k·(r − R)/R in its skin: p = 2T/r. Shorter steps leave less of the pull to the next.
 #[test]
 fn a_balloon_grows_until_its_skin_holds_the_pressure() {
     let (stiffness, pressure) = (200.0, 400.0);
@@ -71,7 +71,7 @@ fn a_pressure_over_time_is_that_of_its_keyframes() {
     assert!((empty - 1.0).abs() < 0.01, "{empty}");
 }
 
-/// In one step: of the whole momentum, and of an open sheet p·h/σ everywhere.
+/// In one step: the whole momentum, and p·h/σ everywhere on an open sheet.
 #[test]
 fn a_closed_cloth_is_not_pushed_as_a_whole_and_an_open_one_along_its_normals() {
     let closed = run(balloon(false), |scene| _ = scene.add(Inflation::at(1e3)), 1);
@@ -94,7 +94,7 @@ fn a_closed_cloth_is_not_pushed_as_a_whole_and_an_open_one_along_its_normals() {
     }
 }
 
-/// The same wind everywhere, as a field.
+/// A uniform wind, as a field.
 #[derive(Debug)]
 pub(crate) struct Even(pub(crate) DVec3);
 
@@ -121,7 +121,7 @@ fn a_field_that_is_the_same_everywhere_is_wind_to_the_last_bit() {
     assert!(even.velocities()[0].y > 0.01);
 }
 
-/// Only from a time on, and only right of a place.
+/// A wind that starts at a time, on one side of a place.
 #[derive(Debug)]
 struct Gust;
 

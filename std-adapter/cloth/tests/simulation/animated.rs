@@ -1,4 +1,4 @@
-//! Bodies that change their shape: frames of files and of code, skinned figures.
+//! Bodies that deform: frames of files and of code, skinned figures.
 
 use crate::common::{assert_same_bits, bits, intersections, load, run, scene_file};
 use selvedge_cloth::effects::{BodyContact, Gravity, PinGroup, PinMotion, Pins, SelfCollision, Stretch, Thickness};
@@ -9,7 +9,7 @@ use selvedge_cloth::{Animation, Body, BodyMotion, CHECKPOINT_STEPS, CheckpointEr
 use std::fs;
 use std::path::Path;
 
-/// By the exact test, which shares nothing with the certificate: pairs with a triangle of the cloth that pass through each other.
+/// The number of intersections of the cloth, by the exact test, which shares nothing with the certificate.
 fn crossings(simulation: &Simulation) -> usize {
     let topology = selvedge::Topology::new(simulation.positions().len(), simulation.triangles().to_vec()).unwrap();
     let cloth = |vertex: u32| (vertex as usize) < simulation.cloth_vertices();
@@ -18,7 +18,7 @@ fn crossings(simulation: &Simulation) -> usize {
         selvedge::Intersection::EdgeFace { edge, face } => {
             cloth(topology.edges()[edge as usize][0]) || cloth(topology.triangles()[face as usize][0])
         }
-        // What merely touches is the certificate's own.
+        // Only edges through faces are excluded by the certificate.
         _ => false,
     });
     with_cloth.count()
@@ -83,7 +83,7 @@ fn at_each_step_a_body_is_exactly_where_its_animation_says_and_rests_before_and_
 #[test]
 fn a_body_of_frames_gives_the_same_bits_on_any_number_of_threads_and_resumed() {
     assert_same_bits(on_breathing_ball, CHECKPOINT_STEPS, 60);
-    // Of another animation it is another scene.
+    // Another animation makes another scene.
     let mut scene = on_breathing_ball();
     let (triangles, frames) = breathing(11);
     scene.bodies[0] = Body::animated(
@@ -112,7 +112,12 @@ fn pinched(on_blocked: OnBlocked) -> Simulation {
 fn stop_names_the_body_hold_lets_the_clock_wait_and_yield_lets_it_pass() {
     let mut stops = pinched(OnBlocked::Stop);
     let blocked = (0..200).find_map(|_| stops.step().err()).expect("no room is left");
-    assert!(["below", "above"].contains(&blocked.body.as_deref().unwrap()), "{blocked}");
+    let body = blocked.body.as_deref().unwrap();
+    assert!(
+        ["below", "above"].contains(&body) && blocked.to_string().contains(body),
+        "{blocked}"
+    );
+    assert!((0.1..0.2).contains(&blocked.time), "{blocked}");
     assert!(stops.is_certified() && crossings(&stops) == 0);
 
     let mut holds = pinched(OnBlocked::Hold);
@@ -122,7 +127,7 @@ fn stop_names_the_body_hold_lets_the_clock_wait_and_yield_lets_it_pass() {
     }
     assert_eq!(crossings(&holds), 0);
     assert!(holds.lag() > 0.05 && holds.blocked_steps() > 0, "{}", holds.lag());
-    // It stands where its clock is, not where it would be.
+    // The body is where its clock is.
     let ball = Body::ball("below", DVec3::ZERO, 0.06, 16).unwrap().mesh;
     let height = holds.positions()[holds.body_vertices(0).unwrap().start].z - ball.positions[0].z;
     let clock = holds.time() - holds.lag();
@@ -188,7 +193,7 @@ fn numbered_files_and_frames_of_code_make_the_same_scene() {
     assert!(pattern == expected && folder == expected);
 }
 
-/// Every state of the shipped scene, as far as a test has time for: walking has begun, one arm is up.
+/// The first states of the shipped scene: walking has begun, one arm is up.
 #[test]
 fn a_walking_figure_never_passes_through_its_shirt() {
     let mut simulation = load("walker.toml", |text| text, 1);
@@ -198,7 +203,7 @@ fn a_walking_figure_never_passes_through_its_shirt() {
         assert_eq!(crossings(&simulation), 0, "step {step}");
     }
     assert_eq!(simulation.blocked_steps(), 0);
-    // The shirt has gone along.
+    // The shirt has moved along.
     let cloth = &simulation.positions()[..simulation.cloth_vertices()];
     let middle = cloth.iter().map(|p| p.z).sum::<f64>() / cloth.len() as f64;
     assert!(middle > 1.0, "{middle}");

@@ -1,4 +1,4 @@
-//! Attachments hold with a limited force, and tell when they let go.
+//! Attachments hold with a limited force, and report releases.
 
 use crate::common::{advance, assert_messages, assert_same_bits, run};
 use selvedge::glam::DVec3;
@@ -27,8 +27,8 @@ fn hung(groups: Vec<AttachmentGroup>) -> Scene {
     scene
 }
 
-/// At rest each of two holds half the weight: a spring that gives by a millimetre at twice the weight gives by a quarter of one, downwards. On
-/// fine meshes as well, where a vertex weighs little and pulls go over coarse levels; and no edge there gives way instead.
+/// At rest each of two holds half the weight: a spring that yields by a millimetre at twice the weight yields by a quarter of
+/// one, downwards. The same holds on fine meshes, where a vertex weighs little and coarse levels carry tension.
 #[test]
 fn each_holds_its_share_of_the_weight() {
     for (cells, longest) in [(6, 1.02), (24, 1.1)] {
@@ -52,7 +52,7 @@ fn each_holds_its_share_of_the_weight() {
     }
 }
 
-/// Each by itself, and for good.
+/// Each vertex is released by itself, and for good.
 #[test]
 fn what_pulls_more_than_the_limit_comes_loose_and_falls() {
     let [weak, strong] = [(CORNERS[0], 0.2), (CORNERS[1], 5.0)];
@@ -73,7 +73,7 @@ fn what_pulls_more_than_the_limit_comes_loose_and_falls() {
     assert!(both.velocities()[0].z < before, "it falls ever faster");
 }
 
-/// A body that turns and goes up, one that the caller leads, and one that changes its shape.
+/// A body that rotates and rises, one that the caller drives, and one that deforms.
 #[test]
 fn attachments_follow_bodies_however_they_move() {
     let rigid = |at: DVec3, motion: BodyMotion| {
@@ -166,7 +166,7 @@ fn attachments_from_a_file_and_from_code_are_the_same_to_the_last_bit() {
     assert_eq!(of_file.released().len(), 1, "the one that is pulled away");
 }
 
-/// What has let go stays loose.
+/// A released vertex stays free.
 #[test]
 fn a_resumed_simulation_knows_what_has_let_go() {
     let before = 2 * CHECKPOINT_STEPS;

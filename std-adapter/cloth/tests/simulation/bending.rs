@@ -1,4 +1,4 @@
-//! A strip bends under its weight as its flexural rigidity says, whatever its mesh.
+//! A strip bends under its weight according to its flexural rigidity, whatever its mesh.
 
 use crate::common::{advance, resting, run};
 use crate::irregular;
@@ -14,7 +14,7 @@ const DENSITY: f64 = 0.15;
 const CELLS: f64 = 16.0;
 const WIDTH: f64 = 0.02;
 
-/// A square of so many cells, from (-½, -½) to (½, ½), diagonals to and fro.
+/// A square of `cells` by `cells`, from (-½, -½) to (½, ½), with alternating diagonals.
 fn alternating(cells: u32) -> Mesh {
     let mut mesh = Mesh::default();
     let at = |k: u32| f64::from(k) / f64::from(cells) - 0.5;
@@ -36,7 +36,7 @@ fn alternating(cells: u32) -> Mesh {
     mesh
 }
 
-/// A strip of the mesh, turned by so many degrees, with edges of `h`, that hangs over by `overhang` along x.
+/// A strip of the mesh, turned by `turn` degrees, with edges of length `h`, that hangs over by `overhang` along x.
 fn strip(mesh: &Mesh, cells: u32, turn: f64, overhang: f64, h: f64) -> Mesh {
     let turn = DQuat::from_rotation_z(turn.to_radians());
     let place = |p: &DVec3| turn * (*p * (h * f64::from(cells))) + DVec3::X * (0.5 * overhang);
@@ -57,8 +57,8 @@ fn strip(mesh: &Mesh, cells: u32, turn: f64, overhang: f64, h: f64) -> Mesh {
     own
 }
 
-/// The rigidity that Peirce (1930) would find, over the one that was given: of an overhang l that bends by an angle θ from end to end it
-/// is w·l³·cos(θ/2)/(8·tan θ), w being the weight of an area.
+/// The rigidity by Peirce's test (1930), over the given one. An overhang l that bends by an angle θ from end to end has the
+/// rigidity w·l³·cos(θ/2)/(8·tan θ), with w the weight per area.
 fn found_over_given(mesh: &Mesh, cells: u32, turn: f64) -> f64 {
     let weight = DENSITY * 9.81;
     let overhang = 2.0 * (RIGIDITY / weight).cbrt();

@@ -11,14 +11,14 @@ pub(crate) fn scene_file(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name)
 }
 
-/// A scene that comes with the program, with changes.
+/// Sets up a scene of the folder `scenes`, with changes.
 pub(crate) fn load(name: &str, change: impl Fn(String) -> String, threads: usize) -> Simulation {
     let path = scene_file(name);
     let text = change(std::fs::read_to_string(&path).unwrap());
     set_up(&text, name, threads)
 }
 
-/// A scene as if it were in a file beside those that come with the program.
+/// Sets up a scene as if it were in the folder `scenes`.
 pub(crate) fn set_up(text: &str, name: &str, threads: usize) -> Simulation {
     let scene = Scene::parse(text, &scene_file(name)).unwrap();
     Simulation::new(scene, threads).unwrap()
@@ -54,7 +54,7 @@ pub(crate) fn advance(simulation: &mut Simulation, steps: u64) {
     (0..steps).for_each(|_| simulation.step().unwrap());
 }
 
-/// Pins that hold vertices where they are.
+/// Pins that hold vertices at rest.
 pub(crate) fn resting(vertices: impl Into<Vec<u32>>) -> Pins {
     Pins {
         groups: vec![PinGroup::resting(vertices)],

@@ -21,7 +21,7 @@ fn a_resumed_simulation_has_the_same_bits() {
     let checkpoint = whole.checkpoint().unwrap();
     let mut resumed = load("arm-sleeve.toml", fast, 1);
     resumed.resume(&checkpoint).unwrap();
-    // What was counted goes on as well.
+    // Counters continue as well.
     assert_eq!(resumed.contact_counts(), whole.contact_counts());
     assert_eq!(resumed.effects(), whole.effects());
     for _ in 0..150 {
@@ -35,7 +35,7 @@ fn a_resumed_simulation_has_the_same_bits() {
     assert_eq!(other.resume(&checkpoint), Err(CheckpointError::OtherScene));
 }
 
-/// Not only early in a calm scene: here cloth is thrown about, and the hierarchies are built again at steps that depend on those before.
+/// The same in a violent scene, where hierarchies are rebuilt in steps that depend on earlier ones.
 #[test]
 fn a_simulation_resumed_at_any_checkpoint_goes_on_with_the_same_bits() {
     let load = || load("violent.toml", |text| text, 1);

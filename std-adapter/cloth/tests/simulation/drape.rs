@@ -10,7 +10,7 @@ const SPECIMEN: f64 = 0.15;
 const DISC: f64 = 0.09;
 
 /// The share of the ring around the disc that the cloth's shadow covers. The shadow is taken to be star-shaped: in each direction
-/// all up to the farthest point of an edge.
+/// it reaches the farthest point of an edge.
 fn coefficient(positions: &[selvedge::glam::DVec3], triangles: &[[u32; 3]]) -> f64 {
     const DIRECTIONS: usize = 360;
     let mut farthest = [0.0_f64; DIRECTIONS];
@@ -30,7 +30,7 @@ fn coefficient(positions: &[selvedge::glam::DVec3], triangles: &[[u32; 3]]) -> f
     (shadow - disc) / (all - disc)
 }
 
-/// A specimen of so many rings of triangles.
+/// A specimen of `rings` rings of triangles.
 fn specimen(rings: u32) -> String {
     let mut text = String::from("v 0 0 0\n");
     let first = |ring: u32| if ring == 0 { 1 } else { 2 + 3 * ring * (ring - 1) };
@@ -57,12 +57,12 @@ fn specimen(rings: u32) -> String {
     text
 }
 
-/// The scene of the test, as it comes with the program.
+/// The shipped scene of the test.
 fn cotton() -> String {
     std::fs::read_to_string(scene_file("drape-cotton.toml")).unwrap()
 }
 
-/// That of a material which has a name, whose numbers are not in the scene.
+/// The same scene with a named material instead of numbers.
 pub(crate) fn of_material(name: &str) -> String {
     let text = cotton();
     let (before, rest) = text.split_once("[effects.stretch]").unwrap();
@@ -71,7 +71,7 @@ pub(crate) fn of_material(name: &str) -> String {
     format!("{before}[effects.self_collision]{after}")
 }
 
-/// At the end of a scene, for a specimen of so many rings and a time step of so many milliseconds.
+/// The coefficient at the end of a scene, for a specimen of `rings` rings and a time step in milliseconds.
 pub(crate) fn drape(text: &str, rings: u32, time_step: f64) -> f64 {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
     let name = format!("drape-{rings}.obj");

@@ -1,11 +1,11 @@
-//! Where nothing does work, energy does not grow.
+//! Energy does not grow where nothing does work.
 
 use crate::common::{advance, set_up};
 use selvedge::glam::DVec3;
 use selvedge_cloth::effects::{Gravity, InternalPressure};
 use selvedge_cloth::{Body, Cloth, Energy, Scene, Simulation, StoredEnergy};
 
-/// A sheet that is thrown, held at one side that rests, against a ball that rests, without gravity and without air.
+/// A thrown sheet, held at one side, against a ball at rest, without gravity and air.
 const THROWN: &str = r#"
 time_step = "1 ms"
 duration = "2 s"
@@ -37,7 +37,7 @@ thickness = "3 mm"
 coefficient = 0.2
 "#;
 
-/// A tube that is twisted by a whole turn in 0.3 s, and then held: folds upon folds, and nothing that does work any more.
+/// A tube that is twisted by a whole turn in 0.3 s and then held, so that nothing does work any more.
 const TWISTED: &str = r#"
 time_step = "1 ms"
 duration = "2 s"
@@ -68,10 +68,10 @@ thickness = "3 mm"
 coefficient = 0.2
 "#;
 
-/// Steps of a millisecond, and the energy of motion that the cloth has in each.
+/// Steps of a millisecond, and the kinetic energy of the cloth in each.
 struct Steps {
     simulation: Simulation,
-    /// A vertex's mass is a third of its triangles', all of one area but for rounding: so many.
+    /// The number of triangles at each vertex. All have the same area up to rounding, and a third of each is the vertex's mass.
     shares: Vec<f64>,
 }
 
@@ -108,7 +108,7 @@ fn most(energies: &[f64]) -> f64 {
     energies.iter().copied().fold(0.0, f64::max)
 }
 
-/// Energy starts as energy of motion, and can only become elastic energy, which is not negative, and heat. So the energy of motion
+/// Energy starts as kinetic energy. It can only become elastic energy, which is not negative, and heat. So the kinetic energy
 /// never exceeds that of the start.
 #[test]
 fn a_thrown_sheet_never_moves_faster_than_it_was_thrown() {
@@ -120,21 +120,19 @@ fn a_thrown_sheet_never_moves_faster_than_it_was_thrown() {
     // A billionth for the rounding of differences.
     let most = most(&energies);
     assert!(most <= thrown * (1.0 + 1e-9), "{most} of {thrown}");
-    // It did hit the ball, and has lost energy by the end.
+    // The sheet hits the ball, and has lost energy by the end.
     assert!(steps.simulation.contact_counts().unwrap().pushed > 1000);
     assert!(energies[energies.len() - 1] < 0.5 * thrown);
 }
 
-/// The pins have done work, and stop: motion dies down, however many contacts push.
-///
-/// It does not end: one sweep of stretch and one of contacts in each step do not finish their argument (`docs/simulation.md` has the energies).
-/// A tenth of the energy of motion stays, as a rule.
+/// The pins have done work, and stop. Motion decays, however many contacts push. Some of it remains, since one sweep of stretch
+/// and one of contacts per step do not converge.
 #[test]
 fn a_twisted_tube_calms_down_when_its_pins_stop() {
     calms_down(TWISTED);
 }
 
-/// With so many neighbours within the thickness that they have one of their own, and candidates that last longer.
+/// The same with so many neighbours within the thickness that they have a smaller one.
 #[test]
 fn a_twisted_tube_whose_edges_are_hardly_longer_than_it_is_thick_calms_down_when_its_pins_stop() {
     let fine = TWISTED.replace("[16, 16]", "[28, 28]").replace("\"3 mm\"", "\"6 mm\"");
@@ -154,7 +152,7 @@ fn calms_down(scene: &str) {
     assert!(most(&later) < 0.5 * twisting, "{after:?} after {twisting}");
 }
 
-/// Two triangles, a square of 1 m, of which all is held, and some goes by `way` within a second.
+/// A square of 1 m in two triangles. One group of vertices is held, the other moves by `way` within a second.
 fn drawn([rest, some]: [&str; 2], way: [f64; 3], effect: &str) -> Energy {
     let scene = format!(
         r#"
@@ -201,7 +199,8 @@ fn a_sheared_square_holds_half_of_k_times_area_times_the_product_of_warp_and_wef
     assert_near(energy.elastic().unwrap(), 0.5 * 80.0 * 0.1 * 0.1, 1e-9);
 }
 
-/// Every weight of the hinge on the diagonal is 2 or −2, so that C is twice as long as the way of a corner; it has two thirds of the stiffness.
+/// Every weight of the hinge on the diagonal is 2 or −2, so that |C| is twice the move of a corner. It has two thirds of the
+/// stiffness.
 #[test]
 fn a_bent_square_holds_a_third_of_k_over_its_area_times_c_squared() {
     let energy = drawn(
@@ -212,7 +211,7 @@ fn a_bent_square_holds_a_third_of_k_over_its_area_times_c_squared() {
     assert_near(energy.elastic().unwrap(), 1e-5 / 3.0 * 0.2 * 0.2, 1e-9);
 }
 
-/// Of free vertices, in any direction; and what is pinned has no part in it.
+/// Kinematic vertices have no part in it.
 #[test]
 fn in_free_fall_motion_and_weight_keep_their_sum_but_for_what_a_step_takes() {
     let acceleration = DVec3::new(1.0, -2.0, -9.81);
@@ -264,7 +263,7 @@ fn a_gas_holds_half_of_its_modulus_times_the_volume_that_it_lacks_squared() {
     );
 }
 
-/// Weight becomes motion, that a pull and the ball's push, drag and friction: no part can be more than there was.
+/// Weight becomes motion, which stretch, contact, drag and friction reduce.
 #[test]
 fn a_dropped_sheet_never_has_more_energy_than_it_started_with() {
     let scene = THROWN.to_owned() + "[effects.gravity]\n";

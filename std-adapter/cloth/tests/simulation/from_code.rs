@@ -1,4 +1,4 @@
-//! Scenes that code makes, and drives from step to step.
+//! Scenes from code, with bodies, pins and wind that the caller drives.
 
 use crate::common::{assert_complaints, bits, intersections, resting};
 use selvedge_cloth::effects::{
@@ -14,13 +14,13 @@ use std::path::Path;
 
 const CELLS: u32 = 12;
 
-/// A sheet that hangs level over the origin at a height, in metres.
+/// A horizontal sheet over the origin at a height, in metres.
 fn sheet(height: f64) -> Cloth {
     let corner = DVec3::new(-0.15, -0.15, height);
     Cloth::sheet(corner, [0.3 * DVec3::X, 0.3 * DVec3::Y], [CELLS; 2], 0.2).unwrap()
 }
 
-/// Its corners are pinned, and it keeps off a body and itself.
+/// The sheet with pinned corners, body contact and self-collision.
 fn scene_with(body: Body, height: f64) -> Scene {
     let cloth = sheet(height);
     let corners = ["bottom-left", "bottom-right", "top-left", "top-right"];
@@ -212,7 +212,7 @@ fn a_ball_that_code_moves_pushes_the_cloth_and_never_passes_it() {
     assert!(simulation.is_certified());
     let mut near = 0;
     for pair in simulation.near_pairs() {
-        // One or two vertices are the first side, and have all of its weight; the other side's is the same, less than zero.
+        // The positive weights of the first side sum to one, the negative ones of the other side to minus one.
         let of_first: f64 = pair.weights.iter().filter(|weight| **weight > 0.0).sum();
         let of_other: f64 = pair.weights.iter().filter(|weight| **weight < 0.0).sum();
         assert!((of_first - 1.0).abs() < 1e-12 && (of_other + 1.0).abs() < 1e-12, "{pair:?}");
@@ -263,7 +263,7 @@ fn a_rotation_of_any_length_turns_and_does_not_scale() {
 
 #[test]
 fn what_turns_half_round_in_a_step_meets_the_cloth_on_its_way() {
-    // The cloth hangs where the bar's ends pass; at the end of each step it lies as at its start.
+    // The cloth hangs where the bar's ends pass. At the end of each step the bar lies as at its start.
     let mut scene = scene_with(bar(), 0.04);
     scene.on_blocked = OnBlocked::Hold;
     let mut simulation = Simulation::new(scene, 1).unwrap();
@@ -368,7 +368,7 @@ fn a_body_that_has_to_wait_stands_where_it_is_said_to_stand_and_goes_on_from_the
     assert_eq!(simulation.placement(1), Some(Placement::at(0.2 * DVec3::Z)));
 }
 
-/// Drives the ball and the wind, and does a step.
+/// Drives the body and the wind, and does a step.
 fn drive(simulation: &mut Simulation) {
     let time = simulation.time();
     let rotation = DQuat::from_rotation_x(3.0 * time);
@@ -420,7 +420,7 @@ fn the_wind_turns_when_it_is_told_to() {
     assert!(up > 0.0 && mean(&simulation) < up);
 }
 
-/// A caller's own: pushes everything up, and keeps it below a ceiling.
+/// An effect outside of the crate: it pushes everything up, and keeps it below a ceiling.
 #[derive(Clone, Copy, Debug)]
 struct Balloon {
     ceiling: f64,

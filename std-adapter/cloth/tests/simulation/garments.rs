@@ -1,11 +1,11 @@
-//! Garments that pass through themselves or through bodies, made by code; each at several depths.
+//! Garments from code that intersect themselves or bodies, each at several depths.
 
 use selvedge_cloth::effects::{Bend, BodyContact, SelfCollision, Shear, Stretch, Thickness};
 use selvedge_cloth::glam::{DMat3, DVec2, DVec3};
 use selvedge_cloth::{Body, Cloth, Mesh, Scene};
 use std::f64::consts::{PI, TAU};
 
-/// What is tangled, by name.
+/// The names of the garments.
 pub(crate) const NAMES: [&str; 14] = [
     "fold through itself",
     "corner through itself",
@@ -23,7 +23,7 @@ pub(crate) const NAMES: [&str; 14] = [
     "tube through a tube",
 ];
 
-/// A garment of [`NAMES`], with so many cells along its longer side; `depth` is one in the middle of what is told of them.
+/// A garment of [`NAMES`] with `cells` cells along its longer side; `depth` is about one.
 pub(crate) fn garment(name: &str, cells: u32, depth: f64) -> Scene {
     let mut bodies = Vec::new();
     let n = cells;
@@ -130,7 +130,7 @@ pub(crate) fn garment(name: &str, cells: u32, depth: f64) -> Scene {
     scene
 }
 
-/// A flat line that is bent by `angle` in an arc of this radius, in the plane: where its point at `way` from the start of the arc is.
+/// A point of a line that is bent by `angle` in an arc of this radius, at the distance `way` from the start of the arc.
 fn bent(way: f64, radius: f64, angle: f64) -> DVec2 {
     let turned = (way / radius).clamp(0.0, angle);
     let on_arc = DVec2::new(radius * turned.sin(), radius * (1.0 - turned.cos()));
@@ -138,7 +138,7 @@ fn bent(way: f64, radius: f64, angle: f64) -> DVec2 {
     on_arc + beyond + DVec2::X * way.min(0.0)
 }
 
-/// Points of [0, 1]² on a grid with diagonals that alternate.
+/// A grid over [0, 1]² with alternating diagonals.
 fn grid([across, along]: [u32; 2], point: impl Fn(f64, f64) -> DVec3) -> Mesh {
     let at = |i: u32, j: u32| i * (along + 1) + j;
     let points = (0..=across).flat_map(|i| (0..=along).map(move |j| (i, j)));
@@ -158,7 +158,7 @@ fn cell([a, b, c, d]: [u32; 4], parity: u32) -> [[u32; 3]; 2] {
     }
 }
 
-/// Rings of points, of an angle and a share of the length.
+/// Rings of points, given an angle and a share of the length.
 fn tube([around, along]: [u32; 2], point: impl Fn(f64, f64) -> DVec3) -> Mesh {
     let at = |i: u32, j: u32| j * around + i % around;
     let points = (0..=along).flat_map(|j| (0..around).map(move |i| (i, j)));
@@ -179,7 +179,7 @@ fn tube([around, along]: [u32; 2], point: impl Fn(f64, f64) -> DVec3) -> Mesh {
     }
 }
 
-/// Two sheets, the upper one `gap` above the lower one, which is as high as told.
+/// Two sheets: a lower one with this height, and a flat one at the height `gap`.
 fn two_layers(n: u32, height: impl Fn(f64, f64) -> f64, gap: f64) -> Mesh {
     let lower = grid([n, n], |u, v| DVec3::new(0.4 * u, 0.4 * v, height(u, v)));
     let upper = grid([n - 1, n + 1], |u, v| DVec3::new(0.01 + 0.38 * u, 0.4 * v - 0.003, gap));
@@ -195,7 +195,7 @@ fn joined(meshes: [Mesh; 2]) -> Mesh {
     one
 }
 
-/// The same numbers everywhere.
+/// Reproducible random numbers.
 struct Random(u64);
 
 impl Random {

@@ -4,7 +4,6 @@ mod air;
 mod animated;
 mod attachments;
 mod bending;
-mod blocked;
 mod common;
 mod determinism;
 mod drape;
@@ -23,6 +22,7 @@ mod stretch;
 mod tangled;
 mod tearing;
 mod wrong_scenes;
+mod zz_plateau;
 
 #[path = "../../src/model/hierarchy/irregular.rs"]
 mod irregular;

@@ -1,4 +1,4 @@
-//! Materials by name: what was published of them, and what scenes make of their names.
+//! Materials by name: published properties, and their use in scenes.
 
 use crate::common::{resting, run};
 use crate::drape::{drape, of_material};
@@ -7,14 +7,14 @@ use selvedge_cloth::effects::{AirDrag, Bend, Gravity, Shear, Stretch};
 use selvedge_cloth::{Cloth, Material, Scene, SceneError};
 use std::path::Path;
 
-/// In percent, of a bending length in cm and the angle in degrees by which a small force shears the fabric: Cusick (1965), by regression over
-/// 130 fabrics; from memory, the work was not at hand.
+/// Cusick's regression over 130 fabrics (1965; quoted from memory), in percent, for a bending length in cm and the angle in
+/// degrees by which a small force shears the fabric.
 fn by_cusick(bending_length: f64, angle: f64) -> f64 {
     35.6 * bending_length - 3.61 * bending_length.powi(2) - 2.59 * angle + 0.0461 * angle.powi(2) + 17.0
 }
 
-/// What was published: of cotton and leather for fabrics of that kind, of the others by Cusick's regression for fabrics that are as stiff,
-/// sheared by 3 to 20 degrees. No drape coefficient of latex was found.
+/// Published coefficients: of cotton and leather for fabrics of that kind, of the others by Cusick's regression for fabrics of
+/// that stiffness, sheared by 3 to 20 degrees. No drape coefficient of latex was found.
 #[test]
 fn every_material_drapes_as_was_published() {
     for material in [
@@ -42,8 +42,8 @@ fn every_material_drapes_as_was_published() {
     }
 }
 
-/// In µN m, and in g/m²: what cantilevers found for fabrics of that weight (Feng et al. 2022); of wool Kawabata's means, with twice their
-/// standard deviations.
+/// In µN m and g/m²: cantilever measurements of fabrics of that weight (Feng et al. 2022); for wool Kawabata's means, with twice
+/// their standard deviations.
 #[test]
 fn bending_lengths_are_among_those_that_were_published() {
     let length = |rigidity: f64, weight: f64| (rigidity * 1e-6 / (weight * 1e-3 * 9.81)).cbrt();
@@ -83,7 +83,7 @@ fn latex_is_an_isotropic_sheet_that_keeps_its_volume() {
     assert_eq!((latex.stretch[0], latex.bend[0]), (latex.stretch[1], latex.bend[1]));
 }
 
-/// A strip held at its upper end is three times as long as it is wide.
+/// A strip held at its upper end, three times as long as wide.
 #[test]
 fn denim_gives_under_its_weight_as_warp_weft_and_bias_say() {
     let sag = |warp: DVec3| {
@@ -98,9 +98,9 @@ fn denim_gives_under_its_weight_as_warp_weft_and_bias_say() {
         -0.6 - simulation.positions().iter().map(|p| p.z).fold(0.0, f64::min)
     };
     let [warp, weft, bias] = [DVec3::Z, DVec3::X, DVec3::X + DVec3::Z].map(sag);
-    // Half its weight on all of it: ½ρgl²/k, the strip being too narrow for its sides to matter.
+    // Half its weight acts on all of it: ½ρgl²/k. The strip is too narrow for its sides to matter.
     let expected = |stiffness: f64| 0.5 * 0.324 * 9.81 * 0.36 / stiffness;
-    // A pull along the bias is half of it along the warp, half along the weft, and half of it shear.
+    // A pull along the bias acts half along the warp, half along the weft, and half as shear.
     let of_bias = 4.0 / (1.0 / 1014.0 + 1.0 / 205.0 + 1.0 / 53.0);
     for (found, stiffness) in [(warp, 1014.0), (weft, 205.0), (bias, of_bias)] {
         let expected = expected(stiffness);
@@ -169,7 +169,7 @@ fn a_scene_may_say_otherwise_than_its_material_number_by_number() {
     assert_eq!(ends(of_file), ends(scene));
 }
 
-/// Each has what its table says, then what the scene says of all, then what its material says.
+/// A cloth's own table comes first, then the scene's effects, then the material.
 #[test]
 fn each_of_several_cloths_has_a_material_of_its_own() {
     let other = SHEET.split_once("[cloth]").unwrap().1;

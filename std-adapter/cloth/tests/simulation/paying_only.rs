@@ -57,14 +57,14 @@ fn names(simulation: &Simulation) -> Vec<&str> {
 
 #[test]
 fn exactly_the_effects_named_are_constructed_and_reported() {
-    // Every effect is in the list but internal pressure, which needs a closed cloth, and the two of ropes: see `ropes.rs`.
+    // Every effect is in the list except internal pressure, which needs a closed cloth, and the two of ropes.
     assert_eq!(EFFECTS.len() + 3, effect_names().len());
     for left_out in 0..EFFECTS.len() {
         let mut effects = EFFECTS.to_vec();
         let (removed, _) = effects.remove(left_out);
-        // Without bending there are no folds, and what does not stretch does not tear.
+        // Folds need bending, and tearing needs stretch.
         effects.retain(|(name, _)| ![("bend", "plastic_folds"), ("stretch", "tearing")].contains(&(removed, name)));
-        // In the file in reverse: they run in the registry's order all the same.
+        // The file has them in reverse; they run in the registry's order all the same.
         let reversed: Vec<_> = effects.iter().rev().copied().collect();
         let simulation = scene(&reversed);
         let expected: Vec<_> = effects.iter().map(|(name, _)| *name).collect();
@@ -82,7 +82,7 @@ fn without_a_contact_effect_nothing_looks_for_contact() {
     assert!(scene(&EFFECTS).is_certified());
 }
 
-/// What is not named is not allocated: each effect adds to the bytes of setting up, and none adds nothing.
+/// Each effect adds to the bytes of set-up; without it nothing is allocated.
 #[test]
 fn every_effect_named_and_no_other_takes_memory() {
     let bytes = |count: usize| {
@@ -95,7 +95,7 @@ fn every_effect_named_and_no_other_takes_memory() {
     for count in 0..EFFECTS.len() {
         let more = bytes(count + 1) - bytes(count);
         assert!(more > 0, "{}", EFFECTS[count].0);
-        // Gravity, drag, pins and friction own a few numbers, nothing for each vertex (pins and attachments: their list).
+        // These own a few numbers, and nothing per vertex (pins and attachments: their list).
         if ["gravity", "air_drag", "pins", "attachments", "friction"].contains(&EFFECTS[count].0) {
             assert!(more < sheet / 2, "{}: {more} bytes", EFFECTS[count].0);
         }

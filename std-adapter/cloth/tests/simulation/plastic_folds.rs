@@ -1,4 +1,4 @@
-//! Folds that stay when cloth is bent too far.
+//! Permanent folds.
 
 use crate::common::{advance, assert_same_bits, resting, run, set_up};
 use selvedge::glam::DVec3;
@@ -6,7 +6,7 @@ use selvedge_cloth::effects::{AirDrag, Bend, Effect, Force, Plan, PlasticFolds, 
 use selvedge_cloth::{CHECKPOINT_STEPS, Cloth, Scene, Simulation};
 use std::path::Path;
 
-/// Lifts what is right of the middle for half a second.
+/// Lifts the right half for half a second.
 #[derive(Clone, Copy, Debug)]
 struct Hand;
 
@@ -30,7 +30,7 @@ impl Force for Hand {
     }
 }
 
-/// A strip of 10 cm, clamped at its left end or free, that is lifted at its right end and let go.
+/// A strip of 10 cm, clamped at its left end or free, that is lifted at its right end and released.
 fn strip(is_clamped: bool, folds: Option<PlasticFolds>) -> Scene {
     let strip = Cloth::sheet(DVec3::ZERO, [DVec3::X * 0.1, DVec3::Y * 0.02], [20, 4], 0.2).unwrap();
     let clamped: Vec<u32> = (0..105).filter(|v| v % 21 < 2).collect();
@@ -46,7 +46,7 @@ fn strip(is_clamped: bool, folds: Option<PlasticFolds>) -> Scene {
     scene
 }
 
-/// Of the right end.
+/// The height of the right end.
 fn height(simulation: &Simulation) -> f64 {
     simulation.positions()[20].z
 }
@@ -61,7 +61,7 @@ fn what_is_bent_beyond_the_yield_curvature_stays_bent_and_what_is_not_comes_back
     assert!(up > 0.04 && back.abs() < 1e-4, "{up} {back}");
     let [up, kept] = lifted(30.0);
     assert!(kept > 0.02 && kept < up, "{up} {kept}");
-    // The sooner it yields, the more is left.
+    // The sooner it yields, the more remains.
     let [_, more] = lifted(20.0);
     assert!(more > 1.5 * kept, "{more} {kept}");
 }
@@ -72,8 +72,8 @@ fn folds_that_never_yield_change_no_bit() {
     assert_eq!(with.positions(), without.positions());
 }
 
-/// A square of two triangles, of which all is held and a corner is lifted within a tenth of a second: what is elastic and beyond yielding fades by
-/// e in each `creep`.
+/// A square of two triangles. Three corners are held, and one is lifted within a tenth of a second: the excess over yielding
+/// decays by e in each `creep`.
 #[test]
 fn what_is_held_bent_creeps_until_it_pulls_no_more_than_at_yielding() {
     let scene = |folds: &str| {
@@ -106,9 +106,9 @@ fn what_is_held_bent_creeps_until_it_pulls_no_more_than_at_yielding() {
         let folds = format!("[effects.plastic_folds]\nyield_curvature = {curvature}\ncreep = {creep}");
         held(&folds, steps)
     };
-    // What no fold can take: C is not quite along the normal, as the square is stretched.
+    // The part that no fold can take: C is not quite along the normal, since the square is stretched.
     let least = yielding(1e-3, 0.0, 200);
-    // It grows with the square of what is elastic.
+    // The energy grows with the square of the elastic part.
     let pull = |energy: f64| (energy - least).sqrt();
     let at_once = pull(yielding(0.1, 0.0, 200));
     assert!(at_once < 0.5 * pull(held("", 200)) && at_once > 0.0);
@@ -116,7 +116,7 @@ fn what_is_held_bent_creeps_until_it_pulls_no_more_than_at_yielding() {
     assert!((sooner / later / 3.0_f64.exp() - 1.0).abs() < 1e-3, "{sooner} {later}");
 }
 
-/// A free strip: loads sum to zero. Drag slows all of it down at one rate.
+/// A free strip: loads sum to zero. Drag slows everything at one rate.
 #[test]
 fn folds_push_nothing_as_a_whole() {
     let mut scene = strip(false, Some(PlasticFolds::beyond(2.0)));
@@ -136,7 +136,7 @@ fn folds_push_nothing_as_a_whole() {
         before.z > 1.0 && change.length() < 1e-9 * before.length(),
         "{before} {change}"
     );
-    // It has folded: it does not go where it would go otherwise.
+    // It has folded: it moves differently from an elastic strip.
     let mut elastic = strip(false, None);
     elastic.add(AirDrag { rate: 0.0 });
     let elastic = run(elastic, 1100);
@@ -185,7 +185,7 @@ const CRUMPLING: &str = r#"
         thickness = "3 mm"
         "#;
 
-/// Against a ball: energy of motion only becomes elastic energy and heat, in folds as well.
+/// Kinetic energy only becomes elastic energy and heat, in folds as well.
 #[test]
 fn a_sheet_that_crumples_never_moves_faster_than_it_was_thrown() {
     let mut simulation = set_up(CRUMPLING, "scene.toml", 1);

@@ -15,7 +15,7 @@ fn length(points: &[DVec3]) -> f64 {
     points.windows(2).map(|two| two[0].distance(two[1])).sum()
 }
 
-/// A weight without mass at the last vertex, in N.
+/// A weight in N, without mass, at the last vertex.
 #[derive(Clone, Copy, Debug)]
 struct Weight(f64);
 
@@ -48,7 +48,7 @@ fn hanging(segments: u32, stiffness: f64, time_step: f64) -> Scene {
     scene
 }
 
-/// F·l/EA of the weight F, and μ·g·l²/(2·EA) of the rope itself: at any number of segments, and any length of a step.
+/// F·l/EA for the weight F, and μ·g·l²/(2·EA) for the rope itself, with any number of segments and any time step.
 #[test]
 fn a_hung_rope_is_stretched_as_its_stiffness_says() {
     for (segments, time_step) in [(20, 1e-3), (200, 1e-3), (200, 4e-3)] {
@@ -66,7 +66,7 @@ fn a_hung_rope_is_stretched_as_its_stiffness_says() {
     }
 }
 
-/// A plate of 0.98 kg below a rope of 0.1 kg, of which an edge weighs 0.5 g: of one mesh with it, or tied to its end by a seam.
+/// A plate of 0.98 kg below a rope of 0.1 kg with edges of 0.5 g: in one mesh with it, or tied to its end by a seam.
 #[test]
 fn a_rope_of_two_hundred_edges_that_holds_a_weight_is_stretched_by_a_thousandth_as_its_stiffness_says() {
     let (length_at_rest, stiffness, gap) = (2.0, 1e4, 1e-3);
@@ -116,7 +116,7 @@ fn a_rope_of_two_hundred_edges_that_holds_a_weight_is_stretched_by_a_thousandth_
     }
 }
 
-/// Waves go along it 45 m/s fast, four and a half of its edges in a step.
+/// Waves travel at 45 m/s, four and a half edges in a step.
 #[test]
 fn a_taut_rope_that_is_plucked_comes_to_rest() {
     let rope = Cloth::rope(&[DVec3::ZERO, DVec3::X * 2.0], 200, 0.05).unwrap();
@@ -185,7 +185,7 @@ fn a_slack_rope_hangs_in_a_catenary() {
     assert!((found / sag - 1.0).abs() < 2e-3, "{found} for {sag}");
 }
 
-/// A hoop of 16 edges, which rest as built keeps round, and straight rest opens by no force but its ends': it has none, and stays closed.
+/// A hoop of 16 edges: the rest shape as built keeps it round; a straight rest shape stores energy.
 #[test]
 fn a_ring_keeps_the_shape_that_it_rests_in() {
     let corner = |k: u32| {
@@ -216,7 +216,7 @@ fn a_ring_keeps_the_shape_that_it_rests_in() {
     assert!((straight / theory - 1.0).abs() < 0.02, "{straight} for {theory}");
 }
 
-/// Two ropes across each other, over a ball, with a sheet below that is sewn to one of them.
+/// Two ropes across each other over a ball, and a sheet below that is sewn to one of them.
 fn tangle() -> Scene {
     let along = Cloth::rope(&[DVec3::new(-0.3, 0.01, 0.14), DVec3::new(0.3, 0.0, 0.14)], 60, 0.04);
     let across = Cloth::rope(&[DVec3::new(0.01, -0.3, 0.16), DVec3::new(0.0, 0.3, 0.16)], 60, 0.04);
@@ -274,7 +274,7 @@ fn ropes_have_the_same_bits_on_any_number_of_threads_and_resumed() {
     assert_same_bits(tangle, CHECKPOINT_STEPS, 60);
 }
 
-/// A sheet of 0.2 m, 100 g/m², upright along x, with nine loose rows of five edges, a centimetre each, that hang from its lower side.
+/// An upright sheet of 0.2 m and 100 g/m² along x, with nine loose rows of five edges of a centimetre at its lower side.
 fn fringed(linear_density: f64) -> Cloth {
     let mut mesh = Cloth::sheet(DVec3::ZERO, [DVec3::X * 0.2, DVec3::Z * 0.2], [8, 8], 0.1)
         .unwrap()
@@ -309,7 +309,7 @@ fn a_fringe_hangs_from_the_cloth_that_it_is_of() {
     let weight = masses * G;
     let kinetic = simulation.energy().kinetic;
     assert!(simulation.is_certified() && kinetic < 0.01 * weight, "{kinetic}");
-    // The fringe is as long as it was made.
+    // The fringe keeps its length.
     for root in 0..9 {
         let tassel: Vec<DVec3> = [root]
             .into_iter()
@@ -320,7 +320,7 @@ fn a_fringe_hangs_from_the_cloth_that_it_is_of() {
     }
 }
 
-/// A square with two tassels of a file, of which the lines are read if `linear_density` asks for them.
+/// A square with two tassels in a file. Its lines are read if the scene gives `linear_density`.
 #[test]
 fn the_lines_of_a_file_are_loose_edges_if_they_are_given_a_weight() {
     let folder = tempfile::tempdir().unwrap();
@@ -338,7 +338,7 @@ fn the_lines_of_a_file_are_loose_edges_if_they_are_given_a_weight() {
     let simulation = Simulation::new(scene, 1).unwrap();
     assert_eq!((simulation.triangles().len(), simulation.loose_edges().len()), (2, 3));
     let scene_of_square = read(square, "density = 0.1").unwrap();
-    // A net has no area, and needs no weight of one.
+    // A net has no area, and needs no density.
     assert!(
         read(
             tassels.replace("l 1 5 6\nl 2 7", "l 1 2 3").as_str(),
@@ -524,7 +524,7 @@ fn a_wind_along_a_rope_does_nothing_to_it_and_one_across_never_makes_it_faster_t
     }
 }
 
-/// What the air gives to triangles and edges, each as if it were alone, is shared by vertices that are of both.
+/// Vertices of both share the momentum of triangles and edges.
 #[test]
 fn air_gives_a_fringed_cloth_as_much_momentum_as_its_triangles_and_edges_stop() {
     let (linear_density, diameter, wind, step) = (0.02, 3e-3, 5.0, 1e-3);
@@ -559,7 +559,7 @@ fn air_gives_a_fringed_cloth_as_much_momentum_as_its_triangles_and_edges_stop() 
         let given = |mass: f64, slowing: f64| mass * wind * slowing * step * wind / (1.0 + slowing * step * wind);
         let of_triangles = given(0.1 * 0.04, 0.5 * 1.2 / 0.1);
         let of_edges = given(9.0 * 0.05 * linear_density, 0.5 * 1.2 * rope_diameter / linear_density);
-        // Edges come after triangles, which have given the vertices of both some speed.
+        // Edges come after triangles, which have accelerated the common vertices.
         let expected = of_triangles + of_edges;
         assert!((momentum.y / expected - 1.0).abs() < 2e-3, "{} for {expected}", momentum.y);
     }

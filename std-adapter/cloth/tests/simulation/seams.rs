@@ -49,7 +49,7 @@ fn bag() -> Scene {
     scene
 }
 
-/// How far apart the rows of a bag are, along each side: of each vertex of the finer row, to the nearest point of the other.
+/// The distances of the rows of a bag: of each vertex of the finer row to the nearest point of the other.
 fn gaps(simulation: &Simulation, scene: &Scene) -> Vec<f64> {
     let at = |vertex: u32| simulation.positions()[vertex as usize];
     let mut gaps = Vec::new();
@@ -80,7 +80,7 @@ fn panels_are_drawn_together_in_the_given_time_and_keep_their_gap_from_then_on()
         middle.push(gaps[gaps.len() / 2]);
         widest.push(gaps[gaps.len() - 1]);
     }
-    // From 6 cm to the thickness; contacts push after the seam, so that some are a little farther apart.
+    // From 6 cm to the thickness. Contacts push after the seam, so some points are a little farther apart.
     assert!((0.030..0.032).contains(&widest[75]), "{}", widest[75]);
     for (middle, widest) in middle.iter().zip(&widest).skip(160) {
         assert!(*middle < 1.15 * THICKNESS && *widest < 1.6 * THICKNESS, "{middle} {widest}");
@@ -137,7 +137,7 @@ fn seams_have_the_same_bits_on_any_number_of_threads_and_resumed_while_they_clos
     assert_same_bits(scene, CHECKPOINT_STEPS, 150);
 }
 
-/// Adds a seam at the left sides, with a change.
+/// Adds a changed seam at the left sides.
 fn sewn(change: impl FnOnce(&mut Seam)) -> impl FnOnce(&mut Scene) {
     |scene| {
         let [first, second] = rows(scene, "left");
@@ -198,7 +198,7 @@ thickness = "3 mm"
 #[test]
 fn a_file_names_rows_by_cloth_and_part_and_reversed_where_they_run_against_each_other() {
     let simulation = run(Scene::parse(BAG, Path::new("bag.toml")).unwrap(), 200);
-    // Of the front, row by row from below; of the back from above and from the right, so that its last vertex is the lower left one.
+    // The front is numbered row by row from below, the back from above and from the right: its last vertex is the lower left one.
     let [front, back] = [0, 1].map(|cloth| simulation.vertices_of_cloth(cloth).unwrap());
     for row in 0..=15 {
         let [a, b] = [front.start + 11 * row, back.end - 1 - 11 * row].map(|vertex| simulation.positions()[vertex]);

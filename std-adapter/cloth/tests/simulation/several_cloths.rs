@@ -1,4 +1,4 @@
-//! Several cloths in a scene, each with what it is made of.
+//! Several cloths in a scene, each with its own properties.
 
 use crate::common::{assert_complaints, assert_messages, assert_same_bits, resting, run};
 use selvedge::core::PairKind;
@@ -10,7 +10,7 @@ use selvedge_cloth::glam::DVec3;
 use selvedge_cloth::{Body, CHECKPOINT_STEPS, Cloth, Scene, Simulation};
 use std::path::Path;
 
-/// A level sheet of 0.3 m, its lower left corner there.
+/// A horizontal sheet of 0.3 m with this lower left corner.
 fn sheet(name: &str, corner: DVec3, cells: u32, density: f64) -> Cloth {
     let cloth = Cloth::sheet(corner, [0.3 * DVec3::X, 0.3 * DVec3::Y], [cells; 2], density).unwrap();
     cloth.named(name)
@@ -120,13 +120,13 @@ fn code_and_file_make_the_same_scene_of_two_cloths_to_the_last_bit() {
 fn several_cloths_have_the_same_bits_on_any_number_of_threads_and_resumed() {
     assert_same_bits(from_file, CHECKPOINT_STEPS, 60);
     let checkpoint = run(from_file(), 0).checkpoint().unwrap();
-    // A cloth's own is part of the scene.
+    // A cloth's own effect is part of the scene.
     let mut other = from_code();
     other.add_to("lining", Stretch::isotropic(81.0));
     assert!(Simulation::new(other, 1).unwrap().resume(&checkpoint).is_err());
 }
 
-/// Each sees its own vertices only, as if it were alone: no effect mixes them up.
+/// Each effect sees the vertices of its cloth alone.
 #[test]
 fn cloths_that_do_not_meet_go_as_each_goes_alone_to_the_last_bit() {
     let places = [DVec3::ZERO, DVec3::new(2.0, 0.0, 0.0)];
@@ -160,13 +160,12 @@ fn cloths_that_do_not_meet_go_as_each_goes_alone_to_the_last_bit() {
     }
 }
 
-/// The sheet below is held at its rim, and the one above lies on it: nowhere nearer than what both are thick, but where the one below is
-/// pressed into it; steps keep the mean of their separations.
+/// The lower sheet is held at its rim, and the upper one lies on it, nowhere nearer than the mean of their separations.
 #[test]
 fn two_cloths_keep_the_mean_of_their_thicknesses_from_each_other() {
     for thickness in [[6e-3, 6e-3], [6e-3, 2e-3], [2e-3, 2e-3]] {
         let below = sheet("below", DVec3::ZERO, 12, 0.2);
-        // Vertices of the one do not stand on vertices of the other.
+        // Vertices of one sheet do not stand on vertices of the other.
         let above = sheet("above", DVec3::new(0.011, 0.007, 0.01), 10, 0.1);
         let rim = ["left", "right", "bottom", "top"];
         let mut rim: Vec<u32> = rim.into_iter().flat_map(|part| below.part(part).unwrap().to_vec()).collect();
@@ -206,7 +205,7 @@ fn two_cloths_keep_the_mean_of_their_thicknesses_from_each_other() {
 
 #[test]
 fn a_cloth_of_its_own_stiffness_is_stretched_as_that_says() {
-    // Hung side by side by their upper edges, far enough apart.
+    // Side by side, hung by their upper edges.
     let mut scene = Scene::new(sheet("first", DVec3::ZERO, 8, 0.2), 2e-3);
     scene.cloths.push(sheet("second", DVec3::new(0.5, 0.0, 0.0), 8, 0.2));
     scene.add_to("second", Stretch::isotropic(20.0));

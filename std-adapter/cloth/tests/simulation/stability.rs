@@ -1,4 +1,4 @@
-//! No parameter that a scene may give makes a vertex non-finite, or sends it off.
+//! No setting makes a position non-finite or lets it escape.
 
 use crate::common::{folded, load, resting};
 use selvedge_cloth::effects::{BodyContact, Stretch, Thickness};
@@ -11,7 +11,7 @@ fn stays_finite(name: &str, steps: usize, change: impl Fn(String) -> String, wha
         simulation.step().unwrap();
         let positions = simulation.positions();
         assert!(positions.iter().all(|p| p.is_finite()), "{name} with {what}, step {step}");
-        // Nothing flies away: the fastest has been held back.
+        // Speeds are limited, so nothing escapes.
         let farthest = positions.iter().map(|p| p.length()).fold(0.0, f64::max);
         assert!(farthest < 1e3, "{name} with {what}, step {step}: {farthest} m away");
     }
@@ -46,8 +46,8 @@ fn a_hurricane_and_no_air_at_all() {
     stays_finite("flag.toml", 100, thin, "no air");
 }
 
-/// A pinned vertex that a body is too near to has all the weight of the pairs there, and its neighbours rounding's share of it: they cannot
-/// make up for what it may not do. They went off at [`FASTEST`](selvedge_cloth::FASTEST).
+/// A pinned vertex too near to a body has all the weight of its pairs, and its neighbours have a rounding error of it. They must
+/// not move far to compensate.
 #[test]
 fn what_is_pinned_too_near_to_a_body_flings_nothing_away() {
     // 35 µm from the body, across the slopes.

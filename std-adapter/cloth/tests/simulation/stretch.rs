@@ -56,7 +56,7 @@ fn grid(cells: u32) -> String {
     )
 }
 
-/// A mesh one metre wide, as the same cloth.
+/// The same cloth from a mesh one metre wide.
 fn of_mesh(mesh: &Mesh, name: &str, scene: &str) -> Simulation {
     let mut text = String::new();
     for p in &mesh.positions {
@@ -96,7 +96,7 @@ fn irregular_triangles_and_a_hole_make_no_difference() {
     is_hardly_stretched(of_mesh(&hole, "hole.obj", DROPPED));
 }
 
-/// How far the middle of mass of the vertices hangs lower than at rest, in the mean of the second second.
+/// The mean sag of the vertices during the second second.
 fn sag(mut simulation: Simulation) -> f64 {
     let height = |simulation: &Simulation| {
         let cloth = &simulation.positions()[..simulation.cloth_vertices()];
@@ -112,7 +112,7 @@ fn sag(mut simulation: Simulation) -> f64 {
     sum / 10.0
 }
 
-/// Without levels it hangs 79 and 114 mm lower at this resolution, and 327 and 249 mm at five times as many triangles.
+/// Without levels it sags by 79 and 114 mm at this resolution, and by 327 and 249 mm at five times as many triangles.
 #[test]
 fn a_sheet_hung_by_two_corners_sags_by_millimetres() {
     let regular = set_up(&(FABRIC.to_owned() + &grid(71) + HUNG), "hung.toml", 1);

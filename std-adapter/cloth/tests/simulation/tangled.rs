@@ -1,4 +1,4 @@
-//! Scenes that start with surfaces passing through each other: refused with a list, tolerated, or untangled.
+//! Scenes that start with intersections: refused with a list, tolerated, or untangled.
 
 use crate::common::{assert_same_bits, intersections, scene_file, set_up};
 use crate::garments::{NAMES, garment};
@@ -6,14 +6,14 @@ use selvedge::{CollisionDetector, Intersection, Topology};
 use selvedge_cloth::effects::Gravity;
 use selvedge_cloth::{CHECKPOINT_STEPS, Scene, SetupError, Simulation, Tangled, TangledStart, UntanglingProgress};
 
-/// A garment that starts so.
+/// A garment with this response to its intersections.
 fn starting(name: &str, cells: u32, depth: f64, start: TangledStart) -> Scene {
     let mut scene = garment(name, cells, depth);
     scene.tangled_start = start;
     scene
 }
 
-/// Whether the cloth meets a body: of the cloth alone nothing is promised without `self_collision`.
+/// Returns whether the cloth intersects a body. Without `self_collision` the cloth may intersect itself.
 fn meets_a_body(simulation: &Simulation) -> bool {
     let topology = Topology::new(simulation.positions().len(), simulation.triangles().to_vec()).unwrap();
     let is_body = |vertex: u32| vertex as usize >= simulation.cloth_vertices();
@@ -140,7 +140,7 @@ fn what_is_tolerated_is_told_and_nothing_else_comes_to_meet() {
     }
 }
 
-/// Two sheets that are pulled out of each other.
+/// A sheet and a body that is pulled out of it.
 const PULLED: &str = r#"
     time_step = "1 ms"
     duration = "1 s"

@@ -1,4 +1,4 @@
-//! Cloth that tears: above its strength and nowhere else, with nothing lost, and the same bits however it is run.
+//! Cloth tears above its strength and nowhere else, conserves momentum, and has the same bits however it is run.
 
 use crate::common::{advance, assert_messages, assert_same_bits, folded, load, run, set_up};
 use selvedge_cloth::effects::{
@@ -22,8 +22,8 @@ fn column(column: u32) -> Vec<u32> {
     (0..=CELLS[1]).map(|row| (CELLS[0] + 1) * row + column).collect()
 }
 
-/// A strip of 1 kN/m whose ends are drawn apart by a centimetre in a tenth of a second: it is stretched by a tenth, so that 100 N go through each
-/// metre of its width.
+/// A strip of 1 kN/m whose ends are drawn apart by a centimetre in a tenth of a second: it stretches by a tenth, so that 100 N
+/// pull on each metre of its width.
 fn pulled(tearing: Tearing) -> Scene {
     let mut scene = Scene::new(strip("cloth", DVec3::ZERO), 1e-3);
     let keys = [(0.0, 0.0), (0.1, 0.01)].map(|(time, x)| Keyframe {
@@ -44,7 +44,7 @@ fn pulled(tearing: Tearing) -> Scene {
     scene
 }
 
-/// How many pieces the cloth is in, by its triangles.
+/// The number of connected pieces of the cloth.
 fn pieces(simulation: &Simulation) -> usize {
     let mut piece: Vec<usize> = (0..simulation.cloth_vertices()).collect();
     let triangles = &simulation.triangles()[..simulation.cloth_triangles()];
@@ -105,13 +105,13 @@ fn a_tear_within_the_cloth_is_a_slit_and_vertices_that_are_not_split_keep_their_
     assert_eq!(simulation.copied_vertices(0), [slit[1]]);
     let gap = simulation.positions()[slit[1] as usize].distance(simulation.positions()[66]);
     assert!(gap > 1e-4, "the slit is {gap} m wide");
-    // Those of the border are where they were: between the ends.
+    // The border keeps its place.
     assert!(column(0).iter().all(|&pin| simulation.positions()[pin as usize].x == 0.0));
 }
 
 #[test]
 fn what_pins_hold_is_not_split() {
-    // Nothing but edges to pinned vertices, and of those an end is at the border only where it is pinned.
+    // All edges end at pinned vertices, or their other end is not at the border.
     let held = [column(0), column(1)[2..4].to_vec()].concat();
     let simulation = run(pulled(Tearing::perforated(held, 10.0)), 200);
     assert!(simulation.copied_vertices(0).iter().all(|copied| !column(0).contains(copied)));
@@ -142,7 +142,7 @@ impl Force for Apart {
     }
 }
 
-/// Of each vertex a third of its triangles', as it is torn now.
+/// The mass of each vertex of the torn cloth: a third of its triangles'.
 fn masses(simulation: &Simulation) -> Vec<f64> {
     let mut rest = strip("cloth", DVec3::ZERO).mesh().positions.clone();
     { simulation.copied_vertices(0).iter() }.for_each(|&vertex| rest.push(rest[vertex as usize]));
@@ -205,11 +205,11 @@ fn torn_cloth_is_the_same_bits_on_two_threads_and_resumed_from_a_checkpoint() {
         assert_eq!(resumed.positions(), whole.positions());
         assert_eq!(resumed.triangles(), whole.triangles());
         torn.push([before, whole.torn_edges().len()]);
-        // From what has torn already to what has torn more, and back.
+        // A resume works from any state to any other.
         resumed.resume(&checkpoint).unwrap();
         assert_eq!(resumed.checkpoint(), Some(checkpoint));
     }
-    // From cloth that was torn already, and tore on.
+    // Some intervals start with torn cloth and tear more.
     assert!(torn.iter().any(|[before, after]| 0 < *before && before < after), "{torn:?}");
 }
 
@@ -218,7 +218,7 @@ fn a_checkpoint_of_torn_cloth_that_is_damaged_changes_nothing() {
     let scene = || pulled(Tearing::perforated(column(5), 60.0));
     let simulation = run(scene(), CHECKPOINT_STEPS);
     let checkpoint = simulation.checkpoint().unwrap();
-    // The first triangle's first vertex, after magic, fingerprint, and the number of copies and these.
+    // The first triangle's first vertex, after magic, fingerprint, the number of copies and the copies.
     let corner = 16 + 8 + 8 + 4 * simulation.copied_vertices(0).len();
     let mut damaged = checkpoint.clone();
     damaged[corner] ^= 1;
@@ -229,7 +229,7 @@ fn a_checkpoint_of_torn_cloth_that_is_damaged_changes_nothing() {
     assert_eq!(fresh.positions(), simulation.positions());
 }
 
-/// The first of two cloths tears; the second one is held by attachments and pins that its scene's numbers name.
+/// The first of two cloths tears. Attachments and pins hold the second one by the scene's numbers.
 #[test]
 fn what_names_vertices_of_a_cloth_behind_one_that_tears_goes_on_holding_them() {
     let mut scene = pulled(Tearing::perforated(column(5), 60.0));
@@ -314,7 +314,7 @@ fn a_balloon_that_has_torn_holds_no_pressure_any_more() {
     assert!(!burst.torn_edges().is_empty() && !elastic(&burst) && burst.is_certified());
 }
 
-/// Each triangle in four.
+/// Splits each triangle in four.
 fn refined((mut positions, triangles): (Vec<DVec3>, Vec<[u32; 3]>)) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let mut middles = std::collections::BTreeMap::new();
     let mut middle = |a: u32, b: u32| {
@@ -331,8 +331,8 @@ fn refined((mut positions, triangles): (Vec<DVec3>, Vec<[u32; 3]>)) -> (Vec<DVec
     (positions, finer)
 }
 
-/// Cloth of decimetre cells between a groove and a wedge that are 40 µm from it: an opening of a thousandth of an edge goes 50 µm into the
-/// walls. Its ends are drawn up along these, around the wedge, and the groove goes away after 0.35 s.
+/// Cloth of decimetre cells between a groove and a wedge, 40 µm from each: an opening of a thousandth of an edge would go 50 µm
+/// into the walls. The cloth's ends are drawn up along the walls, and the groove moves away after 0.35 s.
 fn in_a_groove() -> Scene {
     let cloth = Cloth::from_mesh(folded(2, 0..4, 0.0), DVec3::X, 0.2).unwrap();
     let mut scene = Scene::new(cloth, 1e-3);

@@ -1,4 +1,4 @@
-//! Twenty mistakes that a newcomer makes, and what each is told.
+//! Twenty common mistakes in scene files, and their messages.
 
 use crate::common::assert_messages;
 use selvedge_cloth::Scene;
