@@ -22,9 +22,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         groups: vec![PinGroup::resting(sides)],
     });
     scene.add(Gravity::default()).add(Stretch::isotropic(300.0));
-    scene
-        .add(BodyContact(Thickness::new(4e-3)))
-        .add(SelfCollision(Thickness::new(4e-3)));
+    scene.add(BodyContact(Thickness::new(4e-3)));
+    scene.add(SelfCollision(Thickness::new(4e-3)));
 
     let start = Placement::at(DVec3::Z * -0.1);
     let mut ball = Body::ball("ball", DVec3::ZERO, 0.05, 24)?;

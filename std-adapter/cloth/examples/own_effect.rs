@@ -62,10 +62,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     scene.add(Pins {
         groups: vec![PinGroup::resting(top)],
     });
-    scene
-        .add(Gravity::default())
-        .add(Stretch::isotropic(500.0))
-        .add(Bend::isotropic(1e-5));
+    scene.add(Gravity::default()).add(Stretch::isotropic(500.0));
+    scene.add(Bend::isotropic(1e-5));
     scene.add(SelfCollision(Thickness::new(3e-3)));
     scene.add(Magnet {
         at: DVec3::new(0.2, 0.1, -0.3),

@@ -18,9 +18,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut scene = Scene::new(sheet, 1e-3);
     scene.bodies.push(Body::ball("ball", DVec3::ZERO, 0.1, 32)?);
     scene.add(Gravity::default()).add(Friction { coefficient: 0.3 });
-    scene
-        .add(BodyContact(Thickness::new(3e-3)))
-        .add(SelfCollision(Thickness::new(3e-3)));
+    scene.add(BodyContact(Thickness::new(3e-3)));
+    scene.add(SelfCollision(Thickness::new(3e-3)));
 
     let mut simulation = Simulation::new(scene, 0)?; // 0: a thread for each core
     for step in 1..=500 {

@@ -26,10 +26,8 @@ fn flag() -> Result<Scene, Box<dyn Error>> {
     scene.add(Pins {
         groups: vec![PinGroup::resting(pole)],
     });
-    scene
-        .add(Gravity::default())
-        .add(Stretch::isotropic(500.0))
-        .add(Bend::isotropic(1e-5));
+    scene.add(Gravity::default()).add(Stretch::isotropic(500.0));
+    scene.add(Bend::isotropic(1e-5));
     Ok(scene)
 }
 

@@ -37,6 +37,7 @@ impl Simulation {
         let fingerprint = scene.fingerprint();
         let threads = Workers::new(Threads::from_count(threads))?;
         let mut made = Assembly::of(&scene)?;
+        let (carried, state) = at_start(&scene, &mut made);
         let Scene {
             bodies,
             cloths,
@@ -45,44 +46,6 @@ impl Simulation {
             ..
         } = &scene;
         let (time_step, tangled_start) = (*time_step, *tangled_start);
-        let Assembly {
-            cloth_vertices,
-            vertices_of_cloths,
-            rest,
-            carriers,
-            motions,
-            ..
-        } = &mut made;
-        let poses: Vec<Pose> = motions.iter().map(|motion| motion.pose(0.0)).collect();
-        let mut carried = rest.clone();
-        for (point, &carrier) in carried[..*cloth_vertices].iter_mut().zip(&*carriers) {
-            // Pins that follow a driven body start where the cloth is, wherever that body stands.
-            let body = motions.get(carrier as usize).filter(|_| (carrier as usize) < bodies.len());
-            if let Some(standing) = body.and_then(Kinematic::driven).and_then(|driven| driven.placement) {
-                *point = standing.apply_inverse(*point);
-            }
-        }
-        let start = carried
-            .iter()
-            .zip(&*carriers)
-            .map(|(&point, &carrier)| poses.get(carrier as usize).map_or(point, |pose| pose.apply(point)));
-        let mut positions: Vec<DVec3> = start.collect();
-        motions.iter_mut().for_each(|motion| motion.put(0.0, &mut positions));
-        let mut velocities = vec![DVec3::ZERO; rest.len()];
-        for (cloth, vertices) in cloths.iter().zip(&*vertices_of_cloths) {
-            let free = vertices.clone().filter(|&vertex| carriers[vertex] == FREE);
-            free.for_each(|vertex| velocities[vertex] = cloth.velocity);
-        }
-        let state = State {
-            step: 0,
-            blocked_steps: 0,
-            overstretched_steps: 0,
-            before: 0.0,
-            since: 0,
-            clock: 0.0,
-            velocities,
-            positions,
-        };
         if let Some(contact) = &mut made.contact {
             state.begin_anew(contact, time_step);
             let found = contact.tolerate(&state.positions)?;
@@ -127,4 +90,49 @@ impl Simulation {
         }
         Ok(simulation)
     }
+}
+
+/// Returns the points that motions carry, before they do, and the state at the start.
+fn at_start(scene: &Scene, made: &mut Assembly) -> (Vec<DVec3>, State) {
+    let Assembly {
+        cloth_vertices,
+        vertices_of_cloths,
+        rest,
+        carriers,
+        motions,
+        ..
+    } = made;
+    let poses: Vec<Pose> = motions.iter().map(|motion| motion.pose(0.0)).collect();
+    let mut carried = rest.clone();
+    for (point, &carrier) in carried[..*cloth_vertices].iter_mut().zip(&*carriers) {
+        // Pins that follow a driven body start where the cloth is, wherever that body stands.
+        let body = motions
+            .get(carrier as usize)
+            .filter(|_| (carrier as usize) < scene.bodies.len());
+        if let Some(standing) = body.and_then(Kinematic::driven).and_then(|driven| driven.placement) {
+            *point = standing.apply_inverse(*point);
+        }
+    }
+    let start = carried
+        .iter()
+        .zip(&*carriers)
+        .map(|(&point, &carrier)| poses.get(carrier as usize).map_or(point, |pose| pose.apply(point)));
+    let mut positions: Vec<DVec3> = start.collect();
+    motions.iter_mut().for_each(|motion| motion.put(0.0, &mut positions));
+    let mut velocities = vec![DVec3::ZERO; rest.len()];
+    for (cloth, vertices) in scene.cloths.iter().zip(&*vertices_of_cloths) {
+        let free = vertices.clone().filter(|&vertex| carriers[vertex] == FREE);
+        free.for_each(|vertex| velocities[vertex] = cloth.velocity);
+    }
+    let state = State {
+        step: 0,
+        blocked_steps: 0,
+        overstretched_steps: 0,
+        before: 0.0,
+        since: 0,
+        clock: 0.0,
+        velocities,
+        positions,
+    };
+    (carried, state)
 }

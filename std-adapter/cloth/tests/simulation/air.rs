@@ -58,10 +58,8 @@ fn a_pressure_over_time_is_that_of_its_keyframes() {
             keyframes: vec![key(0.1, 0.0), key(0.4, 400.0), key(0.5, 0.0)],
         };
         let effects = |scene: &mut Scene| {
-            scene
-                .add(inflation)
-                .add(Stretch::isotropic(200.0))
-                .add(AirDrag { rate: 20.0 });
+            scene.add(inflation).add(Stretch::isotropic(200.0));
+            scene.add(AirDrag { rate: 20.0 });
         };
         mean_radius(&run(balloon(false), effects, steps)) / RADIUS
     };

@@ -43,9 +43,8 @@ fn scene_with(cloth: Cloth, bodies: Vec<Body>) -> Scene {
     let mut scene = Scene::new(cloth, 2e-3);
     scene.bodies = bodies;
     scene.add(Gravity::default()).add(Stretch::isotropic(200.0));
-    scene
-        .add(BodyContact(Thickness::new(4e-3)))
-        .add(SelfCollision(Thickness::new(4e-3)));
+    scene.add(BodyContact(Thickness::new(4e-3)));
+    scene.add(SelfCollision(Thickness::new(4e-3)));
     scene
 }
 

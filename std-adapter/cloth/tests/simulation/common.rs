@@ -143,3 +143,11 @@ macro_rules! assert_complaints {
     };
 }
 pub(crate) use assert_complaints;
+
+/// Asserts the messages of errors, each as in [`assert_message`].
+macro_rules! assert_errors {
+    ($($result:expr => $expected:expr;)*) => {
+        $(crate::common::assert_message(&$result.unwrap_err().to_string(), $expected);)*
+    };
+}
+pub(crate) use assert_errors;

@@ -158,10 +158,8 @@ fn a_scene_may_say_otherwise_than_its_material_number_by_number() {
     };
     let mut scene = held(from_code());
     scene.cloths[0].density = 0.3;
-    scene
-        .add(Shear::new(10.0))
-        .add_to("cloth", bend)
-        .add(Stretch::isotropic(500.0));
+    scene.add(Shear::new(10.0)).add_to("cloth", bend);
+    scene.add(Stretch::isotropic(500.0));
     let said = "density = \"300 g/m2\"\n[effects.shear]\nstiffness = 10\n[effects.bend]\nstages = 64\n[effects.stretch]\nstiffness = 500\n";
     let of_file = parsed(&format!("{said}{HELD}")).unwrap();
     assert_eq!(of_file.fabric(), scene.fabric());

@@ -40,10 +40,8 @@ impl Force for Weight {
 fn hanging(segments: u32, stiffness: f64, time_step: f64) -> Scene {
     let rope = Cloth::rope(&[DVec3::ZERO, DVec3::Z * -2.0], segments, 0.05).unwrap();
     let mut scene = Scene::new(rope, time_step);
-    scene
-        .add(Gravity::default())
-        .add(RopeStretch::new(stiffness))
-        .add(resting([0]));
+    scene.add(Gravity::default()).add(RopeStretch::new(stiffness));
+    scene.add(resting([0]));
     scene.add(AirDrag { rate: 5.0 });
     scene
 }
@@ -94,10 +92,8 @@ fn a_rope_of_two_hundred_edges_that_holds_a_weight_is_stretched_by_a_thousandth_
         let mut cloths = if is_tied { tied() } else { one_mesh() }.into_iter();
         let mut scene = Scene::new(cloths.next().unwrap(), time_step);
         scene.cloths.extend(cloths);
-        scene
-            .add(Gravity::default())
-            .add(RopeStretch::new(stiffness))
-            .add(AirDrag { rate: 5.0 });
+        scene.add(Gravity::default()).add(RopeStretch::new(stiffness));
+        scene.add(AirDrag { rate: 5.0 });
         scene.add(Stretch::isotropic(1e5)).add(Shear::new(1e5)).add(resting([0]));
         if is_tied {
             let seam = Seam {
@@ -148,10 +144,8 @@ fn a_clamped_rope_bends_under_its_weight_as_a_beam() {
         let rope = Cloth::rope(&[DVec3::X * -edge, DVec3::X * 0.5], segments + 1, 0.05).unwrap();
         let mut scene = Scene::new(rope, 1e-3);
         let rigidity = 0.15;
-        scene
-            .add(Gravity::default())
-            .add(RopeStretch::new(1e5))
-            .add(RopeBend::straight(rigidity));
+        scene.add(Gravity::default()).add(RopeStretch::new(1e5));
+        scene.add(RopeBend::straight(rigidity));
         scene.add(resting([0, 1])).add(AirDrag { rate: 20.0 });
         let simulation = run(scene, 1500);
         let tip = -simulation.positions()[segments as usize + 1].z;
@@ -168,10 +162,8 @@ fn a_slack_rope_hangs_in_a_catenary() {
     let rope = Cloth::rope(&points, 120, 0.03).unwrap();
     let whole = length(&rope.mesh().positions);
     let mut scene = Scene::new(rope, 1e-3);
-    scene
-        .add(Gravity::default())
-        .add(RopeStretch::new(1e5))
-        .add(AirDrag { rate: 5.0 });
+    scene.add(Gravity::default()).add(RopeStretch::new(1e5));
+    scene.add(AirDrag { rate: 5.0 });
     scene.add(resting([0, 120]));
     let simulation = run(scene, 3000);
     let (mut low, mut high) = (0.01, 100.0);
@@ -226,19 +218,15 @@ fn tangle() -> Scene {
     scene.cloths.push(sheet.unwrap().named("sheet"));
     let tied = [scene.part("along", "end").unwrap(), scene.part("across", "end").unwrap()];
     for rope in ["along", "across"] {
-        scene
-            .add_to(rope, SelfCollision(Thickness::new(8e-3)))
-            .add_to(rope, BodyContact(Thickness::new(4e-3)));
+        scene.add_to(rope, SelfCollision(Thickness::new(8e-3)));
+        scene.add_to(rope, BodyContact(Thickness::new(4e-3)));
     }
     scene.add_to("sheet", Stretch::isotropic(500.0));
     scene.bodies.push(Body::ball("ball", DVec3::ZERO, 0.1, 24).unwrap());
-    scene
-        .add(Gravity::default())
-        .add(RopeStretch::new(5e3))
-        .add(RopeBend::straight(1e-5));
-    scene
-        .add(SelfCollision(Thickness::new(3e-3)))
-        .add(BodyContact(Thickness::new(3e-3)));
+    scene.add(Gravity::default()).add(RopeStretch::new(5e3));
+    scene.add(RopeBend::straight(1e-5));
+    scene.add(SelfCollision(Thickness::new(3e-3)));
+    scene.add(BodyContact(Thickness::new(3e-3)));
     scene.add(Friction { coefficient: 0.3 });
     let [first, second] = tied;
     scene.add(Seams {
@@ -298,10 +286,8 @@ fn fringed(linear_density: f64) -> Cloth {
 fn a_fringe_hangs_from_the_cloth_that_it_is_of() {
     let cloth = fringed(0.002);
     let mut scene = Scene::new(cloth, 1e-3);
-    scene
-        .add(Gravity::default())
-        .add(Stretch::isotropic(1e3))
-        .add(RopeStretch::new(100.0));
+    scene.add(Gravity::default()).add(Stretch::isotropic(1e3));
+    scene.add(RopeStretch::new(100.0));
     scene.add(RopeBend::straight(1e-8)).add(SelfCollision(Thickness::new(2e-3)));
     scene.add(resting([72, 80]));
     let masses: f64 = 0.2 * 0.2 * 0.1 + 9.0 * 0.05 * 0.002;
@@ -391,11 +377,8 @@ part = "start"
 fn a_scene_file_says_what_code_does() {
     let mut from_file = set_up(ROPE, "rope.toml", 1);
     let mut scene = Scene::new(Cloth::rope(&[DVec3::ZERO, DVec3::X], 20, 0.05).unwrap(), 2e-3);
-    scene
-        .add(Gravity::default())
-        .add(RopeStretch::new(5e3))
-        .add(RopeBend::straight(1e-4))
-        .add(resting([0]));
+    scene.add(Gravity::default()).add(RopeStretch::new(5e3));
+    scene.add(RopeBend::straight(1e-4)).add(resting([0]));
     let mut from_code = Simulation::new(scene, 1).unwrap();
     for _ in 0..50 {
         from_file.step().unwrap();

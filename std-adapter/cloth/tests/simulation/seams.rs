@@ -16,10 +16,8 @@ fn panel(name: &str, corner: DVec3, cells: [u32; 2]) -> Cloth {
 fn panels() -> Scene {
     let mut scene = Scene::new(panel("front", DVec3::ZERO, [10, 15]), 2e-3);
     scene.cloths.push(panel("back", 0.06 * DVec3::Y, [8, 11]));
-    scene
-        .add(Gravity::default())
-        .add(Stretch::isotropic(300.0))
-        .add(Shear::new(60.0));
+    scene.add(Gravity::default()).add(Stretch::isotropic(300.0));
+    scene.add(Shear::new(60.0));
     scene.add(Bend::isotropic(1e-5)).add(StrainLimit::at(1.1));
     scene.add(SelfCollision(Thickness::new(THICKNESS)));
     scene
@@ -93,10 +91,8 @@ fn a_seam_without_a_time_holds_rows_as_they_lie_and_one_that_is_not_named_lets_t
     let hung = |is_sewn: bool| {
         let mut scene = Scene::new(panel("upper", 0.31 * DVec3::Z, [8, 8]), 2e-3);
         scene.cloths.push(panel("lower", DVec3::ZERO, [8, 8]));
-        scene
-            .add(Gravity::default())
-            .add(Stretch::isotropic(300.0))
-            .add(Shear::new(60.0));
+        scene.add(Gravity::default()).add(Stretch::isotropic(300.0));
+        scene.add(Shear::new(60.0));
         scene.add(SelfCollision(Thickness::new(THICKNESS)));
         let row = |cloth, part| scene.part(cloth, part).unwrap();
         let [top, first, second] = [row("upper", "top"), row("upper", "bottom"), row("lower", "top")];

@@ -87,9 +87,8 @@ fn from_code() -> Scene {
         separation: 1e-3,
     };
     scene.add_to("shell", SelfCollision(of_shell));
-    scene
-        .add_to("lining", Stretch::isotropic(80.0))
-        .add_to("lining", SelfCollision(Thickness::new(3e-3)));
+    scene.add_to("lining", Stretch::isotropic(80.0));
+    scene.add_to("lining", SelfCollision(Thickness::new(3e-3)));
     scene.bodies.push(Body::ball("ball", DVec3::ZERO, 0.06, 16).unwrap());
     let wind = Wind {
         velocity: DVec3::X,
@@ -176,10 +175,8 @@ fn two_cloths_keep_the_mean_of_their_thicknesses_from_each_other() {
         for (cloth, thickness) in ["below", "above"].into_iter().zip(thickness) {
             scene.add_to(cloth, SelfCollision(Thickness::new(thickness)));
         }
-        scene
-            .add(Gravity::default())
-            .add(Stretch::isotropic(500.0))
-            .add(Friction { coefficient: 0.5 });
+        scene.add(Gravity::default()).add(Stretch::isotropic(500.0));
+        scene.add(Friction { coefficient: 0.5 });
         scene.add(resting(rim));
         let simulation = run(scene, 400);
         let (positions, triangles) = (simulation.positions(), simulation.triangles());
