@@ -22,7 +22,6 @@ mod stretch;
 mod tangled;
 mod tearing;
 mod wrong_scenes;
-mod zz_plateau;
 
 #[path = "../../src/model/hierarchy/irregular.rs"]
 mod irregular;
