@@ -4,8 +4,8 @@ use numpy::Element;
 use selvedge::core::elementary::Limits;
 use selvedge::core::narrowing::rounded_up;
 use selvedge::{
-    CollisionDetector, CollisionFilter, Contact, ContactGeometry, Criterion, DEFAULT_MEMORY_LIMIT, Groups, Scalar, StepError, ThreadError, Threads,
-    Topology,
+    CollisionDetector, CollisionFilter, Contact, ContactGeometry, Criterion, DEFAULT_MEMORY_LIMIT, Groups, Scalar, StepError,
+    ThreadError, Threads, Topology,
 };
 use std::sync::Arc;
 

@@ -12,8 +12,8 @@ use selvedge::core::{Motion, PrimitivePair};
 
 /// Builds a pair from rows: the vertex and the corners of the face, or the ends of both edges.
 fn pair<S: Scalar + Element>(kind: u8, [start, end]: [&[[S; 3]]; 2]) -> PyResult<PrimitivePair<S>> {
-    let kind =
-        kind_of(kind).ok_or_else(|| InputError::new_err(format!("{kind} is not a Kind: 0 is a vertex and a face, 1 two edges")))?;
+    let kind = kind_of(kind)
+        .ok_or_else(|| InputError::new_err(format!("{kind} is not a Kind: 0 is a vertex and a face, 1 two edges")))?;
     let (Ok(start), Ok(end)) = (<[_; 4]>::try_from(start), <[_; 4]>::try_from(end)) else {
         let text = format!(
             "a pair has four points, of shape (4, 3), not {} and {}",
