@@ -109,14 +109,11 @@ impl Assembly {
             }
             false => None,
         };
-        let ends = triangles[..cloth_triangles]
-            .iter()
-            .flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
         let joints = constraints.iter().flat_map(|entry| entry.action.joints());
-        let edges = ends.chain(loose_edges.iter().copied()).chain(joints);
-        let lengths = edges.clone().map(|[a, b]| rest[a as usize].distance(rest[b as usize]));
-        let (sum, count) = lengths.fold((0.0, 0.0), |(sum, count), length| (sum + length, count + 1.0));
-        let mean_edge = sum / count;
+        let edges = edges(&triangles[..cloth_triangles])
+            .chain(loose_edges.iter().copied())
+            .chain(joints);
+        let mean_edge = mean_length(edges.clone(), &rest);
         let pieces = Pieces::new(&inverse_masses[..cloth_vertices], edges);
         Ok(Self {
             effects,
@@ -150,4 +147,16 @@ impl Assembly {
         let all = self.remembering.iter();
         all.filter_map(|&index| self.constraints[index].action.memory())
     }
+}
+
+/// Returns the edges of triangles: an inner edge twice.
+fn edges(triangles: &[[u32; 3]]) -> impl Iterator<Item = [u32; 2]> + Clone {
+    triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]])
+}
+
+/// Returns the mean length of edges, in metres.
+fn mean_length(edges: impl Iterator<Item = [u32; 2]>, rest: &[DVec3]) -> f64 {
+    let lengths = edges.map(|[a, b]| rest[a as usize].distance(rest[b as usize]));
+    let (sum, count) = lengths.fold((0.0, 0.0), |(sum, count), length| (sum + length, count + 1.0));
+    sum / count
 }
