@@ -33,7 +33,7 @@
 use super::candidate::{Candidate, ClosestOfSome, impact, time_of_impact_of};
 use super::report::Blocker;
 use super::separations::Separations;
-use super::solver::{ContactSolver, gap_error};
+use super::solver::{ContactSolver, TOO_NEAR, gap_error};
 use crate::model::step::{FREE, TimeStep};
 use selvedge::PairKind;
 use selvedge::clock::Clock;
@@ -45,8 +45,6 @@ use selvedge_core::separation::gap::{GapError, distance_from_below};
 
 /// c of the module.
 const KEPT: f64 = 1.0 - 1e-5;
-/// What is no farther apart than this many errors of a gap is nearer than rounding can tell.
-pub(super) const TOO_NEAR: f64 = 3.0;
 /// The largest turn of a body in one step, in radians: cos(θ/2) ≥ 1 − θ²/8 ≥ 1 − ½·10⁻⁵.
 pub(crate) const LARGEST_TURN: f64 = 6.3e-3;
 /// Of the relaxation of what is wanted.

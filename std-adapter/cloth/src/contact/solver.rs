@@ -7,7 +7,6 @@ use super::constraints::{Contacts, Rules};
 use super::crossing::{Crossing, PairKey};
 use super::exempt::{Exempt, Tangle};
 use super::impact_zones::ImpactZones;
-use super::pass::TOO_NEAR;
 use super::relaxation::Relaxation;
 use super::report::{ContactCounts, ContactSeconds};
 use super::rows::ProximityPair;
@@ -20,6 +19,9 @@ use selvedge_core::glam::DVec3;
 use selvedge_core::separation::gap::GapError;
 use selvedge_core::separation::largest_coordinate;
 use selvedge_core::verification::lanes::Lanes;
+
+/// Distances up to this many errors of a gap may be rounding errors.
+pub(super) const TOO_NEAR: f64 = 3.0;
 
 /// Everything that contact needs, made only if an effect asks for it.
 #[derive(Debug)]
