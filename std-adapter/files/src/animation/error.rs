@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 pub struct AnimationError {
     /// The file, as named by the caller.
     pub path: PathBuf,
-    /// What is wrong with it.
+    /// The problem.
     pub problem: AnimationProblem,
 }
 
@@ -44,7 +44,7 @@ pub enum AnimationProblem {
     Buffer {
         /// Which buffer.
         buffer: usize,
-        /// What is wrong with it.
+        /// The problem.
         reason: String,
     },
     /// Numbers are wrong.
@@ -52,7 +52,7 @@ pub enum AnimationProblem {
     Values {
         /// Whose they are, in words.
         what: String,
-        /// What is wrong with them, and what would be right.
+        /// The problem, and the right form.
         reason: String,
     },
     /// No node has a mesh.
@@ -77,7 +77,7 @@ pub enum AnimationProblem {
     Extension {
         /// The extension's name.
         name: String,
-        /// What to do.
+        /// The remedy.
         remedy: &'static str,
     },
     /// No animation has this name.

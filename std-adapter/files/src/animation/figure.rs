@@ -57,7 +57,7 @@ pub(super) struct Node {
     pub(super) local: Local,
 }
 
-/// Where a node is in its parent.
+/// The place of a node in its parent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Local {
     Parts {
@@ -65,16 +65,16 @@ pub(super) enum Local {
         rotation: DQuat,
         scale: DVec3,
     },
-    /// What no track moves.
+    /// A matrix, which no track moves.
     Whole(DAffine3),
 }
 
 /// A morph target.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Target {
-    /// Where no track says otherwise.
+    /// The weight unless a track changes it.
     pub(super) weight: f64,
-    /// What it adds to each vertex.
+    /// The vector that it adds to each vertex.
     pub(super) moves: Vec<DVec3>,
 }
 
@@ -82,7 +82,7 @@ pub(super) struct Target {
 pub(super) struct Skin {
     /// Nodes, each with where the mesh at rest is as it sees it.
     pub(super) joints: Vec<(usize, DAffine3)>,
-    /// Of each vertex, the end of its influences.
+    /// For each vertex, the end of its influences.
     pub(super) ends: Vec<u32>,
     /// Joints, and how much they count: of each vertex together one.
     pub(super) influences: Vec<(u32, f64)>,

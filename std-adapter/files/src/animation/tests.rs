@@ -1,4 +1,4 @@
-//! What the reader of figures promises.
+//! Promises of the reader of figures.
 
 use super::figure::{Local, Node, Part, Shape, Skin};
 use super::track::{Interpolation, Property, Track};

@@ -1,20 +1,20 @@
-//! How one property of a node changes over time.
+//! One property of a node over time.
 
 use libm::{acos, sin};
 use selvedge_core::glam::DQuat;
 
-/// What a track changes.
+/// A property that a track changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Property {
     Translation,
     /// A quaternion: x, y, z, w.
     Rotation,
     Scale,
-    /// Of each morph target.
+    /// The weight of each morph target.
     Weights,
 }
 
-/// What there is between two keys.
+/// The values between two keys.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Interpolation {
     /// The earlier key.
@@ -34,7 +34,7 @@ pub(super) struct Track {
     pub(super) interpolation: Interpolation,
     /// In seconds, one or more, ascending.
     pub(super) times: Vec<f64>,
-    /// Of each key, all of [`width`](Self::width) numbers; three of these for cubics.
+    /// For each key [`width`](Self::width) numbers, three times as many for cubics.
     pub(super) values: Vec<f64>,
     pub(super) width: usize,
 }

@@ -1,4 +1,4 @@
-//! What can be wrong with a mesh file, each with a message that says where and what to do.
+//! Problems of mesh files. Each message says where the problem is and what to do.
 
 use super::parsed::Parsed;
 use super::sequence::SequenceProblem;
@@ -18,7 +18,7 @@ pub enum MeshError {
     File {
         /// The file, as named by the caller.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The problem.
         problem: FileProblem,
     },
     /// Two files are not two frames of one mesh.
@@ -34,9 +34,9 @@ pub enum MeshError {
     /// Numbered files are no sequence.
     #[error("{}: {problem}", pattern.display())]
     Sequence {
-        /// What was asked for.
+        /// The pattern or folder.
         pattern: PathBuf,
-        /// What is wrong with it.
+        /// The problem.
         problem: SequenceProblem,
     },
 }
@@ -50,7 +50,7 @@ impl MeshError {
     }
 }
 
-/// What is wrong with a mesh file. Vertices and faces are numbered from 0 in their order in the
+/// A problem of a mesh file. Vertices and faces are numbered from 0 in their order in the
 /// file; lines from 1, where the file has lines.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -95,7 +95,7 @@ pub enum FileProblem {
     Line {
         /// Which line.
         line: usize,
-        /// What is wrong with it.
+        /// The problem.
         reason: String,
     },
     /// The header declares something that is no triangle mesh.
@@ -108,11 +108,11 @@ pub enum FileProblem {
     TooShort {
         /// Name of the element.
         element: String,
-        /// How many the header declares.
+        /// The number that the header declares.
         declared: usize,
         /// The least that they need.
         needed: usize,
-        /// How many bytes are left.
+        /// The number of bytes that are left.
         left: usize,
     },
     /// The file ends before all declared elements were read.
@@ -120,9 +120,9 @@ pub enum FileProblem {
     Truncated {
         /// Name of the element.
         element: String,
-        /// How many the header declares.
+        /// The number that the header declares.
         declared: usize,
-        /// How many are complete.
+        /// The number of complete elements.
         found: usize,
     },
     /// An element of a binary file cannot be understood.
@@ -132,7 +132,7 @@ pub enum FileProblem {
         element: String,
         /// Which one.
         index: usize,
-        /// What is wrong with it.
+        /// The problem.
         reason: String,
     },
     /// A coordinate is NaN or infinite.
@@ -158,7 +158,7 @@ pub enum FileProblem {
         vertex: i64,
         /// The number of the first vertex in this kind of file.
         first: u32,
-        /// How many vertices there are.
+        /// The number of vertices in the file.
         vertex_count: usize,
     },
     /// A face has fewer than three vertices.
@@ -168,7 +168,7 @@ pub enum FileProblem {
         line: Option<usize>,
         /// Which face.
         face: usize,
-        /// How many vertices it has.
+        /// The number of its corners.
         corners: usize,
     },
     /// A problem of a glTF file.

@@ -1,4 +1,4 @@
-//! What stands in a mesh's way besides intersections.
+//! Properties of meshes that stand in the way of a simulation, besides intersections.
 
 use robust::{Coord, orient2d};
 use selvedge::{Topology, TopologyStatistics, first_coincident};
@@ -152,7 +152,7 @@ fn is_thin([a, b, c]: [DVec3; 3]) -> bool {
 }
 
 fn inconsistent_edges(topology: &Topology) -> Vec<[u32; 2]> {
-    // How many triangles run along each edge from its first to its second vertex, and back; three is enough to know.
+    // The number of triangles along each edge from its first to its second vertex, and back.
     let mut ways = vec![[0_u8; 2]; topology.edges().len()];
     for (corners, edges) in topology.proper_triangles().iter().zip(topology.triangle_edges()) {
         for (k, &edge) in edges.iter().enumerate() {

@@ -91,7 +91,7 @@ pub fn read(path: &Path) -> Result<MeshFile, MeshError> {
     read.map_err(|problem| MeshError::file(path, problem))
 }
 
-/// What a file says of ropes, hair and particles: positions, and the topology of triangles, then
+/// A mesh with ropes, hair and particles: positions, and the topology of triangles, then
 /// [loose edges and points](Topology::with_loose_features).
 #[derive(Clone, Debug, PartialEq)]
 pub struct LooseMesh {

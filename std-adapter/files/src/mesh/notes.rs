@@ -1,4 +1,4 @@
-//! What a reader reports about a file beside its mesh.
+//! The report about a file beside its mesh.
 
 use crate::excerpt::excerpt;
 use selvedge::TopologyStatistics;
@@ -104,7 +104,7 @@ pub struct LeftOut {
     pub part: FilePart,
     /// Its keyword or name in the file; may be empty.
     pub name: String,
-    /// How many of them there are.
+    /// The number of such parts.
     pub count: usize,
     /// The line of the first, in a file with lines.
     pub line: Option<usize>,

@@ -95,7 +95,7 @@ struct Groups {
     names: Vec<String>,
 }
 
-/// What names a vertex.
+/// The part of a file that names a vertex.
 #[derive(Clone, Copy)]
 enum Owner {
     Face(usize),

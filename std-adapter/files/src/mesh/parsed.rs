@@ -1,4 +1,4 @@
-//! What the parsers of all formats hand over, and the mesh made of it.
+//! The common result of all parsers, and the mesh made of it.
 
 use super::error::FileProblem;
 use super::notes::{LeftOut, MeshNotes, count_part, missing};

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 /// The frames of one mesh, in the order of their numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeshSequence {
-    /// Of all frames.
+    /// The triangles of all frames.
     pub triangles: Vec<[u32; 3]>,
     /// Positions of all vertices, frame by frame: one at least.
     pub frames: Vec<Vec<DVec3>>,
@@ -131,7 +131,7 @@ pub fn read_sequence(pattern: &Path) -> Result<MeshSequence, MeshError> {
     })
 }
 
-/// What stands before and after a number, and its least number of digits.
+/// The text before and after a number, and the least number of its digits.
 #[derive(Clone, Copy)]
 struct Names<'a> {
     before: &'a str,
@@ -202,7 +202,7 @@ fn listing(folder: &Path) -> Result<Vec<String>, SequenceProblem> {
     };
     let mut names = Vec::new();
     for entry in std::fs::read_dir(folder).map_err(failed)? {
-        // What is no text has no such name.
+        // Names that are not text are skipped.
         names.extend(entry.map_err(failed)?.file_name().into_string().ok());
     }
     names.sort_unstable();

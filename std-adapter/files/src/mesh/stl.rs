@@ -82,7 +82,7 @@ fn read_binary(bytes: &[u8], declared: Option<usize>, parsed: &mut Parsed) -> Re
     Ok(())
 }
 
-/// What a text may say next.
+/// The place in a text, which decides on the lines that may follow.
 #[derive(Clone, Copy, PartialEq)]
 enum State {
     Outside,

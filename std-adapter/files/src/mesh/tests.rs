@@ -1,4 +1,4 @@
-//! What the readers and writers of mesh files promise.
+//! Promises of the readers and writers of mesh files.
 
 use super::*;
 use proptest::prelude::*;

@@ -106,7 +106,7 @@ impl<'a> File<'a> {
     }
 }
 
-/// Where elements lie.
+/// The bytes of elements, and the distance from one to the next.
 #[derive(Clone, Copy)]
 struct Run<'a> {
     bytes: &'a [u8],

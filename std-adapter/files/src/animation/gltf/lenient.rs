@@ -1,4 +1,4 @@
-//! What a file may hold besides shapes and motion is taken out of its JSON half before the `gltf` crate validates it: looks, lights, cameras,
+//! Removes all but shapes and motion from the JSON half of a file before the `gltf` crate validates it: looks, lights, cameras,
 //! attributes of an application's own, and extensions for these, even where the file requires them.
 
 use super::short;
@@ -32,7 +32,7 @@ fn is_read(attribute: &str) -> bool {
     attribute == "POSITION" || attribute.starts_with("JOINTS_") || attribute.starts_with("WEIGHTS_")
 }
 
-/// Takes out what is not read, and lists what of it may matter.
+/// Removes the parts that are not read, and lists those that may matter.
 ///
 /// # Errors
 /// If the file requires an extension without which its shapes or motion are not known.
@@ -139,7 +139,7 @@ fn objects<'a>(of: &'a mut Map<String, Value>, list: &str) -> impl Iterator<Item
     list.into_iter().flatten().filter_map(Value::as_object_mut)
 }
 
-/// How a file is converted that needs an extension.
+/// Returns how to convert a file that needs an extension.
 fn remedy(name: &str) -> &'static str {
     match name {
         "KHR_draco_mesh_compression" => "decompress it: `npx gltf-pipeline -i in.glb -o out.glb`",

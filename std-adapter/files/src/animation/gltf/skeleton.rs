@@ -63,7 +63,7 @@ impl<'a> File<'a> {
     }
 }
 
-/// Where a node is in its parent, if all its numbers are finite and it turns.
+/// Returns the place of a node in its parent, if all its numbers are finite and its rotation is not zero.
 fn local(node: &gltf::Node<'_>) -> Result<Local, AnimationProblem> {
     let refuse = |reason: &str| Err(wrong(&format!("node '{}'", short(&label(node))), reason));
     match node.transform() {

@@ -1,4 +1,4 @@
-//! What an animation says of how nodes move.
+//! The channels of an animation.
 
 use super::{File, label, short, wrong};
 use crate::animation::error::AnimationProblem;

@@ -1,10 +1,10 @@
-//! What the `gltf` crate would take on trust.
+//! Checks that the `gltf` crate leaves out.
 
 use super::short;
 use crate::animation::error::AnimationProblem;
 use gltf::json::validation::Checked;
 
-/// Whether a binary file is as long as it says: the `gltf` crate would take a length below that of the header for an enormous one.
+/// Checks that a binary file is as long as its header says. The `gltf` crate would take a length below that of the header for an enormous one.
 pub(super) fn check_length(bytes: &[u8]) -> Result<(), AnimationProblem> {
     if !bytes.starts_with(b"glTF") {
         return Ok(());

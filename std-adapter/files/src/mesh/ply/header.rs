@@ -24,7 +24,7 @@ pub(super) struct Property {
     pub(super) role: Role,
 }
 
-/// What the reader makes of a property.
+/// The use that the reader makes of a property.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Role {
     Coordinate(usize),

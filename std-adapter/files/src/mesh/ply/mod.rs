@@ -18,7 +18,7 @@ use body::Row;
 use header::{Element, Header, Kind, Role};
 use selvedge_core::glam::DVec3;
 
-/// How the numbers of a PLY file are written.
+/// The form of the numbers of a PLY file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PlyEncoding {
     /// Text.
@@ -33,7 +33,7 @@ pub enum PlyEncoding {
 const COORDINATES: [&str; 3] = ["x", "y", "z"];
 /// Both names are in use for the list of a face's vertices.
 const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
-/// Of an edge.
+/// The names of the two vertices of an edge.
 const ENDS: [&str; 2] = ["vertex1", "vertex2"];
 
 pub(super) fn parse(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Parsed, FileProblem> {
