@@ -18,7 +18,6 @@ use selvedge::{StepError, Topology};
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::gap::GapError;
 use selvedge_core::separation::largest_coordinate;
-use selvedge_core::verification::lanes::Lanes;
 
 /// Distances up to this many errors of a gap may be rounding errors.
 pub(super) const TOO_NEAR: f64 = 3.0;
@@ -268,7 +267,8 @@ impl ContactSolver {
     }
 }
 
-/// Of gaps between these positions.
+/// Returns the error of gaps between these positions. A NaN coordinate gives no bound.
 pub(super) fn gap_error(start: &[DVec3], end: &[DVec3]) -> GapError<f64> {
-    GapError::from_largest_coordinate(largest_coordinate(start).larger(largest_coordinate(end)))
+    let (first, second) = (largest_coordinate(start), largest_coordinate(end));
+    GapError::from_largest_coordinate(if first > second { first } else { second })
 }

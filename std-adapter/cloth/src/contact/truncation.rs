@@ -24,7 +24,6 @@ use super::solver::ContactSolver;
 use crate::model::step::{Carrier, FREE, TimeStep};
 use selvedge_core::Motion;
 use selvedge_core::glam::DVec3;
-use selvedge_core::verification::lanes::Lanes;
 
 /// Of a base's relaxation. It grows from a few pairs outward, layer by layer, so it may grow often: 14 times at most where that ended, in the steps
 /// that were looked at. As pairs are few rounds are cheap; 60 were too few for some hundred pairs. Once rounds do not come to an end it would go
@@ -90,7 +89,8 @@ impl ContactSolver {
                 let own = pair.shares(start, [end, wanted], kept, self.error);
                 for (vertex, own) in pair.vertices.into_iter().zip(own) {
                     let share = &mut shares[vertex as usize];
-                    *share = share.smaller(own);
+                    // A NaN share counts, and keeps the vertex where it is.
+                    *share = if *share < own { *share } else { own };
                 }
             }
             for vertex in (0..end.len()).filter(|&vertex| differs[vertex]) {
