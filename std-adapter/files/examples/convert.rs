@@ -3,7 +3,7 @@
 //! Reports on standard error what the file is like and what was left out.
 
 use selvedge_files::mesh::{Findings, MeshError, read, write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -21,7 +21,7 @@ fn main() -> ExitCode {
     }
 }
 
-fn convert(from: &PathBuf, to: &PathBuf) -> Result<(), MeshError> {
+fn convert(from: &Path, to: &Path) -> Result<(), MeshError> {
     let file = read(from)?;
     eprintln!("{}: {}", from.display(), file.notes);
     if let Ok(topology) = file.mesh.topology() {

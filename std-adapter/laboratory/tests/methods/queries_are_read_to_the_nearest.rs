@@ -17,7 +17,7 @@ fn ratios() -> impl Strategy<Value = Rational> {
         let [x, next] = [x, x.next_up()].map(Rational::from_f64);
         let beside = Rational::from(side) >> bits;
         let middle = (x? + next?) / 2;
-        Some(Rational::from(&middle * beside) + middle)
+        Some(&middle * beside + middle)
     });
     prop_oneof![of_any_size, ties]
 }
