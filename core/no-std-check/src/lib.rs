@@ -84,9 +84,7 @@ fn batched<S: Scalar>(pair: &PrimitivePair<S>) -> u32 {
         batch::culled(Level::baseline(), test, core::slice::from_ref(pair), &mut mask);
         u32::from(mask[0]) << index
     }
-    at(0, Test::SweptBoxes, pair)
-        | at(1, Test::RelativeBoxes, pair)
-        | at(4, Filter::new(Tier::Permanent), pair)
+    at(0, Test::SweptBoxes, pair) | at(1, Test::RelativeBoxes, pair) | at(4, Filter::new(Tier::Permanent), pair)
 }
 
 /// Returns three bits from exact signs: one sign for all, more than half a unit apart, all positive.
@@ -101,9 +99,7 @@ fn exactly<S: Scalar>(pair: &PrimitivePair<S>) -> u32 {
 }
 
 fn verdicts<S: Scalar>(pair: &PrimitivePair<S>) -> u32 {
-    bit(0, swept_boxes(pair))
-        | bit(1, relative::three_axes(pair))
-        | bit(4, filter::certified::non_coplanarity(pair))
+    bit(0, swept_boxes(pair)) | bit(1, relative::three_axes(pair)) | bit(4, filter::certified::non_coplanarity(pair))
 }
 
 /// Returns these results, whether the batched ones differ, and the exact ones.
@@ -162,9 +158,7 @@ fn all_tests<S: Scalar>(points: &Points<S>) -> [u32; 2] {
             | apart(Aabb::swept(&[a]).overlaps(&Aabb::swept(&[b, c, d])))
             | bit(7, segment::primitive_boxes(&vertex_face))
             | elementary_tests(&vertex_face),
-        with_batches(&edge_edge)
-            | apart(Aabb::swept(&[a, b]).overlaps(&Aabb::swept(&[c, d])))
-            | elementary_tests(&edge_edge),
+        with_batches(&edge_edge) | apart(Aabb::swept(&[a, b]).overlaps(&Aabb::swept(&[c, d]))) | elementary_tests(&edge_edge),
     ]
 }
 

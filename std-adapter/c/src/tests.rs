@@ -624,10 +624,10 @@ impl Drop for Unhappy {
 }
 
 #[test]
-fn a_panic_without_words_ends_at_the_border_too() {
+fn a_panic_without_a_message_ends_at_the_border_too() {
     let handle = new(ScalarFormat::F64);
     assert_eq!(on(handle, |_| std::panic::panic_any(Unhappy)), Status::Internal);
-    assert!(last_error().contains("without words"));
+    assert!(last_error().contains("without a message"));
     selvedge_detector_free(handle);
 }
 
@@ -668,7 +668,7 @@ fn every_status_has_a_text_of_its_own() {
         // SAFETY: a text that ends, for ever.
         unsafe { CStr::from_ptr(selvedge_status_string(status)) }.to_str().unwrap()
     };
-    let last = Status::Tangled as i32;
+    let last = Status::TooMuchMemory as i32;
     let texts: std::collections::BTreeSet<_> = (0..=last).map(text).collect();
     assert_eq!(texts.len(), last as usize + 1);
     assert!(!texts.contains("unknown status"));

@@ -29,9 +29,6 @@ pub use merge::{Refusal, merge};
 pub use progress::{AnotherRun, Progress, Settings};
 pub use shard::Shard;
 
-use crate::generator::Choices;
-use proptest::prelude::Rng;
-use proptest::test_runner::{RngAlgorithm, TestRng};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::sync::Mutex;
@@ -52,18 +49,6 @@ pub trait Findings: Send + Serialize + DeserializeOwned {
 
     /// Returns the number of broken promises.
     fn wrong(&self) -> u64;
-}
-
-/// Returns the random numbers of a chunk.
-fn random(seed: u64, chunk: u64) -> TestRng {
-    let mut bytes = [0; 16];
-    bytes[..8].copy_from_slice(&seed.to_le_bytes());
-    // Never all zero: this generator would stay there.
-    bytes[8..].copy_from_slice(&(chunk + 1).to_le_bytes());
-    let mut random = TestRng::from_seed(RngAlgorithm::XorShift, &bytes);
-    // The first numbers of similar seeds are similar.
-    random.fill_bytes(&mut [0; Choices::ENOUGH]);
-    random
 }
 
 /// Runs the remaining chunks on `threads` threads until `stops` returns true.

@@ -16,6 +16,7 @@ fn a_mesh_that_cannot_be_read_is_named_with_the_place() {
     let place = Workplace::with_step();
     place.write("meshes/a.obj", ABOVE);
     place.write("mesh.stl", ABOVE);
+    place.write("mesh.step", ABOVE);
     place.write("empty.ply", "");
     place.write("nan.obj", ABOVE.replace("v 0 5 0", "v 0 nan 0"));
     place.write("far.obj", ABOVE.replace("f 4 5 6", "f 4 5 7"));
@@ -26,7 +27,8 @@ fn a_mesh_that_cannot_be_read_is_named_with_the_place() {
     for (name, part) in [
         ("gone.ply", "no such file"),
         ("meshes", "folder"),
-        ("mesh.stl", ".obj or .ply"),
+        ("mesh.stl", "the header is missing"),
+        ("mesh.step", ".obj"),
         ("empty.ply", "empty"),
         ("nan.obj", "line 3"),
         ("far.obj", "vertex 7"),
@@ -46,7 +48,7 @@ fn frames_of_different_meshes_are_both_named_with_the_difference() {
     let more = format!("{ABOVE}f 1 2 4\n");
     let turned = ABOVE.replace("f 4 5 6", "f 4 6 5");
     let vertex = format!("v 9 9 9\n{ABOVE}");
-    for (text, part) in [(more.as_str(), "3"), (&turned, "triangle 1"), (&vertex, "7")] {
+    for (text, part) in [(more.as_str(), "3"), (&turned, "face 1"), (&vertex, "7")] {
         place.write("other.obj", text);
         let message = place.refusal(1, &["cull", "start.obj", "other.obj"]);
         assert_says(&message, &["start.obj", "other.obj", part]);

@@ -14,6 +14,7 @@ use super::{Findings, run as run_chunks};
 use crate::generator::Choices;
 use case::Case;
 use proptest::prelude::Rng;
+use proptest::test_runner::{RngAlgorithm, TestRng};
 use selvedge_core::PairKind;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -130,7 +131,7 @@ pub fn run(
 }
 
 fn look_at(seed: u64, chunk: u64, cases: u64, paths: MotionPaths) -> [MeetingCounts; 2] {
-    let mut random = super::random(seed, chunk);
+    let mut random = random(seed, chunk);
     let mut bytes = [0; Choices::ENOUGH];
     let mut counts = <[MeetingCounts; 2]>::default();
     let mut left = cases;
@@ -157,4 +158,16 @@ fn look_at(seed: u64, chunk: u64, cases: u64, paths: MotionPaths) -> [MeetingCou
         }
     }
     counts
+}
+
+/// Returns the random numbers of a chunk.
+fn random(seed: u64, chunk: u64) -> TestRng {
+    let mut bytes = [0; 16];
+    bytes[..8].copy_from_slice(&seed.to_le_bytes());
+    // Never all zero: this generator would stay there.
+    bytes[8..].copy_from_slice(&(chunk + 1).to_le_bytes());
+    let mut random = TestRng::from_seed(RngAlgorithm::XorShift, &bytes);
+    // The first numbers of similar seeds are similar.
+    random.fill_bytes(&mut [0; Choices::ENOUGH]);
+    random
 }
