@@ -129,18 +129,17 @@ fn stiffened(text: &str, factor: f64) -> String {
     text.replace("\"10 uN m\"", &(10e-6 * factor).to_string())
 }
 
-/// Coarser and thicker cloth that jams soon: in one step, more pairs of the bundle are not free than it has triangles. Relaxing
-/// zones that two pins pull at from their wanted positions made pins wait in three steps, with 131 cuts. Half as many are too
-/// many.
+/// Cloth that is coarser, thicker and a thousand times as stiff jams between the pins: thousands of pairs are repaired, and vertices are
+/// truncated. The pins never wait, and hardly a step is cut.
 #[test]
 fn stiff_cloth_that_is_jammed_between_pins_is_free_and_does_not_stop_them() {
     let change = |text: String| {
         stiffened(&text, 1e3)
             .replace("[20, 20]", "[8, 8]")
-            .replace("\"3 mm\"", "\"12 mm\"")
+            .replace("\"3 mm\"", "\"10 mm\"")
     };
     let mut simulation = load("violent.toml", change);
-    run(&mut simulation, 1300, 100);
+    run(&mut simulation, 1500, 100);
     let counts = simulation.contact_counts().expect("a scene with contact");
     assert!(counts.violated > 10_000, "it is jammed: {counts:?}");
     assert!(counts.held > 0, "and truncated: {counts:?}");
