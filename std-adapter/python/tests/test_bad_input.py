@@ -100,7 +100,7 @@ def test_lengths(length):
         lambda: detector.near(START, length),
         lambda: time_of_impact(0, START[:4], START[:4], separation=length),
     ]:
-        with pytest.raises(errors.InputError, match="finite length, not negative"):
+        with pytest.raises(errors.InputError, match="finite and not negative"):
             ask()
     assert detector.is_free(START, START)
 
@@ -161,7 +161,7 @@ def test_more_contacts_than_memory_is_allowed_for():
 @pytest.mark.parametrize(
     ("kind", "start", "words"),
     [
-        (2, START[:4], "2 is no Kind"),
+        (2, START[:4], "2 is not a Kind"),
         (0, START[:3], r"\(4, 3\), not 3"),
         (0, START[:5], r"\(4, 3\), not 5"),
         (1, changed(0, 0, np.nan)[:4], "not a finite number"),
@@ -204,12 +204,12 @@ def test_scene_files_that_are_not_there():
 def test_scenes_said_in_python():
     with pytest.raises(errors.DataTypeError, match="cloth.density"):
         Simulation.from_dict({"name": "x", "cloth": {"density": None}})
-    with pytest.raises(errors.DataTypeError, match="names are text"):
+    with pytest.raises(errors.DataTypeError, match="names in a scene must be text"):
         Simulation.from_dict({1: "x"})
 
 
 def test_ipc_says_what_it_does_not_have():
-    with pytest.raises(AttributeError, match="BarrierPotential.*take ipctk for the rest"):
+    with pytest.raises(AttributeError, match="BarrierPotential.*use ipctk for the rest"):
         ipc.BarrierPotential  # noqa: B018
     mesh = ipc.CollisionMesh(START, faces=FACES)
     with pytest.raises(NotImplementedError, match="broad_phase"):
