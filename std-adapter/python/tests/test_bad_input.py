@@ -58,7 +58,7 @@ def test_frames(frame, error, words):
     [
         ([[0, 1, 6]], 6, errors.InputError, "names vertex 6, but there are 6"),
         ([[0, 1, -1]], 6, errors.InputError, "-1 is negative"),
-        ([[0, 1, 2**32]], 6, errors.InputError, "more than 2\\^32"),
+        ([[0, 1, 2**32]], 6, errors.InputError, "larger than 2\\^32"),
         ([[0.0, 1.0, 2.0]], 6, errors.DataTypeError, "whole numbers"),
         ([[0, 1, 2, 3]], 6, errors.InputError, r"\(n, 3\)"),
         ([0, 1, 2], 6, errors.InputError, r"\(n, 3\)"),
