@@ -216,7 +216,7 @@ def test_ipc_says_what_it_does_not_have():
         ipc.is_step_collision_free(mesh, START, START, broad_phase=object())
     with pytest.raises(errors.InputError, match="two dimensions"):
         ipc.CollisionMesh(START[:, :2], [[0, 1]])
-    with pytest.raises(errors.InputError, match="not among them"):
+    with pytest.raises(errors.InputError, match="is missing"):
         ipc.CollisionMesh(START, [[0, 1]], FACES)
     with pytest.raises(errors.DataTypeError, match="CollisionMesh"):
         ipc.has_intersections(START, START)

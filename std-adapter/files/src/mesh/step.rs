@@ -2,7 +2,7 @@
 
 use super::error::{FrameDifference, MeshError};
 use super::{MeshNotes, ReadOptions, load};
-use selvedge::Topology;
+use selvedge::{Topology, TopologyError};
 use selvedge_core::glam::DVec3;
 use std::path::Path;
 
@@ -25,7 +25,11 @@ pub struct MeshStep {
 /// # Errors
 /// Those of [`read`](super::read) for either file; or both files and their first difference.
 pub fn read_step(start: &Path, end: &Path) -> Result<MeshStep, MeshError> {
-    let read = |path: &Path| load(path, &ReadOptions::default()).map_err(|problem| MeshError::file(path, problem));
+    let read = |path: &Path| match load(path, &ReadOptions::default()) {
+        Ok(frame) if frame.faces.len() == 0 => Err(MeshError::file(path, TopologyError::NoTriangles.into())),
+        Ok(frame) => Ok(frame),
+        Err(problem) => Err(MeshError::file(path, problem)),
+    };
     let (mut first, mut last) = (read(start)?, read(end)?);
     if let Some(difference) = FrameDifference::find(&first, &last) {
         return Err(MeshError::Frames {
