@@ -28,7 +28,7 @@ const NONE: u32 = u32::MAX;
 /// The edges that leave each vertex of a mesh, with the faces beside them.
 #[derive(Debug, Default)]
 pub(super) struct Cones {
-    /// Of each vertex the place of its first spoke, and the end of all.
+    /// The index of the first spoke of each vertex, and the end of all spokes.
     first: Vec<u32>,
     spokes: Vec<Spoke>,
 }
@@ -41,7 +41,7 @@ struct Spoke {
 }
 
 impl Cones {
-    /// Of the vertices of a mesh from `first` on; others have no spokes.
+    /// Finds the spokes of the vertices from `first` on; other vertices have none.
     pub(super) fn new(topology: &Topology, first: usize) -> Self {
         let mut sides: Vec<[u32; 3]> = Vec::new();
         for &[a, b, c] in topology.triangles().iter().filter(|corners| corners[0] as usize >= first) {
@@ -73,7 +73,7 @@ impl Cones {
         &self.spokes[self.first[vertex] as usize..self.first[vertex + 1] as usize]
     }
 
-    /// Whether a direction, from the point with these weights of these vertices, is in the normal cone there.
+    /// Says whether a direction is in the normal cone at the point with these weights of these vertices.
     pub(super) fn contain(&self, vertices: &[u32], weights: &[f64], positions: &[DVec3], direction: DVec3) -> bool {
         let mut on = [NONE; 3];
         let mut count = 0;

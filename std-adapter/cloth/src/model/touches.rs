@@ -1,4 +1,4 @@
-//! What contacts leave for friction and for recovery in a substep.
+//! The contacts of a substep, for friction and for recovery.
 //!
 //! **Recovery is no push.** Two sides that are nearer than their thickness where a substep starts have to come apart, but a push would leave them a
 //! velocity. So pushes keep such a contact at the distance that it has, and a *shift* takes it apart: a change of place that is taken out of the
@@ -38,12 +38,12 @@ pub(crate) const LEAST_MISSING: f64 = 1e-5;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Touch {
     pub(crate) vertices: [u32; 4],
-    /// Of each vertex in the relative motion; their sum over both sides is zero if both are vertices.
+    /// The weight of each vertex in the relative motion. The sum over both sides is zero if both are vertices.
     pub(crate) weights: [f64; 4],
     pub(crate) normal: DVec3,
-    /// By how much the contact has moved its two sides apart in this substep.
+    /// The distance by which the contact has moved its two sides apart in this substep.
     pub(crate) push: f64,
-    /// How far the other side moves in this step, if it is no vertex.
+    /// The motion of the other side in this step, if it is not a vertex.
     pub(crate) drift: DVec3,
     /// The sliding that friction has undone so far in this substep.
     pub(crate) rubbed: DVec3,
@@ -68,32 +68,32 @@ impl Touch {
 struct Recovery {
     touch: Touch,
     mobility: f64,
-    /// Whether a whole side of it is kinematic.
+    /// True if a whole side of it is kinematic.
     is_on_kinematic: bool,
     /// At the start of the step, and as bodies end it.
     missing: f64,
     at_end: f64,
     /// p of the module.
     apart: f64,
-    /// By how much p exceeds the shift.
+    /// The excess of p over the shift.
     squeeze: f64,
 }
 
 /// The contacts of a substep, in order: those that pushed, if friction asks for them, and those that are too near.
 #[derive(Debug, Default)]
 pub struct Touches {
-    /// Whether friction asks for them.
+    /// True if friction uses them.
     pub(crate) wanted: bool,
     pub(crate) list: Vec<Touch>,
     recoveries: Vec<Recovery>,
-    /// Of each vertex; empty if nothing is too near.
+    /// The shift of each vertex; empty if nothing is too near.
     shift: Vec<DVec3>,
-    /// Whether the shift was found already.
+    /// True if the shift has been found.
     is_shifted: bool,
 }
 
 impl Touches {
-    /// None yet; `wanted` says whether friction asks for them.
+    /// Creates an empty list; `wanted` says whether friction uses it.
     pub(crate) fn new(wanted: bool) -> Self {
         Self {
             wanted,
@@ -145,19 +145,19 @@ impl Touches {
         Some(self.recoveries.len() as u32 - 1)
     }
 
-    /// Whether a contact that is too near is squeezed.
+    /// Says whether a contact that is too near is squeezed.
     pub(crate) fn is_squeezed(&self, place: u32) -> bool {
         self.recoveries
             .get(place as usize)
             .is_some_and(|recovery| recovery.squeeze > 0.0)
     }
 
-    /// By how much vertices are shifted in this substep; empty if none are.
+    /// Returns the shift of each vertex in this substep; empty if there is none.
     pub(crate) fn shift(&self) -> &[DVec3] {
         &self.shift
     }
 
-    /// By how much the shift takes the two sides of a contact apart.
+    /// Returns the distance by which the shift takes the two sides of a contact apart.
     pub(crate) fn shift_along(&self, vertices: [u32; 4], weights: [f64; 4], normal: DVec3) -> f64 {
         if self.shift.is_empty() {
             return 0.0;
@@ -223,7 +223,7 @@ fn sweep_over(recoveries: &mut [Recovery], sweep: usize, visit: impl FnMut(&mut 
 }
 
 impl Recovery {
-    /// By how much the shift takes its sides apart.
+    /// Returns the distance by which the shift takes its sides apart.
     fn along(&self, shift: &[DVec3]) -> f64 {
         along(shift, self.touch.vertices, self.touch.weights, self.touch.normal)
     }
@@ -257,7 +257,7 @@ impl Recovery {
     }
 }
 
-/// n·Σ w·x.
+/// Returns n·Σ w·x.
 pub(crate) fn along(of_vertices: &[DVec3], vertices: [u32; 4], weights: [f64; 4], normal: DVec3) -> f64 {
     let parts = vertices.into_iter().zip(weights);
     parts.fold(0.0, |sum, (vertex, weight)| {
