@@ -111,7 +111,7 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Minifloat<E, F, ENVIRON
     /// Returns the number as a multiple of the smallest positive one.
     ///
     /// # Panics
-    /// If it is NaN or infinite.
+    /// Panics if it is NaN or infinite.
     #[must_use]
     pub fn units(self) -> i64 {
         assert!(self.0.is_finite(), "{self:?} is no multiple of anything");

@@ -198,7 +198,7 @@ pub fn mesh_of_cloths(scene: &Scene) -> Mesh {
 /// order of the first of each. `warp` and `density` as [`Cloth::from_mesh`] has them.
 ///
 /// # Errors
-/// If the mesh does not consist of triangles with positions, or cannot be cloth.
+/// Returns an error if the mesh does not consist of triangles with positions, or cannot be cloth.
 pub fn cloth_of_mesh(mesh: &Mesh, warp: DVec3, density: f64) -> Result<Cloth, ClothMeshError> {
     Ok(Cloth::from_mesh(joined(mesh)?, warp, density)?)
 }
@@ -206,7 +206,7 @@ pub fn cloth_of_mesh(mesh: &Mesh, warp: DVec3, density: f64) -> Result<Cloth, Cl
 /// Creates a body from a Bevy mesh. It can [follow](ClothSimulation::led_by) the entity with that mesh.
 ///
 /// # Errors
-/// If the mesh does not consist of triangles with positions.
+/// Returns an error if the mesh does not consist of triangles with positions.
 pub fn body_of_mesh(name: &str, mesh: &Mesh) -> Result<Body, MeshError> {
     Ok(Body::from_mesh(name, joined(mesh)?))
 }

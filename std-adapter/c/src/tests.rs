@@ -43,28 +43,28 @@ trait ForC: Scalar {
     const FORMAT: ScalarFormat;
     fn from_double(value: f64) -> Self;
     /// # Safety
-    /// As the functions themselves.
+    /// The conditions of the functions themselves hold.
     unsafe fn contacts(on: *mut Handle, frames: [&[[Self; 3]]; 2], out: OutPair<ContactRow>) -> Status;
     /// # Safety
-    /// As the functions themselves.
+    /// The conditions of the functions themselves hold.
     unsafe fn contacts_of(on: *mut Handle, frames: [&[[Self; 3]]; 2], pairs: [InPairs; 2], out: OutPair<ContactRow>) -> Status;
     /// # Safety
-    /// As the functions themselves.
+    /// The conditions of the functions themselves hold.
     unsafe fn earliest(on: *mut Handle, frames: [&[[Self; 3]]; 2], found: *mut bool, out: *mut ContactRow) -> Status;
     /// # Safety
-    /// As the functions themselves.
+    /// The conditions of the functions themselves hold.
     unsafe fn is_free(on: *mut Handle, frames: [&[[Self; 3]]; 2], out: *mut bool) -> Status;
     /// # Safety
-    /// As the functions themselves.
+    /// The conditions of the functions themselves hold.
     unsafe fn candidates(on: *mut Handle, frames: [&[[Self; 3]]; 2], boxes: u32, out: [OutPair<Pair>; 2]) -> Status;
     /// # Safety
-    /// As the functions themselves.
+    /// The conditions of the functions themselves hold.
     unsafe fn intersections(on: *mut Handle, at: &[[Self; 3]], out: OutPair<IntersectionRow>) -> Status;
     /// # Safety
-    /// As the functions themselves.
+    /// The conditions of the functions themselves hold.
     unsafe fn has_intersections(on: *mut Handle, at: &[[Self; 3]], out: *mut bool) -> Status;
     /// # Safety
-    /// As the functions themselves.
+    /// The conditions of the functions themselves hold.
     unsafe fn contact_geometries(
         on: *mut Handle,
         frames: [&[[Self; 3]]; 2],
@@ -72,10 +72,10 @@ trait ForC: Scalar {
         out: OutPair<GeometryRow>,
     ) -> Status;
     /// # Safety
-    /// As the functions themselves.
+    /// The conditions of the functions themselves hold.
     unsafe fn near(on: *mut Handle, at: &[[Self; 3]], distance: f64, out: OutPair<GeometryRow>) -> Status;
     /// # Safety
-    /// As the functions themselves.
+    /// The conditions of the functions themselves hold.
     unsafe fn truncate(
         on: *mut Handle,
         start: *const [Self; 3],

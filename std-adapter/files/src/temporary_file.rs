@@ -7,7 +7,7 @@ use tempfile::NamedTempFile;
 /// A new file in the folder of `path`, which is deleted unless it is given that name. It gets the permissions of any new file.
 ///
 /// # Errors
-/// If it cannot be made there.
+/// Returns an error if it cannot be made there.
 pub fn beside(path: &Path) -> io::Result<NamedTempFile> {
     // A path without a folder is in the current one.
     let folder = match path.parent() {

@@ -142,7 +142,7 @@ impl BroadPhase {
     /// Replaces `pairs` by all pairs `[a, b]`, `a < b`, of triangles whose boxes overlap, in lexicographic order.
     ///
     /// # Panics
-    /// If there are `u32::MAX` boxes or more.
+    /// Panics if there are `u32::MAX` boxes or more.
     pub fn overlapping_pairs(&mut self, boxes: &[SweptBox], pairs: &mut Vec<[u32; 2]>) {
         assert!(boxes.len() < u32::MAX as usize, "too many boxes");
         if boxes.len() != self.triangles || self.cost.is_some_and(|[fresh, last]| last > DEGRADED * fresh) {

@@ -98,9 +98,9 @@ pub fn kind_of_path(path: &Path) -> Option<PairKind> {
 /// `f64`, ties to even.
 ///
 /// # Errors
-/// If the file is missing, a folder, unreadable, empty or of unknown kind; a row has the wrong number of columns, a field that is no
-/// integer, a denominator of zero or a coordinate beyond `f64`; a truth is not 0 or 1 or differs within a query; or the last query is
-/// incomplete.
+/// Returns an error if the file is missing, a folder, unreadable, empty or of unknown kind; a row has the wrong number of
+/// columns, a field that is no integer, a denominator of zero or a coordinate beyond `f64`; a truth is not 0 or 1 or differs
+/// within a query; or the last query is incomplete.
 pub fn read(path: &Path, kind: Option<PairKind>) -> Result<QueryFile, QueryError> {
     let at = |message: &dyn Display| QueryError(format!("{}: {message}", path.display()));
     if path.is_dir() {
@@ -119,7 +119,7 @@ pub fn read(path: &Path, kind: Option<PairKind>) -> Result<QueryFile, QueryError
 /// Reads all queries from `source`, which has the content of a file. Messages and [`QueryFile::path`] call it `path`.
 ///
 /// # Errors
-/// Those of [`read`] that concern the content.
+/// Returns the errors of [`read`] that concern the content.
 pub fn read_from(mut source: impl Read, path: &Path, kind: PairKind) -> Result<QueryFile, QueryError> {
     let at = |message: &dyn Display| QueryError(format!("{}{message}", path.display()));
     let mut bytes = Vec::new();
@@ -246,7 +246,7 @@ impl QueryFile {
     /// Rounds every coordinate to the nearest `f32`, ties to even. Underflow counts as rounding.
     ///
     /// # Errors
-    /// If a coordinate rounds to infinity.
+    /// Returns an error if a coordinate rounds to infinity.
     pub fn to_f32(&self) -> Result<SinglePrecision, QueryError> {
         let mut rounded = 0;
         let mut queries = Vec::with_capacity(self.queries.len());

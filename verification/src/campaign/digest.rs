@@ -22,7 +22,7 @@ impl Digest {
     /// Returns the digest of one chunk.
     ///
     /// # Panics
-    /// If the findings cannot be written as JSON.
+    /// Panics if the findings cannot be written as JSON.
     #[must_use]
     pub fn of_chunk(chunk: u64, found: &impl Serialize) -> Self {
         let bytes = serde_json::to_vec(&(chunk, found)).expect("findings are numbers, words and lists");

@@ -31,7 +31,7 @@ pub enum FileError {
 /// Reads the state in a file, if there is such a file.
 ///
 /// # Errors
-/// If the file cannot be read, or does not hold a state of this campaign.
+/// Returns an error if the file cannot be read, or does not hold a state of this campaign.
 pub fn read<F: Findings>(file: &Path) -> Result<Option<Progress<F>>, FileError> {
     let bytes = match fs::read(file) {
         Ok(bytes) => bytes,
@@ -58,7 +58,7 @@ impl StateFile {
     /// `waits` with a message before that.
     ///
     /// # Errors
-    /// If the lock file cannot be written.
+    /// Returns an error if the lock file cannot be written.
     pub fn open(file: &Path, waits: impl FnOnce(&str)) -> Result<Self, FileError> {
         let beside = with_ending(file, ".lock");
         let lock = File::create(&beside).map_err(system(&beside))?;
@@ -79,7 +79,7 @@ impl StateFile {
     /// Replaces the state in one step. If the process or the machine is killed, the file holds the old state or the new one.
     ///
     /// # Errors
-    /// If the file cannot be written.
+    /// Returns an error if the file cannot be written.
     pub fn keep(&self, state: &impl Serialize) -> Result<(), FileError> {
         let next = with_ending(&self.file, ".next");
         let write = || {

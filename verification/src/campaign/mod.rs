@@ -56,7 +56,7 @@ pub trait Findings: Send + Serialize + DeserializeOwned {
 /// `look_at` examines the chunk of an index. `after_chunk` gets each state that may be kept, one at a time.
 ///
 /// # Panics
-/// If a thread panics.
+/// Panics if a thread panics.
 pub fn run<F: Findings>(
     progress: Progress<F>,
     threads: usize,

@@ -123,7 +123,7 @@ impl<F: Findings> Progress<F> {
     /// Resumes the kept state `self` as the run `asked`, under its command.
     ///
     /// # Errors
-    /// If `asked` is another run or another shard.
+    /// Returns an error if `asked` is another run or another shard.
     pub fn resume(self, asked: Self) -> Result<Self, AnotherRun> {
         if let Some([name, was, is]) = self.settings.difference(&asked.settings) {
             return Err(AnotherRun::Setting { name, was, is });
@@ -155,7 +155,7 @@ impl<F: Findings> Progress<F> {
     /// Adds a chunk: its findings, its number, and both to the digest.
     ///
     /// # Panics
-    /// If the chunk was added before, since it would count twice.
+    /// Panics if the chunk was added before, since it would count twice.
     pub(super) fn add(&mut self, chunk: u64, found: F::OfChunk) {
         assert!(self.done.insert(chunk), "chunk {chunk} twice");
         self.digest += Digest::of_chunk(chunk, &found);

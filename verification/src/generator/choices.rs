@@ -36,7 +36,7 @@ impl<'a> Choices<'a> {
     /// Returns a number below `count`, from one byte.
     ///
     /// # Panics
-    /// If `count` is 0 or above 256.
+    /// Panics if `count` is 0 or above 256.
     pub fn below(&mut self, count: u32) -> u32 {
         assert!((1..=256).contains(&count), "one byte decides");
         u32::from(self.byte()) % count
@@ -45,7 +45,7 @@ impl<'a> Choices<'a> {
     /// Returns an integer from `-limit` to `limit`, from one byte: 0, 1, −1, 2, −2 and so on.
     ///
     /// # Panics
-    /// If `limit` is above 127.
+    /// Panics if `limit` is above 127.
     pub fn within(&mut self, limit: u32) -> i64 {
         let index = i64::from(self.below(2 * limit + 1));
         if index % 2 == 0 { -index / 2 } else { (index + 1) / 2 }
@@ -59,7 +59,7 @@ impl<'a> Choices<'a> {
     /// Returns one of `options`.
     ///
     /// # Panics
-    /// If there are no options, or more than 256.
+    /// Panics if there are no options, or more than 256.
     pub fn pick<T: Copy>(&mut self, options: &[T]) -> T {
         let count = u32::try_from(options.len()).expect("at most 256 options");
         options[self.below(count) as usize]

@@ -62,7 +62,7 @@ impl<S: Format> MeshCase<S> {
     /// Returns two primitives of the mesh by their indices in its `topology`.
     ///
     /// # Panics
-    /// If there is no primitive with one of these indices.
+    /// Panics if there is no primitive with one of these indices.
     #[must_use]
     pub fn pair(&self, topology: &Topology, (kind, pair): (PairKind, [u32; 2])) -> PairCase<S> {
         let points = topology.vertices_of(kind, pair).map(|vertex| self.positions[vertex as usize]);

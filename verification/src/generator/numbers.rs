@@ -28,7 +28,7 @@ pub trait Format: Scalar {
     /// Returns `mantissa` · 2^`exponent`, exactly.
     ///
     /// # Panics
-    /// If the format has no such number.
+    /// Panics if the format has no such number.
     #[must_use]
     fn exact(mantissa: i64, exponent: i32) -> Self {
         assert!(
@@ -75,7 +75,7 @@ pub trait Format: Scalar {
 /// Returns 2^`exponent`.
 ///
 /// # Panics
-/// If the result is not a normal number.
+/// Panics if the result is not a normal number.
 #[inline]
 pub(crate) const fn power_of_two(exponent: i32) -> f64 {
     assert!(-1022 <= exponent && exponent < 1024, "2^exponent is not normal");

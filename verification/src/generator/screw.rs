@@ -49,7 +49,7 @@ impl Screw {
     /// Returns the motion in core's form.
     ///
     /// # Panics
-    /// If a number is not finite, or the angle is larger than a body may rotate.
+    /// Panics if a number is not finite, or the angle is larger than a body may rotate.
     #[must_use]
     pub fn motion(&self) -> RigidMotion {
         RigidMotion::new(self.centre, self.axis, self.angle, self.translation).expect("numbers in range")

@@ -107,8 +107,8 @@ impl<T: Simplify> ValueTree for Simplification<T> {
 /// Checks that `property` holds for `cases` cases, or for more in proportion if `PROPTEST_CASES` is more than 256.
 ///
 /// # Panics
-/// If the property fails. The message has the simplest failing case that was found, as Rust to paste into a regression test.
-/// Seeds are not kept.
+/// Panics if the property fails. The message has the simplest failing case that was found, as Rust to paste into a regression
+/// test. Seeds are not kept.
 pub fn check<T: Simplify>(cases: u32, strategy: impl Strategy<Value = T> + 'static, property: impl Fn(&T) -> TestCaseResult) {
     check_dynamically(cases, &strategy.boxed(), &property);
 }

@@ -28,7 +28,7 @@ impl BendingTube {
     /// Makes a tube of about 1,350 triangles times `refinement`.
     ///
     /// # Panics
-    /// If `refinement` is zero, or the tube has more vertices than `u32` counts.
+    /// Panics if `refinement` is zero, or the tube has more vertices than `u32` counts.
     #[must_use]
     pub fn new(refinement: u32) -> Self {
         let finer = f64::from(refinement).sqrt();

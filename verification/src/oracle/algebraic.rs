@@ -37,7 +37,7 @@ impl AlgebraicTime {
     /// Makes a rational time.
     ///
     /// # Panics
-    /// If it is not in [0, 1].
+    /// Panics if it is not in [0, 1].
     #[must_use]
     pub fn rational(time: Rational) -> Self {
         assert!((0..=1).contains(&time), "a time of the step lies in [0, 1], not at {time}");
@@ -190,7 +190,7 @@ impl AlgebraicTime {
     /// Compares with a floating-point number, exactly.
     ///
     /// # Panics
-    /// If `other` is NaN.
+    /// Panics if `other` is NaN.
     #[must_use]
     pub fn cmp_f64(&self, other: f64) -> Ordering {
         assert!(!other.is_nan(), "NaN has no place among the times");

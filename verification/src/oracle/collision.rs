@@ -12,7 +12,7 @@ use rug::{Integer, Rational};
 /// Returns whether four points, each moving linearly from `start` to `end`, are coplanar at some time in [0, 1].
 ///
 /// # Panics
-/// If a coordinate is NaN or infinite.
+/// Panics if a coordinate is NaN or infinite.
 #[must_use]
 pub fn coplanar(start: &[[f64; 3]; 4], end: &[[f64; 3]; 4]) -> bool {
     let [a, b, c, d] = Motion::new(start, end).trajectories();
@@ -34,7 +34,7 @@ pub fn coplanar(start: &[[f64; 3]; 4], end: &[[f64; 3]; 4]) -> bool {
 /// A rational time is known as such.
 ///
 /// # Panics
-/// If a coordinate is NaN or infinite.
+/// Panics if a coordinate is NaN or infinite.
 #[must_use]
 pub fn collides(pair: &Pair) -> Option<AlgebraicTime> {
     let motion = Motion::new(&pair.start, &pair.end);
@@ -74,7 +74,7 @@ pub fn collides(pair: &Pair) -> Option<AlgebraicTime> {
 /// Returns whether the closed vertex and face, or the two closed edges, share a point at time `t`.
 ///
 /// # Panics
-/// If a coordinate is NaN or infinite.
+/// Panics if a coordinate is NaN or infinite.
 #[must_use]
 pub fn touches_at(pair: &Pair, t: &Rational) -> bool {
     touches(pair.kind, &Motion::new(&pair.start, &pair.end), t)

@@ -30,7 +30,7 @@ type IntegerPoint = Point<Integer>;
 /// ```
 ///
 /// # Panics
-/// If a coordinate is NaN or infinite, or shared corners differ in position.
+/// Panics if a coordinate is NaN or infinite, or shared corners differ in position.
 #[must_use]
 pub fn triangles_intersect(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3], shared: &[[usize; 2]]) -> bool {
     for &[i, j] in shared {
@@ -47,7 +47,7 @@ pub fn triangles_intersect(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3], shared: &[[usiz
 /// smaller index comes first, and pairs are in ascending order.
 ///
 /// # Panics
-/// If a coordinate is NaN or infinite, or an index is out of range.
+/// Panics if a coordinate is NaN or infinite, or an index is out of range.
 #[must_use]
 pub fn mesh_self_intersections(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
     mesh_intersections(positions, triangles, triangles.len())
@@ -56,7 +56,7 @@ pub fn mesh_self_intersections(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -
 /// Returns those pairs of [`mesh_self_intersections`] that have at least one triangle among the first `count`.
 ///
 /// # Panics
-/// If a coordinate is NaN or infinite, or an index is out of range.
+/// Panics if a coordinate is NaN or infinite, or an index is out of range.
 #[must_use]
 pub fn mesh_intersections(positions: &[[f64; 3]], triangles: &[[u32; 3]], count: usize) -> Vec<[u32; 2]> {
     assert!(positions.iter().flatten().all(|x| x.is_finite()), "positions are numbers");

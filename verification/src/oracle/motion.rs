@@ -35,7 +35,7 @@ fn decode(value: f64) -> (i64, i32) {
 /// Returns the points, all times the same power of two: the smallest that makes them integers.
 ///
 /// # Panics
-/// If a coordinate is NaN or infinite.
+/// Panics if a coordinate is NaN or infinite.
 pub(crate) fn scale_to_integers(points: &[[f64; 3]]) -> Vec<Point<Integer>> {
     let coordinates = points.iter().flatten().map(|&x| decode(x));
     let exponent = coordinates.filter(|&(m, _)| m != 0).map(|(_, e)| e).min().unwrap_or(0);

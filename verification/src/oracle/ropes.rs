@@ -17,7 +17,7 @@ use super::motion::{Pair, PairKind};
 /// ```
 ///
 /// # Panics
-/// If a coordinate is NaN or infinite, or an index is out of range.
+/// Panics if a coordinate is NaN or infinite, or an index is out of range.
 #[must_use]
 pub fn intersections_with_loose_edges(
     positions: &[[f64; 3]],
@@ -36,7 +36,7 @@ pub fn intersections_with_loose_edges(
 /// ropes that passed through each other, which no state at rest shows.
 ///
 /// # Panics
-/// If a coordinate is NaN or infinite, or an index is out of range.
+/// Panics if a coordinate is NaN or infinite, or an index is out of range.
 #[must_use]
 pub fn edges_that_meet(start: &[[f64; 3]], end: &[[f64; 3]], edges: &[[u32; 2]]) -> Vec<[[u32; 2]; 2]> {
     let ranges = |edge: &[u32; 2]| {

@@ -12,7 +12,7 @@ use rug::{Integer, Rational};
 /// With a separation of zero this decides the same as [`collides`](super::collides), in another way.
 ///
 /// # Panics
-/// If a coordinate or the separation is NaN or infinite, or the separation is negative.
+/// Panics if a coordinate or the separation is NaN or infinite, or the separation is negative.
 #[must_use]
 pub fn within(pair: &Pair, separation: f64) -> bool {
     let question = Question::new(pair, separation);
@@ -26,7 +26,7 @@ pub fn within(pair: &Pair, separation: f64) -> bool {
 /// compared are then nearly equal. [`within`] does not compare times.
 ///
 /// # Panics
-/// As [`within`].
+/// Panics as [`within`] does.
 #[must_use]
 pub fn first_within(pair: &Pair, separation: f64) -> Option<AlgebraicTime> {
     let question = Question::new(pair, separation);
@@ -51,7 +51,7 @@ pub fn first_within(pair: &Pair, separation: f64) -> Option<AlgebraicTime> {
 /// Returns whether the distance is `separation` or less at time `t`.
 ///
 /// # Panics
-/// As [`within`].
+/// Panics as [`within`] does.
 #[must_use]
 pub fn within_at(pair: &Pair, t: &Rational, separation: f64) -> bool {
     Question::new(pair, separation).is_near_at(t)
@@ -60,7 +60,7 @@ pub fn within_at(pair: &Pair, t: &Rational, separation: f64) -> bool {
 /// Returns whether the distance of the vertex and the face, or of the two edges, is `separation` or less at these positions.
 ///
 /// # Panics
-/// If the separation is NaN, infinite or negative.
+/// Panics if the separation is NaN, infinite or negative.
 #[must_use]
 pub fn within_at_rest(kind: PairKind, points: &[[Rational; 3]; 4], separation: f64) -> bool {
     assert!(separation >= 0.0, "the separation must not be negative, but is {separation}");

@@ -24,7 +24,8 @@ pub fn list() -> String {
 /// Checks that the current code gives the provers what was accepted.
 ///
 /// # Errors
-/// If it does not, or the list cannot be read. The message names the changed terms and says how to see and to accept the changes.
+/// Returns an error if it does not, or the list cannot be read. The message names the changed terms and says how to see and to
+/// accept the changes.
 pub fn check(prover: Prover) -> Result<(), String> {
     let path = path();
     let list = fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;

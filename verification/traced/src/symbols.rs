@@ -324,7 +324,7 @@ impl Trace {
     /// Returns the monomials of a result.
     ///
     /// # Panics
-    /// If it is not a polynomial.
+    /// Panics if it is not a polynomial.
     #[must_use]
     pub fn paths(&self, number: Traced) -> Paths {
         self.paths_with_last_step(number, 1)
@@ -334,7 +334,7 @@ impl Trace {
     /// does not count.
     ///
     /// # Panics
-    /// If it is not a polynomial.
+    /// Panics if it is not a polynomial.
     #[must_use]
     pub fn paths_but_last(&self, number: Traced) -> Paths {
         self.paths_with_last_step(number, 0)

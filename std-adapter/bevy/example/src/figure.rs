@@ -70,7 +70,7 @@ pub(crate) struct Figure {
 /// Spawns a figure whose cape has this many cells across and down.
 ///
 /// # Errors
-/// If a cape cannot have so many cells.
+/// Returns an error if a cape cannot have so many cells.
 pub(crate) fn spawn(world: &mut World, cells: [u32; 2]) -> Result<Figure, ValueError> {
     let root = world.spawn(stroll()).id();
     let capsule = |name, from: [f64; 3], to: [f64; 3], radius| Body::capsule(name, [from, to].map(DVec3::from_array), radius, 24);

@@ -64,7 +64,7 @@ pub unsafe extern "C" fn selvedge_world_contacts_f64(
 /// `*found` says whether there is one. If not, the whole step is free, and `*contact` stays unchanged.
 ///
 /// # Safety
-/// As selvedge_world_contacts_f64; `found` and `contact` point to one value each.
+/// The conditions of selvedge_world_contacts_f64 hold; `found` and `contact` point to one value each.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn selvedge_world_earliest_f64(
     world: *mut WorldHandle,
@@ -83,7 +83,7 @@ pub unsafe extern "C" fn selvedge_world_earliest_f64(
 /// Decides whether such a step is certainly free of contact.
 ///
 /// # Safety
-/// As selvedge_world_contacts_f64; `is_free` points to one value.
+/// The conditions of selvedge_world_contacts_f64 hold; `is_free` points to one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn selvedge_world_is_free_f64(
     world: *mut WorldHandle,

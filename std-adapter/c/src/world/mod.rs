@@ -245,7 +245,7 @@ struct Inserted<S> {
 
 impl<S: Format> Inserted<S> {
     /// # Safety
-    /// As selvedge_world_insert_f64.
+    /// The conditions of selvedge_world_insert_f64 hold.
     unsafe fn into(self, world: *mut WorldHandle) -> Status {
         on_format::<S>(world, |finder, _| {
             let (triangles, count) = self.triangles;

@@ -134,7 +134,7 @@ impl<S: Format> Asked<S> {
     /// Runs `question` with the motions.
     ///
     /// # Safety
-    /// As selvedge_world_contacts_f64.
+    /// The conditions of selvedge_world_contacts_f64 hold.
     unsafe fn ask(
         self,
         question: impl FnOnce(&mut Finder<S>, &mut Answers, &[(MeshHandle, MeshMotion<'_, [S; 3]>)]) -> Result<(), Failure>,

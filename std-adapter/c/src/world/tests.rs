@@ -24,13 +24,13 @@ trait ForC: Format {
     const FORMAT: ScalarFormat;
     fn from_double(value: f64) -> Self;
     /// # Safety
-    /// As the functions themselves.
+    /// The conditions of the functions themselves hold.
     unsafe fn insert(world: *mut WorldHandle, at: &[[Self; 3]], triangles: &[[u32; 3]], groups: Option<GroupsRow>) -> Mesh;
     /// # Safety
-    /// As the functions themselves.
+    /// The conditions of the functions themselves hold.
     unsafe fn contacts(world: *mut WorldHandle, moving: (&[Deforming<Self>], &[Rigid]), out: OutPair<WorldContactRow>) -> Status;
     /// # Safety
-    /// As the functions themselves.
+    /// The conditions of the functions themselves hold.
     unsafe fn earliest(
         world: *mut WorldHandle,
         moving: (&[Deforming<Self>], &[Rigid]),
@@ -38,7 +38,7 @@ trait ForC: Format {
         out: *mut WorldContactRow,
     ) -> Status;
     /// # Safety
-    /// As the functions themselves.
+    /// The conditions of the functions themselves hold.
     unsafe fn is_free(world: *mut WorldHandle, moving: (&[Deforming<Self>], &[Rigid]), out: *mut bool) -> Status;
 }
 

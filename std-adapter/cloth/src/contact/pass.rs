@@ -69,7 +69,7 @@ impl ContactSolver {
     /// Turns the motion that is wanted, start to `end`, into one that is certainly free.
     ///
     /// # Errors
-    /// If the step has to be cut; then nothing has changed but `end`.
+    /// Returns an error if the step has to be cut; then nothing has changed but `end`.
     pub(crate) fn certify(&mut self, step: &TimeStep<'_>, end: &mut [DVec3]) -> Result<(), Blocker> {
         let start = step.start;
         self.error = gap_error(start, end);

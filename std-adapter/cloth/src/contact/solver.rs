@@ -99,7 +99,7 @@ impl ContactSolver {
     /// promise, each until it is apart, with [those about it](super::exempt).
     ///
     /// # Errors
-    /// If a position is not finite.
+    /// Returns an error if a position is not finite.
     pub(crate) fn tolerate(&mut self, positions: &[DVec3]) -> Result<Vec<Crossing>, StepError> {
         let mut tangle = Tangle::new(self.candidates.interest(), positions.len());
         let error = gap_error(positions, positions);

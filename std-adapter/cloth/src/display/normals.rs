@@ -14,7 +14,7 @@ use selvedge_core::glam::DVec3;
 /// ```
 ///
 /// # Panics
-/// If a triangle has a vertex that is not in `positions`.
+/// Panics if a triangle has a vertex that is not in `positions`.
 pub fn vertex_normals(positions: &[DVec3], triangles: &[[u32; 3]], normals: &mut Vec<DVec3>) {
     normals.clear();
     normals.resize(positions.len(), DVec3::ZERO);

@@ -82,7 +82,7 @@ impl Tubes {
     /// Appends the positions of the tubes' vertices to `shown`, when the cloth's vertices are at `own`.
     ///
     /// # Panics
-    /// If `own` has fewer vertices than the cloth.
+    /// Panics if `own` has fewer vertices than the cloth.
     pub fn place(&self, own: &[DVec3], shown: &mut Vec<DVec3>) {
         let corners: [[f64; 2]; SIDES as usize] = array::from_fn(|corner| {
             let angle = TAU * corner as f64 / f64::from(SIDES);

@@ -15,7 +15,7 @@ pub trait Effect: Debug + Send + Sync {
     /// Checks the settings, alone and with the scene's cloths and bodies.
     ///
     /// # Errors
-    /// If a setting is invalid. The message says which values are valid.
+    /// Returns an error if a setting is invalid. The message says which values are valid.
     fn check(&self, _world: &SceneParts<'_>) -> Result<(), ValueError> {
         Ok(())
     }

@@ -11,7 +11,7 @@ impl Scene {
     /// Reads a scene file. Paths in it are relative to its folder.
     ///
     /// # Errors
-    /// If the file cannot be read or contains an error. The message names file, line and column.
+    /// Returns an error if the file cannot be read or contains an error. The message names file, line and column.
     pub fn read(path: &Path) -> Result<Self, SceneError> {
         let bytes = std::fs::read(path).map_err(|error| SceneError::whole(path, format!("cannot be read: {error}")))?;
         let text = String::from_utf8(bytes)
@@ -22,7 +22,7 @@ impl Scene {
     /// Reads a scene from the text of a file. `path` appears in messages, and paths in the text are relative to its folder.
     ///
     /// # Errors
-    /// If the text contains an error. The message names file, line and column.
+    /// Returns an error if the text contains an error. The message names file, line and column.
     pub fn parse(text: &str, path: &Path) -> Result<Self, SceneError> {
         let root = toml::de::DeTable::parse(text).map_err(|error| {
             let span = error.span().unwrap_or(0..0);

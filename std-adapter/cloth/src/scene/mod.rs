@@ -250,7 +250,7 @@ impl Scene {
     /// [`Simulation::new`](crate::Simulation::new) checks again.
     ///
     /// # Errors
-    /// If a value is invalid. The message says which values are valid.
+    /// Returns an error if a value is invalid. The message says which values are valid.
     pub fn check(&self) -> Result<(), ValueError> {
         TIME_STEP.check(self.time_step)?;
         duration_field(self.time_step).check(self.duration)?;

@@ -27,8 +27,8 @@ impl Simulation {
     /// Does one step.
     ///
     /// # Errors
-    /// If bodies or pins force the cloth where it cannot go without intersecting, and the scene wants to stop then. What is
-    /// done of the step stays.
+    /// Returns an error if bodies or pins force the cloth where it cannot go without intersecting, and the scene wants to stop
+    /// then. What is done of the step stays.
     pub fn step(&mut self) -> Result<(), Blocked> {
         let h = self.time_step;
         self.drive(h, |simulation| {
@@ -41,7 +41,7 @@ impl Simulation {
     /// Does the steps of one frame of so many seconds.
     ///
     /// # Errors
-    /// As [`step`](Self::step).
+    /// Returns the errors of [`step`](Self::step).
     pub(super) fn steps_of_frame(&mut self, seconds: f64, steps: u32) -> Result<(), Blocked> {
         let h = seconds / f64::from(steps);
         let end = self.time() + seconds;

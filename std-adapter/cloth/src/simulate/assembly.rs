@@ -56,7 +56,7 @@ impl Assembly {
     /// Of a scene that makes sense.
     ///
     /// # Errors
-    /// If it has too many triangles, or no cloth.
+    /// Returns an error if it has too many triangles, or no cloth.
     pub(super) fn of(scene: &Scene) -> Result<Self, SetupError> {
         let mut plan = Plan::new(scene.parts()?);
         let effects = scene.called().register(&mut plan);

@@ -53,7 +53,7 @@ impl Simulation {
     /// says; unless it is told again it stays there.
     ///
     /// # Errors
-    /// If there is no such body, it is not driven, or the placement is none.
+    /// Returns an error if there is no such body, it is not driven, or the placement is none.
     pub fn place_body(&mut self, body: usize, placement: Placement) -> Result<(), DriveError> {
         let placement = placement.checked()?;
         self.driven_body(body)?.lead_to(placement);
@@ -64,7 +64,8 @@ impl Simulation {
     /// changes its shape, such as a skinned figure. Pins that follow it know no way to go then, and stay: move them on their own.
     ///
     /// # Errors
-    /// If there is no such body, it is not driven, or the positions are not one for each vertex, finite and within a kilometre.
+    /// Returns an error if there is no such body, it is not driven, or the positions are not one for each vertex, finite and
+    /// within a kilometre.
     pub fn move_body(&mut self, body: usize, positions: &[DVec3]) -> Result<(), DriveError> {
         let driven = self.driven_body(body)?;
         check_positions(positions, driven.vertices.len())?;
@@ -75,7 +76,8 @@ impl Simulation {
     /// The same for a group of pins, by its index in [`Pins`](crate::effects::Pins), whose motion is driven.
     ///
     /// # Errors
-    /// If there is no such group, it is not driven, or the positions are not one for each vertex, finite and within a kilometre.
+    /// Returns an error if there is no such group, it is not driven, or the positions are not one for each vertex, finite and
+    /// within a kilometre.
     pub fn move_pins(&mut self, group: usize, positions: &[DVec3]) -> Result<(), DriveError> {
         let groups = self.made.pins.len();
         let carrier = *self.made.pins.get(group).ok_or(DriveError::NoPins { group, groups })? as usize;
@@ -99,7 +101,7 @@ impl Simulation {
     /// Lets the [`Wind`](crate::effects::Wind) blow so from now on, in m/s.
     ///
     /// # Errors
-    /// If the scene calls for no wind, or no wind can blow so.
+    /// Returns an error if the scene calls for no wind, or no wind can blow so.
     pub fn set_wind(&mut self, velocity: DVec3) -> Result<(), DriveError> {
         Wind::check_velocity(velocity).map_err(|error| error.of("wind"))?;
         // Each of several cloths has its own.

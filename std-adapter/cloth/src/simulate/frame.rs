@@ -64,7 +64,7 @@ impl Simulation {
     /// ```
     ///
     /// # Errors
-    /// If the time is out of range, or a [step](Self::step) fails.
+    /// Returns an error if the time is out of range, or a [step](Self::step) fails.
     pub fn advance(&mut self, seconds: f64) -> Result<Frame, FrameError> {
         self.advance_within(seconds, MOST)
     }
@@ -72,7 +72,7 @@ impl Simulation {
     /// Does the same as [`advance`](Self::advance) in at most `most` steps, but in no fewer than one.
     ///
     /// # Errors
-    /// As [`advance`](Self::advance).
+    /// Returns the errors of [`advance`](Self::advance).
     pub fn advance_within(&mut self, seconds: f64, most: u32) -> Result<Frame, FrameError> {
         SECONDS.check(seconds)?;
         let needed = self.steps_needed(seconds);

@@ -32,7 +32,7 @@ impl Simulation {
     /// Goes on from a checkpoint of the same scene: with the same bits as if it had never ended. Counters and times go on as well.
     ///
     /// # Errors
-    /// If it is not a checkpoint, is damaged, or is one of another scene; then nothing has changed.
+    /// Returns an error if it is not a checkpoint, is damaged, or is one of another scene; then nothing has changed.
     pub fn resume(&mut self, checkpoint: &[u8]) -> Result<(), CheckpointError> {
         let triangles = self.triangles_of_cloths();
         let (torn, reader) = Checkpoint::begin(checkpoint, self.fingerprint, triangles.as_deref())?;

@@ -19,7 +19,8 @@ impl Simulation {
     /// Sets a scene up, on `threads` threads (0: one for each core). The number of threads changes no bit of the result.
     ///
     /// # Errors
-    /// If something in the scene cannot be, it starts with an intersection, or the operating system refuses the threads.
+    /// Returns an error if something in the scene cannot be, it starts with an intersection, or the operating system refuses the
+    /// threads.
     pub fn new(scene: Scene, threads: usize) -> Result<Self, SetupError> {
         Self::with_progress(scene, threads, &mut |_| ())
     }
@@ -27,7 +28,7 @@ impl Simulation {
     /// The same, and tells how untangling goes, before each of its steps, if the scene is [to be untangled](TangledStart::Untangle).
     ///
     /// # Errors
-    /// As [`new`](Self::new).
+    /// Returns the errors of [`new`](Self::new).
     pub fn with_progress(
         scene: Scene,
         threads: usize,

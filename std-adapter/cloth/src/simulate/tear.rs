@@ -198,7 +198,7 @@ impl Simulation {
     /// What is made anew of a checkpoint's cloths.
     ///
     /// # Errors
-    /// If these are not the scene's.
+    /// Returns an error if these are not the scene's.
     pub(super) fn torn_as(&mut self, torn: Vec<TornCloth>) -> Result<Retorn, CheckpointError> {
         let numbering = self.numbering();
         let tearing = self.tearing.as_mut().ok_or(CheckpointError::Damaged)?;

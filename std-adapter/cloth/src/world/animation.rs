@@ -75,8 +75,8 @@ impl Animation {
     /// first frame is at time 0.
     ///
     /// # Errors
-    /// If there is no frame, the frames differ in their number of vertices, the rate is invalid, or a coordinate is not finite or
-    /// beyond a kilometre.
+    /// Returns an error if there is no frame, the frames differ in their number of vertices, the rate is invalid, or a coordinate
+    /// is not finite or beyond a kilometre.
     pub fn from_frames(frames: Vec<Vec<DVec3>>, frames_per_second: f64) -> Result<Self, ValueError> {
         RATE.check(frames_per_second)?;
         let wrong = |message: String| Err(ValueError::new("frames", message));
@@ -116,7 +116,7 @@ impl Animation {
     /// figures of one animation stay together.
     ///
     /// # Errors
-    /// If a vertex is beyond a kilometre, or not finite, at a key.
+    /// Returns an error if a vertex is beyond a kilometre, or not finite, at a key.
     pub fn from_figure(figure: Figure) -> Result<Self, ValueError> {
         let [first, last] = figure.span();
         let (mut before, mut at, mut jumps) = (Vec::new(), Vec::new(), Jumps::default());

@@ -60,7 +60,7 @@ impl Body {
     /// the axis. The cloth slides on the smooth surface.
     ///
     /// # Errors
-    /// If a number is out of range.
+    /// Returns an error if a number is out of range.
     pub fn capsule(name: &str, [from, to]: [DVec3; 2], radius: f64, around: u32) -> Result<Self, ValueError> {
         let checked = FROM.check_vector(from).and(TO.check_vector(to));
         let checked = checked.and(RADIUS.check(radius)).and(AROUND.check(around));
@@ -74,7 +74,7 @@ impl Body {
     /// Makes a ball, in metres. The mesh has `around` vertices around its equator. The cloth slides on the smooth surface.
     ///
     /// # Errors
-    /// If a number is out of range.
+    /// Returns an error if a number is out of range.
     pub fn ball(name: &str, centre: DVec3, radius: f64, around: u32) -> Result<Self, ValueError> {
         CENTRE.check_vector(centre).map_err(|error| error.of(name))?;
         Self::capsule(name, [centre; 2], radius, around)

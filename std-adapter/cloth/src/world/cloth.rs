@@ -72,7 +72,7 @@ impl Cloth {
     /// Parts: `left`, `right`, `bottom`, `top`, and the corners, such as `bottom-left`.
     ///
     /// # Errors
-    /// If a number is out of range, or the sides are parallel.
+    /// Returns an error if a number is out of range, or the sides are parallel.
     pub fn sheet(corner: DVec3, sides: [DVec3; 2], cells: [u32; 2], density: f64) -> Result<Self, ValueError> {
         CORNER.check_vector(corner)?;
         FIRST.check_vector(sides[0])?;
@@ -106,7 +106,7 @@ impl Cloth {
     /// Parts: `start`, `end`.
     ///
     /// # Errors
-    /// If a number is out of range, or the two points are equal.
+    /// Returns an error if a number is out of range, or the two points are equal.
     pub fn tube([from, to]: [DVec3; 2], radius: f64, cells: [u32; 2], density: f64) -> Result<Self, ValueError> {
         FROM.check_vector(from)?;
         TO.check_vector(to)?;
@@ -129,7 +129,7 @@ impl Cloth {
     /// Parts: `shoulder`, `cuff`.
     ///
     /// # Errors
-    /// If a number is out of range.
+    /// Returns an error if a number is out of range.
     pub fn sleeve(refinement: u32, density: f64) -> Result<Self, ValueError> {
         REFINEMENT.check(refinement)?;
         let complain = |error: RefinementError| ValueError::new(REFINEMENT.name, error.to_string());
@@ -145,7 +145,8 @@ impl Cloth {
     /// its projection. `density` is in kg/m².
     ///
     /// # Errors
-    /// If a number is out of range, or the mesh has no triangles, triangles without area or vertices without triangles.
+    /// Returns an error if a number is out of range, or the mesh has no triangles, triangles without area or vertices without
+    /// triangles.
     pub fn from_mesh(mesh: Mesh, warp: DVec3, density: f64) -> Result<Self, ValueError> {
         Self::with_parts(mesh, warp, density, Vec::new())
     }
@@ -167,8 +168,9 @@ impl Cloth {
     /// ```
     ///
     /// # Errors
-    /// Those of [`from_mesh`](Self::from_mesh), except that triangles may be missing if there are loose edges. Also if an edge
-    /// names a vertex that does not exist, repeats another edge, or is shorter than a hundredth of a millimetre.
+    /// Returns the errors of [`from_mesh`](Self::from_mesh), except that triangles may be missing if there are loose edges. Also
+    /// returns an error if an edge names a vertex that does not exist, repeats another edge, or is shorter than a hundredth of a
+    /// millimetre.
     pub fn from_mesh_with_loose_edges(
         mesh: Mesh,
         loose_edges: &[[u32; 2]],
@@ -354,7 +356,7 @@ impl Cloth {
     /// Replaces the copies of vertices, each with its source before it, and the triangles. Loose edges keep their vertices.
     ///
     /// # Errors
-    /// If there are too many edges to count.
+    /// Returns an error if there are too many edges to count.
     pub(crate) fn tear(&mut self, copied: Vec<u32>, triangles: Vec<[u32; 3]>) -> Result<(), TopologyError> {
         let mut positions = self.mesh.positions[..self.vertices_as_made()].to_vec();
         copied.iter().for_each(|&vertex| positions.push(positions[vertex as usize]));

@@ -20,7 +20,8 @@ pub enum BodyMotion {
 
 impl BodyMotion {
     /// # Errors
-    /// If something turns or jumps too far in a step, a number is out of range, or it cannot move so many vertices.
+    /// Returns an error if something turns or jumps too far in a step, a number is out of range, or it cannot move so many
+    /// vertices.
     pub(crate) fn check(&self, vertices: usize, time_step: f64) -> Result<(), ValueError> {
         match self {
             Self::Keyframes(motion) => motion.check(time_step),
@@ -154,7 +155,7 @@ impl KeyframeMotion {
     /// `keyframes`.
     ///
     /// # Errors
-    /// If the axis is zero. [`Scene::check`](crate::Scene::check) finds all other errors.
+    /// Returns an error if the axis is zero. [`Scene::check`](crate::Scene::check) finds all other errors.
     pub fn new(pivot: DVec3, axis: DVec3, keyframes: Vec<Keyframe>) -> Result<Self, ValueError> {
         let Some(axis) = axis.try_normalize() else {
             return Err(ValueError::new(

@@ -36,7 +36,7 @@ impl Cloth {
     /// ```
     ///
     /// # Errors
-    /// If a number is out of range, there are fewer than two points, or two successive points are equal.
+    /// Returns an error if a number is out of range, there are fewer than two points, or two successive points are equal.
     pub fn rope(points: &[DVec3], segments: u32, linear_density: f64) -> Result<Self, ValueError> {
         points.iter().try_for_each(|&point| POINTS.check_vector(point))?;
         SEGMENTS.check(segments)?;

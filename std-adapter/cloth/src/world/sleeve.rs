@@ -35,7 +35,7 @@ pub struct RefinementError(pub u32);
 /// Returns the number of points of each ring of [`sleeve`], from shoulder to cuff.
 ///
 /// # Errors
-/// If `refinement` is zero or above [`MAX_REFINEMENT`].
+/// Returns an error if `refinement` is zero or above [`MAX_REFINEMENT`].
 pub fn ring_sizes(refinement: u32) -> Result<Vec<u32>, RefinementError> {
     if refinement == 0 || refinement > MAX_REFINEMENT {
         return Err(RefinementError(refinement));
@@ -66,7 +66,7 @@ pub fn ring_sizes(refinement: u32) -> Result<Vec<u32>, RefinementError> {
 /// ```
 ///
 /// # Errors
-/// If `refinement` is zero or above [`MAX_REFINEMENT`].
+/// Returns an error if `refinement` is zero or above [`MAX_REFINEMENT`].
 pub fn sleeve(refinement: u32) -> Result<Mesh, RefinementError> {
     let sizes = ring_sizes(refinement)?;
     let steps = (sizes.len() - 1) as f64;

@@ -102,7 +102,8 @@ impl<S: Scalar> CollisionDetector<S> {
     /// Sets the threads that share the work of a step. The default is [`Threads::Calling`].
     ///
     /// # Errors
-    /// If the requested threads could not be started, or are more than [`Threads::most`]. The old ones then stay.
+    /// Returns an error if the requested threads could not be started, or are more than [`Threads::most`]. The old ones then
+    /// stay.
     #[cfg(feature = "parallel")]
     pub fn set_threads(&mut self, threads: Threads) -> Result<(), ThreadError> {
         self.workers = Workers::new(threads)?;
@@ -112,7 +113,7 @@ impl<S: Scalar> CollisionDetector<S> {
     /// Sets what counts as a contact. The default is [`Criterion::default`].
     ///
     /// # Errors
-    /// If a length is negative, infinite or NaN. The old criterion then stays.
+    /// Returns an error if a length is negative, infinite or NaN. The old criterion then stays.
     pub fn set_criterion(&mut self, criterion: Criterion<S>) -> Result<(), StepError> {
         criterion.check()?;
         self.criterion = criterion;
@@ -125,7 +126,7 @@ impl<S: Scalar> CollisionDetector<S> {
     /// again** until the next call of this method.
     ///
     /// # Errors
-    /// If the slice's length is not the mesh's number of vertices.
+    /// Returns an error if the slice's length is not the mesh's number of vertices.
     pub fn set_moving(&mut self, moving: Option<&[bool]>) -> Result<(), StepError> {
         let expected = self.topology().vertex_count();
         match moving {
@@ -145,7 +146,8 @@ impl<S: Scalar> CollisionDetector<S> {
     /// Listed pairs ([`contacts_of`](Self::contacts_of)) are tested whatever the filter says.
     ///
     /// # Errors
-    /// If a list of the filter does not have an entry for each vertex, or names a vertex that does not exist. The old filter then stays.
+    /// Returns an error if a list of the filter does not have an entry for each vertex, or names a vertex that does not exist.
+    /// The old filter then stays.
     pub fn set_collision_filter(&mut self, filter: CollisionFilter) -> Result<(), StepError> {
         filter.check(self.topology().vertex_count())?;
         self.engine.set_filter(filter);
@@ -189,9 +191,9 @@ impl<S: Scalar> CollisionDetector<S> {
     /// Replaces `contacts` by all contacts of the step from `start` to `end`, vertex–face pairs first. There is one position for each vertex.
     ///
     /// # Errors
-    /// If a frame's length is not the mesh's number of vertices, or a coordinate is NaN or infinite. Also if the step is cut short: by a
-    /// [`cancellation`](Self::cancellation), or by more [pairs](Self::set_pair_limit) or [memory](Self::set_memory_limit) than allowed. `contacts` is then
-    /// incomplete.
+    /// Returns an error if a frame's length is not the mesh's number of vertices, or a coordinate is NaN or infinite. Also if the
+    /// step is cut short: by a [`cancellation`](Self::cancellation), or by more [pairs](Self::set_pair_limit) or
+    /// [memory](Self::set_memory_limit) than allowed. `contacts` is then incomplete.
     pub fn contacts<P: Position<Scalar = S>>(
         &mut self,
         start: &[P],
@@ -223,7 +225,7 @@ impl<S: Scalar> CollisionDetector<S> {
     /// So the result does not prove contact. [`elementary::contact`](selvedge_core::elementary::contact()) decides exactly whether a pair touches.
     ///
     /// # Errors
-    /// As [`contacts`](Self::contacts).
+    /// Returns the errors of [`contacts`](Self::contacts).
     pub fn earliest<P: Position<Scalar = S>>(&mut self, start: &[P], end: &[P]) -> Result<Option<Contact<S>>, StepError> {
         let step = self.step(start, end)?;
         let question = self.question(Wanted::Earliest);
@@ -235,7 +237,7 @@ impl<S: Scalar> CollisionDetector<S> {
     /// Returns whether the step is certainly free of contact.
     ///
     /// # Errors
-    /// As [`contacts`](Self::contacts).
+    /// Returns the errors of [`contacts`](Self::contacts).
     pub fn is_free<P: Position<Scalar = S>>(&mut self, start: &[P], end: &[P]) -> Result<bool, StepError> {
         let step = self.step(start, end)?;
         let question = self.question(Wanted::Any);
@@ -283,7 +285,7 @@ impl<S: Scalar> CollisionDetector<S> {
     /// ```
     ///
     /// # Errors
-    /// As [`contacts`](Self::contacts).
+    /// Returns the errors of [`contacts`](Self::contacts).
     pub fn truncate<P: Position<Scalar = S>>(
         &mut self,
         start: &[P],
@@ -307,7 +309,7 @@ impl<S: Scalar> CollisionDetector<S> {
     /// certainly farther apart than the separation throughout the step.
     ///
     /// # Errors
-    /// As [`contacts`](Self::contacts).
+    /// Returns the errors of [`contacts`](Self::contacts).
     pub fn candidates<P: Position<Scalar = S>>(
         &mut self,
         start: &[P],
@@ -329,7 +331,8 @@ impl<S: Scalar> CollisionDetector<S> {
     /// list is much shorter than the mesh.
     ///
     /// # Errors
-    /// As [`contacts`](Self::contacts), and if the mesh does not have a vertex, face or edge of a pair.
+    /// Returns the errors of [`contacts`](Self::contacts). Also returns an error if the mesh does not have a vertex, face or edge
+    /// of a pair.
     pub fn contacts_of<P: Position<Scalar = S>>(
         &mut self,
         start: &[P],

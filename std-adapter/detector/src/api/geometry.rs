@@ -50,8 +50,8 @@ impl<S: Scalar> CollisionDetector<S> {
     /// ```
     ///
     /// # Errors
-    /// If a frame's length is not the mesh's number of vertices, the mesh does not have the pair, or the time is not in [0, 1]. Positions that are
-    /// not finite give no normal.
+    /// Returns an error if a frame's length is not the mesh's number of vertices, the mesh does not have the pair, or the time is
+    /// not in [0, 1]. Positions that are not finite give no normal.
     pub fn contact_geometry<P: Position<Scalar = S>>(
         &self,
         start: &[P],
@@ -74,7 +74,8 @@ impl<S: Scalar> CollisionDetector<S> {
     /// Nothing is allocated if `geometries` has room.
     ///
     /// # Errors
-    /// As [`contacts`](Self::contacts), and if the mesh does not have a pair or a time is not in [0, 1].
+    /// Returns the errors of [`contacts`](Self::contacts). Also returns an error if the mesh does not have a pair, or a time is
+    /// not in [0, 1].
     pub fn contact_geometries<P: Position<Scalar = S>>(
         &self,
         start: &[P],
@@ -109,7 +110,7 @@ impl<S: Scalar> CollisionDetector<S> {
     /// ```
     ///
     /// # Errors
-    /// As [`contacts`](Self::contacts), and if the distance is negative, infinite or NaN.
+    /// Returns the errors of [`contacts`](Self::contacts). Also returns an error if the distance is negative, infinite or NaN.
     pub fn near<P: Position<Scalar = S>>(
         &mut self,
         positions: &[P],

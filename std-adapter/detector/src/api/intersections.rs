@@ -39,7 +39,7 @@ impl<S: Scalar> CollisionDetector<S> {
     /// ```
     ///
     /// # Errors
-    /// As [`contacts`](Self::contacts). Errors name the frame of the positions as the [start](crate::Frame::Start).
+    /// Returns the errors of [`contacts`](Self::contacts). Errors name the frame of the positions as the [start](crate::Frame::Start).
     pub fn intersections<P: Position<Scalar = S>>(
         &mut self,
         positions: &[P],
@@ -53,7 +53,7 @@ impl<S: Scalar> CollisionDetector<S> {
     /// Returns whether there are any [`intersections`](Self::intersections). Ends at the first.
     ///
     /// # Errors
-    /// As [`intersections`](Self::intersections).
+    /// Returns the errors of [`intersections`](Self::intersections).
     pub fn has_intersections<P: Position<Scalar = S>>(&mut self, positions: &[P]) -> Result<bool, StepError> {
         let step = self.step(positions, positions)?;
         let mut found = Vec::new();

@@ -15,7 +15,7 @@ impl<S: Scalar> CollisionDetector<S> {
     /// Finds [`contacts`](Self::contacts), and replaces `vertex_face` and `edge_edge` by the pairs that the non-coplanarity filter leaves.
     ///
     /// # Errors
-    /// As [`contacts`](Self::contacts).
+    /// Returns the errors of [`contacts`](Self::contacts).
     pub fn contacts_and_filtered<P: Position<Scalar = S>>(
         &mut self,
         start: &[P],

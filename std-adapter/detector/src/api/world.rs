@@ -113,7 +113,8 @@ impl<P: Position> World<P> {
     /// Sets the threads that share the work of a step. The default is [`Threads::Calling`].
     ///
     /// # Errors
-    /// If the requested threads could not be started, or are more than [`Threads::most`]. The old ones then stay.
+    /// Returns an error if the requested threads could not be started, or are more than [`Threads::most`]. The old ones then
+    /// stay.
     #[cfg(feature = "parallel")]
     pub fn set_threads(&mut self, threads: Threads) -> Result<(), ThreadError> {
         self.workers = Workers::new(threads)?;
@@ -126,7 +127,7 @@ impl<P: Position> World<P> {
     /// changes, the next step fits all boxes again.
     ///
     /// # Errors
-    /// If a length is negative, infinite or NaN. The old criterion then stays.
+    /// Returns an error if a length is negative, infinite or NaN. The old criterion then stays.
     pub fn set_criterion(&mut self, criterion: Criterion<P::Scalar>) -> Result<(), WorldError> {
         criterion.check()?;
         self.stage.must_fit |= criterion.limits().separation != self.criterion.limits().separation;
@@ -155,7 +156,8 @@ impl<P: Position> World<P> {
     /// Meshes may share a topology (`Arc`).
     ///
     /// # Errors
-    /// If there is not one position for each vertex, one is NaN or infinite, or all meshes together would have more than 2³¹ − 1 vertices.
+    /// Returns an error if there is not one position for each vertex, one is NaN or infinite, or all meshes together would have
+    /// more than 2³¹ − 1 vertices.
     pub fn insert(
         &mut self,
         topology: impl Into<Arc<Topology>>,
@@ -182,7 +184,7 @@ impl<P: Position> World<P> {
     /// Removes a mesh. Its handle stays invalid for good.
     ///
     /// # Errors
-    /// If the world does not have the mesh.
+    /// Returns an error if the world does not have the mesh.
     pub fn remove(&mut self, mesh: MeshHandle) -> Result<(), WorldError> {
         let removed = self.stage.meshes.remove(mesh).ok_or(WorldError::NoSuchMesh { mesh })?;
         self.stage.vertices -= removed.shape.len();
@@ -193,7 +195,7 @@ impl<P: Position> World<P> {
     /// Sets which meshes a mesh collides with from now on.
     ///
     /// # Errors
-    /// If the world does not have the mesh.
+    /// Returns an error if the world does not have the mesh.
     pub fn set_groups(&mut self, mesh: MeshHandle, groups: Groups) -> Result<(), WorldError> {
         let own = self.stage.meshes.get_mut(mesh).ok_or(WorldError::NoSuchMesh { mesh })?;
         own.groups = groups;
@@ -209,7 +211,7 @@ impl<P: Position> World<P> {
     /// Returns a mesh's vertices, edges and triangles.
     ///
     /// # Errors
-    /// If the world does not have the mesh.
+    /// Returns an error if the world does not have the mesh.
     pub fn topology(&self, mesh: MeshHandle) -> Result<&Topology, WorldError> {
         Ok(self.mesh(mesh)?.hierarchies.topology())
     }
@@ -218,8 +220,9 @@ impl<P: Position> World<P> {
     /// where it starts.
     ///
     /// # Errors
-    /// If a mesh does not exist or is listed twice, or if its positions or poses are invalid. The world is then unchanged. Also if the step is cut
-    /// short: by a [`cancellation`](Self::cancellation), or by more [pairs](Self::set_pair_limit) or [memory](Self::set_memory_limit) than allowed.
+    /// Returns an error if a mesh does not exist or is listed twice, or if its positions or poses are invalid. The world is then
+    /// unchanged. Also if the step is cut short: by a [`cancellation`](Self::cancellation), or by more
+    /// [pairs](Self::set_pair_limit) or [memory](Self::set_memory_limit) than allowed.
     pub fn contacts(
         &mut self,
         motions: &[(MeshHandle, MeshMotion<'_, P>)],
@@ -238,7 +241,7 @@ impl<P: Position> World<P> {
     /// several contacts at the same time it returns the first by kind, meshes and pair.
     ///
     /// # Errors
-    /// As [`contacts`](Self::contacts).
+    /// Returns the errors of [`contacts`](Self::contacts).
     pub fn earliest(
         &mut self,
         motions: &[(MeshHandle, MeshMotion<'_, P>)],
@@ -251,7 +254,7 @@ impl<P: Position> World<P> {
     /// Returns whether such a step is certainly free of contact.
     ///
     /// # Errors
-    /// As [`contacts`](Self::contacts).
+    /// Returns the errors of [`contacts`](Self::contacts).
     pub fn is_free(&mut self, motions: &[(MeshHandle, MeshMotion<'_, P>)]) -> Result<bool, WorldError> {
         let ended = self.run(motions, Wanted::Any)?;
         if self.stage.engine.contacts().any(|(_, found)| !found.is_empty()) {

@@ -40,7 +40,7 @@ impl<P: Position> World<P> {
     /// ```
     ///
     /// # Errors
-    /// If a mesh was removed, the two meshes do not have the pair, or the time is not in [0, 1].
+    /// Returns an error if a mesh was removed, the two meshes do not have the pair, or the time is not in [0, 1].
     pub fn contact_geometry(&self, contact: &WorldContact<P::Scalar>) -> Result<WorldContactGeometry, WorldError> {
         let vertices = self.vertices_in_step(contact)?;
         let &WorldContact { kind, meshes, pair, .. } = contact;
@@ -68,7 +68,7 @@ impl<P: Position> World<P> {
     /// Returns the vertices of a contact, as their own meshes number them: the vertex and the corners of the face, or the ends of both edges.
     ///
     /// # Errors
-    /// If a mesh was removed, or the two meshes do not have the pair.
+    /// Returns an error if a mesh was removed, or the two meshes do not have the pair.
     pub fn vertices_of(&self, contact: &WorldContact<P::Scalar>) -> Result<[u32; 4], WorldError> {
         let [first, second] = contact.meshes.map(|mesh| self.mesh(mesh));
         let hierarchies = [&first?.hierarchies, &second?.hierarchies];
@@ -81,7 +81,7 @@ impl<P: Position> World<P> {
     /// Nothing is allocated if `geometries` has room.
     ///
     /// # Errors
-    /// As [`contact_geometry`](Self::contact_geometry), for the first invalid contact. `geometries` then stays.
+    /// Returns the errors of [`contact_geometry`](Self::contact_geometry), for the first invalid contact. `geometries` then stays.
     pub fn contact_geometries(
         &self,
         contacts: &[WorldContact<P::Scalar>],

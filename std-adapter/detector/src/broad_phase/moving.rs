@@ -59,7 +59,7 @@ impl MovingBroadPhase {
     /// Makes pairs that come within `separation` of each other candidates too, from the next update on. Zero at first.
     ///
     /// # Errors
-    /// If `separation` is negative, infinite or NaN. The old one then stays.
+    /// Returns an error if `separation` is negative, infinite or NaN. The old one then stays.
     pub fn set_separation(&mut self, separation: f64) -> Result<(), StepError> {
         check_length(separation)?;
         self.fit.separation = separation;
@@ -115,7 +115,7 @@ impl MovingBroadPhase {
     /// Hierarchies have degraded when the searches since they were built have cost more than a new build, beyond what they would cost just after it.
     ///
     /// # Errors
-    /// If a frame's length is not the mesh's number of vertices, or a coordinate is NaN or infinite.
+    /// Returns an error if a frame's length is not the mesh's number of vertices, or a coordinate is NaN or infinite.
     pub fn update<P: Position>(&mut self, start: &[P], end: &[P]) -> Result<(), StepError> {
         let step = Step::checked(start, end, self.hierarchies.topology().vertex_count())?;
         let fit = self.fit;

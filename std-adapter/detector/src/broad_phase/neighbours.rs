@@ -50,7 +50,7 @@ impl Neighbours {
     /// Returns whether two primitives with these vertices are neighbours.
     ///
     /// # Panics
-    /// If a vertex has no position at rest.
+    /// Panics if a vertex has no position at rest.
     #[inline(always)]
     #[must_use]
     pub fn are(&self, kind: PairKind, vertices: [u32; 4]) -> bool {
@@ -79,7 +79,7 @@ impl Neighbours {
     /// Returns a vertex at rest.
     ///
     /// # Panics
-    /// If the vertex has no position at rest.
+    /// Panics if the vertex has no position at rest.
     pub(crate) fn at_rest(&self, vertex: u32) -> AtRest {
         let part = self.part_of(vertex);
         AtRest {

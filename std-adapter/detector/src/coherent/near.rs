@@ -63,10 +63,10 @@ impl<I: Interest> NearPairs<I> {
     /// Makes an empty list for a mesh. It will hold pairs of `interest` that have a `wanted` vertex; there is one entry for each vertex.
     ///
     /// # Errors
-    /// If a length in `reach` is negative or not finite.
+    /// Returns an error if a length in `reach` is negative or not finite.
     ///
     /// # Panics
-    /// If there are fewer entries than vertices.
+    /// Panics if there are fewer entries than vertices.
     pub fn new(topology: Arc<Topology>, interest: I, wanted: Vec<bool>, reach: Reach) -> Result<Self, StepError> {
         let mut search = Search::new(topology, interest, wanted);
         search.set_reach(&reach)?;
@@ -116,7 +116,7 @@ impl<I: Interest> NearPairs<I> {
     /// Replaces `places` by those of all listed pairs with a `marked` vertex, in order. There is one mark for each vertex.
     ///
     /// # Panics
-    /// If there are fewer entries than vertices.
+    /// Panics if there are fewer entries than vertices.
     pub fn find_places(&mut self, marked: &[bool], places: &mut Vec<usize>) {
         let (first, added) = self.list.split_at(self.first);
         if self.vertices.is_empty() {
@@ -143,7 +143,7 @@ impl<I: Interest> NearPairs<I> {
     /// takes a time of `h`.
     ///
     /// # Panics
-    /// As [`cover`](Self::cover).
+    /// Panics as [`cover`](Self::cover) does.
     pub fn refresh(&mut self, start: &[DVec3], end: &[DVec3], h: f64) {
         self.list.clear();
         self.set_first(0);
@@ -166,7 +166,7 @@ impl<I: Interest> NearPairs<I> {
     /// Adds the pairs of vertices that have strayed. Returns false if that is impossible, because too many have strayed or the motion has ended.
     ///
     /// # Panics
-    /// As [`cover`](Self::cover).
+    /// Panics as [`cover`](Self::cover) does.
     pub fn add_of_strayed(&mut self, strayed: usize, [start, end]: [&[DVec3]; 2], h: f64) -> bool {
         strayed < end.len() / MANY && self.horizon.lasts(h) && self.find_of_strayed(start, end, h)
     }
@@ -174,7 +174,7 @@ impl<I: Interest> NearPairs<I> {
     /// Makes the list good for the step from `start`, where the last step ended, to `end`, which takes a time of `h`.
     ///
     /// # Panics
-    /// If a position is not finite.
+    /// Panics if a position is not finite.
     pub fn cover(&mut self, start: &[DVec3], end: &[DVec3], h: f64) {
         if !self.horizon.lasts(h) {
             return self.find(start, end, h);
@@ -192,7 +192,7 @@ impl<I: Interest> NearPairs<I> {
     /// Makes the list [good](Self::cover) for a step from `start` to `end` where the last step may have ended elsewhere.
     ///
     /// # Panics
-    /// If a position is not finite.
+    /// Panics if a position is not finite.
     pub fn cover_from(&mut self, start: &[DVec3], end: &[DVec3], h: f64) {
         if !self.horizon.lasts(h) {
             return self.find(start, end, h);
@@ -275,7 +275,7 @@ impl<I: Interest> NearPairs<I> {
     /// Finds all pairs for a motion that begins with the step from `start` to `end`, which takes a time of `h`.
     ///
     /// # Panics
-    /// As [`cover`](Self::cover).
+    /// Panics as [`cover`](Self::cover) does.
     pub fn find(&mut self, start: &[DVec3], end: &[DVec3], h: f64) {
         self.statistics.searches += 1;
         self.strays.clear();

@@ -74,7 +74,7 @@ impl<I: Interest> Search<I> {
     /// Sets the reach of the search.
     ///
     /// # Errors
-    /// If a length is negative or not finite. The old reach then stays.
+    /// Returns an error if a length is negative or not finite. The old reach then stays.
     pub(super) fn set_reach(&mut self, reach: &Reach) -> Result<(), StepError> {
         let largest = reach.classes.iter().map(|class| class.distance).fold(0.0, f64::max);
         self.broad_phase.set_separation(largest + reach.beyond)
@@ -84,7 +84,7 @@ impl<I: Interest> Search<I> {
     /// each.
     ///
     /// # Panics
-    /// If a position is not finite.
+    /// Panics if a position is not finite.
     pub(super) fn pairs(
         &mut self,
         reach: &Reach,
@@ -103,7 +103,7 @@ impl<I: Interest> Search<I> {
     /// strays are graded.
     ///
     /// # Panics
-    /// If a position is not finite.
+    /// Panics if a position is not finite.
     pub(super) fn pairs_of(
         &mut self,
         only: &[bool],

@@ -34,7 +34,7 @@ impl Mesh {
     /// Makes the topology of this mesh.
     ///
     /// # Errors
-    /// Those of [`Topology::new`].
+    /// Returns the errors of [`Topology::new`].
     pub fn topology(&self) -> Result<Topology, TopologyError> {
         Topology::new(self.positions.len(), self.triangles.clone())
     }

@@ -49,7 +49,8 @@ impl Topology {
     /// triangle. Memory is proportional to the number of triangles.
     ///
     /// # Errors
-    /// If there are no triangles, a triangle names a vertex that does not exist, or there are more than a `u32` can number.
+    /// Returns an error if there are no triangles, a triangle names a vertex that does not exist, or there are more than a `u32`
+    /// can number.
     pub fn new(vertex_count: usize, triangles: Vec<[u32; 3]>) -> Result<Self, TopologyError> {
         Self::with_loose_features(vertex_count, triangles, &[], &[])
     }
@@ -86,7 +87,8 @@ impl Topology {
     /// ```
     ///
     /// # Errors
-    /// If there is no primitive, a primitive names a vertex that does not exist, or there are more than a `u32` can number.
+    /// Returns an error if there is no primitive, a primitive names a vertex that does not exist, or there are more than a `u32`
+    /// can number.
     pub fn with_loose_features(
         vertex_count: usize,
         mut triangles: Vec<[u32; 3]>,
@@ -153,7 +155,7 @@ impl Topology {
     /// ```
     ///
     /// # Panics
-    /// If the pair is not of this mesh.
+    /// Panics if the pair is not of this mesh.
     #[must_use]
     pub fn features_of(&self, kind: PairKind, pair: [u32; 2]) -> FeaturePair {
         let [vertex, face] = pair;
@@ -174,7 +176,7 @@ impl Topology {
     /// Returns the four vertices of a pair of this kind: the vertex and the three of the face, or the ends of the two edges.
     ///
     /// # Panics
-    /// If the pair is not of this mesh.
+    /// Panics if the pair is not of this mesh.
     #[inline]
     #[must_use]
     pub fn vertices_of(&self, kind: PairKind, pair: [u32; 2]) -> [u32; 4] {

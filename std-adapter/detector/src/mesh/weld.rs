@@ -19,7 +19,7 @@ impl WeldedMesh {
     /// Returns values of the merged vertices, such as positions of a later frame, for the vertices of the original: seams stay where they were.
     ///
     /// # Panics
-    /// If there are fewer values than merged vertices.
+    /// Panics if there are fewer values than merged vertices.
     #[must_use]
     pub fn for_original<T: Copy>(&self, values: &[T]) -> Vec<T> {
         self.vertex_of.iter().map(|&vertex| values[vertex as usize]).collect()

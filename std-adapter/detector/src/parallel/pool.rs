@@ -95,7 +95,7 @@ impl Workers {
     /// Starts these threads.
     ///
     /// # Errors
-    /// If the operating system refuses the threads, or they are more than [`Threads::most`].
+    /// Returns an error if the operating system refuses the threads, or they are more than [`Threads::most`].
     pub fn new(threads: Threads) -> Result<Self, ThreadError> {
         let count = match threads {
             Threads::Calling | Threads::Own(NonZeroUsize::MIN) => return Ok(Self(Kind::Calling)),

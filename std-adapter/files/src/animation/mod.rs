@@ -47,9 +47,9 @@ pub struct Choice<'a> {
 /// Reads a moving figure from the glTF file at `path`, with the files beside it that it names.
 ///
 /// # Errors
-/// If a file cannot be read, is no glTF 2.0 or declares more than it holds; if it has no such node or animation, or several; if it requires an
-/// extension that changes shapes; if a number is not finite, or a vertex names a joint or a vertex that does not exist. The message names the
-/// file, and the node, channel or vertex.
+/// Returns an error if a file cannot be read, is no glTF 2.0 or declares more than it holds; if it has no such node or animation,
+/// or several; if it requires an extension that changes shapes; if a number is not finite, or a vertex names a joint or a vertex
+/// that does not exist. The message names the file, and the node, channel or vertex.
 pub fn read(path: &Path, choice: &Choice<'_>) -> Result<Figure, AnimationError> {
     let bytes = std::fs::read(path).map_err(|error| AnimationError::of(path, FileProblem::from_read(error).into()))?;
     read_bytes(&bytes, path, choice)
@@ -59,7 +59,7 @@ pub fn read(path: &Path, choice: &Choice<'_>) -> Result<Figure, AnimationError> 
 /// whatever the bytes, and asks for memory only in proportion to them and to the files that they name.
 ///
 /// # Errors
-/// Those of [`read`].
+/// Returns the errors of [`read`].
 pub fn read_bytes(bytes: &[u8], path: &Path, choice: &Choice<'_>) -> Result<Figure, AnimationError> {
     parse(bytes, path, choice).map_err(|problem| AnimationError::of(path, problem))
 }

@@ -83,9 +83,9 @@ pub struct MeshFile {
 /// Reads the mesh file at `path`, in the format that its extension names.
 ///
 /// # Errors
-/// If the file cannot be read, is not in its format, ends early or goes on too long, has a
-/// coordinate that is not finite, a face with fewer than three vertices or one that does not
-/// exist, or no face at all. The message names the file and the line, element or vertex.
+/// Returns an error if the file cannot be read, is not in its format, ends early or goes on too long, has a coordinate that is
+/// not finite, a face with fewer than three vertices or one that does not exist, or no face at all. The message names the file
+/// and the line, element or vertex.
 pub fn read(path: &Path) -> Result<MeshFile, MeshError> {
     let read = load(path, &ReadOptions::default()).and_then(Parsed::into_file);
     read.map_err(|problem| MeshError::file(path, problem))
@@ -108,7 +108,8 @@ pub struct LooseMesh {
 /// points: all its vertices.
 ///
 /// # Errors
-/// Those of [`read`], but for a file without faces that has edges or points; and if one of these names a vertex that does not exist.
+/// Returns the errors of [`read`], except that a file may have edges or points alone. Also returns an error if one of these names
+/// a vertex that does not exist.
 pub fn read_with_loose_features(path: &Path) -> Result<LooseMesh, MeshError> {
     read_with(path, &WITH_LOOSE_FEATURES)
 }
@@ -122,7 +123,8 @@ const WITH_LOOSE_FEATURES: ReadOptions<'static> = ReadOptions {
 /// Reads the wanted parts of the mesh file at `path`, like [`read`].
 ///
 /// # Errors
-/// Those of [`read`] and, on request, of [`read_with_loose_features`]; and if the file has no such group or object.
+/// Returns the errors of [`read`] and, on request, of [`read_with_loose_features`]. Also returns an error if the file has no such
+/// group or object.
 pub fn read_with(path: &Path, options: &ReadOptions<'_>) -> Result<LooseMesh, MeshError> {
     let read = load(path, options).and_then(Parsed::into_loose);
     read.map_err(|problem| MeshError::file(path, problem))
@@ -131,7 +133,7 @@ pub fn read_with(path: &Path, options: &ReadOptions<'_>) -> Result<LooseMesh, Me
 /// Reads such a mesh from the bytes of a file, as [`read_bytes`].
 ///
 /// # Errors
-/// Those of [`read_with_loose_features`], without the file's name.
+/// Returns the errors of [`read_with_loose_features`], without the file's name.
 ///
 /// ```
 /// use selvedge_files::mesh::{FileFormat, read_bytes_with_loose_features};
@@ -148,7 +150,7 @@ pub fn read_bytes_with_loose_features(bytes: &[u8], format: FileFormat) -> Resul
 /// Reads the wanted parts of the bytes of a file, as [`read_with`].
 ///
 /// # Errors
-/// Those of [`read_with`], without the file's name.
+/// Returns the errors of [`read_with`], without the file's name.
 pub fn read_bytes_with(bytes: &[u8], format: FileFormat, options: &ReadOptions<'_>) -> Result<LooseMesh, FileProblem> {
     parse(bytes, format, options)?.into_loose()
 }
@@ -158,7 +160,7 @@ pub fn read_bytes_with(bytes: &[u8], format: FileFormat, options: &ReadOptions<'
 /// proportion to them.
 ///
 /// # Errors
-/// Those of [`read`], without the file's name.
+/// Returns the errors of [`read`], without the file's name.
 ///
 /// ```
 /// use selvedge_files::mesh::{FileFormat, read_bytes};
@@ -178,8 +180,7 @@ pub fn read_bytes(bytes: &[u8], format: FileFormat) -> Result<MeshFile, FileProb
 /// when complete. On an error nothing is left behind and an older file stays as it was.
 ///
 /// # Errors
-/// If the extension is unknown, the file cannot be written, or the mesh is one that [`read`] would
-/// refuse.
+/// Returns an error if the extension is unknown, the file cannot be written, or the mesh is one that [`read`] would refuse.
 pub fn write(path: &Path, mesh: &Mesh) -> Result<(), MeshError> {
     write_with_loose_edges(path, mesh, &[])
 }
@@ -200,7 +201,7 @@ pub fn write(path: &Path, mesh: &Mesh) -> Result<(), MeshError> {
 /// ```
 ///
 /// # Errors
-/// Those of [`write()`], and if an edge names a vertex that does not exist.
+/// Returns the errors of [`write()`]. Also returns an error if an edge names a vertex that does not exist.
 pub fn write_with_loose_edges(path: &Path, mesh: &Mesh, loose_edges: &[[u32; 2]]) -> Result<(), MeshError> {
     match FileFormat::from_path(path) {
         Some(format) => write_checked(path, mesh, loose_edges, format),
@@ -211,7 +212,7 @@ pub fn write_with_loose_edges(path: &Path, mesh: &Mesh, loose_edges: &[[u32; 2]]
 /// Writes `mesh` to `path` like [`write()`], but in the given format whatever the extension.
 ///
 /// # Errors
-/// Those of [`write()`], but for the extension.
+/// Returns the errors of [`write()`], except those about the extension.
 pub fn write_as(path: &Path, mesh: &Mesh, format: FileFormat) -> Result<(), MeshError> {
     write_checked(path, mesh, &[], format)
 }
@@ -225,7 +226,7 @@ fn write_checked(path: &Path, mesh: &Mesh, loose_edges: &[[u32; 2]], format: Fil
 /// The bytes of a file that holds `mesh`, as [`write()`] would write it: the counterpart of [`read_bytes`].
 ///
 /// # Errors
-/// If the mesh is one that [`read`] would refuse.
+/// Returns an error if the mesh is one that [`read`] would refuse.
 ///
 /// ```
 /// use selvedge::{Mesh, glam::DVec3};

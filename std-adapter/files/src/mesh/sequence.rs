@@ -79,8 +79,9 @@ pub enum SequenceProblem {
 /// the lowest number to the highest, none left out.
 ///
 /// # Errors
-/// Those of [`read`](super::read) for any of the files; if one has parts with an area that the reader leaves out; if there is none, a number is missing, or is there twice; or if a frame has other
-/// triangles, or another number of vertices, than the first: the message names both files and the first difference.
+/// Returns the errors of [`read`](super::read) for any of the files. Also returns an error if a file has parts with an area that
+/// the reader leaves out; if there are no files, or a number is missing or occurs twice; or if a frame differs from the first in
+/// its triangles or its number of vertices. That message names both files and the first difference.
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;

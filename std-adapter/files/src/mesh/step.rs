@@ -23,7 +23,7 @@ pub struct MeshStep {
 /// same order. Polygons are split by their shape at the start.
 ///
 /// # Errors
-/// Those of [`read`](super::read) for either file; or both files and their first difference.
+/// Returns the errors of [`read`](super::read) for either file, or an error with both files and their first difference.
 pub fn read_step(start: &Path, end: &Path) -> Result<MeshStep, MeshError> {
     let read = |path: &Path| match load(path, &ReadOptions::default()) {
         Ok(frame) if frame.faces.len() == 0 => Err(MeshError::file(path, TopologyError::NoTriangles.into())),

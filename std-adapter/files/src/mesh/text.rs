@@ -43,7 +43,7 @@ impl<'a> Iterator for Lines<'a> {
 /// Removes a byte order mark in front of UTF-8 text.
 ///
 /// # Errors
-/// If the bytes are UTF-16 or UTF-32 text, which no mesh format allows.
+/// Returns an error if the bytes are UTF-16 or UTF-32 text, which no mesh format allows.
 pub(super) fn without_byte_order_mark(bytes: &[u8]) -> Result<&[u8], FileProblem> {
     let is_wide = match bytes {
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => true,

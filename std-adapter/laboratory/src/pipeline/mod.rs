@@ -125,7 +125,7 @@ impl<S: Scalar> Pipeline<S> {
     /// With one thread everything runs on the calling thread, without a pool.
     ///
     /// # Errors
-    /// If the operating system refuses the threads.
+    /// Returns an error if the operating system refuses the threads.
     pub fn new(topology: impl Into<Arc<Topology>>, stages: Stages, threads: usize) -> Result<Self, ThreadError> {
         let topology = topology.into();
         let mut own_threads = Workers::default();
@@ -195,7 +195,7 @@ impl<S: Scalar> Pipeline<S> {
     /// Runs the step from `start` to `end`, one position for each vertex, in any length unit.
     ///
     /// # Errors
-    /// If a frame's length is not the mesh's number of vertices, or a coordinate is NaN or infinite.
+    /// Returns an error if a frame's length is not the mesh's number of vertices, or a coordinate is NaN or infinite.
     pub fn step(&mut self, start: &[S::Vector], end: &[S::Vector]) -> Result<&StepReport, StepError> {
         check_frames(start, end, self.topology.vertex_count())?;
         let Self {

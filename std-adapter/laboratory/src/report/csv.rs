@@ -25,7 +25,7 @@ const STAGES: [(Stage, &str); 6] = [
 /// have the paper's own numbers for the methods in its Table 1. Empty fields stand for what a method lacks.
 ///
 /// # Errors
-/// Those of `out`.
+/// Returns the errors of `out`.
 pub fn comparison_csv(comparison: &Comparison, out: impl Write) -> io::Result<()> {
     let mut writer = Writer::from_writer(out);
     let mut header = vec!["pipeline", "reconstructed", "triangle_pairs"];
@@ -85,7 +85,7 @@ fn comparison_record(row: &ComparisonRow) -> Vec<String> {
 /// [0, 1] of the step, written so that they read back exactly as `f64`.
 ///
 /// # Errors
-/// Those of `out`.
+/// Returns the errors of `out`.
 pub fn contacts_csv<S: Scalar>(topology: &Topology, contacts: &[Contact<S>], out: impl Write) -> io::Result<()> {
     let mut writer = Writer::from_writer(out);
     writer.write_record(["kind", "i0", "i1", "i2", "i3", "time"])?;
@@ -102,7 +102,7 @@ pub fn contacts_csv<S: Scalar>(topology: &Topology, contacts: &[Contact<S>], out
 /// Writes pairs as `kind,i0,i1,i2,i3`, like [`contacts_csv`] without times.
 ///
 /// # Errors
-/// Those of `out`.
+/// Returns the errors of `out`.
 pub fn pairs_csv(topology: &Topology, vertex_face: &[[u32; 2]], edge_edge: &[[u32; 2]], out: impl Write) -> io::Result<()> {
     let mut writer = Writer::from_writer(out);
     writer.write_record(["kind", "i0", "i1", "i2", "i3"])?;

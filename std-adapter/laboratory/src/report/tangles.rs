@@ -233,7 +233,7 @@ pub fn mesh_checks_json(checks: &[MeshCheck]) -> Value {
 /// edges, i4 is empty. Vertices count from 0 as in the mesh's file.
 ///
 /// # Errors
-/// Those of `out`.
+/// Returns the errors of `out`.
 pub fn intersections_csv(checks: &[MeshCheck], out: impl Write) -> io::Result<()> {
     let mut writer = Writer::from_writer(out);
     writer.write_record(["mesh", "kind", "i0", "i1", "i2", "i3", "i4"])?;
@@ -265,7 +265,7 @@ const GREY: [u8; 3] = [200, 200, 200];
 /// Writes a mesh as binary PLY, with `red` triangles and their vertices in red.
 ///
 /// # Errors
-/// Those of `out`.
+/// Returns the errors of `out`.
 pub fn coloured_ply(positions: &[DVec3], triangles: &[[u32; 3]], red: &[bool], mut out: impl Write) -> io::Result<()> {
     let mut vertices = vec![GREY; positions.len()];
     for (corners, _) in triangles.iter().zip(red).filter(|(_, is_red)| **is_red) {

@@ -74,7 +74,7 @@ impl ArmScene {
     /// The scene with a sleeve of 1,345 triangles times `refinement`.
     ///
     /// # Errors
-    /// Those of [`sleeve`].
+    /// Returns the errors of [`sleeve`].
     pub fn new(refinement: u32) -> Result<Self, RefinementError> {
         let rest = sleeve(refinement)?;
         let topology = rest.topology().expect("the limit on refinement keeps a sleeve countable");
@@ -102,7 +102,7 @@ impl ArmScene {
     /// Returns positions in a frame, counted from 0.
     ///
     /// # Panics
-    /// If there is no such frame.
+    /// Panics if there is no such frame.
     #[must_use]
     pub fn frame(&self, frame: usize) -> Vec<DVec3> {
         assert!(frame <= Self::STEPS, "frame {frame} of {}", self.frame_count());
@@ -112,7 +112,7 @@ impl ArmScene {
     /// Returns positions at a time from 0, the arm straight, to 1, fully bent.
     ///
     /// # Panics
-    /// If `time` is not from 0 to 1.
+    /// Panics if `time` is not from 0 to 1.
     #[must_use]
     pub fn positions(&self, time: f64) -> Vec<DVec3> {
         let mut positions = vec![DVec3::ZERO; self.rest.positions.len()];
@@ -123,7 +123,7 @@ impl ArmScene {
     /// Writes [`positions`](Self::positions) into the caller's slice.
     ///
     /// # Panics
-    /// If `time` is not from 0 to 1, or the length of `out` is not the number of vertices.
+    /// Panics if `time` is not from 0 to 1, or the length of `out` is not the number of vertices.
     pub fn write_positions(&self, time: f64, out: &mut [DVec3]) {
         assert!((0.0..=1.0).contains(&time), "time {time} is not from 0 to 1");
         assert_eq!(out.len(), self.rest.positions.len(), "one place for each vertex");

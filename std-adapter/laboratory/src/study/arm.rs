@@ -25,7 +25,7 @@ impl ArmFrames {
     /// A sleeve of 1,345 triangles times `refinement`, bent in `steps` steps (at least one).
     ///
     /// # Errors
-    /// Those of [`ArmScene::new`].
+    /// Returns the errors of [`ArmScene::new`].
     pub fn new(refinement: u32, steps: usize) -> Result<Self, RefinementError> {
         Ok(Self {
             scene: ArmScene::new(refinement)?,

@@ -20,7 +20,7 @@ pub struct StepCandidates {
 /// Returns the candidates of `preset` in a step of `frames`.
 ///
 /// # Errors
-/// If threads cannot be started or a frame is not finite.
+/// Returns an error if threads cannot be started or a frame is not finite.
 pub fn step_candidates(
     frames: &dyn Frames,
     step: usize,
@@ -42,7 +42,7 @@ pub fn step_candidates(
 /// Returns the step in which `preset` leaves the most candidates; the earliest of several.
 ///
 /// # Errors
-/// If threads cannot be started or a frame is not finite.
+/// Returns an error if threads cannot be started or a frame is not finite.
 pub fn busiest_step(frames: &dyn Frames, preset: Preset, threads: usize) -> Result<usize, Box<dyn Error + Send + Sync>> {
     let mut pipeline = Pipeline::<f64>::new(frames.topology().clone(), preset.stages(), threads)?;
     let (mut start, mut end) = (Vec::new(), Vec::new());

@@ -89,7 +89,7 @@ impl Comparison {
 /// `progress` is called after each step of each round with the share that is done.
 ///
 /// # Errors
-/// If threads cannot be started or a frame is not finite.
+/// Returns an error if threads cannot be started or a frame is not finite.
 pub fn compare(
     frames: &dyn Frames,
     presets: &[Preset],

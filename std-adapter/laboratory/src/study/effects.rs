@@ -20,7 +20,7 @@ pub struct EffectCost {
 /// they run. Each run takes `steps` steps from the start. Calls `progress` with the share that is done.
 ///
 /// # Errors
-/// If the scene cannot be read or set up.
+/// Returns an error if the scene cannot be read or set up.
 pub fn effects_one_by_one(
     read: impl Fn() -> Result<Scene, SceneError>,
     steps: u64,

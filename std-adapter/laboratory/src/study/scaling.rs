@@ -21,7 +21,7 @@ pub struct ScalingPoint {
 /// Runs one step of `frames`, `rounds` times after a first run that builds.
 ///
 /// # Errors
-/// If threads cannot be started or a frame is not finite.
+/// Returns an error if threads cannot be started or a frame is not finite.
 pub fn measure_size(
     frames: &dyn Frames,
     step: usize,

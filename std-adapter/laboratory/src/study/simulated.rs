@@ -50,7 +50,7 @@ impl SimulatedSteps {
     /// Prepares to keep `count` of the scene's steps, or all if it has fewer.
     ///
     /// # Errors
-    /// If the cloths together have too many triangles.
+    /// Returns an error if the cloths together have too many triangles.
     pub fn new(scene: &Scene, count: usize) -> Result<Self, TopologyError> {
         let Mesh { positions, triangles } = scene.all_cloth();
         let topology = Topology::with_loose_features(positions.len(), triangles, &scene.all_loose_edges(), &[])?;

@@ -200,7 +200,7 @@ impl fmt::Display for Progress {
 /// Runs the remaining chunks on `threads` threads until `stops` returns true. `after_chunk` gets each state that may be kept, one at a time.
 ///
 /// # Panics
-/// If a thread panics.
+/// Panics if a thread panics.
 pub fn run(
     progress: Progress,
     scenes: &Scenes,

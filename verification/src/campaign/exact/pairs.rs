@@ -51,7 +51,7 @@ impl Scenes {
     /// Adds pairs of a mesh whose moving boxes overlap in a step: at most `limit` of each kind, evenly spaced.
     ///
     /// # Errors
-    /// If a position is not finite, or there is not one for each vertex.
+    /// Returns an error if a position is not finite, or there is not one for each vertex.
     pub fn add_step(&mut self, topology: &Topology, start: &[DVec3], end: &[DVec3], limit: usize) -> Result<(), StepError> {
         let mut broad_phase = MovingBroadPhase::new(topology.clone());
         broad_phase.update(start, end)?;

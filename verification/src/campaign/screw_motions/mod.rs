@@ -112,7 +112,7 @@ const KINDS: [PairKind; 2] = [PairKind::VertexFace, PairKind::EdgeEdge];
 /// Runs the remaining chunks on `threads` threads until `stops` returns true. `after_chunk` gets each state that may be kept, one at a time.
 ///
 /// # Panics
-/// If a thread panics.
+/// Panics if a thread panics.
 pub fn run(
     progress: Progress,
     paths: MotionPaths,

@@ -33,7 +33,7 @@ pub trait Air: Debug + Send + Sync {
     /// Checks the numbers.
     ///
     /// # Errors
-    /// If a number is invalid. The message says which values are valid.
+    /// Returns an error if a number is invalid. The message says which values are valid.
     fn check(&self) -> Result<(), ValueError> {
         Ok(())
     }

@@ -35,7 +35,7 @@ fn is_read(attribute: &str) -> bool {
 /// Removes the parts that are not read, and lists those that may matter.
 ///
 /// # Errors
-/// If the file requires an extension without which its shapes or motion are not known.
+/// Returns an error if the file requires an extension without which its shapes or motion are not known.
 pub(super) fn reduce(root: &mut Value) -> Result<Vec<LeftOut>, AnimationProblem> {
     let required = root.get("extensionsRequired").and_then(Value::as_array);
     for name in required.into_iter().flatten().filter_map(Value::as_str) {

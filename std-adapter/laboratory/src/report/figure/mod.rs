@@ -24,10 +24,10 @@ pub const FIGURE_SIZE: [u32; 2] = [1600, 1000];
 /// panels show that part close up.
 ///
 /// # Errors
-/// If the picture cannot be encoded.
+/// Returns an error if the picture cannot be encoded.
 ///
 /// # Panics
-/// If there is not one position for each vertex, or a pair names a feature that the mesh does not have.
+/// Panics if there is not one position for each vertex, or a pair names a feature that the mesh does not have.
 pub fn figure_3(
     topology: &Topology,
     positions: &[DVec3],

@@ -30,7 +30,7 @@ const MOST_FRAMES: usize = 600;
 /// direction is y: one node above all parts turns the scene's up direction there.
 ///
 /// # Errors
-/// If the file would be larger than the format allows.
+/// Returns an error if the file would be larger than the format allows.
 pub fn binary(recording: &Recording) -> Result<Vec<u8>, TooLarge> {
     let frames = chosen(&recording.frames);
     let mut binary = Binary::default();

@@ -149,7 +149,7 @@ impl Part {
     /// A mesh of `vertex_count` vertices, which its triangles number from 0.
     ///
     /// # Panics
-    /// If a triangle names a vertex that does not exist.
+    /// Panics if a triangle names a vertex that does not exist.
     #[must_use]
     pub fn new(name: impl Into<String>, kind: PartKind, vertex_count: usize, triangles: Vec<[u32; 3]>) -> Self {
         let is_there = |&vertex: &u32| (vertex as usize) < vertex_count;
@@ -285,7 +285,7 @@ impl Recording {
     /// Returns the frame nearest to a time, in seconds: the first of two.
     ///
     /// # Panics
-    /// If the recording has no frames. A [`Recorder`] never makes such a recording.
+    /// Panics if the recording has no frames. A [`Recorder`] never makes such a recording.
     #[must_use]
     pub fn frame_at(&self, seconds: f64) -> usize {
         let away = |&frame: &usize| (self.time(&self.frames[frame]) - seconds).abs();
@@ -314,7 +314,7 @@ impl Recording {
     /// Returns all parts in one frame as one mesh, for [`mesh::write`](selvedge_files::mesh::write()).
     ///
     /// # Panics
-    /// If there is no such frame.
+    /// Panics if there is no such frame.
     #[must_use]
     pub fn mesh(&self, frame: usize) -> Mesh {
         let positions = self.frames[frame].positions.iter();

@@ -46,7 +46,7 @@ impl Recorder {
     /// ignored.
     ///
     /// # Panics
-    /// If there are not as many readings as series.
+    /// Panics if there are not as many readings as series.
     #[must_use]
     pub fn new(about: About, parts: Vec<Part>, series: &[(&str, SeriesKind)], readings: &[f64]) -> Self {
         assert_eq!(series.len(), readings.len(), "one reading for each series");
@@ -116,10 +116,10 @@ impl Recorder {
     /// first.
     ///
     /// # Errors
-    /// If a coordinate is not finite as an f32. Nothing is recorded then.
+    /// Returns an error if a coordinate is not finite as an f32. Nothing is recorded then.
     ///
     /// # Panics
-    /// If there is not one position for each vertex.
+    /// Panics if there is not one position for each vertex.
     pub fn frame(&mut self, step: u64, positions: &[DVec3]) -> Result<(), FrameError> {
         assert_eq!(positions.len(), self.recording.vertex_count(), "one position for each vertex");
         if let Some(vertex) = positions.iter().position(|&p| !is_finite(rounded(p))) {
@@ -140,7 +140,7 @@ impl Recorder {
     /// earlier frames the copies are at the places of their originals, so that these frames look unchanged.
     ///
     /// # Panics
-    /// If there is no such part, a copy is of no earlier vertex, or a triangle names a vertex that does not exist.
+    /// Panics if there is no such part, a copy is of no earlier vertex, or a triangle names a vertex that does not exist.
     pub fn split(&mut self, part: usize, copied: &[u32], triangles: Vec<[u32; 3]>) {
         let parts = &mut self.recording.parts;
         let first: usize = parts[..part].iter().map(Part::vertex_count).sum();
@@ -159,7 +159,7 @@ impl Recorder {
     /// Records the values of all measures after `step` steps, in their order. Steps are as for [`frame`](Self::frame).
     ///
     /// # Panics
-    /// If there are not as many values as measures.
+    /// Panics if there are not as many values as measures.
     pub fn measure(&mut self, step: u64, values: &[f64]) {
         let measures = &mut self.recording.measures;
         assert_eq!(values.len(), measures.len(), "one value for each measure");
@@ -176,7 +176,7 @@ impl Recorder {
     /// they are.
     ///
     /// # Panics
-    /// If there are not as many readings as series.
+    /// Panics if there are not as many readings as series.
     pub fn step(&mut self, readings: &[f64]) {
         let recording = &mut self.recording;
         assert_eq!(readings.len(), recording.series.len(), "one reading for each series");
@@ -308,7 +308,7 @@ impl Recorder {
     /// Ends the recording. `wall_seconds` is the wall-clock time of the steps, if it is known.
     ///
     /// # Panics
-    /// If there was no frame.
+    /// Panics if there was no frame.
     #[must_use]
     pub fn finish(self, wall_seconds: Option<f64>) -> Recording {
         let mut recording = self.recording;

@@ -85,10 +85,10 @@ impl SimulationRecorder {
     /// Begins with the present state and counters of the simulation of `subject`'s scene.
     ///
     /// # Errors
-    /// If a coordinate is not finite as an `f32`.
+    /// Returns an error if a coordinate is not finite as an `f32`.
     ///
     /// # Panics
-    /// If the simulation has another number of vertices than the scene.
+    /// Panics if the simulation has another number of vertices than the scene.
     pub fn new(subject: Subject, simulation: &Simulation) -> Result<Self, FrameError> {
         let counters = counters(simulation, 0.0);
         let series: Vec<_> = counters.iter().map(|&(name, kind, _)| (name, kind)).collect();
@@ -138,7 +138,7 @@ impl SimulationRecorder {
     /// Offers the state as a frame, and measures its energy and the stretch of the cloth.
     ///
     /// # Errors
-    /// If a coordinate is not finite as an `f32`.
+    /// Returns an error if a coordinate is not finite as an `f32`.
     pub fn frame(&mut self, simulation: &Simulation) -> Result<(), FrameError> {
         let step = simulation.steps_done();
         self.follow_tears(simulation);

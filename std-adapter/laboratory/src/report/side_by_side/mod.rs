@@ -23,7 +23,7 @@ const TIMES: [f64; 3] = [1.0 / 3.0, 2.0 / 3.0, 1.0];
 /// Returns the whole page. The first simulation is on the left, and has solid lines; the second has dashed ones.
 ///
 /// # Errors
-/// If a picture cannot be written as PNG.
+/// Returns an error if a picture cannot be written as PNG.
 pub fn html(first: &Recording, second: &Recording) -> Result<String, StillError> {
     let both = [first, second];
     let names = names(both);

@@ -52,7 +52,7 @@ pub enum StillError {
 /// recording, and shows all of its motion.
 ///
 /// # Errors
-/// If there is no such frame, a side of the picture is not from 1 to 8192 pixels, or PNG cannot be written.
+/// Returns an error if there is no such frame, a side of the picture is not from 1 to 8192 pixels, or PNG cannot be written.
 pub fn png(recording: &Recording, frame: usize, size: [u32; 2]) -> Result<Vec<u8>, StillError> {
     png_among(recording, frame, size, &[recording])
 }

@@ -219,7 +219,7 @@ fn scene_pairs(mesh: Option<&dyn Frames>, options: AccuracyOptions) -> Result<Sc
 /// and pairs far from the origin. Calls `progress` with the share that is done.
 ///
 /// # Errors
-/// If threads cannot be started, a frame is not finite, or backends disagree.
+/// Returns an error if threads cannot be started, a frame is not finite, or backends disagree.
 pub fn measure_accuracy(
     mesh: Option<&dyn Frames>,
     options: AccuracyOptions,

@@ -50,7 +50,7 @@ impl PairSet {
     /// If there are more than `pairs`, evenly spaced runs of pairs are taken, as many of each step.
     ///
     /// # Errors
-    /// If threads cannot be started or a frame is not finite.
+    /// Returns an error if threads cannot be started or a frame is not finite.
     pub fn from_steps(
         name: String,
         frames: &dyn Frames,

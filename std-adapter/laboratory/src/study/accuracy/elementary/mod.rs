@@ -129,7 +129,7 @@ struct Questions<S: Scalar> {
 /// on nearly coplanar pairs. Calls `progress` with the share that is done.
 ///
 /// # Errors
-/// If threads cannot be started or a frame is not finite.
+/// Returns an error if threads cannot be started or a frame is not finite.
 pub fn measure_elementary_accuracy(
     mesh: Option<&dyn Frames>,
     options: AccuracyOptions,
