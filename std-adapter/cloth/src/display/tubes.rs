@@ -6,13 +6,13 @@ use selvedge_core::glam::DVec3;
 use std::array;
 use std::f64::consts::TAU;
 
-/// Vertices of a ring of a tube.
+/// The number of vertices around a tube.
 const SIDES: u32 = 8;
 /// The radius in edge lengths, for ropes without contact.
 const THIN: f64 = 0.15;
 
-/// The ropes, laces and fringes of a cloth as closed tubes of eight sides. They are as thick as `self_collision` keeps them
-/// apart; without it they are thin.
+/// Draws the ropes, laces and fringes of a cloth as closed tubes of eight sides. They are as thick as the distance that
+/// `self_collision` keeps, or thin without it.
 ///
 /// ```
 /// use selvedge_cloth::{Cloth, Scene, Tubes, glam::DVec3};
@@ -29,7 +29,7 @@ const THIN: f64 = 0.15;
 pub struct Tubes {
     /// Vertices of the cloth, each joined with the next.
     rows: Vec<Vec<u32>>,
-    /// In metres.
+    /// The radius, in metres.
     radius: f64,
 }
 
@@ -90,7 +90,7 @@ impl Tubes {
         });
         for row in &self.rows {
             let points: Vec<DVec3> = row.iter().map(|&vertex| own[vertex as usize]).collect();
-            // Carried from ring to ring, so that the tube is not twisted.
+            // The side is carried from ring to ring, so that the tube is not twisted.
             let mut side = DVec3::ZERO;
             for (k, &point) in points.iter().enumerate() {
                 let along = points[(k + 1).min(points.len() - 1)] - points[k.saturating_sub(1)];
@@ -131,7 +131,7 @@ mod tests {
             ),
             (0, 0, 0)
         );
-        // Outwards: what it encloses is as much as a prism of eight sides does, but for its bend.
+        // The triangles face outwards: they enclose as much as a prism of eight sides, apart from its bend.
         let corners = |t: &[u32; 3]| t.map(|v| mesh.positions[v as usize]);
         let volume: f64 = mesh
             .triangles

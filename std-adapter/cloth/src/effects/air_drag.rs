@@ -19,7 +19,7 @@ pub(super) const REGISTRATION: Registration = Registration {
     },
 };
 
-/// Drag of still air on all vertices. [`Wind`](super::Wind) is air that moves.
+/// The drag of still air on all vertices. [`Wind`](super::Wind) is moving air.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AirDrag {
     /// The rate at which a vertex loses velocity, in 1/s.

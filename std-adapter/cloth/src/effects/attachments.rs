@@ -1,7 +1,7 @@
-//! Attachments hold vertices with a limited force. Beyond it each vertex is released, by itself and for good.
+//! Attachments hold vertices with a limited force. A vertex that needs more is released by itself and for good.
 //!
-//! Each attachment is a spring between a vertex and its anchor, of the stiffness k = limit/give: the force is the limit when the
-//! spring is as long as `give`. A vertex is released when an accepted step ends with the vertex farther from its anchor than
+//! Each attachment is a spring between a vertex and its anchor, of the stiffness k = limit/give. The force reaches the limit when
+//! the spring is as long as `give`. A vertex is released when an accepted step ends with the vertex farther from its anchor than
 //! that.
 //!
 //! One implicit step solves (M + h²K)·x = M·y + h²k·a + …, where y is the inertial prediction, a the anchor and K the springs'
@@ -59,14 +59,14 @@ pub struct AttachmentGroup {
     /// The motion of the anchors. The caller cannot drive it directly ([`BodyMotion::Driven`]), but it may follow a body that the
     /// caller drives.
     pub motion: PinMotion,
-    /// The force in N above which a vertex is released, for each vertex.
+    /// The force in N above which a vertex is released.
     pub limit: f64,
     /// The distance in m from the anchor at which a vertex is released.
     pub give: f64,
 }
 
 impl AttachmentGroup {
-    /// Holds vertices at their initial positions, with a force in N for each, which is reached at a millimetre.
+    /// Holds vertices at their initial positions. Each is released above a force in N, which is reached at a millimetre.
     #[must_use]
     pub fn resting(vertices: impl Into<Vec<u32>>, limit: f64) -> Self {
         Self {
@@ -150,9 +150,9 @@ struct Attachment {
     anchor: Anchor,
     /// The anchor's position at the end of the last step.
     last: DVec3,
-    /// In N/m.
+    /// The stiffness, in N/m.
     stiffness: f64,
-    /// In m.
+    /// The distance at which the vertex is released, in m.
     give: f64,
     /// The time of the release, in seconds.
     released: Option<f64>,

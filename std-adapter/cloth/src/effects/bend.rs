@@ -1,4 +1,4 @@
-//! Bending: what a flexural rigidity costs ([`bending`](crate::model::bending)). Rest is flat.
+//! Bending: the energy of a flexural rigidity ([`bending`](crate::model::bending)). The cloth is flat at rest.
 
 use super::registration::{ActsOn, Effect, Registration};
 use crate::effects::plan::Plan;
@@ -22,20 +22,19 @@ pub(super) const REGISTRATION: Registration = Registration {
     },
 };
 
-/// Resistance to bending; flat at rest.
+/// Resistance to bending. The cloth is flat at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bend {
-    /// The flexural rigidity of the warp, in N·m: the moment, for each metre of width, that it takes to bend it by a radian a metre.
+    /// The flexural rigidity of the warp, in N·m: the moment per metre of width that bends it by one radian per metre.
     pub stiffness: f64,
-    /// That of the weft. In between it is (√u·cos²φ + √v·sin²φ)² at an angle of φ to the warp (Huber 1914).
+    /// The flexural rigidity of the weft, in N·m. At an angle of φ to the warp it is (√u·cos²φ + √v·sin²φ)² (Huber 1914).
     pub weft_stiffness: f64,
-    /// How often the force is evaluated in a step, at most: more where mesh and time step need it (an accuracy–time choice). What is
-    /// too stiff for that gets softer.
+    /// The largest number of force evaluations in a step. The mesh and the time step decide how many are needed. Larger values
+    /// allow stiffer cloth and take longer; cloth that needs more evaluations becomes softer.
     pub stages: u32,
 }
 
 impl Bend {
-    /// The resistance of a material.
     pub(super) const fn of_material(material: &Material) -> Self {
         Self {
             weft_stiffness: material.bend[1],
@@ -43,7 +42,7 @@ impl Bend {
         }
     }
 
-    /// The same along warp and weft, in N·m; in at most 32 stages.
+    /// Sets the same rigidity along warp and weft, in N·m, with at most 32 stages.
     #[must_use]
     pub const fn isotropic(stiffness: f64) -> Self {
         Self {
@@ -53,7 +52,7 @@ impl Bend {
         }
     }
 
-    /// Of a direction with this square of the cosine to the warp.
+    /// Returns the rigidity in a direction, given the square of its cosine to the warp.
     fn along(&self, of_warp: f64) -> f64 {
         let root = self.stiffness.sqrt() * of_warp + self.weft_stiffness.sqrt() * (1.0 - of_warp);
         root * root

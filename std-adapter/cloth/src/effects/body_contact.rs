@@ -1,6 +1,6 @@
 //! Body contact: the cloth keeps a thickness from bodies, and every step is certified not to pass through their triangles.
 //!
-//! Capsules and balls push vertices by their exact distance, so that cloth slides on a smooth surface; edges and faces of the
+//! Capsules and balls push vertices by their exact distance, so that cloth slides on a smooth surface. Edges and faces of the
 //! cloth are kept off by the pairs with the body's mesh, as for any other body.
 
 use super::registration::{Effect, Registration, Scope};
@@ -69,7 +69,7 @@ impl Effect for BodyContact {
 #[derive(Debug)]
 struct Capsule {
     carrier: usize,
-    /// At rest.
+    /// The ends of the axis at rest.
     ends: [DVec3; 2],
     radius: f64,
 }
@@ -77,18 +77,18 @@ struct Capsule {
 #[derive(Debug)]
 struct Push {
     capsules: Vec<Capsule>,
-    /// Of the cloth, among the scene's.
+    /// The cloth's vertices among the scene's.
     vertices: Range<usize>,
     thickness: f64,
 }
 
-/// The way out of a capsule's axis to a point, at one pose.
+/// Returns the vector from the nearest point of a capsule's axis to a point, at one pose.
 fn outward(capsule: &Capsule, pose: &Pose, point: DVec3) -> DVec3 {
     let [from, to] = capsule.ends.map(|end| pose.apply(end));
     point - nearest(from, to - from, point)
 }
 
-/// The point of a line, from `from` along `axis`, that is nearest.
+/// Returns the nearest point of a line segment from `from` along `axis`.
 #[inline(always)]
 fn nearest(from: DVec3, axis: DVec3, point: DVec3) -> DVec3 {
     let squared = axis.length_squared();
@@ -122,7 +122,7 @@ impl Constraint for Push {
                     drift: before.carry(&now, start) - start,
                     ..Touch::new([vertex as u32; 4], [1.0, 0.0, 0.0, 0.0], normal, 0.0)
                 };
-                // What starts too deep is shifted out, not pushed.
+                // A vertex that starts too deep is shifted out. A shift gives no velocity.
                 let at_start = outward(capsule, &before, start).length();
                 let missing = reach - at_start;
                 let start_to_end = (start - nearest(from, axis, start)).length();

@@ -1,7 +1,7 @@
 //! The effects of a scene, and the cloths on which each of them acts.
 //!
-//! A scene has effects, and a cloth may have some of its own. The table of a cloth's own effect stands with the cloth and has the
-//! same name and keys as the scene's. So effects need no list of cloths.
+//! A scene has effects, and a cloth may have some of its own. The table of a cloth's own effect is part of the cloth's table, and
+//! has the same name and keys as the scene's. So effects need no list of cloths.
 
 use super::registration::{Effect, Scope};
 use super::registry::{rank, registration_of};
@@ -11,12 +11,12 @@ use crate::input::ValueError;
 use crate::world::{Cloth, Material, SceneParts};
 use std::sync::Arc;
 
-/// Effects in the order in which they run, one of each name.
+/// Effects in the order in which they run. No two have the same name.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Effects(Vec<Arc<dyn Effect>>);
 
 impl Effects {
-    /// Adds an effect, and replaces one of the same name.
+    /// Adds an effect. It replaces one of the same name.
     pub(crate) fn add(&mut self, effect: impl Effect + 'static) {
         self.add_shared(Arc::new(effect));
     }
@@ -37,7 +37,6 @@ impl Effects {
         self.0.iter().find(|effect| effect.name() == name).cloned()
     }
 
-    /// Keeps the effects of these names.
     pub(crate) fn keep(&mut self, names: &[&str]) {
         self.0.retain(|effect| names.contains(&effect.name()));
     }
@@ -47,7 +46,6 @@ impl Effects {
     }
 }
 
-/// Returns the effects of a cloth of this material.
 fn of_material(material: &Material) -> [Arc<dyn Effect>; 3] {
     [
         Arc::new(Stretch::of_material(material)),
@@ -61,7 +59,7 @@ fn of_material(material: &Material) -> [Arc<dyn Effect>; 3] {
 pub(crate) struct Called<'a> {
     by_scene: &'a Effects,
     cloths: &'a [Cloth],
-    /// By cloth.
+    /// The effects of single cloths, by cloth.
     own: Vec<Effects>,
 }
 
@@ -69,7 +67,7 @@ pub(crate) struct Called<'a> {
 #[derive(Debug)]
 pub(crate) struct Wrong {
     pub(crate) name: &'static str,
-    /// The cloth whose own effect it is.
+    /// The cloth that owns the effect.
     pub(crate) cloth: Option<usize>,
     pub(crate) error: ValueError,
 }
@@ -88,7 +86,6 @@ impl<'a> Called<'a> {
         Self { by_scene, cloths, own }
     }
 
-    /// Returns the effects of single cloths, in their order.
     pub(crate) fn own(&self) -> &[Effects] {
         &self.own
     }

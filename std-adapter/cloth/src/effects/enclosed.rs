@@ -1,7 +1,8 @@
 //! The volume of a closed cloth, and its gradient.
 //!
-//! V = ⅙Σ a·(b × c), relative to the first vertex, so that it does not depend on the cloth's position. Its gradient at a vertex
-//! is a third of the area vectors around it: the force in N of a pressure of one pascal, whether the cloth is closed or not.
+//! The volume is V = ⅙Σ a·(b × c), relative to the first vertex, so that it does not depend on the cloth's position. Its gradient
+//! at a vertex is a third of the area vectors around it. This is the force in N of a pressure of one pascal, whether the cloth is
+//! closed or not.
 
 use crate::model::membrane::triangles_around;
 use crate::world::Cloth;
@@ -28,7 +29,7 @@ impl Walls {
         }
     }
 
-    /// Returns the volume in m³, if the cloth is closed. It is negative if the triangles face inwards.
+    /// Returns the volume in m³ of a closed cloth. It is negative if the triangles face inwards.
     pub(super) fn volume(&self, positions: &[DVec3]) -> f64 {
         let origin = positions[0];
         let parts = self.triangles.iter().map(|triangle| {
@@ -52,7 +53,6 @@ impl Walls {
         around.map(|&(triangle, _)| self.normals[triangle as usize]).sum()
     }
 
-    /// Returns the number of vertices.
     pub(super) fn len(&self) -> usize {
         self.incidence.len()
     }

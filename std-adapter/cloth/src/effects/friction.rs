@@ -1,8 +1,8 @@
 //! Friction: Coulomb's law on positions (Macklin et al. 2014), for every contact that pushed in this step.
 //!
-//! A contact that moved its two sides apart by p may undo up to μ·p of their sliding since the start of the step. It remembers what it has
-//! undone in the step. So friction may act again when other constraints have moved the cloth or contacts have pushed further: each time the whole of
-//! what it undoes is brought to the sliding that is left, within the cone (projected Gauss-Seidel).
+//! A contact that moved its two sides apart by p may undo up to μ·p of their sliding since the start of the step. It remembers
+//! how much it has undone. So friction may act again when other constraints have moved the cloth or contacts have pushed further:
+//! each time the sum of its corrections is projected into the cone (projected Gauss-Seidel).
 
 use super::registration::{Effect, Registration, Scope};
 use crate::effects::plan::Plan;
@@ -23,10 +23,10 @@ pub(super) const REGISTRATION: Registration = Registration {
     },
 };
 
-/// Friction in contacts: needs [`SelfCollision`](super::SelfCollision) or [`BodyContact`](super::BodyContact).
+/// Friction in contacts. It needs [`SelfCollision`](super::SelfCollision) or [`BodyContact`](super::BodyContact).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Friction {
-    /// Of Coulomb's law.
+    /// The coefficient of Coulomb's law.
     pub coefficient: f64,
 }
 
@@ -65,7 +65,7 @@ impl Constraint for Friction {
                 continue;
             }
             sliding -= touch.normal * sliding.dot(touch.normal);
-            // Its own sliding, as if nothing had rubbed it so far.
+            // The sum is the sliding without friction.
             let rubbed = (touch.rubbed + sliding).clamp_length_max(self.coefficient * touch.push);
             let back: DVec3 = (touch.rubbed - rubbed) / mobility;
             if !back.is_finite() {

@@ -24,12 +24,12 @@ pub(super) const REGISTRATION: Registration = Registration {
 /// A uniform acceleration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gravity {
-    /// In m/s².
+    /// The acceleration, in m/s².
     pub acceleration: DVec3,
 }
 
 impl Default for Gravity {
-    /// The Earth's, against z.
+    /// Returns the Earth's gravity, against z.
     fn default() -> Self {
         Self {
             acceleration: DVec3::new(0.0, 0.0, -9.81),
@@ -73,7 +73,7 @@ impl Force for Gravity {
         }
     }
 
-    /// −Σm·g·x over free vertices.
+    /// Returns −Σm·g·x over free vertices.
     fn energy(&self, now: &Configuration<'_>) -> Option<StoredEnergy> {
         let free = now
             .inverse_masses

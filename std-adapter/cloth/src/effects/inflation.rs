@@ -43,8 +43,8 @@ fn read_keyframes(table: &Table<'_>) -> Result<Vec<PressureKey>, SceneError> {
     Ok(keyframes)
 }
 
-/// A pressure on one side of the cloth, from inside on a closed cloth. On an open cloth it pushes towards the side from which
-/// triangles are counter-clockwise. A negative pressure pushes the other way.
+/// A pressure on one side of the cloth: from inside on a closed cloth, towards the side from which triangles are
+/// counter-clockwise on an open one. A negative pressure pushes the other way.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inflation {
     /// Keyframes in order, at least one. The pressure is linear in between, and constant before the first and after the last.
@@ -54,9 +54,9 @@ pub struct Inflation {
 /// A pressure at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PressureKey {
-    /// In seconds of the simulation.
+    /// The time in seconds of the simulation.
     pub time: f64,
-    /// Above that of the surrounding air, in Pa.
+    /// The pressure above that of the surrounding air, in Pa.
     pub pressure: f64,
 }
 

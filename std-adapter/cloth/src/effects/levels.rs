@@ -5,18 +5,18 @@
 //! positions ──▶ of seeds ──▶ sweep ──▶ moves of seeds ──▶ every vertex by its shares ──▶ the next finer level … ──▶ the mesh
 //! ```
 //!
-//! A coarse triangle knows the cloth only by its corners, so it must be careful:
+//! A coarse triangle knows only the corners of its part of the cloth, so it follows three rules:
 //!
-//! * **It never pushes.** Corners that have come nearer may have a fold between them. Corners farther apart than the cloth
-//!   between them is long do stretch it.
+//! * **It never pushes.** Corners that come nearer to each other may have a fold between them. Corners that are farther apart
+//!   than the cloth between them is long do stretch it.
 //! * **It acts in the principal direction**, with the combined compliance of warp, weft and shear. At an angle of φ to the warp a
 //!   stretch e costs ½k(φ)·e² per area, with 1/k(φ) = cos⁴φ/k_u + sin⁴φ/k_v + cos²φ·sin²φ/G (a fabric without transverse
-//!   contraction). Warp and weft one by one would leave a diagonal pull to the mesh. Without shear stiffness nothing resists that
+//!   contraction). Warp and weft separately would leave a diagonal pull to the mesh. Without shear stiffness nothing resists that
 //!   pull, and warp and weft are used.
-//! * **It believes its sides.** The three corners of a tube or a fold may come nearer to each other while the triangle gets
-//!   longer in one direction, since it gets flatter in others. So a triangle without a side longer than at rest is left alone;
-//!   otherwise its stretch is at most [`TRUST`] times that of its longest side. Without this rule levels of few triangles prop
-//!   the cloth up. With it the coarseness of the coarsest level does not matter.
+//! * **It needs a stretched side.** The three corners of a tube or a fold may come nearer to each other while the triangle gets
+//!   longer in one direction, since it gets flatter in others. So a triangle without a side longer than at rest does not act.
+//!   Otherwise its stretch is at most [`TRUST`] times that of its longest side. Without this rule levels of few triangles prop
+//!   the cloth up. With it the resolution of the coarsest level does not matter.
 //!
 //! L levels and the mesh share the stiffness: each level has (L + 1) times the compliance, since each alone would do all of the
 //! work. The mesh keeps its own compliance, because the rest is local.
@@ -39,7 +39,7 @@ const TRUST: f64 = 2.0;
 /// An effect on coarse levels, then on the mesh.
 #[derive(Debug)]
 pub(super) struct OnLevels<C> {
-    /// From coarse to fine.
+    /// The levels, from coarse to fine.
     levels: Vec<OnLevel>,
     mesh: C,
 }
@@ -51,7 +51,7 @@ struct OnLevel {
     /// Positions of the seeds before the sweep.
     before: Vec<DVec3>,
     after: Vec<DVec3>,
-    /// Of the seeds, if something holds vertices.
+    /// The inverse masses of the seeds, if something holds vertices.
     inverse_masses: Vec<f64>,
 }
 
@@ -119,11 +119,11 @@ impl Constraint for OnLevel {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tension {
     membrane: Membrane,
-    /// One over the squares of the sides at rest, in 1/m².
+    /// The inverse squares of the sides at rest, in 1/m².
     per_square: [f64; 3],
-    /// The stretch up to which nothing happens.
+    /// The stretch below which the triangle does not act.
     slack: f64,
-    /// Compliances of warp, weft and shear, in 1/J. `None` for shear: no resistance.
+    /// Compliances of warp, weft and shear, in 1/J. A shear of `None` has no resistance.
     compliance: [Option<f64>; 3],
 }
 
@@ -211,8 +211,8 @@ impl Local<3> for Tension {
 
 const MOST: Count = Count::new("levels", 0, 32);
 
-/// Reads `levels`: the largest number of levels, from the finest. All useful ones if the key is missing; 0 runs the effect on the
-/// mesh alone.
+/// Reads `levels`: the largest number of levels, from the finest. Returns `None`, for all useful ones, if the key is missing; 0
+/// runs the effect on the mesh alone.
 pub(super) fn read_most(table: &Table<'_>) -> Result<Option<u32>, SceneError> {
     table.count(&MOST)
 }

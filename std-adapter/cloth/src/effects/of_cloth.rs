@@ -10,7 +10,7 @@ use std::ops::Range;
 pub(crate) struct OfCloth<T> {
     /// The cloth's vertices among the scene's.
     vertices: Range<usize>,
-    /// Those of its vertices that something holds.
+    /// The held vertices of the cloth.
     held: Vec<(u32, f64)>,
     action: T,
 }

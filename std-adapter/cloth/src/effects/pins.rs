@@ -28,7 +28,7 @@ pub(super) const REGISTRATION: Registration = Registration {
     },
 };
 
-/// Vertices of the cloth that follow a prescribed motion, whatever the forces.
+/// Vertices of the cloth that follow a prescribed motion. Forces do not move them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pins {
     /// Groups of vertices. A vertex may be in one group at most.

@@ -1,7 +1,7 @@
 //! The plan of a step. Effects register with it.
 //!
 //! Each effect puts forces and constraints into the phases below, and owns their data. A phase without entries costs nothing.
-//! Effects run in the order of the registry, not of the file.
+//! Effects run in the order of the registry; the file's order does not matter.
 //!
 //! An effect that acts on each cloth by itself registers once for each, and [sees](super::of_cloth) the vertices of that cloth
 //! alone. In a scene of one cloth it sees everything, without any indirection.
@@ -35,7 +35,7 @@ pub struct Fabric {
     pub(crate) shear: Option<f64>,
     /// The distance that the cloth keeps from itself, in metres.
     pub(crate) thickness: Option<f64>,
-    /// When folds become permanent.
+    /// The point at which folds become permanent.
     pub(crate) folds: Option<Yield>,
 }
 
@@ -43,21 +43,20 @@ pub struct Fabric {
 #[derive(Debug)]
 pub struct Plan<'a> {
     pub(crate) scene: SceneParts<'a>,
-    /// The effect that is registering.
     pub(crate) effect: usize,
     /// The cloth on which it acts; `None` for the whole scene.
     cloth: Option<usize>,
-    /// By cloth.
+    /// The announced properties, by cloth.
     pub(crate) fabrics: Vec<Fabric>,
     /// The range of each cloth's vertices among the scene's.
     vertices: Vec<Range<usize>>,
-    /// Of the vertices of all cloths, in 1/kg.
+    /// The inverse masses of the vertices of all cloths, in 1/kg.
     pub(crate) inverse_masses: Vec<f64>,
-    /// Of the vertices of all cloths.
+    /// The carriers of the vertices of all cloths.
     pub(crate) carriers: Vec<Carrier>,
     /// Motions of bodies, then those of pins.
     pub(crate) motions: Vec<Kinematic>,
-    /// By group of pins.
+    /// The carriers of pins, by group.
     pub(crate) pins: Vec<Carrier>,
     /// Single vertices that seams join; ropes need to know them.
     pub(crate) ties: Vec<Tie>,
@@ -66,14 +65,12 @@ pub struct Plan<'a> {
     pub(crate) contact: ContactSettings,
     pub(crate) pushes: Vec<Entry<dyn Constraint>>,
     pub(crate) friction: Vec<Entry<dyn Constraint>>,
-    /// Cloths that may tear.
     pub(crate) tearable: Vec<Tearable>,
-    /// By cloth, made for the first effect that needs levels.
+    /// The hierarchies of levels by cloth, made for the first effect that needs them.
     hierarchies: Vec<Option<Hierarchy<'a>>>,
 }
 
 impl<'a> Plan<'a> {
-    /// Makes a plan without effects.
     pub(crate) fn new(scene: SceneParts<'a>) -> Self {
         let count = scene.cloth_vertices();
         let mut first = count as u32;
@@ -114,7 +111,6 @@ impl<'a> Plan<'a> {
         self.cloth.unwrap_or(0)
     }
 
-    /// Returns the announced properties of that cloth.
     pub(crate) fn fabric(&self) -> Fabric {
         self.fabrics[self.cloth()]
     }
@@ -199,7 +195,7 @@ impl<'a> Plan<'a> {
     /// Returns coarser levels of the cloth, from fine to coarse, with seeds at most `coarsest` apart; only the `most` finest of
     /// them.
     ///
-    /// Pins are known, since they register before.
+    /// Pins register earlier, so the levels know them.
     pub(crate) fn levels(&mut self, coarsest: f64, most: Option<u32>) -> Vec<Arc<Level>> {
         if most == Some(0) || coarsest <= 0.0 {
             return Vec::new();
@@ -238,7 +234,6 @@ impl<'a> Plan<'a> {
         own.map(|triangle| triangle.map(|vertex| first + vertex)).collect()
     }
 
-    /// Adds a motion of these vertices.
     pub(crate) fn add_motion(&mut self, motion: BodyMotion, vertices: Vec<u32>) -> Carrier {
         self.motions.push(Kinematic::new(motion, vertices));
         self.motions.len() as Carrier - 1

@@ -22,12 +22,12 @@ pub(super) const REGISTRATION: Registration = Registration {
 /// Folds that stay after cloth is bent too far. They act through [`Bend`](super::Bend), which then leaves out the part that is
 /// too stiff for its stages.
 ///
-/// A mesh with edges of length h cannot be bent by more than about 2/h.
+/// The edge length h of a mesh limits its curvature to about 2/h.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlasticFolds {
-    /// The largest elastic curvature, in 1/m: one over the radius. A fold springs back by as much.
+    /// The largest elastic curvature, in 1/m: one over the radius. A fold springs back by this curvature.
     pub yield_curvature: f64,
-    /// The time in s in which the excess falls to 1/e of itself; 0: at once.
+    /// The time in s in which the excess falls by a factor of e. At 0 it vanishes at once.
     pub creep: f64,
 }
 

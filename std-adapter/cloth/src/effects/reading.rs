@@ -16,7 +16,7 @@ pub(crate) fn read(table: &Table<'_>, world: &SceneParts<'_>) -> Result<Effects,
     read_known(table, world)
 }
 
-/// Reads the effects from a table with other keys as well: a cloth's.
+/// Reads the effects from a table with other keys as well: that of a cloth.
 pub(crate) fn read_known(table: &Table<'_>, world: &SceneParts<'_>) -> Result<Effects, SceneError> {
     let mut effects = Effects::default();
     for (name, registration) in REGISTRY {

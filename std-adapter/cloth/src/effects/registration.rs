@@ -59,9 +59,9 @@ pub trait Effect: Debug + Send + Sync {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
     /// Each cloth by itself. The effect sees the vertices of that cloth alone, numbered as in its mesh. A cloth may have [its
-    /// own](crate::Scene::add_to) effect; without any it is left alone.
+    /// own](crate::Scene::add_to) effect.
     Cloth,
-    /// Each cloth by itself, but the effect is about pairs of cloths: all cloths have one, or none.
+    /// Each cloth by itself. The effect concerns pairs of cloths, so all cloths must have it if one has.
     AllCloths,
     /// The whole scene. The effect sees the vertices of all cloths in the order of the scene, then those of bodies.
     Scene,

@@ -22,11 +22,11 @@ pub(super) const REGISTRATION: Registration = Registration {
 
 /// Bending resistance where exactly two loose edges meet.
 ///
-/// There is no resistance to twist. Where a rope begins at a triangle's vertex it turns freely, as on a ring.
+/// There is no resistance to twist. A rope turns freely where it begins at a triangle's vertex, as on a ring.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RopeBend {
     /// The flexural rigidity in N·m²: the moment that bends the rope by a radian per metre. For a solid rod of the diameter d it
-    /// is Young's modulus times πd⁴/64; for strands that slide on each other much less.
+    /// is Young's modulus times πd⁴/64. Strands that slide on each other have much less.
     pub stiffness: f64,
     /// The shape without energy.
     pub rest: RopeShape,
@@ -35,10 +35,10 @@ pub struct RopeBend {
 /// The shape of a rope at rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RopeShape {
-    /// Straight, however the scene lays the rope.
+    /// Straight, in whatever shape the scene lays the rope.
     #[default]
     Straight,
-    /// Bent at each vertex as in the scene, to any side.
+    /// The angle at each vertex is that in the scene, in any direction.
     AsBuilt,
 }
 

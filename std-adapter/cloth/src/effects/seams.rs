@@ -1,8 +1,8 @@
 //! Seams: rows of vertices that are held together, or drawn together over a time ([`stitches`](crate::model::stitches)).
 //!
 //! **A seam keeps a gap.** Two rows at no distance would be in contact, and no state would be free. So a closed seam has a gap of
-//! at least the thickness that contact keeps between the rows: seam and contact then agree. (Cloth that is one piece is a mesh
-//! whose triangles share vertices.)
+//! at least the thickness that contact keeps between the rows. (For cloth without a seam, use a mesh whose triangles share
+//! vertices.)
 //!
 //! A seam does not resist bending.
 
@@ -142,7 +142,6 @@ impl Seam {
     }
 }
 
-/// Returns the positions of all cloths at rest.
 fn rest_of(world: &SceneParts<'_>) -> Vec<DVec3> {
     world.cloths.iter().flat_map(|cloth| &cloth.mesh.positions).copied().collect()
 }

@@ -10,13 +10,13 @@ const UPPER: Field = Field::vector("upper", LENGTH, LARGEST_COORDINATE);
 const CENTRE: Field = Field::vector("centre", LENGTH, LARGEST_COORDINATE);
 const RADIUS: Field = Field::new("radius", LENGTH, 1e-6, LARGEST_COORDINATE);
 
-/// The keys of which one selects the vertices.
+/// The keys that select vertices; a table has exactly one of them.
 pub(super) const WAYS: [&str; 4] = ["part", "vertices", "box", "ball"];
 
 /// The motion of a group of vertices.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PinMotion {
-    /// They are fixed to a body, given by its index in the scene, at its initial placement.
+    /// They are fixed to a body at its initial placement. The body is given by its index in the scene.
     Body(usize),
     /// They have a motion of their own. [`Simulation::move_pins`](crate::Simulation::move_pins) moves a driven group of pins.
     Own(BodyMotion),
@@ -99,8 +99,8 @@ fn within(table: &Table<'_>, world: &SceneParts<'_>, is_inside: impl Fn(DVec3) -
     Ok(inside.map(|(vertex, _)| vertex as u32).collect())
 }
 
-/// Checks that there are vertices, all of cloth, and none of them `taken` already. Marks them; messages say what is `done` to
-/// them.
+/// Checks that there are vertices, that all are of cloth, and that none of them is `taken`. Marks them as taken. Messages contain
+/// `done`, such as "pinned".
 pub(super) fn check_vertices(vertices: &[u32], taken: &mut [bool], done: &str) -> Result<(), ValueError> {
     let wrong = |message: String| Err(ValueError::new("vertices", message));
     if vertices.is_empty() {
@@ -116,7 +116,6 @@ pub(super) fn check_vertices(vertices: &[u32], taken: &mut [bool], done: &str) -
     Ok(())
 }
 
-/// Checks that the body exists.
 pub(super) fn check_body(body: usize, world: &SceneParts<'_>) -> Result<(), ValueError> {
     if body < world.bodies.len() {
         return Ok(());

@@ -1,6 +1,6 @@
 //! Self-collision: cloth keeps a thickness from itself and from other cloths, and every step is certified to be free of contact.
 //!
-//! The effect only says so; the work is that of [`contact`](crate::contact), shared with body contact.
+//! [`contact`](crate::contact) does the work, for this effect and for body contact.
 
 use super::registration::{Effect, Registration, Scope};
 use super::thickness;
@@ -17,7 +17,7 @@ pub(super) const REGISTRATION: Registration = Registration {
 
 /// Cloth keeps a thickness from itself and from other cloths, and every step is certified to be free of contact.
 ///
-/// Two cloths keep the mean of their thicknesses from each other, and every step the mean of their separations.
+/// Two cloths keep the mean of their thicknesses from each other, and every step keeps the mean of their separations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SelfCollision(pub Thickness);
 

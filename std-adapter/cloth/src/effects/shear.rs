@@ -1,4 +1,5 @@
-//! Shear: C = w_u·w_v (Baraff and Witkin 1998), compliance 1/(k·A), like [`stretch`](super::stretch) in one sweep a step or several.
+//! Shear: C = w_u·w_v (Baraff and Witkin 1998) with the compliance 1/(k·A). Like [`stretch`](super::stretch) it runs in one or
+//! several sweeps per step.
 
 use super::registration::{ActsOn, Effect, Registration};
 use crate::effects::plan::{Fabric, Plan};
@@ -24,22 +25,21 @@ pub(super) const REGISTRATION: Registration = Registration {
     },
 };
 
-/// Resistance to the angle between warp and weft changing.
+/// Resistance to changes of the angle between warp and weft.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shear {
-    /// In N/m.
+    /// The stiffness, in N/m.
     pub stiffness: f64,
-    /// How often all triangles are looked at in a step.
+    /// The number of sweeps over all triangles in a step.
     pub sweeps: u32,
 }
 
 impl Shear {
-    /// The resistance of a material.
     pub(super) const fn of_material(material: &Material) -> Self {
         Self::new(material.shear)
     }
 
-    /// In N/m, in one sweep.
+    /// Sets a stiffness in N/m, in one sweep.
     #[must_use]
     pub const fn new(stiffness: f64) -> Self {
         Self { stiffness, sweeps: 1 }
@@ -114,7 +114,7 @@ impl Local<3> for Angle {
         gradients
     }
 
-    /// ½k·A·C².
+    /// Returns ½k·A·C².
     fn energy(&self, x: [DVec3; 3]) -> Option<f64> {
         let c = image(self.membrane.a, x).dot(image(self.membrane.b, x));
         Some(0.5 * c * c / self.compliance)

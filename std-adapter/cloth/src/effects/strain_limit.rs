@@ -1,9 +1,8 @@
-//! Strain limit: no triangle is stretched to more than a given ratio along any direction, its principal one included.
+//! Strain limit: no triangle is stretched beyond a given ratio along any direction.
 //!
 //! For the principal direction d ([`SquaredStretch`]) the constraint |d_u·w_u + d_v·w_v| ≤ limit has the form of stretch, with
-//! coefficients d_u·a + d_v·b, and no compliance. One triangle's correction stretches its neighbours, so some are left a little above
-//! the limit: more `sweeps` bring them closer (an accuracy–time choice). Before them the same limit holds on coarse
-//! [`levels`](super::levels), all that there are.
+//! coefficients d_u·a + d_v·b, and no compliance. One triangle's correction stretches its neighbours, so some stay a little above
+//! the limit. More `sweeps` bring them closer and take longer. The same limit first acts on all coarse [`levels`](super::levels).
 
 use super::levels::{self, OnLevels, Tension};
 use super::registration::{ActsOn, Effect, Registration};
@@ -34,16 +33,16 @@ pub(super) const REGISTRATION: Registration = Registration {
 /// No triangle is stretched beyond a ratio.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StrainLimit {
-    /// Of a length to that at rest, along any direction.
+    /// The largest ratio of a length to its length at rest, along any direction.
     pub limit: f64,
-    /// How often all triangles are looked at in a step: more bring the last ones closer to the limit.
+    /// The number of sweeps over all triangles in a step. More sweeps bring the last triangles closer to the limit.
     pub sweeps: u32,
-    /// On how many coarser levels of the cloth it holds as well, from the finest; `None`: on all.
+    /// The number of coarse levels on which the limit acts as well, from the finest. `None` uses all.
     pub levels: Option<u32>,
 }
 
 impl StrainLimit {
-    /// With one sweep, on all levels.
+    /// Sets a limit with one sweep, on all levels.
     #[must_use]
     pub const fn at(limit: f64) -> Self {
         Self {
@@ -82,7 +81,7 @@ impl Effect for StrainLimit {
     fn register(&self, plan: &mut Plan<'_>) {
         let cloth = plan.scene.cloth;
         let limit = self.limit;
-        // It does not give, so that a pull goes all the way at once.
+        // The limit has no compliance, so that a pull crosses the whole cloth at once.
         let levels = plan.levels(f64::INFINITY, self.levels);
         let limits = of_triangles(cloth, |membrane, _| Limit { membrane, limit });
         let limits = Schedule::in_blocks(limits, &cloth.mesh.positions, self.sweeps.into());
@@ -93,11 +92,10 @@ impl Effect for StrainLimit {
     }
 }
 
-/// The limit of a cloth.
 #[derive(Debug)]
 struct Limits {
     limits: OnLevels<Schedule<Limit, 3>>,
-    /// The edges of the triangles, each with one over the square of the length that is allowed.
+    /// The edges of the triangles, each with the inverse square of its largest length.
     longest: Vec<([u32; 2], f64)>,
 }
 
@@ -137,7 +135,7 @@ struct Limit {
 }
 
 impl Limit {
-    /// Most are.
+    /// Returns whether the triangle certainly keeps the limit, as most do.
     #[inline(always)]
     fn is_far_below(&self, stretch: SquaredStretch) -> bool {
         stretch.bound() < self.limit * self.limit
@@ -159,14 +157,14 @@ impl Local<3> for Limit {
             return [DVec3::ZERO; 3];
         }
         let Membrane { a, b, .. } = self.membrane;
-        // The direction's length does not matter: the correction is a product with it, divided by its square.
+        // The length of the direction does not matter: the correction is a product with the direction, divided by its square.
         let (largest, [du, dv]) = stretch.principal();
-        // No branch: nobody could foretell it.
+        // A branch would be unpredictable.
         let excess = (largest - self.limit).max(0.0);
         let two = [du * a[0] + dv * b[0], du * a[1] + dv * b[1]];
         let c = all(two);
         let weight = w[0] * c[0] * c[0] + w[1] * c[1] * c[1] + w[2] * c[2] * c[2];
-        // What is too large to square is left as it is.
+        // Values whose squares overflow are not corrected.
         if !(weight > 0.0 && largest.is_finite()) {
             return [DVec3::ZERO; 3];
         }

@@ -1,16 +1,16 @@
-//! Stretch along warp and weft: C = |w| − 1 for each of the two (Baraff and Witkin 1998), compliance 1/(k·A).
+//! Stretch along warp and weft: C = |w| − 1 for each (Baraff and Witkin 1998), with the compliance 1/(k·A).
 //!
-//! Extended position-based dynamics (Macklin et al. 2016) with one iteration a step: Δx = −C·W∇C / (∇C·W∇C + α/h²). Where w
-//! vanishes it has no direction, and nothing is done.
+//! The solver is extended position-based dynamics (Macklin et al. 2016) with one iteration a step: Δx = −C·W∇C / (∇C·W∇C + α/h²).
+//! Where w vanishes it has no direction, and nothing is corrected.
 //!
-//! More `sweeps`, with multipliers kept from one to the next, leave less for the next step (an accuracy–time choice): on the sheet of
-//! `drop.toml` with 10 thousand triangles 99 % of the edges are stretched by up to 3.4 % with one after a second, 2.7 % with two, in 1.1 times
-//! the time.
+//! Further `sweeps` keep the multipliers of the earlier ones. They leave less stretch and take longer. On the sheet of
+//! `drop.toml` with 10 thousand triangles 99 % of the edges are stretched by up to 3.4 % after a second with one sweep, and by
+//! 2.7 % with two, in 1.1 times the time.
 //!
-//! One iteration moves a pull by one edge, so that a cloth would be the softer the finer its mesh: before it come coarse
-//! [`levels`](super::levels). In a step of h the equations themselves carry a pull by some h·√(k/ρ), ρ being the mass of an area: they
-//! are those of ∂²x/∂t² = (k/ρ)·∂²x/∂s² in one implicit step, x − h²(k/ρ)·x″ = what inertia predicts, in which a pull fades by e
-//! in each h·√(k/ρ). Levels go on to [`REACH`] times that, where e⁻⁴ is left; a mesh that is coarser needs none.
+//! One iteration moves a pull by one edge, so that finer meshes would be softer. Coarse [`levels`](super::levels) run first to
+//! prevent this. One implicit step of h solves x − h²(k/ρ)·x″ = y for the inertial prediction y, with ρ the mass per area: a pull
+//! decays by e over the distance h·√(k/ρ). Levels reach [`REACH`] times that distance, where e⁻⁴ remains. A coarser mesh needs no
+//! levels.
 
 use super::levels::{self, OnLevels, Tension};
 use super::registration::{ActsOn, Effect, Registration};
@@ -41,21 +41,20 @@ pub(super) const REGISTRATION: Registration = Registration {
     },
 };
 
-/// Resistance to being stretched, or pressed together, along warp and weft.
+/// Resistance to stretch and compression along warp and weft.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stretch {
-    /// Along the warp, in N/m.
+    /// The stiffness along the warp, in N/m.
     pub stiffness: f64,
-    /// Along the weft, in N/m.
+    /// The stiffness along the weft, in N/m.
     pub weft_stiffness: f64,
-    /// How often all triangles of the mesh are looked at in a step.
+    /// The number of sweeps over all triangles of the mesh in a step.
     pub sweeps: u32,
-    /// On how many coarser levels of the cloth pulls go ahead of the mesh, from the finest; `None`: on all that there is use for.
+    /// The largest number of coarse levels that run before the mesh, from the finest. `None` uses all useful ones.
     pub levels: Option<u32>,
 }
 
 impl Stretch {
-    /// The resistance of a material.
     pub(super) const fn of_material(material: &Material) -> Self {
         Self {
             weft_stiffness: material.stretch[1],
@@ -63,7 +62,7 @@ impl Stretch {
         }
     }
 
-    /// The same along warp and weft, in N/m, in one sweep.
+    /// Sets the same stiffness along warp and weft, in N/m, with one sweep.
     #[must_use]
     pub const fn isotropic(stiffness: f64) -> Self {
         Self {
@@ -75,7 +74,7 @@ impl Stretch {
     }
 }
 
-/// How many times as far as a pull goes in a step the seeds of the coarsest level are apart.
+/// The distance between the seeds of the coarsest level, as a multiple of the distance that a pull travels in a step.
 const REACH: f64 = 4.0;
 
 impl Effect for Stretch {
@@ -135,12 +134,12 @@ impl Effect for Stretch {
 #[derive(Debug)]
 struct Spring {
     membrane: Membrane,
-    /// Along warp and weft, in 1/J (C has no unit).
+    /// The compliances along warp and weft, in 1/J (C has no unit).
     compliance: [f64; 2],
 }
 
 impl Local<3> for Spring {
-    /// Along warp and weft.
+    /// The multipliers along warp and weft.
     type Multipliers = [f64; 2];
 
     #[inline(always)]
@@ -151,7 +150,7 @@ impl Local<3> for Spring {
             let length = stretched.length();
             let c = all(c);
             let weight = w[0] * c[0] * c[0] + w[1] * c[1] * c[1] + w[2] * c[2] * c[2];
-            // Shorter than a millionth there is no direction to speak of.
+            // A vector shorter than a millionth has no reliable direction.
             if length > 1e-6 && weight > 0.0 {
                 let compliance = self.compliance[which] * stiffening;
                 let multiplier = (1.0 - length - compliance * so_far[which]) / (weight + compliance);
@@ -165,7 +164,7 @@ impl Local<3> for Spring {
         moves
     }
 
-    /// ½k·A·C² for each of the two.
+    /// Returns ½k·A·C² for both directions.
     fn energy(&self, x: [DVec3; 3]) -> Option<f64> {
         let [warp, weft] = self.compliance;
         let of = |c: [f64; 2], compliance: f64| 0.5 * (image(c, x).length() - 1.0).powi(2) / compliance;

@@ -1,14 +1,14 @@
 //! Tearing: edges tear when their load is above their strength ([`tearing`](crate::model::tearing)).
 //!
 //! **Still certified.** After the certificate of a step, overloaded edges tear, and the two sides of a tear open by a small share
-//! of an edge. This is no part of a step. It is accepted only if the exact test finds no intersection, and if a certificate shows
-//! that nothing passed through anything on the way, except for pairs that had a vertex in common. Otherwise the tear waits for
-//! room. So every state is free, before a tear and after it. While a body or a tangle is excluded from the guarantee, nothing
-//! tears.
+//! of an edge. The opening is no part of a step. It is accepted only if the exact test finds no intersection, and if a
+//! certificate shows that nothing passed through anything on the way, except for pairs that had a vertex in common. Otherwise the
+//! tear waits for room. So every state is free, before a tear and after it. While a body or a tangle is excluded from the
+//! guarantee, nothing tears.
 //!
 //! **Cost.** Each step computes the tension of each triangle and the load of each edge. A step after which something tears
-//! rebuilds everything that depends on the mesh, as set-up does: constraints, levels, candidates. So does each twentieth step in
-//! which a tear waits.
+//! rebuilds everything that depends on the mesh: constraints, levels, candidates. While a tear waits, each twentieth step does so
+//! as well.
 //!
 //! A [`StrainLimit`](super::StrainLimit) of L keeps loads below k·(L − 1). A strength above that is never reached.
 
@@ -74,9 +74,9 @@ pub(super) const REGISTRATION: Registration = Registration {
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tearing {
-    /// The strength of the cloth, in N per metre of an edge at rest. `None`: only perforations tear.
+    /// The strength of the cloth, in N per metre of an edge at rest. With `None` only perforations tear.
     pub strength: Option<f64>,
-    /// Weaker edges.
+    /// Edges with a strength of their own.
     pub perforations: Vec<Perforation>,
 }
 
@@ -85,7 +85,7 @@ pub struct Tearing {
 pub struct Perforation {
     /// The vertices, as the scene numbers them through all cloths.
     pub vertices: Vec<u32>,
-    /// In N per metre of an edge at rest. If several strengths apply to an edge, the least counts.
+    /// The strength, in N per metre of an edge at rest. If several strengths apply to an edge, the least counts.
     pub strength: f64,
 }
 

@@ -1,4 +1,4 @@
-//! The setting of both contact effects: the distance at which contacts aim, and the one that every step keeps.
+//! The setting of both contact effects: the distance at which contacts aim, and the distance that every step keeps.
 
 use crate::contact::Thickness;
 use crate::input::{Field, LENGTH, SceneError, Table, ValueError};

@@ -16,7 +16,7 @@ pub struct SceneError {
     pub message: String,
 }
 
-/// The most characters of a message, however long the names are that it quotes.
+/// The largest number of characters in a message, however long the quoted names are.
 const LONGEST: usize = 600;
 
 /// Replaces control characters and shortens endless lists.

@@ -25,7 +25,6 @@ impl ValueError {
         }
     }
 
-    /// Sets the owner.
     pub(crate) fn of(self, of: &str) -> Self {
         Self {
             of: of.to_owned(),

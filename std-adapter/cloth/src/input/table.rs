@@ -28,7 +28,6 @@ pub(crate) struct Table<'a> {
 type Value<'a> = Spanned<DeValue<'a>>;
 
 impl<'a> Table<'a> {
-    /// Returns the table of the whole file.
     pub(crate) fn root(source: &'a Source<'a>, entries: &'a DeTable<'a>) -> Self {
         Self {
             source,
@@ -66,18 +65,18 @@ impl<'a> Table<'a> {
         self.entries.contains_key(key)
     }
 
-    /// Reads a number in SI units, if the key is present.
+    /// Reads a number in SI units, or returns `None` if the key is missing.
     pub(crate) fn number(&self, field: &Field) -> Result<Option<f64>, SceneError> {
         self.get(field.name).map(|value| self.quantity(field, value)).transpose()
     }
 
-    /// Reads a number in SI units.
     pub(crate) fn required_number(&self, field: &Field) -> Result<f64, SceneError> {
         self.number(field)?
             .ok_or_else(|| self.missing(field.name, &field.quantity.example()))
     }
 
-    /// Reads a number in SI units and maps it by `of`. Returns `otherwise` if the key is missing, and an error if both are.
+    /// Reads a number in SI units and maps it by `of`. Returns `otherwise` if the key is missing, and an error if `otherwise` is
+    /// missing too.
     pub(crate) fn number_or<T>(&self, field: &Field, of: impl Fn(f64) -> T, otherwise: Option<T>) -> Result<T, SceneError> {
         match (self.number(field)?, otherwise) {
             (Some(number), _) => Ok(of(number)),
@@ -86,17 +85,14 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Reads a whole number, if the key is present.
     pub(crate) fn count(&self, count: &Count) -> Result<Option<u32>, SceneError> {
         self.get(count.name).map(|value| self.whole(count, value)).transpose()
     }
 
-    /// Reads a whole number.
     pub(crate) fn required_count(&self, count: &Count) -> Result<u32, SceneError> {
         self.count(count)?.ok_or_else(|| self.missing(count.name, "20"))
     }
 
-    /// Reads two whole numbers.
     pub(crate) fn two_counts(&self, count: &Count) -> Result<[u32; 2], SceneError> {
         let example = "[20, 20]";
         let value = self.get(count.name).ok_or_else(|| self.missing(count.name, example))?;
@@ -106,7 +102,6 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Reads any number of whole numbers, if the key is present.
     pub(crate) fn counts(&self, count: &Count) -> Result<Option<Vec<u32>>, SceneError> {
         let Some(value) = self.get(count.name) else {
             return Ok(None);
@@ -118,7 +113,6 @@ impl<'a> Table<'a> {
         array.iter().map(whole).collect::<Result<_, _>>().map(Some)
     }
 
-    /// Reads a vector of three quantities, if the key is present.
     pub(crate) fn vector(&self, field: &Field) -> Result<Option<DVec3>, SceneError> {
         self.get(field.name).map(|value| self.three(field, value)).transpose()
     }
@@ -127,7 +121,6 @@ impl<'a> Table<'a> {
         self.vector(field)?.ok_or_else(|| self.missing(field.name, "[0, 0, 1]"))
     }
 
-    /// Reads any number of vectors of three quantities each.
     pub(crate) fn required_vectors(&self, field: &Field) -> Result<Vec<DVec3>, SceneError> {
         let example = "[[0, 0, 0], [1, 0, 0]]";
         let value = self.get(field.name).ok_or_else(|| self.missing(field.name, example))?;
@@ -167,7 +160,7 @@ impl<'a> Table<'a> {
         self.text(key)?.ok_or_else(|| self.missing(key, example))
     }
 
-    /// Reads one of several names, if the key is present.
+    /// Reads one of several names.
     pub(crate) fn choice<T: Copy>(&self, key: &str, choices: &[(&str, T)]) -> Result<Option<T>, SceneError> {
         let Some(name) = self.text(key)? else {
             return Ok(None);
@@ -254,7 +247,6 @@ impl<'a> Table<'a> {
         self.error(error.field, error.message.clone())
     }
 
-    /// Returns an error about a place.
     pub(crate) fn complain(&self, span: Range<usize>, message: String) -> SceneError {
         SceneError::at(self.source.path, self.source.text, &span, message)
     }

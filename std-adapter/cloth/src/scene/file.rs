@@ -86,7 +86,7 @@ impl Scene {
 
 /// Reads `[cloth]`, or any number of `[[cloth]]`, without their own effects.
 ///
-/// Returns them with remarks about their files.
+/// Returns remarks about their files as well.
 fn read_cloths(root: &Table<'_>) -> Result<(Vec<Cloth>, Vec<String>), SceneError> {
     let mut cloths: Vec<Cloth> = Vec::new();
     let mut remarks = Vec::new();

@@ -40,12 +40,12 @@ use std::ops::Range;
 /// The response when bodies or pins force the cloth into an intersection.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum OnBlocked {
-    /// Stop with an error that names time, body and pair.
+    /// Stop with an error that names the time, the body and the pair.
     #[default]
     Stop,
     /// Let the clock of bodies and pins wait.
     Hold,
-    /// Exclude the body from the guarantee until it is apart from the cloth again. Where pins are in the way, their clock waits.
+    /// Exclude the body from the guarantee until it is apart from the cloth again. If pins block the cloth, their clock waits.
     Yield,
 }
 
@@ -110,7 +110,6 @@ pub struct Scene {
     pub on_blocked: OnBlocked,
     /// The response to intersections at the start.
     pub tangled_start: TangledStart,
-    /// The effects, in the order in which they run.
     effects: Effects,
     /// Effects that single cloths have instead of the scene's, by the names of the cloths.
     own: Vec<(String, Effects)>,
@@ -183,7 +182,7 @@ impl Scene {
         self
     }
 
-    /// Returns all cloths at rest as one mesh, with the scene's numbers of vertices.
+    /// Returns all cloths at rest as one mesh; vertices have the scene's numbers.
     #[must_use]
     pub fn all_cloth(&self) -> Mesh {
         let mut all = Mesh::default();
@@ -222,7 +221,6 @@ impl Scene {
         Some(vertices.iter().map(|&vertex| first + vertex).collect())
     }
 
-    /// Returns the scene without its effects.
     pub(crate) fn parts(&self) -> Result<SceneParts<'_>, ValueError> {
         SceneParts::new(&self.cloths, &self.bodies, self.time_step)
     }

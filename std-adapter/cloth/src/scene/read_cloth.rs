@@ -27,8 +27,7 @@ const SHAPES: [(&str, ClothShape); 5] = [
 ];
 
 impl Cloth {
-    /// Reads a cloth without its own effects, whose tables have the names of effects. Returns it with the number of isolated vertices of
-    /// its file, which are left out.
+    /// Reads a cloth without its own effects. Returns it with the number of isolated vertices of its file, which are left out.
     pub(crate) fn read(table: &Table<'_>) -> Result<(Self, usize), SceneError> {
         let shape = table.required_choice("shape", &SHAPES)?;
         let of_file = [
@@ -78,7 +77,7 @@ impl Cloth {
                 match linear_density {
                     None => Self::from_mesh(read.mesh, warp, density()?),
                     Some(linear_density) => {
-                        // Without triangles there is no mass per area.
+                        // A cloth without triangles has no mass per area.
                         let density = if read.mesh.triangles.is_empty() { 0.0 } else { density()? };
                         Self::from_mesh_with_loose_edges(read.mesh, &read.loose_edges, warp, [density, linear_density])
                     }

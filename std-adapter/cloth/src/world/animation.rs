@@ -1,9 +1,9 @@
 //! Bodies that deform: frames of vertices, or a figure that a skeleton moves.
 //!
-//! **No jumps.** The positions depend on the clock of bodies alone. At the begin and the end of a step, or of a part of a step,
-//! they are exact; in between every vertex moves straight, and the [certified pass](crate::contact) covers that motion. The clock
-//! advances by at most a time step and never goes back; it may wait. No vertex may be faster than [`FASTEST_VERTEX`]: a cut in
-//! the animation, or a unit other than metres, is an error.
+//! **No jumps.** The positions depend on the clock of bodies alone. They are exact at the start and at the end of a step, or of a
+//! part of a step. In between every vertex moves straight, and the [certified pass](crate::contact) covers that motion. The clock
+//! advances by at most a time step, and may wait. No vertex may be faster than [`FASTEST_VERTEX`]: a cut in the animation, or a
+//! unit other than metres, is an error.
 
 use crate::input::{FREQUENCY, Field, LARGEST_COORDINATE, LARGEST_TIME, TIME, ValueError};
 use selvedge_core::glam::DVec3;
@@ -12,7 +12,8 @@ use selvedge_files::bytes::Fingerprint;
 use std::fmt;
 use std::sync::Arc;
 
-/// In m/s: much faster than a hand moves, and slower than a figure that jumps elsewhere in the next frame.
+/// The fastest speed of a vertex, in m/s: much faster than a hand, and slower than a figure that jumps elsewhere in the next
+/// frame.
 pub(crate) const FASTEST_VERTEX: f64 = 100.0;
 
 pub(super) const RATE: Field = Field::new("frames_per_second", FREQUENCY, 1e-3, 1e5);
@@ -20,7 +21,7 @@ pub(super) const START: Field = Field::new("start", TIME, 0.0, LARGEST_TIME);
 
 /// The position of each vertex of a body over time: [`BodyMotion::Animated`](crate::BodyMotion::Animated).
 ///
-/// Before the first key and after the last one nothing moves.
+/// Vertices rest before the first key and after the last one.
 ///
 /// ```
 /// use selvedge_cloth::glam::DVec3;
@@ -64,9 +65,9 @@ enum Shapes {
 /// The fastest vertex and the longest jump, each with its time from the first key, and its vertex.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Jumps {
-    /// In m/s.
+    /// The speed, in m/s.
     speed: (f64, f64, usize),
-    /// In metres, at one instant.
+    /// The length of a jump at one instant, in metres.
     way: (f64, f64, usize),
 }
 
@@ -122,7 +123,7 @@ impl Animation {
         let (mut before, mut at, mut jumps) = (Vec::new(), Vec::new(), Jumps::default());
         let mut last_key = first;
         for key in figure.key_times() {
-            // The figure just before the key and at the key: they differ where it jumps.
+            // These are the figure just before the key and the figure at the key; they differ where it jumps.
             if figure.has_steps() && key > first {
                 std::mem::swap(&mut before, &mut at);
                 figure.positions_at(key.next_down(), &mut at);
@@ -195,7 +196,7 @@ impl Animation {
         match &self.source.shapes {
             Shapes::Frames { frames, rate } => {
                 let place = time * rate;
-                // No frame follows the last.
+                // The last frame has no successor.
                 let before = (place as usize).min(frames.len() - 1);
                 let share = place - before as f64;
                 positions.clear();
@@ -209,7 +210,7 @@ impl Animation {
             }
             Shapes::Figure(figure) => {
                 figure.positions_at(figure.span()[0] + time, positions);
-                // Between its keys a cubic may go anywhere.
+                // A cubic may leave this range between its keys.
                 let farthest = DVec3::splat(LARGEST_COORDINATE);
                 for position in positions.iter_mut().filter(|position| !is_within_reach(position)) {
                     let nearest = if position.is_nan() { DVec3::ZERO } else { *position };
@@ -219,7 +220,6 @@ impl Animation {
         }
     }
 
-    /// Checks the number of vertices and the size of jumps.
     pub(super) fn check(&self, vertices: usize, time_step: f64) -> Result<(), ValueError> {
         START.check(self.start)?;
         if self.source.vertices != vertices {
@@ -262,7 +262,6 @@ impl Jumps {
     }
 }
 
-/// Returns the longest motion and its vertex.
 fn longest_way(from: &[DVec3], to: &[DVec3]) -> (f64, usize) {
     let ways = from.iter().zip(to).map(|(from, to)| from.distance(*to)).enumerate();
     let longest = ways.max_by(|a, b| a.1.total_cmp(&b.1));

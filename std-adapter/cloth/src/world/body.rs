@@ -9,7 +9,7 @@ use selvedge_core::glam::DVec3;
 use selvedge_files::animation::{self, AnimationProblem, Choice};
 use selvedge_files::mesh::{self, MeshSequence};
 
-/// A kinematic body: it follows its motion, whatever the cloth does.
+/// A kinematic body: it follows its motion, and the cloth does not push it.
 ///
 /// ```
 /// use selvedge_cloth::{Body, BodyMotion, Placement};
@@ -101,7 +101,6 @@ impl Body {
         }
     }
 
-    /// Checks the mesh and the motion.
     pub(crate) fn check(&self, time_step: f64) -> Result<(), ValueError> {
         let motion = || self.motion.check(self.mesh.positions.len(), time_step);
         let checked = shapes::check(&self.mesh).and_then(|()| motion());
@@ -143,7 +142,6 @@ impl Body {
         Ok(body)
     }
 
-    /// Reads numbered files.
     fn read_frames(name: &str, table: &Table<'_>, time_step: f64) -> Result<Self, SceneError> {
         let files = table.required_text("files", "\"frames/body-####.ply\"")?;
         let rate = table.required_number(&RATE)?;
@@ -157,7 +155,6 @@ impl Body {
         Self::read_animated(name, table, time_step, triangles, animation, "files")
     }
 
-    /// Reads a figure of a glTF file.
     fn read_figure(name: &str, table: &Table<'_>, time_step: f64) -> Result<Self, SceneError> {
         let file = table.required_text("file", "\"figure.glb\"")?;
         let choice = Choice {

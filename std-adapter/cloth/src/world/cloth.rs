@@ -26,7 +26,6 @@ pub struct Cloth {
     /// The name in the scene and in messages, `cloth` by default. Names of cloths in a scene must differ.
     pub name: String,
     pub(crate) mesh: Mesh,
-    /// The topology of triangles and loose edges.
     pub(crate) topology: Topology,
     /// The source vertex of each copy that a tear has made. Copies are the last vertices, in this order; a source may be a copy
     /// itself.
@@ -45,7 +44,6 @@ pub struct Cloth {
     parts: Vec<(&'static str, Vec<u32>)>,
 }
 
-/// The default name.
 pub(crate) const NAME: &str = "cloth";
 
 pub(crate) const CELLS: Count = Count::new("cells", 1, 2000);
@@ -398,9 +396,9 @@ impl Cloth {
     }
 }
 
-/// In metres: a hundredth of a millimetre.
+/// The length of the shortest edge, in metres.
 const SMALLEST_EDGE: f64 = 1e-5;
-/// In m²: the area of a square with such edges.
+/// The area of the smallest triangle, in m²: that of a square with such edges.
 const SMALLEST_AREA: f64 = SMALLEST_EDGE * SMALLEST_EDGE;
 
 /// Checks that each loose edge joins two distinct vertices that no other edge joins.

@@ -1,7 +1,7 @@
 //! The motion of kinematic vertices in a step, and of bodies and pins that the caller moves.
 //!
-//! Before a step the caller may set a goal. A rigid body then turns about its origin and moves evenly; points with goals of their
-//! own move straight. A step that is cut, or that waits, leaves them on the way, and the next step starts from there.
+//! Before a step the caller may set a goal. A rigid body then rotates about its origin and moves evenly; points with goals of
+//! their own move straight. If a step is cut or waits, they are on the way, and the next step starts from there.
 
 use super::animation::Animation;
 use super::motion::{BodyMotion, KeyframeMotion, Pose};
@@ -19,10 +19,8 @@ pub(crate) enum Kinematic {
 /// A known motion of each vertex.
 #[derive(Debug)]
 pub(crate) struct Animated {
-    /// The vertices in the scene.
     vertices: Vec<u32>,
     animation: Animation,
-    /// Their positions.
     positions: Vec<DVec3>,
 }
 
@@ -35,7 +33,7 @@ pub(crate) struct Driven {
     pub(crate) placement: Option<Placement>,
     goal: Option<Goal>,
     leg: Leg,
-    /// Times of the clock at which the leg starts and ends.
+    /// The times of the clock at which the leg starts and ends.
     clock: [f64; 2],
 }
 
@@ -73,7 +71,7 @@ impl Kinematic {
                 positions: Vec::new(),
             }),
             BodyMotion::Driven(placement) => {
-                // Scenes are checked before.
+                // Scenes are checked earlier.
                 let placement = placement.checked().unwrap_or(placement);
                 Self::Driven(Box::new(Driven {
                     vertices,
@@ -104,7 +102,7 @@ impl Kinematic {
         }
     }
 
-    /// Takes over the state of another motion of the same vertices, which have other numbers now.
+    /// Takes over the state of another motion of the same vertices, which have new numbers.
     pub(crate) fn take_over(&mut self, other: Self) {
         if let (Self::Driven(own), Self::Driven(other)) = (self, other) {
             let vertices = std::mem::take(&mut own.vertices);
@@ -152,7 +150,6 @@ impl Driven {
         self.goal = Some(Goal::Placement(placement));
     }
 
-    /// Sets a goal for each vertex.
     pub(crate) fn lead_points_to(&mut self, positions: Vec<DVec3>) {
         self.goal = Some(Goal::Points(positions));
     }

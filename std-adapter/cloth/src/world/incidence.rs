@@ -1,6 +1,5 @@
 //! Incidence lists: the edges or triangles of each vertex, the triangles of each edge.
 
-/// Lists in one buffer.
 #[derive(Debug)]
 pub(crate) struct Incidence<T> {
     /// The start of each list, and the end of the last.
@@ -26,7 +25,6 @@ impl<T: Copy + Default> Incidence<T> {
         Self { starts, items }
     }
 
-    /// Returns the number of lists.
     pub(crate) fn len(&self) -> usize {
         self.starts.len() - 1
     }

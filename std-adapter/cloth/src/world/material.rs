@@ -121,5 +121,5 @@ impl Material {
     }
 }
 
-/// In m/s²: the gravity for which bending lengths are defined.
+/// The acceleration for which bending lengths are defined, in m/s².
 const GRAVITY: f64 = 9.81;

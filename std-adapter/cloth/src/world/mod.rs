@@ -45,7 +45,6 @@ pub struct SceneParts<'a> {
 }
 
 impl<'a> SceneParts<'a> {
-    /// Collects the parts of a scene.
     pub(crate) fn new(cloths: &'a [Cloth], bodies: &'a [Body], time_step: f64) -> Result<Self, ValueError> {
         let none = || ValueError::new("cloth", "the scene has no cloth, but needs one or more");
         Ok(Self {
@@ -99,7 +98,6 @@ impl<'a> SceneParts<'a> {
         is_named
     }
 
-    /// Returns the number of vertices of all cloths.
     pub(crate) fn cloth_vertices(self) -> usize {
         self.cloths.iter().map(|cloth| cloth.mesh.positions.len()).sum()
     }

@@ -61,19 +61,20 @@ impl From<KeyframeMotion> for BodyMotion {
 
 /// A rigid motion: a rotation about an axis through a pivot, then a translation.
 ///
-/// Between keyframes both are smooth, with zero velocity at each keyframe. Before the first and after the last nothing moves.
+/// Both are smooth between keyframes, with zero velocity at each keyframe. The body rests before the first keyframe and after the
+/// last.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeyframeMotion {
     pivot: DVec3,
-    /// A unit vector.
     axis: DVec3,
     keyframes: Vec<Keyframe>,
 }
 
-/// In seconds: far above the resolution of the clock.
+/// The shortest time between keyframes, in seconds: far above the resolution of the clock.
 const CLOSEST_KEYS: f64 = 1e-6;
 
-/// In radians a time step, nearly a whole turn. Steps with contact are cut until a part turns by a thousandth of that.
+/// The largest rotation in a time step, in radians: nearly a whole turn. Steps with contact are cut until a part turns by a
+/// thousandth of that.
 const FASTEST_TURN: f64 = 6.0;
 
 const PIVOT: Field = Field::vector("pivot", LENGTH, LARGEST_COORDINATE);
@@ -84,7 +85,7 @@ const KEY_ANGLE: Field = Field::new("angle", ANGLE, -1e4, 1e4);
 /// A rigid motion at one time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Keyframe {
-    /// In seconds of the simulation, zero or more.
+    /// The time in seconds of the simulation, zero or more.
     pub time: f64,
     /// The rotation since the start, in radians.
     pub angle: f64,
@@ -111,7 +112,7 @@ impl Keyframe {
         let Some(last) = last else {
             return Ok(());
         };
-        // Half-way the motion is half as fast again as on average.
+        // The angular velocity in the middle of a segment is 1.5 times the mean.
         let turn = (self.angle - last.angle).abs();
         let in_a_step = turn.min(1.5 * turn * time_step / (self.time - last.time));
         if in_a_step > FASTEST_TURN {
@@ -127,7 +128,7 @@ impl Keyframe {
 /// The placement of a moving body at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pose {
-    /// Applied before everything else.
+    /// A placement that is applied before everything else.
     base: Option<Placement>,
     pivot: DVec3,
     axis: DVec3,
@@ -195,7 +196,6 @@ impl KeyframeMotion {
         Ok(motion)
     }
 
-    /// Returns the pose at a time.
     pub(crate) fn pose(&self, time: f64) -> Pose {
         let keys = &self.keyframes;
         let next = keys.partition_point(|key| key.time <= time);
@@ -255,17 +255,16 @@ impl Pose {
         }
     }
 
-    /// Returns whether the body keeps its shape.
     pub(crate) fn is_rigid(&self) -> bool {
         self.deformed.is_none()
     }
 
-    /// Returns the point that does not move as the body turns, if the pose is [rigid](Self::is_rigid).
+    /// Returns the fixed point of the rotation, if the pose is [rigid](Self::is_rigid).
     pub(crate) fn centre(&self) -> DVec3 {
         self.pivot + self.translation
     }
 
-    /// Returns where a point of the body at rest is, if the pose is [rigid](Self::is_rigid).
+    /// Maps a point of the body at rest to its position, if the pose is [rigid](Self::is_rigid).
     pub(crate) fn apply(&self, point: DVec3) -> DVec3 {
         let point = self.base.map_or(point, |base| base.apply(point));
         if self.angle == 0.0 {
@@ -274,7 +273,7 @@ impl Pose {
         self.pivot + turned(point - self.pivot, self.axis, self.angle) + self.translation
     }
 
-    /// Returns where a point that moves with the body goes when the pose becomes `later`, if both are [rigid](Self::is_rigid).
+    /// Maps a point that moves with the body to its position when the pose becomes `later`, if both are [rigid](Self::is_rigid).
     pub(crate) fn carry(&self, later: &Self, point: DVec3) -> DVec3 {
         if self == later {
             return point;

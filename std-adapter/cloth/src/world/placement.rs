@@ -17,9 +17,9 @@ pub(super) const TRANSLATION: Field = Field::vector("translation", LENGTH, LARGE
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Placement {
-    /// A unit quaternion. A simulation normalises it; only zero is refused.
+    /// A unit quaternion. A simulation normalises it, and refuses only zero.
     pub rotation: DQuat,
-    /// In metres.
+    /// The translation, in metres.
     pub translation: DVec3,
 }
 
@@ -33,18 +33,17 @@ impl Placement {
         }
     }
 
-    /// Returns where a point of the body at rest is placed.
+    /// Maps a point of the body at rest to its position.
     #[must_use]
     pub fn apply(&self, point: DVec3) -> DVec3 {
         self.rotation * point + self.translation
     }
 
-    /// Returns the point at rest that is placed at `place`. Without rotation and translation the bits are the same.
+    /// Maps a position to the point at rest. Without rotation and translation the bits are the same.
     pub(crate) fn apply_inverse(&self, place: DVec3) -> DVec3 {
         self.rotation.inverse() * (place - self.translation)
     }
 
-    /// Normalises the rotation.
     pub(crate) fn checked(&self) -> Result<Self, ValueError> {
         TRANSLATION.check_vector(self.translation)?;
         let length = self.rotation.length();
@@ -61,14 +60,14 @@ impl Placement {
     /// Returns the axis and the angle, at most half a turn, of the rotation to `later`.
     pub(super) fn turn_to(&self, later: &Self) -> (DVec3, f64) {
         let turn = later.rotation * self.rotation.inverse();
-        // Of the two quaternions of a rotation, take the one of the shorter way.
+        // A rotation has two quaternions; this one turns the shorter way.
         let turn = if turn.w < 0.0 { -turn } else { turn };
         let along = turn.xyz();
-        // From `libm`, so that the bits are the same on every platform.
+        // Functions of `libm` give the same bits on every platform.
         (along.normalize_or(DVec3::Z), 2.0 * atan2(along.length(), turn.w))
     }
 
-    /// Rotates and moves further.
+    /// Adds a rotation and a translation.
     pub(super) fn on(&self, axis: DVec3, angle: f64, translation: DVec3) -> Self {
         let [sine, cosine] = [sin(0.5 * angle), cos(0.5 * angle)];
         let turn = DQuat::from_xyzw(axis.x * sine, axis.y * sine, axis.z * sine, cosine);

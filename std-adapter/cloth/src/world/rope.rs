@@ -7,10 +7,10 @@ use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
 
 impl Cloth {
-    /// Makes a rope along a line through these points, in metres, in `segments` segments of equal length; `linear_density` is in
-    /// kg/m.
+    /// Makes a rope along a line through these points, in `segments` segments of equal length. Points are in metres;
+    /// `linear_density` is in kg/m.
     ///
-    /// It cuts corners of the line by less than a segment. Vertices are numbered from the first point to the last.
+    /// The rope cuts corners of the line by less than a segment. Vertices are numbered from the first point to the last.
     ///
     /// [`RopeStretch`](crate::effects::RopeStretch) and [`RopeBend`](crate::effects::RopeBend) set its resistance,
     /// [`SelfCollision`](crate::effects::SelfCollision) and [`BodyContact`](crate::effects::BodyContact) its thickness.

@@ -7,7 +7,7 @@ use crate::world::Incidence;
 pub(crate) struct Run {
     /// Vertices, each joined with the next. In a closed row the last is the first again.
     vertices: Vec<u32>,
-    /// The row is closed, and no other edge starts where it closes.
+    /// Whether the row is closed, and no other edge starts where it closes.
     is_ring: bool,
 }
 
@@ -44,7 +44,6 @@ pub(crate) fn runs(edges: &[[u32; 2]], vertex_count: usize) -> Vec<Run> {
 }
 
 impl Run {
-    /// Returns the vertices, each joined with the next; in a closed row the last is the first again.
     pub(crate) fn into_vertices(self) -> Vec<u32> {
         self.vertices
     }
@@ -70,7 +69,7 @@ impl Run {
         if !self.is_closed() {
             return if edges < 2 { Vec::new() } else { vec![all.clone()] };
         }
-        // A ring's last joint is the one where it closes; the vertex after the first follows it.
+        // The last joint of a ring is the one where it closes; the vertex after the first follows it.
         let joints: Vec<usize> = (1..if self.is_ring { edges + 1 } else { edges }).collect();
         let most = edges.div_ceil(2).min(edges - 2);
         let row = |joints: &[usize]| {

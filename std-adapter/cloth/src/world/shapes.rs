@@ -1,5 +1,5 @@
-//! Meshes of simple shapes, and from files. Simple shapes have the same bits on every platform, since sines come from the `libm`
-//! crate.
+//! Meshes of simple shapes, and from files. Simple shapes have the same bits on every platform, since `libm` computes their
+//! sines.
 
 use crate::input::{Field, LARGEST_COORDINATE, LENGTH, RATIO, SceneError, Table, ValueError};
 use libm::{cos, sin};
@@ -134,8 +134,8 @@ pub(crate) struct ClothMesh {
     pub(crate) left_out: usize,
 }
 
-/// Reads a cloth's mesh: triangles, or triangles and loose edges, of which there must be some. Isolated vertices are left out, unless
-/// they belong to loose edges that are not wanted.
+/// Reads a cloth's mesh: triangles, or triangles and loose edges, at least one. Isolated vertices are left out, unless they
+/// belong to loose edges that are not wanted.
 pub(crate) fn cloth_of_file(table: &Table<'_>, with_loose_edges: bool) -> Result<ClothMesh, SceneError> {
     let (mut mesh, mut loose_edges) = read_file(table, true)?;
     if with_loose_edges && loose_edges.is_empty() {

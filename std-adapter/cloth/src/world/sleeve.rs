@@ -1,7 +1,7 @@
 //! The paper's sleeve: a tube of rings that taper from the shoulder to the cuff.
 //!
 //! A tube of rings n₁ … n_m, triangulated between neighbours, has Σnᵢ vertices and 2Σnᵢ − n₁ − n_m triangles. With 34 rings that
-//! taper from 25 points to 16 it has the 693 vertices and 1,345 triangles of the arm clothing in Lv et al., whose own mesh is not
+//! taper from 25 points to 16 it has 693 vertices and 1,345 triangles, like the arm clothing in Lv et al., whose own mesh is not
 //! published.
 
 use libm::{cos, sin};
@@ -18,13 +18,13 @@ pub const CUFF_RADIUS: f64 = 0.048;
 
 const SHOULDER_POINTS: f64 = 25.0;
 const CUFF_POINTS: f64 = 16.0;
-/// Steps from ring to ring in the paper's sleeve.
+/// The number of steps from ring to ring in the paper's sleeve.
 const RING_STEPS: f64 = 33.0;
-/// Four times the number of points that a ring halfway down has fewer than a straight taper. A straight taper has 697 vertices,
-/// not 693; any value from 0.8 to 0.9 gives 693.
+/// Four times the number of points by which a straight taper exceeds the ring halfway down. A straight taper has 697 vertices;
+/// any value from 0.8 to 0.9 gives 693.
 const BOW: f64 = 0.85;
 
-/// The largest refinement of [`sleeve`]: 134 million triangles.
+/// The largest refinement of [`sleeve`]. It gives 134 million triangles.
 pub const MAX_REFINEMENT: u32 = 100_000;
 
 /// A refinement that is zero or above [`MAX_REFINEMENT`].
@@ -50,14 +50,14 @@ pub fn ring_sizes(refinement: u32) -> Result<Vec<u32>, RefinementError> {
     Ok((0..=steps).map(size).collect())
 }
 
-/// Makes a sleeve along the x axis, of 1,345 triangles times `refinement`, within one in a hundred: exactly 693 vertices and
-/// 1,345 triangles for 1.
+/// Makes a sleeve along the x axis, of 1,345 triangles times `refinement`, to within 1 %. A refinement of 1 has exactly 693
+/// vertices and 1,345 triangles.
 ///
 /// It is 0.6 m long and open at both ends. Its triangles turn anticlockwise seen from outside. Vertices are numbered ring by ring
 /// from the shoulder, each ring from the y axis towards the z axis. Rings, and points of a ring, grow with the square root of
 /// `refinement`, so that triangles stay nearly equilateral.
 ///
-/// Positions have the same bits on every platform: sine and cosine come from the `libm` crate, not from the system.
+/// Positions have the same bits on every platform, since the `libm` crate computes sine and cosine.
 ///
 /// ```
 /// let sleeve = selvedge_cloth::sleeve::sleeve(1)?;
@@ -94,13 +94,13 @@ fn phase(ring: usize) -> u32 {
 }
 
 /// Joins `ring`, whose points are numbered from `first`, and the next one by triangles. It always advances on the ring whose next
-/// point has the smaller angle, all the way round.
+/// point has the smaller angle, until it has gone all the way round.
 fn join(triangles: &mut Vec<[u32; 3]>, ring: usize, first: u32, [n, m]: [u32; 2]) {
     let (here, there) = (first, first + n);
     let (mut i, mut j) = (0, 0);
     while i < n || j < m {
-        // Angles as exact fractions of the full turn: (2 (i + 1) + phase) / 2n against the same in j and m, multiplied out. 64
-        // bits hold the product of any two ring sizes.
+        // The comparison is exact: fractions of the full turn, (2 (i + 1) + phase) / 2n against the same in j and m, are
+        // multiplied out. 64 bits hold the product of any two ring sizes.
         let here_next = u64::from(2 * (i + 1) + phase(ring)) * u64::from(m);
         let there_next = u64::from(2 * (j + 1) + phase(ring + 1)) * u64::from(n);
         let advance_here = j == m || (i < n && here_next <= there_next);
@@ -156,7 +156,7 @@ mod tests {
             assert_eq!(statistics.non_manifold_edges, 0);
             assert_eq!(statistics.duplicate_triangles, 0);
             assert_eq!(statistics.degenerate_triangles, 0);
-            // The first ring and the last are the only loops…
+            // Only the first and the last ring are loops…
             let ends = sizes[0] + sizes[sizes.len() - 1];
             assert_eq!(statistics.boundary_edges as u32, ends);
             // … and with V − E + F = 0 two loops make a tube.

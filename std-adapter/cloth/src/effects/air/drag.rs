@@ -13,11 +13,11 @@ const ROPE_DIAMETER: Field = Field::new("rope_diameter", LENGTH, 0.0, 1.0);
 /// The properties of air and of the cloth's drag.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Drag {
-    /// In kg/m³.
+    /// The density of the air, in kg/m³.
     pub(super) density: f64,
     /// The drag coefficient for head-on flow.
     pub(super) coefficient: f64,
-    /// The diameter of loose edges, in metres; 0: the air does not push them.
+    /// The diameter of loose edges, in metres. At 0 the air does not push them.
     pub(super) rope_diameter: f64,
 }
 
@@ -73,7 +73,7 @@ pub(super) fn share_taken(slowing: f64) -> f64 {
     slowing / (1.0 + slowing)
 }
 
-/// Adds the changes of triangles' or edges' velocities to vertices, by the share of each in a vertex's mass.
+/// Adds the velocity changes of triangles or edges to their vertices, each weighted by its share in the vertex's mass.
 pub(super) fn take(step: &TimeStep<'_>, velocities: &mut [DVec3], incidence: &Incidence<(u32, f64)>, changes: &[DVec3]) {
     for (vertex, velocity) in velocities.iter_mut().enumerate().take(incidence.len()) {
         if step.inverse_masses[vertex] > 0.0 {

@@ -8,8 +8,8 @@
 //! **A vortex** turns about its axis with the velocity 2·v·(r/R)/(1 + (r/R)²). Its largest value is v, at the core's radius R
 //! (Kaufmann 1962).
 //!
-//! Both are quoted from works that use them: the slope of 0.094 from page 44 of the first, with 0.086 to 0.096 in other
-//! measurements; the profile of the second as ∝ r/(R² + r²), which is the one above.
+//! Both are quoted from works that use them. The slope of 0.094 is on page 44 of the first; other measurements give 0.086 to
+//! 0.096. The profile of the second is quoted as ∝ r/(R² + r²), which is the one above.
 
 use crate::input::{Field, LARGEST_COORDINATE, LENGTH, RATIO, SPEED, SceneError, Table, ValueError};
 use libm::exp2;
@@ -22,10 +22,10 @@ const RADIUS: Field = Field::new("radius", LENGTH, 1e-3, LARGEST_COORDINATE);
 const AXIS: Field = Field::vector("axis", RATIO, LARGEST_COORDINATE);
 const TURNING: Field = Field::new("speed", SPEED, -1e3, 1e3);
 
-/// Moving air: its velocity in m/s at a place in metres and a time in seconds.
+/// Moving air. Its velocity, in m/s, depends on a place in metres and a time in seconds.
 ///
-/// It must depend on its arguments alone, since failed steps are tried again and triangles call it in any order. `Debug` must
-/// show all that it depends on, since checkpoints use it to distinguish scenes.
+/// The velocity must depend on the arguments alone, since failed steps are repeated and triangles call it in any order. `Debug`
+/// must show all that it depends on, since checkpoints use it to distinguish scenes.
 pub trait Air: Debug + Send + Sync {
     /// Returns the velocity in m/s. A velocity that is not finite counts as zero.
     fn velocity(&self, at: DVec3, time: f64) -> DVec3;
@@ -66,7 +66,7 @@ pub struct Vortex {
     pub at: DVec3,
     /// The direction of the axis, of any length but zero.
     pub axis: DVec3,
-    /// The largest velocity, in m/s; negative: clockwise.
+    /// The largest velocity, in m/s. Negative values turn clockwise.
     pub speed: f64,
     /// The radius of the largest velocity, in metres.
     pub radius: f64,
@@ -124,7 +124,7 @@ impl Vortex {
     }
 
     fn velocity(&self, at: DVec3) -> DVec3 {
-        // Its length is the distance from the axis.
+        // The length of this vector is the distance from the axis.
         let turning = self.axis.normalize_or_zero().cross(at - self.at);
         let squared = turning.length_squared() / (self.radius * self.radius);
         turning * (2.0 * self.speed / self.radius / (1.0 + squared))

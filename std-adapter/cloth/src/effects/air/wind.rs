@@ -1,6 +1,6 @@
 //! Uniform wind with gusts. It pushes [triangles](super::panels), and [loose edges](super::cords) that have a diameter.
 //!
-//! Gusts vary the wind's speed as 1 + g·sin(2πft − q·x) with x along the wind; q is one wave per [`GUST_LENGTH`] metres.
+//! Gusts vary the wind's speed as 1 + g·sin(2πft − q·x), with x along the wind and one wave per [`GUST_LENGTH`] metres.
 
 use super::drag::Drag;
 use super::in_air::InAir;
@@ -42,22 +42,22 @@ pub(in crate::effects) const REGISTRATION: Registration = Registration {
 /// Uniform wind with gusts. [`Simulation::set_wind`](crate::Simulation::set_wind) changes it from step to step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wind {
-    /// In m/s.
+    /// The velocity, in m/s.
     pub velocity: DVec3,
-    /// In kg/m³.
+    /// The density of the air, in kg/m³.
     pub air_density: f64,
     /// The drag coefficient of a triangle or a loose edge in head-on flow. Round cords have about 1.1.
     pub drag: f64,
-    /// The diameter of loose edges, in metres; 0: the wind does not push them.
+    /// The diameter of loose edges, in metres. At 0 the wind does not push them.
     pub rope_diameter: f64,
-    /// The amplitude of gusts as a share of the speed; 0: no gusts.
+    /// The amplitude of gusts as a share of the speed. At 0 there are no gusts.
     pub gust: f64,
-    /// Gusts per second.
+    /// The number of gusts per second.
     pub gust_frequency: f64,
 }
 
 impl Default for Wind {
-    /// Still air at sea level, without gusts, that does not push ropes.
+    /// Returns still air at sea level, without gusts, that does not push ropes.
     fn default() -> Self {
         Self {
             velocity: DVec3::ZERO,
@@ -71,7 +71,6 @@ impl Default for Wind {
 }
 
 impl Wind {
-    /// Checks the velocity of a wind.
     pub(crate) fn check_velocity(velocity: DVec3) -> Result<(), ValueError> {
         VELOCITY.check_vector(velocity)
     }
@@ -110,7 +109,6 @@ impl Effect for Wind {
     }
 }
 
-/// Returns the phase per metre.
 fn wave(velocity: DVec3) -> DVec3 {
     velocity.normalize_or_zero() * (TAU / GUST_LENGTH)
 }
@@ -118,7 +116,7 @@ fn wave(velocity: DVec3) -> DVec3 {
 #[derive(Debug)]
 struct Blow {
     wind: Wind,
-    /// Phase per metre.
+    /// The phase per metre.
     wave: DVec3,
     cloth: InAir,
 }

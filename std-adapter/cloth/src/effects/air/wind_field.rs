@@ -1,5 +1,5 @@
 //! Wind that varies with place and time. It pushes [triangles](super::panels), and [loose edges](super::cords) that have a
-//! diameter, by the air at the centre of each.
+//! diameter, with the velocity of the air at the centre of each.
 //!
 //! A scene file makes a field from fans and vortices ([`AirSource`]); code may use any function ([`Air`]).
 
@@ -63,11 +63,11 @@ pub(in crate::effects) const REGISTRATION: Registration = Registration {
 pub struct WindField {
     /// The motion of the air.
     pub air: Arc<dyn Air>,
-    /// In kg/m³.
+    /// The density of the air, in kg/m³.
     pub air_density: f64,
     /// The drag coefficient of a triangle or a loose edge in head-on flow. Round cords have about 1.1.
     pub drag: f64,
-    /// The diameter of loose edges, in metres; 0: the wind does not push them.
+    /// The diameter of loose edges, in metres. At 0 the wind does not push them.
     pub rope_diameter: f64,
 }
 
