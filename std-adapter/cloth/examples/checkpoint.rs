@@ -12,7 +12,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scene = || Scene::parse(ARM_SLEEVE, Path::new("arm-sleeve.toml"));
     let mut simulation = Simulation::new(scene()?, 0)?;
     (0..CHECKPOINT_STEPS).try_for_each(|_| simulation.step())?;
-    // There is one every 200 steps.
+    // A checkpoint is due every 200 steps.
     let checkpoint = simulation.checkpoint().ok_or("no checkpoint is due")?;
     println!("{} bytes after {:.1} s", checkpoint.len(), simulation.time());
     (0..100).try_for_each(|_| simulation.step())?;

@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let mut simulation = Simulation::new(scene, 0)?;
     for step in 1..=250 {
-        // Before each step: where the ball is at its end.
+        // The ball has this position at the end of the step.
         let time = 2e-3 * f64::from(step);
         let goal = Placement {
             rotation: DQuat::from_rotation_z(time),

@@ -10,7 +10,7 @@ use selvedge_cloth::{Body, Cloth, Material, Scene, Simulation};
 use std::error::Error;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    // Metres, kilograms, seconds. The material sets density and stiffness.
+    // Units are metres, kilograms and seconds. The material sets density and stiffness.
     let corner = DVec3::new(-0.2, -0.2, 0.12);
     let mut sheet = Cloth::sheet(corner, [DVec3::X * 0.4, DVec3::Y * 0.4], [24, 24], 0.15)?;
     sheet.set_material(Material::COTTON);

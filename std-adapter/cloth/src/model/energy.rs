@@ -9,9 +9,9 @@ use selvedge_core::glam::DVec3;
 /// The positions and masses for which effects compute their energy.
 #[derive(Clone, Copy, Debug)]
 pub struct Configuration<'a> {
-    /// In metres: the cloth's vertices, then the bodies'.
+    /// Positions in metres: the cloth's vertices, then the bodies'.
     pub positions: &'a [DVec3],
-    /// Per vertex, in 1/kg; zero for kinematic vertices.
+    /// Inverse masses per vertex, in 1/kg; zero for kinematic vertices.
     pub inverse_masses: &'a [f64],
 }
 
@@ -37,7 +37,7 @@ impl StoredEnergy {
 /// The energy of a state of the cloth: see [`Simulation::energy`](crate::Simulation::energy).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Energy {
-    /// Of free vertices, in J.
+    /// The kinetic energy of free vertices, in J.
     pub kinetic: f64,
     /// The stored energy of each effect, by name, in the order in which effects run. Effects without stored energy are missing.
     pub stored: Vec<(&'static str, StoredEnergy)>,
@@ -54,7 +54,6 @@ impl Energy {
         }
     }
 
-    /// Adds stored energy of an effect.
     pub(crate) fn add(&mut self, effect: &'static str, more: StoredEnergy) {
         use StoredEnergy::{Elastic, Gravitational};
         for (name, stored) in &mut self.stored {

@@ -1,33 +1,33 @@
-//! What the effects in the plane of the cloth have in common.
+//! The triangles of a cloth and their stretch, as effects in the plane of the cloth use them.
 
 use crate::model::schedule::On;
 use crate::world::Cloth;
 use crate::world::Incidence;
 use selvedge_core::glam::{DVec2, DVec3};
 
-/// The material directions of a triangle of cloth (Baraff and Witkin 1998): positions xᵢ give the images
-/// w_u = Σaᵢxᵢ of a unit of warp and w_v = Σbᵢxᵢ of a unit of weft. At rest both have length one and are perpendicular. The
-/// coefficients of each sum to zero: of three, the last two are here.
+/// The material directions of a triangle of cloth (Baraff and Witkin 1998): positions xᵢ give the images w_u = Σaᵢxᵢ of a unit of
+/// warp and w_v = Σbᵢxᵢ of a unit of weft. At rest both have length one and are perpendicular. The three coefficients of each sum
+/// to zero, so only the last two are stored.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Membrane {
     pub(crate) a: [f64; 2],
     pub(crate) b: [f64; 2],
 }
 
-/// Σcᵢxᵢ.
+/// Returns Σcᵢxᵢ.
 #[inline(always)]
 pub(crate) fn image(c: [f64; 2], x: [DVec3; 3]) -> DVec3 {
     (x[1] - x[0]) * c[0] + (x[2] - x[0]) * c[1]
 }
 
-/// All three coefficients.
+/// Returns all three coefficients.
 #[inline(always)]
 pub(crate) fn all(c: [f64; 2]) -> [f64; 3] {
     [-c[0] - c[1], c[0], c[1]]
 }
 
 impl Membrane {
-    /// Of a triangle at rest with these two sides from its first vertex, along warp and weft.
+    /// Makes the material directions of a triangle at rest from two sides that start at its first vertex, along warp and weft.
     pub(crate) fn new(first: DVec2, second: DVec2) -> Self {
         let scale = 1.0 / first.perp_dot(second);
         Self {
@@ -37,7 +37,8 @@ impl Membrane {
     }
 }
 
-/// Which way warp and weft go in a triangle with these two sides: the warp as far as it lies in the triangle; a side where it does not.
+/// Returns the directions of warp and weft in a triangle with these two sides. The warp is projected into the triangle; if it is
+/// perpendicular, a side replaces it.
 pub(crate) fn warp_and_weft(first: DVec3, second: DVec3, warp: DVec3) -> [DVec3; 2] {
     let normal = first.cross(second).normalize();
     let along = warp - normal * normal.dot(warp);
@@ -53,9 +54,9 @@ pub(crate) fn warp_and_weft(first: DVec3, second: DVec3, warp: DVec3) -> [DVec3;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Flat {
     pub(crate) membrane: Membrane,
-    /// Which way warp and weft go.
+    /// The directions of warp and weft.
     directions: [DVec3; 2],
-    /// In m².
+    /// The area, in m².
     area: f64,
 }
 
@@ -72,18 +73,18 @@ impl Flat {
         }
     }
 
-    /// Parts along warp and weft of what is perpendicular to one of its sides, of length one.
+    /// Returns the components along warp and weft of the unit vector perpendicular to one of the sides.
     pub(crate) fn across(&self, side: DVec3) -> DVec2 {
         along(self.directions, side).normalize_or_zero().perp()
     }
 }
 
-/// Parts along warp and weft.
+/// Returns the components along warp and weft.
 fn along([warp, weft]: [DVec3; 2], side: DVec3) -> DVec2 {
     DVec2::new(side.dot(warp), side.dot(weft))
 }
 
-/// A constraint for each triangle, made from its material directions and its area at rest, in m².
+/// Makes a constraint for each triangle from its material directions and its area at rest, in m².
 pub(crate) fn of_triangles<C>(cloth: &Cloth, constraint: impl Fn(Membrane, f64) -> C) -> Vec<On<C, 3>> {
     let make = |&vertices: &[u32; 3]| {
         let Flat { membrane, area, .. } = Flat::new(cloth, vertices);
@@ -92,10 +93,11 @@ pub(crate) fn of_triangles<C>(cloth: &Cloth, constraint: impl Fn(Membrane, f64) 
     cloth.mesh.triangles.iter().map(make).collect()
 }
 
-/// How much a triangle is stretched: the square of it is middle + half·cos 2φ + shear·sin 2φ at an angle of φ to the warp.
+/// The stretch of a triangle: its square is middle + half·cos 2φ + shear·sin 2φ at an angle of φ to the warp.
 ///
-/// A deformation takes warp and weft to w_u and w_v, and the direction d to d_u·w_u + d_v·w_v, so that squares are a quadratic form of
-/// d, [[w_u·w_u, w_u·w_v], [w_u·w_v, w_v·w_v]]. Its first eigenvector is the principal direction, in which most is stretched.
+/// A deformation takes warp and weft to w_u and w_v, and the direction d to d_u·w_u + d_v·w_v. So squares are a quadratic form of
+/// d, [[w_u·w_u, w_u·w_v], [w_u·w_v, w_v·w_v]]. Its first eigenvector is the principal direction, in which the stretch is
+/// largest.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SquaredStretch {
     middle: f64,
@@ -115,15 +117,14 @@ impl SquaredStretch {
         }
     }
 
-    /// No less than the largest: a length is no more than the sum of its parts.
+    /// Returns an upper bound of the squared stretch, since a length is at most the sum of its parts.
     #[inline(always)]
     pub(crate) fn bound(self) -> f64 {
         self.middle + self.half.abs() + self.shear.abs()
     }
 
-    /// The largest stretch, no square, and the parts along warp and weft of a vector in its direction, of some length.
-    ///
-    /// By whichever of the eigenvector's two forms does not cancel.
+    /// Returns the largest stretch, not squared, and a vector of some length in its direction, along warp and weft. The vector is
+    /// the one of the eigenvector's two forms that does not cancel.
     #[inline(always)]
     pub(crate) fn principal(self) -> (f64, [f64; 2]) {
         let Self { middle, half, shear } = self;
@@ -137,7 +138,7 @@ impl SquaredStretch {
     }
 }
 
-/// The triangles of each vertex, and the share of each in the vertex's mass.
+/// Returns the triangles of each vertex, with the share of each in the vertex's mass.
 pub(crate) fn triangles_around(cloth: &Cloth) -> Incidence<(u32, f64)> {
     let mesh = &cloth.mesh;
     let area = |triangle: &[u32; 3]| {
@@ -151,7 +152,8 @@ pub(crate) fn triangles_around(cloth: &Cloth) -> Incidence<(u32, f64)> {
             .flat_map(|((triangle, &area), index)| triangle.map(|vertex| (vertex, (index, area))))
     };
     let mut around = Incidence::new(mesh.positions.len(), corners);
-    // What loose edges weigh, as the area of as much cloth: a sixth of each of these, which are twice the triangles', is a vertex's.
+    // The weight of loose edges, as an area of cloth. A vertex has a sixth of each of the areas summed here, which are twice
+    // those of the triangles.
     let mut of_edges = vec![0.0; around.len()];
     for edge in cloth.topology.loose_edges() {
         let [a, b] = edge.map(|v| mesh.positions[v as usize]);

@@ -1,12 +1,12 @@
-//! How far vertices give way to a push.
+//! The compliance of vertices to a push.
 
-/// Returns Σ wᵢ²/mᵢ, the compliance of weighted vertices to a push along a direction that is shared by weight and mass. Zero if
-/// none of them can move.
+/// Returns Σ wᵢ²/mᵢ, the compliance of weighted vertices to a push whose direction is shared by weight and mass. It is zero if no
+/// vertex can move.
 ///
 /// A push of p moves vertex i by p·wᵢ/mᵢ over that. If a pinned or heavy vertex has nearly all of the weight, a vertex with
 /// little weight would move far to compensate. The result is then larger, so that no vertex moves farther than twice the push.
-/// Free vertices of a face never do if none is more than four times as heavy as another: with that ratio r, w²·r + (1 − w)²/2 ≥
-/// w·r/2 for all w.
+/// This never applies to free vertices of a face if none is more than four times as heavy as another: with that ratio r, w²·r +
+/// (1 − w)²/2 ≥ w·r/2 for all w.
 pub(crate) fn mobility<const N: usize>(inverse_masses: &[f64], vertices: [u32; N], weights: [f64; N]) -> f64 {
     let (mut mobility, mut fastest) = (0.0, 0.0_f64);
     for (vertex, weight) in vertices.into_iter().zip(weights) {
@@ -22,7 +22,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Weights of a vertex and a point of a face, arbitrarily near to a corner or a side.
+    /// Generates weights of a vertex and a point of a face, arbitrarily near to a corner or a side.
     fn weights() -> impl Strategy<Value = [f64; 4]> {
         let share = || prop_oneof![0.0..=1.0, Just(0.0), (-60..0).prop_map(|e| 2.0_f64.powi(e))];
         (share(), share()).prop_map(|(s, t): (f64, f64)| [1.0, -s, -(1.0 - s) * t, -(1.0 - s) * (1.0 - t)])

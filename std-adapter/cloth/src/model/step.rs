@@ -1,4 +1,4 @@
-//! One time step as its phases see it: forces, then constraints, on positions of all vertices.
+//! One time step: forces, then constraints, on positions of all vertices.
 //!
 //! Vertices of bodies and pinned vertices are **kinematic**: they follow a prescribed motion, as if their mass were infinite.
 
@@ -13,27 +13,27 @@ use std::fmt::Debug;
 pub struct TimeStep<'a> {
     /// The time at the start of the step, in seconds.
     pub time: f64,
-    /// The length in seconds. A step may be done in parts.
+    /// The length in seconds. A step may be split into parts.
     pub h: f64,
     /// Positions at the start, in metres: the cloth's vertices, then the bodies'.
     pub start: &'a [DVec3],
-    /// Per vertex, in 1/kg; zero for kinematic vertices. For constraints it is less where something [holds](Memory::hold) the
-    /// vertex.
+    /// Inverse masses per vertex, in 1/kg; zero for kinematic vertices. For constraints they are smaller where something
+    /// [holds](Memory::hold) the vertex.
     pub inverse_masses: &'a [f64],
     /// Vertices that something holds, and their added mass in kg. `inverse_masses` includes it.
     pub(crate) held: &'a [(u32, f64)],
-    /// Of each kinematic motion, at the start and at the end.
+    /// The poses of each kinematic motion, at the start and at the end.
     pub(crate) poses: &'a [[Pose; 2]],
 }
 
 /// Changes velocities before positions are predicted.
 ///
-/// A failed step is tried again in parts, so a force must depend on its arguments alone.
+/// A failed step is repeated in parts, so a force must depend on its arguments alone.
 pub trait Force: Debug + Send + Sync {
-    /// Adds to `velocities`, in m/s, of all vertices. Those of kinematic vertices are ignored.
+    /// Adds to the velocities of all vertices, in m/s. Those of kinematic vertices are ignored.
     fn apply(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3]);
 
-    /// Returns the stored energy; `None` if there is none. It is called on request, never in a step.
+    /// Returns the stored energy, or `None` without any. It is called on request, never in a step.
     fn energy(&self, _: &Configuration<'_>) -> Option<StoredEnergy> {
         None
     }
@@ -47,41 +47,42 @@ pub trait Force: Debug + Send + Sync {
 
 /// Moves predicted positions towards the constraint.
 ///
-/// A failed step is tried again in parts, so a constraint must depend on its arguments alone.
+/// A failed step is repeated in parts, so a constraint must depend on its arguments alone.
 pub trait Constraint: Debug + Send + Sync {
     /// Moves `positions`, in metres, of vertices whose inverse mass is not zero. `touches` is for effects that push things apart.
     fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], touches: &mut Touches);
 
-    /// Returns the stored energy; `None` if there is none. It is called on request, never in a step.
+    /// Returns the stored energy, or `None` without any. It is called on request, never in a step.
     fn energy(&self, _: &Configuration<'_>) -> Option<StoredEnergy> {
         None
     }
 
-    /// Reports whether it does nothing but inner forces: between vertices of cloth, without a sum and without a moment. A step then keeps the
-    /// momentum of what [`joints`](Self::joints) and the edges of the cloth connect, which corrections at other positions than those at the start of
-    /// the step would change. A constraint of which this is not known does whatever it says.
+    /// Returns true if the constraint consists of inner forces between vertices of cloth, whose sum and moment are zero. A step
+    /// then keeps the momentum of the pieces that [`joints`](Self::joints) and the edges of the cloth connect. Without this,
+    /// corrections would change it, since they act at other positions than those at the start of the step.
     fn is_inner(&self) -> bool {
         false
     }
 
-    /// Returns the pairs of vertices between which inner forces act, but for those that edges of the cloth connect.
+    /// Returns the pairs of vertices between which inner forces act, apart from those that edges of the cloth connect.
     fn joints(&self) -> Vec<[u32; 2]> {
         Vec::new()
     }
 
-    /// Reports whether it acts again between the sweeps of contacts: what holds together what contacts push apart.
+    /// Returns true if the constraint acts again between the sweeps of contacts, to hold together vertices that contacts push
+    /// apart.
     fn acts_among_contacts(&self) -> bool {
         false
     }
 
-    /// Returns the largest of the lengths that it limits, at these positions of all vertices, over its limit; `None`, always, if it limits none. Where
-    /// that is more than a percent above one after contacts have pushed, the constraint acts again.
+    /// Returns the largest ratio of a length to its limit at these positions of all vertices. Returns `None` if the constraint
+    /// limits no length. If contacts push the ratio above 1.01, the constraint acts again.
     fn over_limit(&self, _positions: &[DVec3]) -> Option<f64> {
         None
     }
 
-    /// Returns the state that the constraint keeps from step to step, on which its projections depend as well; always `None` if
-    /// it has none.
+    /// Returns the state that the constraint keeps from step to step, or `None` if it has none. Its projections depend on this
+    /// state as well. A constraint always returns the same variant.
     fn memory(&self) -> Option<&dyn Memory> {
         None
     }
@@ -92,24 +93,24 @@ pub trait Constraint: Debug + Send + Sync {
     }
 }
 
-/// The state that a constraint keeps from step to step. It changes only after an accepted step, or part of one; failed ones leave
-/// no trace. Checkpoints contain it.
+/// The state that a constraint keeps from step to step. It changes only after an accepted step, or part of one; failed steps
+/// leave no trace. Checkpoints contain it.
 pub trait Memory {
-    /// Adds the vertices that it holds, each with the mass in kg that it adds for all constraints of a step of `h` seconds.
+    /// Adds the held vertices, each with the mass in kg that it adds for all constraints of a step of `h` seconds.
     fn hold(&self, _h: f64, _held: &mut Vec<(u32, f64)>) {}
 
     /// Records an accepted step from `step.start` to `positions`.
     fn settle(&mut self, step: &TimeStep<'_>, positions: &[DVec3]);
 
-    /// Returns the state: always as many numbers, all finite.
+    /// Returns the state. The count of numbers never changes, and all are finite.
     fn numbers(&self) -> Vec<f64>;
 
     /// Restores the state that [`numbers`](Self::numbers) returned.
     fn recall(&mut self, numbers: &[f64]);
 
     /// Returns a key for each of its [`numbers`](Self::numbers) that does not change when cloth tears. After a tear effects
-    /// register again, and the new constraints restore the numbers of the keys that they have as well. Without keys, as here, the
-    /// numbers keep their meaning.
+    /// register again, and the new constraints restore the numbers whose keys they share. Without keys, as here, the numbers keep
+    /// their meaning.
     fn keys(&self) -> Vec<[u32; 4]> {
         Vec::new()
     }
@@ -127,11 +128,11 @@ pub struct Release {
     pub group: usize,
     /// The vertex of the cloth.
     pub vertex: u32,
-    /// The begin of the step in which it was released, in seconds.
+    /// The start of the step in which it was released, in seconds.
     pub time: f64,
 }
 
 /// The kinematic motion of a vertex: its index among the motions.
 pub(crate) type Carrier = u32;
-/// No motion: the solver moves the vertex.
+/// The carrier of vertices without such a motion, which the solver moves.
 pub(crate) const FREE: Carrier = u32::MAX;

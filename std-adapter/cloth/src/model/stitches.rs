@@ -32,7 +32,7 @@ impl Stitch {
         self.way(positions).length()
     }
 
-    /// Brings vertex and point within `length` of each other.
+    /// Moves vertex and point to within `length` of each other.
     fn draw(&self, length: f64, inverse_masses: &[f64], positions: &mut [DVec3]) {
         let weights = [1.0, self.share - 1.0, -self.share];
         let mobility = mobility(inverse_masses, self.vertices, weights);
@@ -48,7 +48,7 @@ impl Stitch {
     }
 }
 
-/// Lays two rows along each other. Each row has at least two vertices and a length, or both are single vertices.
+/// Joins two rows by stitches. Each row has at least two vertices and a length, or both are single vertices.
 pub(crate) fn stitches(first: &[u32], second: &[u32], rest: &[DVec3]) -> Vec<Stitch> {
     if let (&[first], &[second]) = (first, second) {
         let vertices = [first, second, second];
@@ -88,11 +88,11 @@ fn shares(row: &[u32], rest: &[DVec3]) -> Vec<f64> {
 /// A seam in motion.
 #[derive(Debug)]
 pub(crate) struct Sewing {
-    /// Each with the initial distance of its points, in metres.
+    /// The stitches, each with the initial distance of its points, in metres.
     pub(crate) stitches: Vec<(Stitch, f64)>,
     /// The final distance, in metres.
     pub(crate) gap: f64,
-    /// The time of closing, in seconds; `None` keeps the initial distance.
+    /// The time of closing, in seconds. `None` keeps the initial distance.
     pub(crate) closing: Option<f64>,
 }
 
@@ -131,8 +131,7 @@ pub(crate) struct Tie {
     pub(crate) closing: Option<f64>,
 }
 
-/// Returns the largest distance of a stitch's points at the end of a step, for a seam that is drawn together from `start` to
-/// `gap`.
+/// Returns the largest distance of a stitch's points at the end of a step, for a seam that closes from `start` to `gap`.
 pub(crate) fn length_at_end(step: &TimeStep<'_>, start: f64, gap: f64, closing: Option<f64>) -> f64 {
     let left = closing.map_or(1.0, |closing| (1.0 - (step.time + step.h) / closing).max(0.0));
     gap + left * (start - gap).max(0.0)
@@ -164,7 +163,7 @@ impl Constraint for Sewing {
 mod tests {
     use super::*;
 
-    /// Two rows along x, one above the other by 1.
+    /// Returns two rows along x, one above the other by 1.
     fn rows(first: &[f64], second: &[f64]) -> (Vec<DVec3>, Vec<Stitch>) {
         let above = second.iter().map(|&x| DVec3::new(x, 1.0, 0.0));
         let rest: Vec<DVec3> = first.iter().map(|&x| DVec3::X * x).chain(above).collect();

@@ -1,37 +1,39 @@
 //! The contacts of a substep, for friction and for recovery.
 //!
-//! **Recovery is no push.** Two sides that are nearer than their thickness where a substep starts have to come apart, but a push would leave them a
-//! velocity. So pushes keep such a contact at the distance that it has, and a *shift* takes it apart: a change of place that is taken out of the
-//! velocity again (split impulses: Guendelman, Bridson and Fedkiw 2003 separate the two in the same way).
+//! **Recovery is no push.** Two sides that start a substep nearer than their thickness have to come apart, but a push would give
+//! them a velocity. So pushes only keep such a contact from getting nearer. A *shift* takes it apart: a displacement that does
+//! not enter the velocity (split impulses: Guendelman, Bridson and Fedkiw 2003 separate the two in the same way).
 //!
-//! The shift s solves contacts as soft ones. Contact i misses eᵢ of its thickness along nᵢ, moves its sides apart by pᵢ ≥ 0, and gives way as much
-//! as its sides do:
+//! The shift s treats contacts as soft. Contact i lacks eᵢ of its thickness along nᵢ, moves its sides apart by pᵢ ≥ 0, and yields
+//! as much as its sides do:
 //!
 //! ```text
 //! nᵢ·s + pᵢ = eᵢ  or  pᵢ = 0,      s = Σ W·nᵢ·pᵢ / mobilityᵢ
 //! ```
 //!
-//! So opposed contacts balance: a sheet between two pads is shifted to the middle, in whatever direction that is, and by nothing once it is there. Then
-//! pᵢ exceeds nᵢ·s by what presses from the other side, and that *squeeze* carries friction. n contacts in one direction come apart by n/(n + 1) of
-//! what they miss. As that would bend a sheet that lies flat, contacts that are not squeezed then give way no longer, and miss nothing.
+//! So opposed contacts balance: a sheet between two pads is shifted to the middle, and stays there. Then pᵢ exceeds nᵢ·s by the
+//! pressure from the other side, and this *squeeze* carries friction. n contacts in one direction come apart by n/(n + 1) of the
+//! missing distance, which would bend a sheet that lies flat. So contacts that are not squeezed then stop yielding, and lack
+//! nothing.
 //!
-//! Squeezes are found among contacts with what is kinematic. Layers of cloth that lie on each other have room to come apart, at the open end.
+//! Squeezes are found among contacts with kinematic sides. Layers of cloth that lie on each other can come apart at the open end.
 //!
-//! Pads that close squeeze a sheet as soon as they touch it. So squeezes are found with what contacts miss as bodies end the step. A contact that is not
-//! squeezed is shifted by what it misses at the start alone: the rest is for pushes, as a body that moves does push the cloth.
+//! Pads that close squeeze a sheet as soon as they touch it. So squeezes are found with the distances that are missing when
+//! bodies end the step. A contact that is not squeezed is shifted only by the distance missing at the start. Pushes do the rest,
+//! since a moving body does push the cloth.
 
 use super::mobility::mobility;
 use selvedge_core::glam::DVec3;
 
-/// The share of the shift that a second has time for: a millisecond takes a twentieth of it, so that the cloth's own forces can follow.
+/// The share of the shift that is done per second: a twentieth in a millisecond, so that the cloth's own forces can follow.
 const RATE: f64 = 50.0;
-/// How fast a vertex is shifted at most, in m/s.
+/// The largest speed of the shift of a vertex, in m/s.
 const FASTEST: f64 = 1.0;
-/// Sweeps over all recoveries. Each leaves half of what two opposed contacts are out of balance.
+/// The number of sweeps over all recoveries. Each halves the imbalance of two opposed contacts.
 const SWEEPS: usize = 4;
-/// A squeeze of less than this share of what a contact misses is none.
+/// The smallest squeeze, as a share of the contact's missing distance.
 const LEAST_SQUEEZE: f64 = 0.01;
-/// What misses less than this share of its thickness stays as it is: nobody sees it, and cloth at rest has nothing to recover.
+/// The smallest missing distance, as a share of the thickness. Less is not visible, and cloth at rest has nothing to recover.
 pub(crate) const LEAST_MISSING: f64 = 1e-5;
 
 /// One contact that pushed, for friction.
@@ -50,7 +52,7 @@ pub(crate) struct Touch {
 }
 
 impl Touch {
-    /// A touch of vertices alone that nothing has rubbed.
+    /// Makes a touch of vertices alone, without friction so far.
     pub(crate) const fn new(vertices: [u32; 4], weights: [f64; 4], normal: DVec3, push: f64) -> Self {
         Self {
             vertices,
@@ -63,32 +65,31 @@ impl Touch {
     }
 }
 
-/// A contact whose sides are nearer than their thickness where a substep starts.
+/// A contact whose sides start the substep nearer than their thickness.
 #[derive(Clone, Copy, Debug)]
 struct Recovery {
     touch: Touch,
     mobility: f64,
-    /// True if a whole side of it is kinematic.
+    /// Whether a whole side is kinematic.
     is_on_kinematic: bool,
-    /// At the start of the step, and as bodies end it.
+    /// The missing distance at the start of the step, and at its end in `at_end`.
     missing: f64,
     at_end: f64,
-    /// p of the module.
+    /// p of the module's documentation.
     apart: f64,
     /// The excess of p over the shift.
     squeeze: f64,
 }
 
-/// The contacts of a substep, in order: those that pushed, if friction asks for them, and those that are too near.
+/// The contacts of a substep, in order: those that pushed, if friction needs them, and those that are too near.
 #[derive(Debug, Default)]
 pub struct Touches {
-    /// True if friction uses them.
     pub(crate) wanted: bool,
     pub(crate) list: Vec<Touch>,
     recoveries: Vec<Recovery>,
     /// The shift of each vertex; empty if nothing is too near.
     shift: Vec<DVec3>,
-    /// True if the shift has been found.
+    /// Whether the shift has been found.
     is_shifted: bool,
 }
 
@@ -101,7 +102,6 @@ impl Touches {
         }
     }
 
-    /// Forgets the contacts of the last substep.
     pub(crate) fn clear(&mut self) {
         self.list.clear();
         self.recoveries.clear();
@@ -116,8 +116,8 @@ impl Touches {
         }
     }
 
-    /// Records that a contact misses so much of a thickness at the start of the step, and so much as bodies end it: not once the shift was found.
-    /// Returns its place among such contacts, if it is one.
+    /// Records a contact's missing distance at the start of the step, and when bodies end it, unless the shift has been found.
+    /// Returns its place among the recorded contacts.
     pub(crate) fn record_missing(
         &mut self,
         touch: Touch,
@@ -145,7 +145,7 @@ impl Touches {
         Some(self.recoveries.len() as u32 - 1)
     }
 
-    /// Says whether a contact that is too near is squeezed.
+    /// Returns whether a recorded contact is squeezed.
     pub(crate) fn is_squeezed(&self, place: u32) -> bool {
         self.recoveries
             .get(place as usize)
@@ -165,7 +165,7 @@ impl Touches {
         along(&self.shift, vertices, weights, normal)
     }
 
-    /// Finds the shift of a substep of `h` seconds, and records what is squeezed.
+    /// Finds the shift of a substep of `h` seconds, and records squeezes.
     pub(crate) fn find_shift(&mut self, inverse_masses: &[f64], h: f64) {
         let Self {
             wanted,
@@ -189,7 +189,7 @@ impl Touches {
         for recovery in &mut *recoveries {
             if recovery.is_on_kinematic {
                 let squeeze = recovery.apart - recovery.along(shift);
-                // A contact alone has none, but for rounding.
+                // A contact alone has no squeeze, apart from rounding.
                 recovery.squeeze = if squeeze > LEAST_SQUEEZE * recovery.at_end {
                     squeeze
                 } else {
@@ -213,7 +213,7 @@ impl Touches {
     }
 }
 
-/// Visits all recoveries, in one order in even sweeps and in the other in odd ones.
+/// Visits all recoveries, in alternating order from sweep to sweep.
 fn sweep_over(recoveries: &mut [Recovery], sweep: usize, visit: impl FnMut(&mut Recovery)) {
     if sweep.is_multiple_of(2) {
         recoveries.iter_mut().for_each(visit);
@@ -223,18 +223,17 @@ fn sweep_over(recoveries: &mut [Recovery], sweep: usize, visit: impl FnMut(&mut 
 }
 
 impl Recovery {
-    /// Returns the distance by which the shift takes its sides apart.
     fn along(&self, shift: &[DVec3]) -> f64 {
         along(shift, self.touch.vertices, self.touch.weights, self.touch.normal)
     }
 
-    /// Moves its sides apart, or together again, until its own equation holds: they move by as much as it gives way.
+    /// Moves its sides apart, or together again, until its own equation holds: they move by as much as it yields.
     fn settle(&mut self, inverse_masses: &[f64], shift: &mut [DVec3]) {
         let open = self.at_end - self.along(shift) - self.apart;
         self.push((0.5 * open).max(-self.apart), inverse_masses, shift);
     }
 
-    /// Lets it give way no longer, unless it is squeezed.
+    /// Makes the contact stop yielding, unless it is squeezed.
     fn finish(&mut self, inverse_masses: &[f64], shift: &mut [DVec3]) {
         if self.squeeze == 0.0 {
             let open = self.missing - self.along(shift);
@@ -272,7 +271,7 @@ mod tests {
     const VERTEX: [u32; 4] = [0; 4];
     const ALONE: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
 
-    /// The shift of one vertex with these contacts, as a share of what a second has time for, and the squeezes.
+    /// Returns the shift of one vertex with these contacts, as a share of what is done per second, and the squeezes.
     fn shifted(contacts: &[(DVec3, f64)]) -> (DVec3, Vec<f64>) {
         let h = 1e-3;
         let mut touches = Touches::new(true);

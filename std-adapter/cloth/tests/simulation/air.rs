@@ -32,7 +32,7 @@ fn mean_radius(simulation: &Simulation) -> f64 {
     positions.iter().map(|p| p.distance(DVec3::X)).sum::<f64>() / count as f64
 }
 
-/// A ball with the tension T = k·(r − R)/R in its skin: p = 2T/r. Shorter steps leave less of the pull to the next.
+/// The skin of a ball has the tension T = k·(r − R)/R, and p = 2T/r. Shorter steps leave less of the pull to the next.
 #[test]
 fn a_balloon_grows_until_its_skin_holds_the_pressure() {
     let (stiffness, pressure) = (200.0, 400.0);
@@ -69,7 +69,7 @@ fn a_pressure_over_time_is_that_of_its_keyframes() {
     assert!((empty - 1.0).abs() < 0.01, "{empty}");
 }
 
-/// In one step: the whole momentum, and p·h/σ everywhere on an open sheet.
+/// In one step the momentum is exact, and each vertex of an open sheet gets p·h/σ.
 #[test]
 fn a_closed_cloth_is_not_pushed_as_a_whole_and_an_open_one_along_its_normals() {
     let closed = run(balloon(false), |scene| _ = scene.add(Inflation::at(1e3)), 1);
@@ -163,7 +163,7 @@ fn a_fan_blows_a_jet_that_keeps_its_momentum() {
     assert_eq!(blown(0.0, 0.0), fan.velocity);
     assert!(blown(0.0, fan.radius).distance(fan.velocity / 2.0) < 1e-12);
     assert_eq!(blown(-0.1, 0.0), DVec3::ZERO, "behind it the air is still");
-    // ∫U²·2πr·dr over a section.
+    // The momentum through a section is ∫U²·2πr·dr.
     let momentum = |along: f64| {
         let rings = (0..4000).map(|k| 1e-3 * (f64::from(k) + 0.5));
         rings.map(|r| blown(along, r).length_squared() * r).sum::<f64>()

@@ -9,7 +9,7 @@ use selvedge_cloth::{Animation, Body, BodyMotion, CHECKPOINT_STEPS, CheckpointEr
 use std::fs;
 use std::path::Path;
 
-/// The number of intersections of the cloth, by the exact test, which shares nothing with the certificate.
+/// Counts the intersections of the cloth by the exact test, which is independent of the certificate.
 fn crossings(simulation: &Simulation) -> usize {
     let topology = selvedge::Topology::new(simulation.positions().len(), simulation.triangles().to_vec()).unwrap();
     let cloth = |vertex: u32| (vertex as usize) < simulation.cloth_vertices();
@@ -18,7 +18,7 @@ fn crossings(simulation: &Simulation) -> usize {
         selvedge::Intersection::EdgeFace { edge, face } => {
             cloth(topology.edges()[edge as usize][0]) || cloth(topology.triangles()[face as usize][0])
         }
-        // Only edges through faces are excluded by the certificate.
+        // The certificate excludes only edges through faces.
         _ => false,
     });
     with_cloth.count()
@@ -67,7 +67,7 @@ fn at_each_step_a_body_is_exactly_where_its_animation_says_and_rests_before_and_
         assert_eq!(crossings(&simulation), 0, "step {step}");
         let now = &simulation.positions()[vertices.clone()];
         let expected = animation.positions_at(simulation.time());
-        // The clock is a sum, the time a product.
+        // The clock is a sum, but the time is a product.
         let differ = now.iter().zip(&expected).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
         assert!(differ < 1e-12, "step {step}: {differ}");
         match step {
@@ -192,7 +192,7 @@ fn numbered_files_and_frames_of_code_make_the_same_scene() {
     assert!(pattern == expected && folder == expected);
 }
 
-/// The first states of the shipped scene: walking has begun, one arm is up.
+/// In the first states of the shipped scene the figure starts to walk with one arm up.
 #[test]
 fn a_walking_figure_never_passes_through_its_shirt() {
     let mut simulation = load("walker.toml", |text| text, 1);
@@ -202,7 +202,7 @@ fn a_walking_figure_never_passes_through_its_shirt() {
         assert_eq!(crossings(&simulation), 0, "step {step}");
     }
     assert_eq!(simulation.blocked_steps(), 0);
-    // The shirt has moved along.
+    // The shirt has followed the figure.
     let cloth = &simulation.positions()[..simulation.cloth_vertices()];
     let middle = cloth.iter().map(|p| p.z).sum::<f64>() / cloth.len() as f64;
     assert!(middle > 1.0, "{middle}");
@@ -285,7 +285,7 @@ fn animations_that_cannot_be_are_refused_where_they_are_made() {
     }
     let scene = |animation: Animation| scene_with(sheet(0.5), vec![Body::animated("leaf", vec![[0, 1, 2]], animation)]);
     let refusal = |animation| Simulation::new(scene(animation), 1).unwrap_err().to_string();
-    // A cut: five metres from one frame to the next.
+    // This is a cut: five metres from one frame to the next.
     let cut = Animation::from_frames(vec![frame(0.0), frame(0.1), frame(5.1)], 24.0).unwrap();
     assert_eq!(
         refusal(cut),

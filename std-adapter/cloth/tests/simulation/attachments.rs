@@ -27,8 +27,8 @@ fn hung(groups: Vec<AttachmentGroup>) -> Scene {
     scene
 }
 
-/// At rest each of two holds half the weight: a spring that yields by a millimetre at twice the weight yields by a quarter of
-/// one, downwards. The same holds on fine meshes, where a vertex weighs little and coarse levels carry tension.
+/// At rest each of two attachments holds half the weight. A spring that yields by a millimetre at twice the weight then yields by
+/// a quarter of one, downwards. The same holds on fine meshes, where a vertex weighs little and coarse levels carry tension.
 #[test]
 fn each_holds_its_share_of_the_weight() {
     for (cells, longest) in [(6, 1.02), (24, 1.1)] {
@@ -52,7 +52,7 @@ fn each_holds_its_share_of_the_weight() {
     }
 }
 
-/// Each vertex is released by itself, and for good.
+/// Each vertex is released by itself and for good.
 #[test]
 fn what_pulls_more_than_the_limit_comes_loose_and_falls() {
     let [weak, strong] = [(CORNERS[0], 0.2), (CORNERS[1], 5.0)];
@@ -73,7 +73,7 @@ fn what_pulls_more_than_the_limit_comes_loose_and_falls() {
     assert!(both.velocities()[0].z < before, "it falls ever faster");
 }
 
-/// A body that rotates and rises, one that the caller drives, and one that deforms.
+/// Attachments follow a body that rotates and rises, one that the caller drives, and one that deforms.
 #[test]
 fn attachments_follow_bodies_however_they_move() {
     let rigid = |at: DVec3, motion: BodyMotion| {

@@ -1,4 +1,4 @@
-//! A strip bends under its weight according to its flexural rigidity, whatever its mesh.
+//! A strip bends under its weight according to its flexural rigidity, on any mesh.
 
 use crate::common::{advance, resting, run};
 use crate::irregular;
@@ -7,10 +7,10 @@ use selvedge::glam::{DQuat, DVec3};
 use selvedge_cloth::effects::{AirDrag, Bend, Gravity, Shear, Stretch};
 use selvedge_cloth::{Cloth, Scene, Simulation};
 
-/// In N·m, and in kg/m².
+/// The rigidity in N·m; the density below is in kg/m².
 const RIGIDITY: f64 = 1e-5;
 const DENSITY: f64 = 0.15;
-/// Edges along the overhang.
+/// The number of edges along the overhang.
 const CELLS: f64 = 16.0;
 const WIDTH: f64 = 0.02;
 
@@ -57,8 +57,8 @@ fn strip(mesh: &Mesh, cells: u32, turn: f64, overhang: f64, h: f64) -> Mesh {
     own
 }
 
-/// The rigidity by Peirce's test (1930), over the given one. An overhang l that bends by an angle θ from end to end has the
-/// rigidity w·l³·cos(θ/2)/(8·tan θ), with w the weight per area.
+/// Returns the rigidity by Peirce's test (1930), over the given one. An overhang l that bends by an angle θ from end to end has
+/// the rigidity w·l³·cos(θ/2)/(8·tan θ), with w the weight per area.
 fn found_over_given(mesh: &Mesh, cells: u32, turn: f64) -> f64 {
     let weight = DENSITY * 9.81;
     let overhang = 2.0 * (RIGIDITY / weight).cbrt();

@@ -24,8 +24,8 @@ pub(crate) fn set_up(text: &str, name: &str, threads: usize) -> Simulation {
     Simulation::new(scene, threads).unwrap()
 }
 
-/// A valley along y with sides at a right angle to each other, of decimetre cells: `columns` on each side, `rows`, and its bottom at
-/// `height` metres. Such sheets of different heights lie over each other, vertex over vertex.
+/// Returns a valley along y with sides at a right angle to each other, of decimetre cells: `columns` on each side, `rows`, and
+/// its bottom at `height` metres. Sheets of different heights lie over each other, vertex over vertex.
 pub(crate) fn folded(columns: i32, rows: Range<i32>, height: f64) -> Mesh {
     let across = 2 * columns + 1;
     let vertex = |row: i32, column: i32| {
@@ -54,7 +54,7 @@ pub(crate) fn advance(simulation: &mut Simulation, steps: u64) {
     (0..steps).for_each(|_| simulation.step().unwrap());
 }
 
-/// Pins that hold vertices at rest.
+/// Makes pins that hold vertices at rest.
 pub(crate) fn resting(vertices: impl Into<Vec<u32>>) -> Pins {
     Pins {
         groups: vec![PinGroup::resting(vertices)],
@@ -66,7 +66,7 @@ pub(crate) fn bits(simulation: &Simulation) -> Vec<[u64; 3]> {
     positions.map(|p| p.to_array().map(f64::to_bits)).collect()
 }
 
-/// Intersections by the exact test, which shares nothing with the certificate.
+/// Finds intersections by the exact test, which is independent of the certificate.
 pub(crate) fn intersections(simulation: &Simulation) -> Vec<Intersection> {
     let (triangles, loose) = (simulation.triangles().to_vec(), simulation.loose_edges());
     let topology = Topology::with_loose_features(simulation.positions().len(), triangles, loose, &[]).unwrap();
@@ -129,7 +129,7 @@ pub(crate) fn assert_message(found: &str, expected: &str) {
     }
 }
 
-/// The message about a scene after a change.
+/// Returns the message about a scene after a change.
 #[track_caller]
 pub(crate) fn complaint(mut scene: Scene, change: impl FnOnce(&mut Scene)) -> String {
     change(&mut scene);

@@ -1,4 +1,4 @@
-//! The same bits, however a simulation is run.
+//! Simulations have the same bits, however they are run.
 
 use crate::common::{advance, load};
 use selvedge_cloth::{CHECKPOINT_STEPS, CheckpointError, Simulation};
@@ -35,7 +35,7 @@ fn a_resumed_simulation_has_the_same_bits() {
     assert_eq!(other.resume(&checkpoint), Err(CheckpointError::OtherScene));
 }
 
-/// The same in a violent scene, where hierarchies are rebuilt in steps that depend on earlier ones.
+/// The bits are the same in a violent scene, where hierarchies are rebuilt in steps that depend on earlier ones.
 #[test]
 fn a_simulation_resumed_at_any_checkpoint_goes_on_with_the_same_bits() {
     let load = || load("violent.toml", |text| text, 1);

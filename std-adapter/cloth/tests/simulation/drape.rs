@@ -1,4 +1,4 @@
-//! Cusick's drape test: one number of a fabric that laboratories publish.
+//! Cusick's drape test measures one number of a fabric that laboratories publish.
 
 use crate::common::scene_file;
 use selvedge_cloth::{Scene, Simulation};
@@ -9,8 +9,8 @@ use std::path::Path;
 const SPECIMEN: f64 = 0.15;
 const DISC: f64 = 0.09;
 
-/// The share of the ring around the disc that the cloth's shadow covers. The shadow is taken to be star-shaped: in each direction
-/// it reaches the farthest point of an edge.
+/// Returns the share of the ring around the disc that the cloth's shadow covers. The shadow is taken to be star-shaped: in each
+/// direction it reaches the farthest point of an edge.
 fn coefficient(positions: &[selvedge::glam::DVec3], triangles: &[[u32; 3]]) -> f64 {
     const DIRECTIONS: usize = 360;
     let mut farthest = [0.0_f64; DIRECTIONS];
@@ -30,7 +30,7 @@ fn coefficient(positions: &[selvedge::glam::DVec3], triangles: &[[u32; 3]]) -> f
     (shadow - disc) / (all - disc)
 }
 
-/// A specimen of `rings` rings of triangles.
+/// Writes a specimen of `rings` rings of triangles.
 fn specimen(rings: u32) -> String {
     let mut text = String::from("v 0 0 0\n");
     let first = |ring: u32| if ring == 0 { 1 } else { 2 + 3 * ring * (ring - 1) };
@@ -71,7 +71,7 @@ pub(crate) fn of_material(name: &str) -> String {
     format!("{before}[effects.self_collision]{after}")
 }
 
-/// The coefficient at the end of a scene, for a specimen of `rings` rings and a time step in milliseconds.
+/// Returns the coefficient at the end of a scene, for a specimen of `rings` rings and a time step in milliseconds.
 pub(crate) fn drape(text: &str, rings: u32, time_step: f64) -> f64 {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
     let name = format!("drape-{rings}.obj");

@@ -114,10 +114,10 @@ fn most(energies: &[f64]) -> f64 {
 fn a_thrown_sheet_never_moves_faster_than_it_was_thrown() {
     let mut steps = Steps::of(THROWN);
     let energies = steps.energies(2000);
-    // All vertices but the seventeen that are held, of which fifteen have three triangles, one two and one one.
+    // These are all vertices but the seventeen held ones: fifteen have three triangles, one has two, and one has one.
     let all: f64 = steps.shares.iter().sum();
     let thrown = 0.5 * (all - 48.0) * DVec3::new(0.4, 0.3, -2.0).length_squared();
-    // A billionth for the rounding of differences.
+    // The billionth is for the rounding of differences.
     let most = most(&energies);
     assert!(most <= thrown * (1.0 + 1e-9), "{most} of {thrown}");
     // The sheet hits the ball, and has lost energy by the end.
@@ -132,7 +132,7 @@ fn a_twisted_tube_calms_down_when_its_pins_stop() {
     calms_down(TWISTED);
 }
 
-/// The same with so many neighbours within the thickness that they have a smaller one.
+/// Energy also falls with so many neighbours within the thickness that they have a smaller one.
 #[test]
 fn a_twisted_tube_whose_edges_are_hardly_longer_than_it_is_thick_calms_down_when_its_pins_stop() {
     let fine = TWISTED.replace("[16, 16]", "[28, 28]").replace("\"3 mm\"", "\"6 mm\"");
@@ -152,7 +152,8 @@ fn calms_down(scene: &str) {
     assert!(most(&later) < 0.5 * twisting, "{after:?} after {twisting}");
 }
 
-/// A square of 1 m in two triangles. One group of vertices is held, the other moves by `way` within a second.
+/// Deforms a square of 1 m in two triangles, and returns its energy. One group of vertices is held, the other moves by `way`
+/// within a second.
 fn drawn([rest, some]: [&str; 2], way: [f64; 3], effect: &str) -> Energy {
     let scene = format!(
         r#"
@@ -211,7 +212,7 @@ fn a_bent_square_holds_a_third_of_k_over_its_area_times_c_squared() {
     assert_near(energy.elastic().unwrap(), 1e-5 / 3.0 * 0.2 * 0.2, 1e-9);
 }
 
-/// Kinematic vertices have no part in it.
+/// Kinematic vertices have no energy.
 #[test]
 fn in_free_fall_motion_and_weight_keep_their_sum_but_for_what_a_step_takes() {
     let acceleration = DVec3::new(1.0, -2.0, -9.81);

@@ -1,4 +1,4 @@
-//! Meshes of files in scenes: their groups, units and seams, and figures that share an animation.
+//! Meshes of files in scenes, with their groups, units and seams, and figures that share an animation.
 
 use selvedge_cloth::{BodyMotion, Scene, Simulation};
 use std::fs;
@@ -38,7 +38,7 @@ fn a_file_is_read_in_its_unit_with_its_seams_merged_and_a_group_alone() {
     assert_eq!(size(""), (9, 3, 100.0));
     assert_eq!(size("unit = \"cm\""), (9, 3, 1.0));
     assert_eq!(size("unit = \"cm\"\nscale = 2"), (9, 3, 2.0));
-    // In metres: after it is scaled.
+    // The tolerance is in metres, after scaling.
     assert_eq!(size("unit = \"cm\"\nweld = 0"), (8, 3, 1.0));
     assert_eq!(size("unit = \"cm\"\nweld = \"1 um\""), (7, 3, 1.0));
     assert_eq!(size("unit = \"cm\"\ngroup = \"upper\""), (3, 1, 1.0));
@@ -56,7 +56,7 @@ fn a_file_is_read_in_its_unit_with_its_seams_merged_and_a_group_alone() {
     );
 }
 
-/// A triangle that two nodes move along x by a metre, the one from 0 to 1 s, the other from 0.5 to 1.5 s.
+/// Writes a triangle that two nodes move along x by a metre, one from 0 to 1 s, the other from 0.5 to 1.5 s.
 fn two_nodes(folder: &TempDir) {
     let numbers: [f32; 19] = [
         0., 0., 0., 1., 0., 0., 0., 1., 0., /* times */ 0., 1., 0.5, 1.5, /* x y z, twice */ 0., 0., 0., 1., 0., 0.,

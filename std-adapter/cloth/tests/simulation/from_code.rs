@@ -118,7 +118,7 @@ fn code_and_file_make_the_same_scene_to_the_last_bit() {
     let keyframes = vec![Keyframe::default(), later];
     arm.motion = KeyframeMotion::new(0.1 * DVec3::Z, 2.0 * DVec3::Y, keyframes).unwrap().into();
     scene.bodies.push(arm);
-    // In any order.
+    // The order of these calls does not matter.
     scene.add(Friction { coefficient: 0.3 });
     let separation = 1e-3;
     scene.add(SelfCollision(Thickness {
@@ -186,7 +186,7 @@ fn pins_that_follow_a_driven_body_start_where_the_cloth_is() {
             simulation.step().unwrap();
         }
         for &vertex in &vertices {
-            // As if they had been fixed to the ball where it stood.
+            // These would be fixed to the ball at its placement.
             let fixed = standing.rotation.inverse() * (rest[vertex as usize] - standing.translation);
             assert!(simulation.positions()[vertex as usize].distance(now.apply(fixed)) < 1e-12);
         }
@@ -223,7 +223,7 @@ fn a_ball_that_code_moves_pushes_the_cloth_and_never_passes_it() {
             .zip(pair.weights)
             .map(|(position, weight)| position * weight)
             .sum();
-        // From the second side to the first, in a motion of half a millimetre a step.
+        // The normal points from the second side to the first, in a motion of half a millimetre a step.
         assert!(way.dot(pair.normal) > 0.0 && way.dot(pair.normal) < 8e-3, "{pair:?}");
         near += 1;
     }
@@ -296,7 +296,7 @@ fn a_body_that_changes_its_shape_pushes_the_cloth_and_never_passes_it() {
         assert_eq!(simulation.positions()[simulation.body_vertices(0).unwrap()], swollen);
     }
     assert_eq!(simulation.placement(0), None, "it is no rigid body any more");
-    // Back to its own shape, elsewhere.
+    // The body returns to its own shape, elsewhere.
     let placement = Placement::at(-0.01 * DVec3::Z);
     simulation.place_body(0, placement).unwrap();
     simulation.step().unwrap();
@@ -321,7 +321,7 @@ fn pins_go_where_code_leads_them() {
     scene.add(SelfCollision(Thickness::new(3e-3)));
     let mut simulation = Simulation::new(scene, 1).unwrap();
     for step in 1..=100 {
-        // Drawn together, as a curtain.
+        // The pins are drawn together like a curtain.
         let share = 1.0 - 0.004 * f64::from(step);
         let goals: Vec<_> = start.iter().map(|p| DVec3::new(p.x, p.y * share, 0.0)).collect();
         simulation.move_pins(0, &goals).unwrap();
@@ -334,7 +334,7 @@ fn pins_go_where_code_leads_them() {
 
 #[test]
 fn a_body_that_has_to_wait_stands_where_it_is_said_to_stand_and_goes_on_from_there() {
-    // Between two balls the cloth has no way out.
+    // The cloth cannot escape from between two balls.
     let mut scene = scene_with(ball(), 0.065);
     let mut above = ball();
     above.name = "above".to_owned();
@@ -415,7 +415,7 @@ fn the_wind_turns_when_it_is_told_to() {
     assert!(up > 0.0 && mean(&simulation) < up);
 }
 
-/// An effect outside of the crate: it pushes everything up, and keeps it below a ceiling.
+/// An effect outside the crate: it pushes everything up, and keeps it below a ceiling.
 #[derive(Clone, Copy, Debug)]
 struct Balloon {
     ceiling: f64,

@@ -23,7 +23,7 @@ pub(crate) const NAMES: [&str; 14] = [
     "tube through a tube",
 ];
 
-/// A garment of [`NAMES`] with `cells` cells along its longer side; `depth` is about one.
+/// Makes a garment of [`NAMES`] with `cells` cells along its longer side; `depth` is about one.
 pub(crate) fn garment(name: &str, cells: u32, depth: f64) -> Scene {
     let mut bodies = Vec::new();
     let n = cells;
@@ -130,7 +130,7 @@ pub(crate) fn garment(name: &str, cells: u32, depth: f64) -> Scene {
     scene
 }
 
-/// A point of a line that is bent by `angle` in an arc of this radius, at the distance `way` from the start of the arc.
+/// Returns a point of a line that is bent by `angle` in an arc of this radius. `way` is its distance from the start of the arc.
 fn bent(way: f64, radius: f64, angle: f64) -> DVec2 {
     let turned = (way / radius).clamp(0.0, angle);
     let on_arc = DVec2::new(radius * turned.sin(), radius * (1.0 - turned.cos()));
@@ -138,7 +138,7 @@ fn bent(way: f64, radius: f64, angle: f64) -> DVec2 {
     on_arc + beyond + DVec2::X * way.min(0.0)
 }
 
-/// A grid over [0, 1]² with alternating diagonals.
+/// Makes a grid over [0, 1]² with alternating diagonals.
 fn grid([across, along]: [u32; 2], point: impl Fn(f64, f64) -> DVec3) -> Mesh {
     let at = |i: u32, j: u32| i * (along + 1) + j;
     let points = (0..=across).flat_map(|i| (0..=along).map(move |j| (i, j)));
@@ -158,7 +158,7 @@ fn cell([a, b, c, d]: [u32; 4], parity: u32) -> [[u32; 3]; 2] {
     }
 }
 
-/// Rings of points, given an angle and a share of the length.
+/// Makes rings of points. `point` gets an angle and a share of the length.
 fn tube([around, along]: [u32; 2], point: impl Fn(f64, f64) -> DVec3) -> Mesh {
     let at = |i: u32, j: u32| j * around + i % around;
     let points = (0..=along).flat_map(|j| (0..around).map(move |i| (i, j)));
@@ -179,7 +179,7 @@ fn tube([around, along]: [u32; 2], point: impl Fn(f64, f64) -> DVec3) -> Mesh {
     }
 }
 
-/// Two sheets: a lower one with this height, and a flat one at the height `gap`.
+/// Makes two sheets: a lower one with this height, and a flat one at the height `gap`.
 fn two_layers(n: u32, height: impl Fn(f64, f64) -> f64, gap: f64) -> Mesh {
     let lower = grid([n, n], |u, v| DVec3::new(0.4 * u, 0.4 * v, height(u, v)));
     let upper = grid([n - 1, n + 1], |u, v| DVec3::new(0.01 + 0.38 * u, 0.4 * v - 0.003, gap));
@@ -199,7 +199,7 @@ fn joined(meshes: [Mesh; 2]) -> Mesh {
 struct Random(u64);
 
 impl Random {
-    /// In [0, 1).
+    /// Returns a number in [0, 1).
     fn next(&mut self) -> f64 {
         self.0 = self
             .0

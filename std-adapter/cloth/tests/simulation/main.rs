@@ -1,4 +1,4 @@
-//! Cloth simulation as a library's user meets it.
+//! Cloth simulation through the public interface.
 
 mod air;
 mod animated;

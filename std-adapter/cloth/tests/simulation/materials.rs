@@ -7,14 +7,14 @@ use selvedge_cloth::effects::{AirDrag, Bend, Gravity, Shear, Stretch};
 use selvedge_cloth::{Cloth, Material, Scene, SceneError};
 use std::path::Path;
 
-/// Cusick's regression over 130 fabrics (1965; quoted from memory), in percent, for a bending length in cm and the angle in
-/// degrees by which a small force shears the fabric.
+/// Returns a drape coefficient in percent by Cusick's regression over 130 fabrics (1965; quoted from memory). It takes the
+/// bending length in cm and the angle in degrees by which a small force shears the fabric.
 fn by_cusick(bending_length: f64, angle: f64) -> f64 {
     35.6 * bending_length - 3.61 * bending_length.powi(2) - 2.59 * angle + 0.0461 * angle.powi(2) + 17.0
 }
 
-/// Published coefficients: of cotton and leather for fabrics of that kind, of the others by Cusick's regression for fabrics of
-/// that stiffness, sheared by 3 to 20 degrees. No drape coefficient of latex was found.
+/// Drape agrees with published coefficients. Those of cotton and leather are of such fabrics. The others are from Cusick's
+/// regression for fabrics of that stiffness, sheared by 3 to 20 degrees. No drape coefficient of latex was found.
 #[test]
 fn every_material_drapes_as_was_published() {
     for material in [
@@ -42,8 +42,8 @@ fn every_material_drapes_as_was_published() {
     }
 }
 
-/// In µN m and g/m²: cantilever measurements of fabrics of that weight (Feng et al. 2022); for wool Kawabata's means, with twice
-/// their standard deviations.
+/// Rigidities in µN m and densities in g/m² agree with cantilever measurements of fabrics of that weight (Feng et al. 2022), and
+/// for wool with Kawabata's means within twice their standard deviations.
 #[test]
 fn bending_lengths_are_among_those_that_were_published() {
     let length = |rigidity: f64, weight: f64| (rigidity * 1e-6 / (weight * 1e-3 * 9.81)).cbrt();
@@ -65,7 +65,7 @@ fn bending_lengths_are_among_those_that_were_published() {
     }
 }
 
-/// Of 0.4 mm, 1.2 MPa and 930 kg/m³.
+/// The sheet has 0.4 mm, 1.2 MPa and 930 kg/m³.
 #[test]
 fn latex_is_an_isotropic_sheet_that_keeps_its_volume() {
     let latex = Material::LATEX;
@@ -83,7 +83,7 @@ fn latex_is_an_isotropic_sheet_that_keeps_its_volume() {
     assert_eq!((latex.stretch[0], latex.bend[0]), (latex.stretch[1], latex.bend[1]));
 }
 
-/// A strip held at its upper end, three times as long as wide.
+/// A strip that is held at its upper end, three times as long as wide, stretches as its stiffness says.
 #[test]
 fn denim_gives_under_its_weight_as_warp_weft_and_bias_say() {
     let sag = |warp: DVec3| {

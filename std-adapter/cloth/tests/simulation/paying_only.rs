@@ -64,7 +64,7 @@ fn exactly_the_effects_named_are_constructed_and_reported() {
         let (removed, _) = effects.remove(left_out);
         // Folds need bending, and tearing needs stretch.
         effects.retain(|(name, _)| ![("bend", "plastic_folds"), ("stretch", "tearing")].contains(&(removed, name)));
-        // The file has them in reverse; they run in the registry's order all the same.
+        // The file has them in reverse, but they run in the registry's order.
         let reversed: Vec<_> = effects.iter().rev().copied().collect();
         let simulation = scene(&reversed);
         let expected: Vec<_> = effects.iter().map(|(name, _)| *name).collect();
@@ -95,7 +95,7 @@ fn every_effect_named_and_no_other_takes_memory() {
     for count in 0..EFFECTS.len() {
         let more = bytes(count + 1) - bytes(count);
         assert!(more > 0, "{}", EFFECTS[count].0);
-        // These own a few numbers, and nothing per vertex (pins and attachments: their list).
+        // These own a few numbers, and nothing per vertex; pins and attachments own their list.
         if ["gravity", "air_drag", "pins", "attachments", "friction"].contains(&EFFECTS[count].0) {
             assert!(more < sheet / 2, "{}: {more} bytes", EFFECTS[count].0);
         }

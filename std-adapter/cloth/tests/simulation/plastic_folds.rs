@@ -61,7 +61,7 @@ fn what_is_bent_beyond_the_yield_curvature_stays_bent_and_what_is_not_comes_back
     assert!(up > 0.04 && back.abs() < 1e-4, "{up} {back}");
     let [up, kept] = lifted(30.0);
     assert!(kept > 0.02 && kept < up, "{up} {kept}");
-    // The sooner it yields, the more remains.
+    // A cloth that yields sooner keeps more of the bend.
     let [_, more] = lifted(20.0);
     assert!(more > 1.5 * kept, "{more} {kept}");
 }
@@ -72,7 +72,7 @@ fn folds_that_never_yield_change_no_bit() {
     assert_eq!(with.positions(), without.positions());
 }
 
-/// A square of two triangles. Three corners are held, and one is lifted within a tenth of a second: the excess over yielding
+/// Three corners of a square of two triangles are held, and one is lifted within a tenth of a second. The excess over yielding
 /// decays by e in each `creep`.
 #[test]
 fn what_is_held_bent_creeps_until_it_pulls_no_more_than_at_yielding() {
@@ -106,7 +106,7 @@ fn what_is_held_bent_creeps_until_it_pulls_no_more_than_at_yielding() {
         let folds = format!("[effects.plastic_folds]\nyield_curvature = {curvature}\ncreep = {creep}");
         held(&folds, steps)
     };
-    // The part that no fold can take: C is not quite along the normal, since the square is stretched.
+    // This part no fold can take: C is not quite along the normal, since the square is stretched.
     let least = yielding(1e-3, 0.0, 200);
     // The energy grows with the square of the elastic part.
     let pull = |energy: f64| (energy - least).sqrt();
@@ -116,7 +116,7 @@ fn what_is_held_bent_creeps_until_it_pulls_no_more_than_at_yielding() {
     assert!((sooner / later / 3.0_f64.exp() - 1.0).abs() < 1e-3, "{sooner} {later}");
 }
 
-/// A free strip: loads sum to zero. Drag slows everything at one rate.
+/// The loads on a free strip sum to zero. Drag slows everything at one rate.
 #[test]
 fn folds_push_nothing_as_a_whole() {
     let mut scene = strip(false, Some(PlasticFolds::beyond(2.0)));
@@ -136,7 +136,7 @@ fn folds_push_nothing_as_a_whole() {
         before.z > 1.0 && change.length() < 1e-9 * before.length(),
         "{before} {change}"
     );
-    // It has folded: it moves differently from an elastic strip.
+    // The strip has folded, since it moves differently from an elastic one.
     let mut elastic = strip(false, None);
     elastic.add(AirDrag { rate: 0.0 });
     let elastic = run(elastic, 1100);

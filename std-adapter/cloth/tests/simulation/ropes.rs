@@ -46,7 +46,8 @@ fn hanging(segments: u32, stiffness: f64, time_step: f64) -> Scene {
     scene
 }
 
-/// F·l/EA for the weight F, and μ·g·l²/(2·EA) for the rope itself, with any number of segments and any time step.
+/// The extension is F·l/EA for the weight F, and μ·g·l²/(2·EA) for the rope itself, with any number of segments and any time
+/// step.
 #[test]
 fn a_hung_rope_is_stretched_as_its_stiffness_says() {
     for (segments, time_step) in [(20, 1e-3), (200, 1e-3), (200, 4e-3)] {
@@ -64,7 +65,7 @@ fn a_hung_rope_is_stretched_as_its_stiffness_says() {
     }
 }
 
-/// A plate of 0.98 kg below a rope of 0.1 kg with edges of 0.5 g: in one mesh with it, or tied to its end by a seam.
+/// A plate of 0.98 kg hangs below a rope of 0.1 kg with edges of 0.5 g. It is in one mesh with it, or tied to its end by a seam.
 #[test]
 fn a_rope_of_two_hundred_edges_that_holds_a_weight_is_stretched_by_a_thousandth_as_its_stiffness_says() {
     let (length_at_rest, stiffness, gap) = (2.0, 1e4, 1e-3);
@@ -127,7 +128,7 @@ fn a_taut_rope_that_is_plucked_comes_to_rest() {
     scene.cloths[0].velocity = DVec3::Z;
     let mut simulation = Simulation::new(scene, 1).unwrap();
     for _ in 0..3000 {
-        // Stretched by a hundredth, with a jerk.
+        // The rope is stretched by a hundredth, with a jerk.
         simulation.move_pins(0, &[DVec3::ZERO, DVec3::X * 2.02]).unwrap();
         simulation.step().unwrap();
     }
@@ -136,7 +137,7 @@ fn a_taut_rope_that_is_plucked_comes_to_rest() {
     assert!((length(simulation.positions()) - 2.02).abs() < 1e-6);
 }
 
-/// w·l⁴/(8·D) at the tip, for a deflection that is small beside the length.
+/// The tip sinks by w·l⁴/(8·D), for a deflection that is small beside the length.
 #[test]
 fn a_clamped_rope_bends_under_its_weight_as_a_beam() {
     for segments in [100, 200] {
@@ -154,7 +155,8 @@ fn a_clamped_rope_bends_under_its_weight_as_a_beam() {
     }
 }
 
-/// The sag of a rope of the length s between two points of one height d apart: a·(cosh(d/2a) − 1), where 2a·sinh(d/2a) = s.
+/// Returns the sag of a rope of the length s between two points of one height, d apart: a·(cosh(d/2a) − 1), where 2a·sinh(d/2a) =
+/// s.
 #[test]
 fn a_slack_rope_hangs_in_a_catenary() {
     let (distance, drop) = (1.0, 0.4);
@@ -177,7 +179,7 @@ fn a_slack_rope_hangs_in_a_catenary() {
     assert!((found / sag - 1.0).abs() < 2e-3, "{found} for {sag}");
 }
 
-/// A hoop of 16 edges: the rest shape as built keeps it round; a straight rest shape stores energy.
+/// The rest shape as built keeps a hoop of 16 edges round; a straight rest shape stores energy.
 #[test]
 fn a_ring_keeps_the_shape_that_it_rests_in() {
     let corner = |k: u32| {
@@ -202,7 +204,7 @@ fn a_ring_keeps_the_shape_that_it_rests_in() {
     let (as_built, positions) = energy(RopeShape::AsBuilt);
     assert!(as_built < 1e-12);
     assert!(positions.iter().zip(&rest).all(|(a, b)| a.distance(*b) < 1e-9));
-    // ½D/r² for each metre of its circumference, 2πr long.
+    // The energy is ½D/r² for each metre of its circumference, 2πr long.
     let (straight, _) = energy(RopeShape::Straight);
     let theory = 0.5 * 1e-2 / (0.2 * 0.2) * std::f64::consts::TAU * 0.2;
     assert!((straight / theory - 1.0).abs() < 0.02, "{straight} for {theory}");
@@ -466,7 +468,7 @@ fn what_cannot_be_of_loose_edges_is_told_from_code() {
     assert!(scene.check().unwrap_err().to_string().starts_with(none));
 }
 
-/// 8 mm thick, 50 g/m, in 10 m/s: sin ϑ / cos² ϑ = ρ·d·U²/(2·μ·g) from drag and weight across the rope, anywhere along it.
+/// A rope of 8 mm and 50 g/m in a wind of 10 m/s hangs so that sin ϑ / cos² ϑ = ρ·d·U²/(2·μ·g), from drag and weight across it.
 #[test]
 fn a_rope_in_a_wind_leans_until_drag_and_weight_across_it_are_even() {
     let mut scene = hanging(40, 1e5, 1e-3);
@@ -502,7 +504,7 @@ fn a_wind_along_a_rope_does_nothing_to_it_and_one_across_never_makes_it_faster_t
     }
 }
 
-/// Vertices of both share the momentum of triangles and edges.
+/// A vertex of triangles and edges gets the momentum of both.
 #[test]
 fn air_gives_a_fringed_cloth_as_much_momentum_as_its_triangles_and_edges_stop() {
     let (linear_density, diameter, wind, step) = (0.02, 3e-3, 5.0, 1e-3);

@@ -12,7 +12,7 @@ fn panel(name: &str, corner: DVec3, cells: [u32; 2]) -> Cloth {
     cloth.named(name)
 }
 
-/// Front and back of a bag, 6 cm apart, of different meshes; not sewn yet.
+/// Makes the front and the back of a bag, 6 cm apart, of different meshes and not yet sewn.
 fn panels() -> Scene {
     let mut scene = Scene::new(panel("front", DVec3::ZERO, [10, 15]), 2e-3);
     scene.cloths.push(panel("back", 0.06 * DVec3::Y, [8, 11]));
@@ -31,7 +31,7 @@ fn rows(scene: &Scene, side: &str) -> [Vec<u32>; 2] {
     ["front", "back"].map(|cloth| scene.part(cloth, side).unwrap())
 }
 
-/// Sewn along three sides in 0.3 s, hung by the upper edge of the front.
+/// Makes a bag that is sewn along three sides in 0.3 s and hangs by the upper edge of the front.
 fn bag() -> Scene {
     let mut scene = panels();
     let seam = |side| {
@@ -47,7 +47,7 @@ fn bag() -> Scene {
     scene
 }
 
-/// The distances of the rows of a bag: of each vertex of the finer row to the nearest point of the other.
+/// Returns the distances of the rows of a bag: of each vertex of the finer row to the nearest point of the other.
 fn gaps(simulation: &Simulation, scene: &Scene) -> Vec<f64> {
     let at = |vertex: u32| simulation.positions()[vertex as usize];
     let mut gaps = Vec::new();
@@ -78,7 +78,7 @@ fn panels_are_drawn_together_in_the_given_time_and_keep_their_gap_from_then_on()
         middle.push(gaps[gaps.len() / 2]);
         widest.push(gaps[gaps.len() - 1]);
     }
-    // From 6 cm to the thickness. Contacts push after the seam, so some points are a little farther apart.
+    // The distance falls from 6 cm to the thickness. Contacts push after the seam, so some points are a little farther apart.
     assert!((0.030..0.032).contains(&widest[75]), "{}", widest[75]);
     for (middle, widest) in middle.iter().zip(&widest).skip(160) {
         assert!(*middle < 1.15 * THICKNESS && *widest < 1.6 * THICKNESS, "{middle} {widest}");
@@ -115,7 +115,7 @@ fn a_seam_without_a_time_holds_rows_as_they_lie_and_one_that_is_not_named_lets_t
 fn seams_have_the_same_bits_on_any_number_of_threads_and_resumed_while_they_close() {
     let scene = || {
         let mut scene = bag();
-        // Still open where it is resumed, after 0.4 s.
+        // The seam is still open after 0.4 s, where the run is resumed.
         scene.add(Seams {
             seams: SIDES
                 .map(|side| {

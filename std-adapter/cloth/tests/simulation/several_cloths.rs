@@ -16,7 +16,6 @@ fn sheet(name: &str, corner: DVec3, cells: u32, density: f64) -> Cloth {
     cloth.named(name)
 }
 
-/// The positions of a cloth.
 fn of_cloth(simulation: &Simulation, cloth: usize) -> &[DVec3] {
     &simulation.positions()[simulation.vertices_of_cloth(cloth).unwrap()]
 }
@@ -202,7 +201,7 @@ fn two_cloths_keep_the_mean_of_their_thicknesses_from_each_other() {
 
 #[test]
 fn a_cloth_of_its_own_stiffness_is_stretched_as_that_says() {
-    // Side by side, hung by their upper edges.
+    // The sheets hang side by side by their upper edges.
     let mut scene = Scene::new(sheet("first", DVec3::ZERO, 8, 0.2), 2e-3);
     scene.cloths.push(sheet("second", DVec3::new(0.5, 0.0, 0.0), 8, 0.2));
     scene.add_to("second", Stretch::isotropic(20.0));

@@ -11,7 +11,7 @@ fn stays_finite(name: &str, steps: usize, change: impl Fn(String) -> String, wha
         simulation.step().unwrap();
         let positions = simulation.positions();
         assert!(positions.iter().all(|p| p.is_finite()), "{name} with {what}, step {step}");
-        // Speeds are limited, so nothing escapes.
+        // Speeds are limited, so no vertex escapes.
         let farthest = positions.iter().map(|p| p.length()).fold(0.0, f64::max);
         assert!(farthest < 1e3, "{name} with {what}, step {step}: {farthest} m away");
     }
@@ -50,7 +50,7 @@ fn a_hurricane_and_no_air_at_all() {
 /// not move far to compensate.
 #[test]
 fn what_is_pinned_too_near_to_a_body_flings_nothing_away() {
-    // 35 µm from the body, across the slopes.
+    // The sheet is 35 µm from the body, across the slopes.
     let [above, thickness] = [50e-6, 50e-6];
     let cloth = Cloth::from_mesh(folded(2, 0..4, 0.0), DVec3::X, 0.2).unwrap();
     let ends = (0..4).flat_map(|row| [5 * row, 5 * row + 4]).collect::<Vec<u32>>();

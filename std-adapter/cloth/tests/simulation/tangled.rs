@@ -1,4 +1,4 @@
-//! Scenes that start with intersections: refused with a list, tolerated, or untangled.
+//! Scenes that start with intersections are refused with a list, tolerated, or untangled.
 
 use crate::common::{assert_same_bits, intersections, scene_file, set_up};
 use crate::garments::{NAMES, garment};
@@ -6,7 +6,7 @@ use selvedge::{CollisionDetector, Intersection, Topology};
 use selvedge_cloth::effects::Gravity;
 use selvedge_cloth::{CHECKPOINT_STEPS, Scene, SetupError, Simulation, Tangled, TangledStart, UntanglingProgress};
 
-/// A garment with this response to its intersections.
+/// Makes a garment with this response to its intersections.
 fn starting(name: &str, cells: u32, depth: f64, start: TangledStart) -> Scene {
     let mut scene = garment(name, cells, depth);
     scene.tangled_start = start;

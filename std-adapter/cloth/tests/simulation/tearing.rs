@@ -1,4 +1,4 @@
-//! Cloth tears above its strength and nowhere else, conserves momentum, and has the same bits however it is run.
+//! Cloth tears above its strength and nowhere else, conserves momentum, and has the same bits in every kind of run.
 
 use crate::common::{advance, assert_messages, assert_same_bits, folded, load, run, set_up};
 use selvedge_cloth::effects::{
@@ -17,13 +17,13 @@ fn strip(name: &str, at: DVec3) -> Cloth {
     Cloth::sheet(at, sides, CELLS, 0.2).unwrap().named(name)
 }
 
-/// Vertices of the strip in a column.
+/// Returns the vertices of the strip in a column.
 fn column(column: u32) -> Vec<u32> {
     (0..=CELLS[1]).map(|row| (CELLS[0] + 1) * row + column).collect()
 }
 
-/// A strip of 1 kN/m whose ends are drawn apart by a centimetre in a tenth of a second: it stretches by a tenth, so that 100 N
-/// pull on each metre of its width.
+/// Makes a strip of 1 kN/m whose ends are drawn apart by a centimetre in a tenth of a second. It stretches by a tenth, so that
+/// 100 N pull on each metre of its width.
 fn pulled(tearing: Tearing) -> Scene {
     let mut scene = Scene::new(strip("cloth", DVec3::ZERO), 1e-3);
     let keys = [(0.0, 0.0), (0.1, 0.01)].map(|(time, x)| Keyframe {
@@ -44,7 +44,7 @@ fn pulled(tearing: Tearing) -> Scene {
     scene
 }
 
-/// The number of connected pieces of the cloth.
+/// Counts the connected pieces of the cloth.
 fn pieces(simulation: &Simulation) -> usize {
     let mut piece: Vec<usize> = (0..simulation.cloth_vertices()).collect();
     let triangles = &simulation.triangles()[..simulation.cloth_triangles()];
@@ -111,7 +111,7 @@ fn a_tear_within_the_cloth_is_a_slit_and_vertices_that_are_not_split_keep_their_
 
 #[test]
 fn what_pins_hold_is_not_split() {
-    // All edges end at pinned vertices, or their other end is not at the border.
+    // An edge ends at a pinned vertex, or has an end inside the cloth.
     let held = [column(0), column(1)[2..4].to_vec()].concat();
     let simulation = run(pulled(Tearing::perforated(held, 10.0)), 200);
     assert!(simulation.copied_vertices(0).iter().all(|copied| !column(0).contains(copied)));
@@ -142,7 +142,7 @@ impl Force for Apart {
     }
 }
 
-/// The mass of each vertex of the torn cloth: a third of its triangles'.
+/// Returns the mass of each vertex of the torn cloth: a third of its triangles'.
 fn masses(simulation: &Simulation) -> Vec<f64> {
     let mut rest = strip("cloth", DVec3::ZERO).mesh().positions.clone();
     { simulation.copied_vertices(0).iter() }.for_each(|&vertex| rest.push(rest[vertex as usize]));
@@ -218,7 +218,7 @@ fn a_checkpoint_of_torn_cloth_that_is_damaged_changes_nothing() {
     let scene = || pulled(Tearing::perforated(column(5), 60.0));
     let simulation = run(scene(), CHECKPOINT_STEPS);
     let checkpoint = simulation.checkpoint().unwrap();
-    // The first triangle's first vertex, after magic, fingerprint, the number of copies and the copies.
+    // The first triangle's first vertex follows the magic number, the fingerprint, the number of copies and the copies.
     let corner = 16 + 8 + 8 + 4 * simulation.copied_vertices(0).len();
     let mut damaged = checkpoint.clone();
     damaged[corner] ^= 1;
@@ -250,7 +250,7 @@ fn what_names_vertices_of_a_cloth_behind_one_that_tears_goes_on_holding_them() {
     }
 }
 
-/// A strip with a tassel of two edges at a vertex, whose ends are 66 and 67.
+/// Makes a strip with a tassel of two edges at a vertex, whose ends are 66 and 67.
 fn with_tassel(name: &str, at: DVec3, vertex: u32) -> Cloth {
     let mut mesh = strip(name, at).mesh().clone();
     let root = mesh.positions[vertex as usize];
@@ -331,8 +331,8 @@ fn refined((mut positions, triangles): (Vec<DVec3>, Vec<[u32; 3]>)) -> (Vec<DVec
     (positions, finer)
 }
 
-/// Cloth of decimetre cells between a groove and a wedge, 40 µm from each: an opening of a thousandth of an edge would go 50 µm
-/// into the walls. The cloth's ends are drawn up along the walls, and the groove moves away after 0.35 s.
+/// Makes cloth of decimetre cells between a groove and a wedge, 40 µm from each. An opening of a thousandth of an edge would go
+/// 50 µm into the walls. The cloth's ends are drawn up along the walls, and the groove moves away after 0.35 s.
 fn in_a_groove() -> Scene {
     let cloth = Cloth::from_mesh(folded(2, 0..4, 0.0), DVec3::X, 0.2).unwrap();
     let mut scene = Scene::new(cloth, 1e-3);

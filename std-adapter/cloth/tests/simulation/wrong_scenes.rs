@@ -47,7 +47,7 @@ fn the_scene_that_the_mistakes_are_made_in_is_good() {
 
 #[test]
 fn twenty_mistakes_get_twenty_messages_that_say_what_to_do() {
-    // The words about a file that is not TOML are the library's; the place is ours.
+    // The library words the message about a file that is not TOML; the place comes from this crate.
     for (passage, by) in [
         ("[cloth]", "[cloth"),
         ("[effects.gravity]", "[effects.gravity]\n[effects.gravity]"),

@@ -1,6 +1,6 @@
 //! The hanging chain: a rope between two points takes the form of a catenary, y = a·cosh(x/a).
 //!
-//! A rope of straight segments is off by the square of their length.
+//! The error of a rope of straight segments grows with the square of their length.
 
 use selvedge_cloth::effects::{AirDrag, Gravity, PinGroup, Pins, RopeStretch};
 use selvedge_cloth::glam::DVec3;
@@ -9,13 +9,13 @@ use selvedge_cloth::{Cloth, Scene, Simulation};
 const SPAN: f64 = 1.0;
 const LENGTH: f64 = 1.25;
 
-/// How far the middle of a catenary hangs below its ends: 2a·sinh(span/2a) is the length.
+/// Returns the sag of a catenary in the middle; its length is 2a·sinh(span/2a).
 fn sag() -> f64 {
     let length = |a: f64| 2.0 * a * (0.5 * SPAN / a).sinh();
     let (mut low, mut high) = (0.1, 10.0);
     for _ in 0..100 {
         let middle = 0.5 * (low + high);
-        // A flatter one is shorter.
+        // A flatter catenary is shorter.
         if length(middle) > LENGTH {
             low = middle;
         } else {
@@ -25,7 +25,7 @@ fn sag() -> f64 {
     low * ((0.5 * SPAN / low).cosh() - 1.0)
 }
 
-/// How far the middle of a rope of so many segments hangs at rest.
+/// Returns the sag of a rope of so many segments at rest.
 fn hung(segments: u32, step: f64) -> f64 {
     let depth = 0.5 * (LENGTH * LENGTH - SPAN * SPAN).sqrt();
     let points = [DVec3::ZERO, DVec3::new(0.5 * SPAN, 0.0, -depth), DVec3::X * SPAN];

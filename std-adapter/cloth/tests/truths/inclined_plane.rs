@@ -1,6 +1,6 @@
 //! The inclined plane: a sheet slides down by ½·(g·sin α − μ·g·cos α)·t², and stays where it is if μ exceeds tan α (Coulomb).
 //!
-//! The plane is one of triangles, and none of its edges and vertices may be felt. Semi-implicit steps of h give ½·a·t·(t + h).
+//! The plane consists of triangles, whose edges and vertices must have no effect. Semi-implicit steps of h give ½·a·t·(t + h).
 
 use crate::{elastic, grid, jittered};
 use selvedge_cloth::effects::{BodyContact, Friction, Gravity, SelfCollision, Thickness};
@@ -11,13 +11,13 @@ const STEP: f64 = 1e-3;
 const SLOPE: f64 = 20.0;
 const THICKNESS: f64 = 3e-3;
 
-/// Along the plane downhill, and its normal.
+/// Returns the downhill direction and the normal of the plane.
 fn axes() -> [DVec3; 2] {
     let (sine, cosine) = f64::to_radians(SLOPE).sin_cos();
     [DVec3::new(cosine, 0.0, -sine), DVec3::new(sine, 0.0, cosine)]
 }
 
-/// A plane of 10 m by 2 m in so many cells.
+/// Makes a plane of 10 m by 2 m in so many cells.
 fn plane(cells: [u32; 2], jitter: f64) -> Mesh {
     let [down, normal] = axes();
     let mut mesh = jittered(grid([10.0, 2.0], cells), cells, jitter);
@@ -27,7 +27,7 @@ fn plane(cells: [u32; 2], jitter: f64) -> Mesh {
     mesh
 }
 
-/// How far a sheet has slid after half a second, downhill and to the side, and how far above the plane it ever was.
+/// Returns a sheet's path after half a second, downhill and sideways, and its largest height above the plane.
 fn slid(plane: Mesh, friction: f64) -> [f64; 3] {
     let [down, normal] = axes();
     let corner = down * -4.0 + normal * (1.01 * THICKNESS) - DVec3::Y * 0.15;

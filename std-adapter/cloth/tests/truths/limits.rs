@@ -1,4 +1,4 @@
-//! Limits: no edge of a sheet that falls on a ball is longer than its limit by more than 5 %, whatever friction and contact do.
+//! No edge of a sheet that falls on a ball is longer than its limit by more than 5 %, with friction and contact.
 
 use crate::elastic;
 use selvedge_cloth::effects::{BodyContact, Friction, Gravity, SelfCollision, StrainLimit, Thickness};
@@ -23,7 +23,7 @@ fn dropped(step: f64) -> Simulation {
     Simulation::new(scene, 1).unwrap()
 }
 
-/// The longest edge in a second over its length at rest, where `advance` makes a frame of 1/60 s.
+/// Returns the longest edge in a second over its length at rest, where `advance` simulates a frame of 1/60 s.
 fn longest(simulation: &mut Simulation, mut advance: impl FnMut(&mut Simulation)) -> f64 {
     let mut longest = 0.0_f64;
     while simulation.time() < 1.0 {

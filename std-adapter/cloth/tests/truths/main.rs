@@ -1,4 +1,4 @@
-//! The simulation against closed forms: each file holds a law, and each test compares with what the law says exactly.
+//! The simulation against closed forms. Each file has one law, and each test compares with its exact prediction.
 
 mod free_fall;
 mod hanging_chain;
@@ -11,7 +11,7 @@ use selvedge_cloth::effects::{Bend, Shear, Stretch};
 use selvedge_cloth::glam::DVec3;
 use selvedge_cloth::{Mesh, Scene, Simulation};
 
-/// The mass of each vertex of a mesh with this density, in kg: a third of its triangles'.
+/// Returns the mass of each vertex of a mesh with this density, in kg: a third of its triangles'.
 fn masses(mesh: &Mesh, density: f64) -> Vec<f64> {
     let mut masses = vec![0.0; mesh.positions.len()];
     for triangle in &mesh.triangles {
@@ -22,7 +22,7 @@ fn masses(mesh: &Mesh, density: f64) -> Vec<f64> {
     masses
 }
 
-/// Momentum, and angular momentum about a point, of the first vertices: as many as there are masses.
+/// Returns momentum, and angular momentum about a point, of as many vertices as there are masses.
 fn momenta(simulation: &Simulation, masses: &[f64], about: DVec3) -> [DVec3; 2] {
     let vertices = simulation.positions().iter().zip(simulation.velocities()).zip(masses);
     vertices.fold([DVec3::ZERO; 2], |[linear, angular], ((x, v), m)| {
@@ -38,7 +38,7 @@ fn elastic(scene: &mut Scene, stiffness: f64, bending: f64) {
         .add(Bend::isotropic(bending));
 }
 
-/// A rectangle with these sides in the xy plane, around the origin, in so many cells of two triangles.
+/// Makes a rectangle with these sides in the xy plane, around the origin, in so many cells of two triangles.
 fn grid(sides: [f64; 2], [columns, rows]: [u32; 2]) -> Mesh {
     let vertex = |row: u32, column: u32| {
         let share = [
@@ -57,7 +57,7 @@ fn grid(sides: [f64; 2], [columns, rows]: [u32; 2]) -> Mesh {
     }
 }
 
-/// A grid whose inner vertices are moved by up to a share of a cell, always in the same way.
+/// Moves the inner vertices of a grid by up to a share of a cell, always in the same way.
 fn jittered(mut grid: Mesh, [columns, rows]: [u32; 2], share: f64) -> Mesh {
     let cell = [
         grid.positions[1].x - grid.positions[0].x,

@@ -9,7 +9,7 @@ use selvedge_cloth::{Cloth, Mesh, Scene, Simulation};
 
 const DENSITY: f64 = 0.15;
 
-/// A sheet in the xy plane whose vertices are pushed out of it and along it in waves: elastic forces shake it.
+/// Makes a sheet in the xy plane whose vertices are pushed out of it and along it in waves, so that elastic forces shake it.
 fn wavy(corner: DVec3) -> Mesh {
     let flat = Cloth::sheet(corner, [0.5 * DVec3::X, 0.5 * DVec3::Y], [10, 10], DENSITY).unwrap();
     let mut mesh = flat.mesh().clone();
@@ -41,7 +41,7 @@ impl Force for Spin {
     }
 }
 
-/// Runs so many steps after the first one. Returns by how much momenta have changed since then, over the sums of the lengths of their parts.
+/// Runs so many steps after the first one. Returns the change of momenta since then, over the sums of the lengths of their parts.
 fn change(scene: Scene, masses: &[f64], steps: usize) -> [f64; 2] {
     let mut simulation = Simulation::new(scene, 1).unwrap();
     simulation.step().unwrap();
@@ -74,7 +74,7 @@ fn a_sheet_let_go_in_empty_space_keeps_both_momenta_whether_it_spins_or_not() {
     }
 }
 
-/// What seams and ties join is one piece: they pass momentum on from one cloth to the other.
+/// Cloths that seams and ties join are one piece: they pass momentum on to each other.
 #[test]
 fn cloths_that_are_sewn_together_keep_their_momenta_together() {
     let meshes = [wavy(DVec3::ZERO), wavy(DVec3::new(0.52, 0.0, 0.02))];
@@ -109,7 +109,7 @@ fn cloths_that_are_sewn_together_keep_their_momenta_together() {
     assert!(change.iter().all(|own| *own < 1e-9), "{change:?}");
 }
 
-/// Gravity, drag and the pin have no moment about the vertical through the pin.
+/// Gravity, drag and the pin exert no moment about the vertical through the pin.
 #[test]
 fn a_sheet_that_hangs_by_a_corner_does_not_turn_about_it() {
     let mesh = wavy(DVec3::ZERO);
@@ -139,7 +139,7 @@ fn a_sheet_that_hangs_by_a_corner_does_not_turn_about_it() {
     }
 }
 
-/// Two pins leave one axis to turn about: a sheet hung by one side swings about that side as gravity alone makes it.
+/// A sheet that hangs by two pins swings about that side as gravity alone makes it.
 #[test]
 fn gravity_alone_changes_the_momentum_about_a_line_of_pins() {
     let mesh = wavy(DVec3::ZERO);

@@ -1,11 +1,11 @@
-//! Rest: what lies on something, is too near to it, or is squeezed, comes to rest at its thickness, and recovery gives it no speed.
+//! Cloth that lies on a body, is too near to it, or is squeezed comes to rest at its thickness, and recovery gives it no speed.
 
 use crate::{elastic, grid, jittered};
 use selvedge_cloth::effects::{AirDrag, BodyContact, Friction, Gravity, SelfCollision, Thickness};
 use selvedge_cloth::glam::DVec3;
 use selvedge_cloth::{Body, BodyMotion, Cloth, Keyframe, KeyframeMotion, Mesh, OnBlocked, Scene, Simulation};
 
-/// A sheet of 0.3 m in so many cells, in the plane at this height.
+/// Makes a sheet of 0.3 m in so many cells, in the plane at this height.
 fn sheet(height: f64, cells: u32) -> Cloth {
     let corner = DVec3::new(-0.15, -0.15, height);
     Cloth::sheet(corner, [0.3 * DVec3::X, 0.3 * DVec3::Y], [cells; 2], 0.15).unwrap()
@@ -23,7 +23,7 @@ fn contact(scene: &mut Scene, thickness: f64, friction: f64) {
     }
 }
 
-/// The root of the mean square of the speeds of all cloth.
+/// Returns the root mean square of the speeds of all cloth.
 fn speed(simulation: &Simulation) -> f64 {
     let cloth = &simulation.velocities()[..simulation.cloth_vertices()];
     (cloth.iter().map(|v| v.length_squared()).sum::<f64>() / cloth.len() as f64).sqrt()
@@ -83,11 +83,11 @@ fn ten_layers_on_a_table_come_to_rest() {
         );
     }
     println!("{} m/s", speed(&simulation));
-    // Exactly at rest would be zero: four sweeps do not settle all ten layers in a step.
+    // The exact speed is zero, but four sweeps do not settle all ten layers in a step.
     assert!(speed(&simulation) < 1e-2, "{}", speed(&simulation));
 }
 
-/// A box with these corners.
+/// Makes a box with these corners.
 fn cuboid(low: DVec3, high: DVec3) -> Mesh {
     let corner = |k: u32| {
         DVec3::select(
@@ -116,7 +116,7 @@ fn cuboid(low: DVec3, high: DVec3) -> Mesh {
     }
 }
 
-/// A sheet that hangs with its upper edge between two pads, which leave less room than its thickness on both sides.
+/// Makes a sheet whose upper edge hangs between two pads, which leave less room than its thickness on both sides.
 fn pinched(friction: f64) -> Simulation {
     let cloth = Cloth::sheet(
         DVec3::new(-0.15, 0.0, -0.27),
@@ -160,7 +160,7 @@ fn squeezed_cloth_is_held_by_friction_in_the_middle() {
         .fold(0.0, f64::max);
     let aside = held.iter().map(|&v| simulation.positions()[v].y.abs()).fold(0.0, f64::max);
     println!("{speed} m/s, slipped {slipped} m, {aside} m aside");
-    // Exactly at rest would be zero. As the pads close the cloth creeps by as much as they are thick.
+    // The exact speed is zero. As the pads close, the cloth creeps by as much as they are thick.
     assert!(speed < 2e-2, "{speed} m/s");
     assert!(slipped < 4e-3 && aside < 1e-3, "{slipped} m, {aside} m aside");
 }
@@ -173,7 +173,7 @@ fn squeezed_cloth_falls_freely_without_friction() {
         cloth.iter().map(|p| p.z).sum::<f64>() / cloth.len() as f64
     };
     let start = middle(&simulation);
-    // As semi-implicit steps fall that lose a share of the velocity.
+    // Semi-implicit steps that lose a share of the velocity fall in this way.
     let (mut velocity, mut expected) = (0.0, 0.0);
     for _ in 0..150 {
         simulation.step().unwrap();

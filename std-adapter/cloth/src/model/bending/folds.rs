@@ -1,13 +1,13 @@
 //! Permanent folds: cloth that is bent too far does not flatten completely.
 //!
-//! A hinge has a rest of its own, c₀ along the normal n between its triangles, and the energy ½(αD/A)·|C − c₀n|². C is parallel
+//! A hinge has its own rest value c₀ along the normal n between its triangles, and the energy ½(αD/A)·|C − c₀n|². C is parallel
 //! to n up to stretch, so the energy depends on C·n alone. The forces are −Q·x and (αD/A)·c₀·K·n on the vertices, which sum to
 //! zero and exert no torque. The second part, the loads, is added in each stage of a step, with the normals at its start. Since n
 //! lags behind a rotation, it damps rotation a little.
 //!
 //! **Yield.** C·n/A is a curvature, c₀/A that of the fold at rest. If they differ by more than κ after a step, the fold creeps:
-//! it takes 1 − exp(−h/τ) of the excess over κ, all of it if τ is zero. That is perfect plasticity: the model of Narain, Pfaff
-//! and O'Brien (2013) without hardening, for fold angles instead of curvatures of triangles.
+//! it takes 1 − exp(−h/τ) of the excess over κ, and all of it if τ is zero. This is perfect plasticity: the model of Narain,
+//! Pfaff and O'Brien (2013) without hardening, for fold angles instead of curvatures of triangles.
 
 use super::hinge::Hinge;
 use crate::model::schedule::On;
@@ -16,10 +16,10 @@ use libm::exp;
 use selvedge::parallel;
 use selvedge_core::glam::DVec3;
 
-/// When folds become permanent.
+/// The point at which folds become permanent.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Yield {
-    /// κ of the module, in 1/m.
+    /// κ of the module's documentation, in 1/m.
     pub(crate) curvature: f64,
     /// τ, in s.
     pub(crate) creep: f64,
@@ -29,9 +29,9 @@ pub(crate) struct Yield {
 pub(super) struct Folds {
     when: Yield,
     hinges: Vec<Fold>,
-    /// The source vertices of the last ones, which are copies made by tears.
+    /// The source vertices of the last vertices, which are copies made by tears.
     copied: Vec<u32>,
-    /// On each vertex, in N.
+    /// The load on each vertex, in N.
     loads: Vec<DVec3>,
 }
 
@@ -39,7 +39,7 @@ pub(super) struct Folds {
 struct Fold {
     vertices: [u32; 4],
     hinge: Hinge,
-    /// c₀ of the module, in m.
+    /// c₀ of the module's documentation, in m.
     rest: f64,
 }
 
@@ -95,7 +95,7 @@ impl Folds {
         &self.loads
     }
 
-    /// Returns the part of the energy besides ½x·Q·x, in J.
+    /// Returns the energy without the part ½x·Q·x, in J.
     pub(super) fn energy(&self, positions: &[DVec3]) -> f64 {
         let of = |fold: &Fold| {
             let [bent, normal] = fold.bent(positions);

@@ -6,15 +6,15 @@ use crate::world::Incidence;
 use selvedge::parallel;
 use selvedge_core::glam::DVec3;
 
-/// The number of tightenings of the bound on the fastest wave. On a shirt with slivers the bound is 1.95 times the largest
-/// eigenvalue after one, 1.06 after five, 1.004 after nine, 1.00002 after seventeen.
+/// The number of iterations that tighten the bound on the fastest wave. On a shirt with slivers the bound is 1.95 times the
+/// largest eigenvalue after one, 1.06 after five, 1.004 after nine, 1.00002 after seventeen.
 const TIGHTENINGS: u32 = 12;
 
-/// Rows of Q without the diagonal: a row sums to zero.
+/// The rows of Q without the diagonal: a row sums to zero.
 #[derive(Debug)]
 pub(super) struct Forces {
     starts: Vec<u32>,
-    /// The column and the value of each entry, ascending in a row. Two arrays take 12 bytes per entry instead of 16.
+    /// The column and the value of each entry. Columns ascend in a row. Two arrays take 12 bytes per entry instead of 16.
     columns: Vec<u32>,
     values: Vec<f64>,
 }
@@ -49,7 +49,6 @@ impl Forces {
         forces
     }
 
-    /// Returns the number of vertices.
     pub(super) fn len(&self) -> usize {
         self.starts.len() - 1
     }
@@ -61,7 +60,7 @@ impl Forces {
         columns.zip(self.values[row].iter().copied())
     }
 
-    /// Returns an upper bound of the largest eigenvalue of M⁻¹Q, in 1/s², nearly tight, or at most `enough`.
+    /// Returns an upper bound of the largest eigenvalue of M⁻¹Q, in 1/s². It is nearly tight, or at most `enough`.
     ///
     /// With A the absolute values of M⁻¹Q, the largest (A·d)ᵢ/dᵢ is a bound for any positive d (Collatz 1942, Wielandt 1950).
     /// With ones it is the largest row sum (Gershgorin), which slivers double. Each next d is the mean of d and its product with
@@ -90,7 +89,6 @@ impl Forces {
         bound
     }
 
-    /// Returns the force on a vertex.
     #[inline(always)]
     fn on(&self, vertex: usize, positions: &[DVec3]) -> DVec3 {
         let own = positions[vertex];
@@ -101,7 +99,7 @@ impl Forces {
         force
     }
 
-    /// Returns ½x·Q·x, in J, not negative whatever the rounding. Positions are relative to the first vertex, since the forces sum
+    /// Returns ½x·Q·x, in J. Rounding does not make it negative. Positions are relative to the first vertex, since the forces sum
     /// to zero and differences lose fewer digits.
     pub(super) fn energy(&self, positions: &[DVec3]) -> f64 {
         let of = |vertex: usize| (positions[vertex] - positions[0]).dot(self.on(vertex, positions));
@@ -121,7 +119,7 @@ mod tests {
     use crate::model::hierarchy::irregular;
     use crate::world::{Cloth, sheet};
 
-    /// Returns a lower bound: the factor by which M⁻¹Q multiplies the energy of a motion to which it was applied often.
+    /// Returns a lower bound: the factor by which M⁻¹Q multiplies the energy of a motion after many applications.
     fn largest_eigenvalue(forces: &Forces, inverse_masses: &[f64]) -> f64 {
         let mut motion: Vec<_> = (0..forces.len()).map(|k| DVec3::Z * (k as f64).sin()).collect();
         let mut largest = 0.0;

@@ -6,19 +6,19 @@ use crate::world::Cloth;
 use selvedge::Topology;
 use selvedge_core::glam::DVec3;
 
-/// On its four vertices, those of the edge first.
+/// A hinge on four vertices, those of the edge first.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Hinge {
-    /// K of the module.
+    /// K of the module's documentation.
     pub(super) weights: [f64; 4],
     /// The factor of |C|² in twice the energy, in N/m.
     pub(super) coefficient: f64,
-    /// A of the module, in m².
+    /// A of the module's documentation, in m².
     pub(super) area: f64,
 }
 
 impl Hinge {
-    /// C of the module, in m.
+    /// Returns C of the module's documentation, in m.
     #[inline(always)]
     pub(super) fn bent(&self, x: [DVec3; 4]) -> DVec3 {
         let k = self.weights;
@@ -26,7 +26,7 @@ impl Hinge {
     }
 }
 
-/// The least α: no hinge is without stiffness, however blunt the angles opposite its edge.
+/// The least α. It gives every hinge some stiffness, however blunt the angles opposite its edge.
 const LEAST_SHARE: f64 = 1.0 / 3.0;
 
 /// Returns a hinge for each edge between two triangles. `rigidity` maps the square of the cosine between the warp and the
@@ -68,7 +68,7 @@ pub(crate) fn hinges(cloth: &Cloth, rigidity: impl Fn(f64) -> f64) -> Vec<On<Hin
     inner.map(make).collect()
 }
 
-/// Returns α of the module, given the sum of the cotangents of the angles opposite the edge.
+/// Returns α of the module's documentation, given the sum of the cotangents of the angles opposite the edge.
 fn share(opposite: f64) -> f64 {
     ((2.0 + opposite) / 3.0).max(LEAST_SHARE)
 }
@@ -86,7 +86,7 @@ impl Local<4> for Hinge {
             weight += w[i] * k[i] * k[i];
         }
         let multiplier = bent * (-1.0 / weight);
-        // Written out, since `map` would not be inlined here.
+        // The calls are written out, since `map` would not be inlined here.
         let by = |i: usize| multiplier * (w[i] * k[i]);
         [by(0), by(1), by(2), by(3)]
     }
@@ -102,7 +102,7 @@ mod tests {
     use super::*;
     use crate::world::sheet;
 
-    /// A flat sheet has no bending force however it is moved rigidly; a folded one has.
+    /// A flat sheet has no bending force after any rigid motion; a folded one has.
     #[test]
     fn flat_cloth_is_at_rest_and_folded_cloth_is_not() {
         let cloth = Cloth::of(sheet(DVec3::ZERO, [DVec3::X, DVec3::new(0.3, 1.0, 0.0)], [3, 3]));

@@ -5,24 +5,24 @@
 //!                       └────▶ the part that is too stiff for the stages, hinge by hinge
 //! ```
 //!
-//! **Energy.** A [`Hinge`] is an edge between two triangles with its four vertices. C = ΣKᵢxᵢ, with K made of the cotangents of
-//! its angles at rest, has the length of the edge times the angle between the triangles (Bergou et al. 2006). Its energy is
-//! ½(αD/A)·|C|², with the flexural rigidity D in N·m and A the area of both triangles. The energy is quadratic: forces are −Q·x
-//! with a constant Q, without trigonometry and without singular folds.
+//! **Energy.** A [`Hinge`] is an edge between two triangles with its four vertices. The weights K in C = ΣKᵢxᵢ are made of the
+//! cotangents of its angles at rest. The length of C is the length of the edge times the angle between the triangles (Bergou et
+//! al. 2006). The energy is ½(αD/A)·|C|², with the flexural rigidity D in N·m and A the area of both triangles. It is quadratic:
+//! forces are −Q·x with a constant Q, without trigonometry and without singular folds.
 //!
 //! Bergou et al. use α = 3. That is right for a ball, but cloth hardly ever bends in two directions at once. Bent in one
-//! direction around rows of equilateral triangles, it is three times too stiff: only the hinges across the rows bend, |C| = κ·A
-//! for a curvature κ, and there is one for each area A of cloth, whose energy should be ½D·κ² per area. With α = 1 equilateral
-//! triangles are right in any direction. A grid of right-angled triangles with alternating diagonals, whose vertices relax to the
-//! least energy, would have 5/6 of the rigidity around its rows and 4/3 around its diagonals. With 4/3 for the legs and 2/3 for
-//! the diagonals it is 1 in every direction (by homogenisation: the least energy of a periodic cell at a given mean curvature). α
-//! = (2 + cot γ + cot δ)/3, with γ and δ the angles opposite the edge, gives both, and 1.05 for equilateral triangles. A strip
-//! that bends under its weight then shows 0.9 to 1.1 times the rigidity on grids and on irregular triangles, in any direction;
-//! where all diagonals of a grid are parallel, 0.6 to 2.9.
+//! direction around rows of equilateral triangles, it is three times too stiff. Only the hinges across the rows bend, with |C| =
+//! κ·A for a curvature κ. There is one of them for each area A of cloth, whose energy should be ½D·κ² per area. With α = 1
+//! equilateral triangles are right in any direction. A grid of right-angled triangles with alternating diagonals, whose vertices
+//! relax to the least energy, would have 5/6 of the rigidity around its rows and 4/3 around its diagonals. With 4/3 for the legs
+//! and 2/3 for the diagonals it is 1 in every direction (by homogenisation: the least energy of a periodic cell at a given mean
+//! curvature). α = (2 + cot γ + cot δ)/3, with γ and δ the angles opposite the edge, gives both, and 1.05 for equilateral
+//! triangles. A strip that bends under its weight then shows 0.9 to 1.1 times the rigidity on grids and on irregular triangles,
+//! in any direction. If all diagonals of a grid are parallel, it shows 0.6 to 2.9.
 //!
-//! **Integration.** Implicit Euler solves (M + h²Q)(x − y) = −h²Q·y for x, with y the prediction of everything else. One sweep of
-//! Gauss and Seidel, hinge by hinge, hardly moves long waves on a fine mesh: a strip hangs like a string (0.13 of its rigidity at
-//! edges of 2.4 mm, 0.04 at 1.2 mm, even with α = 3). But long waves are slow, and for them the force −Q·y itself is accurate
+//! **Integration.** Implicit Euler solves (M + h²Q)(x − y) = −h²Q·y for x, with y the prediction of everything else. One
+//! Gauss–Seidel sweep, hinge by hinge, hardly moves long waves on a fine mesh. A strip hangs like a string: 0.13 of its rigidity
+//! at edges of 2.4 mm, 0.04 at 1.2 mm, even with α = 3. But long waves are slow, and for them the force −Q·y itself is accurate
 //! enough. So the force is evaluated s times, in the stages of a first-order Runge–Kutta–Chebyshev method (van der Houwen and
 //! Sommeijer 1980): x = R(h²M⁻¹Q)·y with R(λ) = 1 − λ + O(λ²) for slow modes and |R| ≤ 1/[`DAMPING`](stages::DAMPING) for fast
 //! ones. The number of stages grows with the root of the largest eigenvalue; one stage suffices for edges of a centimetre.
@@ -33,10 +33,10 @@
 //! **Stability.** A step multiplies a wave by z with z² − 2R·z + R = 0 (the velocity is x − the last x): |z|² = R if R ≥ 0, and
 //! |z| ≤ 1 if R ≥ −1/3. [`Forces::fastest`] bounds the eigenvalues from above.
 //!
-//! **Too stiff.** Where a row needs more stages than are allowed, the stiffness of its hinges is split: the stages do what they
-//! can, and one sweep, hinge by hinge, the rest as if there were no stages. So a plate is at least as stiff as the stages make
-//! it. The same happens where a few slivers alone need more stages than all others ([`MOST_BEYOND`]). With permanent folds
-//! ([`folds`]) the rest is left out: what is too stiff gets softer.
+//! **Too stiff.** If a row needs more stages than are allowed, the stiffness of its hinges is split. The stages do as much as
+//! they can, and one sweep, hinge by hinge, does the rest as if there were no stages. So a plate is at least as stiff as the
+//! stages make it. The same happens if a few slivers alone need more stages than all others ([`MOST_BEYOND`]). With permanent
+//! folds ([`folds`]) the rest is left out, and the cloth becomes softer.
 
 mod folds;
 mod forces;
@@ -54,11 +54,11 @@ use forces::Forces;
 use selvedge_core::glam::DVec3;
 use stages::Stages;
 
-/// The largest share of hinges that are partly done one by one so that the others need fewer stages.
+/// The largest share of hinges whose stiffness is split so that the others need fewer stages.
 const MOST_BEYOND: f64 = 0.02;
-/// The number of stages that is not reduced further. So few stages take little time. With one, two and three stages R of the
-/// module is 1 − λ + c·λ² with a c of 0, 0.21 and 0.26 instead of the 0.27 to 0.30 of more, so that waves that are not slow would
-/// move differently.
+/// The number of stages that is not reduced further, since so few stages take little time. With one, two and three stages R of
+/// the module's documentation is 1 − λ + c·λ² with a c of 0, 0.21 and 0.26. With more stages c is 0.27 to 0.30, so fewer stages
+/// would change the motion of waves that are not slow.
 const ENOUGH_STAGES: u32 = 4;
 
 /// The bending of a cloth, as a constraint.
@@ -70,13 +70,14 @@ pub(crate) struct Bending {
     /// The part that is too stiff for the stages.
     beyond: Option<Schedule<Hinge, 4>>,
     folds: Option<Folds>,
-    /// The last two stages, and the next.
+    /// The positions of the last two stages, and of the next.
     work: [Vec<DVec3>; 3],
 }
 
 impl Bending {
     /// Makes the constraint from hinges on vertices with these inverse masses, in 1/kg, with at most `most_stages` stages for a
-    /// step of `h` seconds. `folds` says when folds become permanent, and which vertices the last ones are copies of.
+    /// step of `h` seconds. `folds` has the point at which folds become permanent, and the source vertices of the last vertices,
+    /// which are copies.
     pub(crate) fn new(
         hinges: &[On<Hinge, 4>],
         inverse_masses: &[f64],
@@ -86,7 +87,7 @@ impl Bending {
     ) -> Self {
         let vertex_count = inverse_masses.len();
         let reach = |stages| Stages::of(stages).reach() / (time_step * time_step);
-        // A little less, or rounding might need one stage more.
+        // The factor leaves room for rounding, which might need one stage more.
         let [enough, allowed] = [reach(ENOUGH_STAGES) * (1.0 - 1e-9), reach(most_stages)];
         let parted = |few| Parted::new(hinges, inverse_masses, [enough, allowed], few);
         let stages_of = |parted: &Parted| Stages::to_reach(time_step * time_step * parted.fastest).count();
@@ -114,11 +115,11 @@ impl Bending {
     }
 }
 
-/// Hinges with the part of their stiffness that the stages do, and with the rest.
+/// Hinges, split into the stiffness that the stages apply and the rest.
 struct Parted {
     within: Vec<On<Hinge, 4>>,
     beyond: Vec<On<Hinge, 4>>,
-    /// The forces of the first part, and their [`Bending::fastest`].
+    /// The forces of the first part, and their upper bound [`Bending::fastest`].
     forces: Forces,
     fastest: f64,
 }
@@ -238,7 +239,7 @@ mod tests {
     use crate::model::schedule::Local;
     use crate::world::{Cloth, sheet};
 
-    /// This holds whether the stages do all of it, or the sweep of hinges does a part.
+    /// Bending conserves momentum, whether the stages do all of it or the sweep of hinges does a part.
     #[test]
     fn energy_is_that_of_all_hinges_and_flat_cloth_has_none() {
         let cloth = Cloth::of(sheet(DVec3::ONE, [DVec3::X, DVec3::new(0.3, 1.0, 0.0)], [9, 8]));

@@ -22,7 +22,7 @@ pub(super) struct Stages {
     w1: f64,
 }
 
-/// One stage: shares of the difference of the last two positions, and of the force.
+/// One stage: the factors of the difference of the last two positions, and of the force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Stage {
     pub(super) before: f64,
@@ -68,7 +68,7 @@ impl Stages {
             let [one, two] = last;
             let own = 2.0 * w0 * one - two;
             last = [own, one];
-            // The first has no predecessor: Y₁ = Y₀ + (w₁/w₀)·F(Y₀).
+            // The first stage has no predecessor: Y₁ = Y₀ + (w₁/w₀)·F(Y₀).
             if stage == 1 {
                 return Stage {
                     before: 0.0,

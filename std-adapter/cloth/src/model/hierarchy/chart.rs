@@ -1,8 +1,9 @@
-//! The cloth around a vertex laid flat, triangle by triangle, each beside one that lies already, the nearest first.
+//! The cloth around a vertex, laid flat triangle by triangle. Each triangle is put beside one that lies already, the nearest
+//! first.
 //!
-//! This is exact where the cloth at rest is developable, as a sheet or a tube is. Elsewhere a place depends on the triangles
-//! through which it was reached first. Where three places are not as far apart as over the cloth, a level does without them (see
-//! [`dual`](super::dual)).
+//! This is exact where the cloth at rest is developable, like a sheet or a tube. Elsewhere a place depends on the triangles
+//! through which it was reached first. A level leaves out triangles whose corners are not as far apart in the chart as over the
+//! cloth (see [`dual`](super::dual)).
 
 use super::surface::Surface;
 use crate::model::membrane::warp_and_weft;
@@ -13,7 +14,7 @@ use std::collections::BinaryHeap;
 #[derive(Debug)]
 pub(super) struct Chart<'a> {
     surface: &'a Surface<'a>,
-    /// The warp at the centre is along x.
+    /// The place of each vertex. The warp at the centre is along x.
     places: Vec<DVec2>,
     /// The number of the chart in which a vertex was placed last.
     placed_in: Vec<u32>,

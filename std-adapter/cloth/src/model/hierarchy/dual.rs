@@ -10,20 +10,20 @@ use std::collections::BTreeSet;
 
 /// The least height of a triangle over its longest side.
 const THINNEST: f64 = 0.05;
-/// The largest ratio of the path over the cloth to the straight distance in a chart. Beyond it there is no cloth along the
+/// The largest ratio of the path over the cloth to the straight distance in a chart. If it is larger, there is no cloth along the
 /// straight line. A path through both cells is longer by up to 1.15, at an obtuse triangle, and one over edges and across hinges
 /// by up to 1.08.
 const DETOUR: f64 = 1.3;
-/// The largest inverse ratio. Beyond it the chart has gone the wrong way round.
+/// The largest inverse ratio. If it is larger, the chart has gone the wrong way round.
 const SHORTCUT: f64 = 1.05;
 
 #[derive(Debug)]
 pub(super) struct Dual {
-    /// Seeds, in the orientation of the cloth's triangles, the smallest first.
+    /// The seeds of each triangle, oriented like the cloth's triangles, the smallest first.
     pub(super) triangles: Vec<[u32; 3]>,
     /// The triangles of each seed.
     pub(super) around: Grouped<u32>,
-    /// From a seed to one with a larger number whose cell touches its own: the length of the shortest path through both cells;
+    /// Pairs of seeds whose cells touch, the smaller number first, and the length of the shortest path through both cells;
     /// sorted.
     ways: Vec<([u32; 2], f64)>,
 }

@@ -1,4 +1,4 @@
-//! For tests: irregular triangulations of a square.
+//! Irregular triangulations of a square, for tests.
 
 use selvedge::glam::{DVec2, DVec3};
 use selvedge::{Mesh, Topology};

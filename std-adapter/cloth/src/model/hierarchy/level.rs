@@ -10,16 +10,16 @@ use crate::model::schedule::On;
 use selvedge::parallel;
 use selvedge_core::glam::{DVec2, DVec3};
 
-/// A part of the cloth with more than this share of its vertices outside all coarse triangles is left out.
+/// The largest share of vertices outside all coarse triangles. A part of the cloth with more of them is left out.
 const MOST_OUTSIDE: f64 = 0.05;
 
 /// A triangle between seeds, at rest.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CoarseTriangle {
     pub(crate) membrane: Membrane,
-    /// In m².
+    /// The area, in m².
     pub(crate) area: f64,
-    /// The squares of its sides, that from the first to the second vertex first, in m².
+    /// The squares of the sides, in m². The side from the first to the second vertex comes first.
     pub(crate) sides: [f64; 3],
 }
 
@@ -31,19 +31,18 @@ const INSIDE: f64 = 1e-6;
 pub(crate) struct Level {
     /// The typical distance of seeds, in metres.
     pub(crate) spacing: f64,
-    /// On indices of seeds.
+    /// The triangles, on indices of seeds.
     pub(crate) triangles: Vec<On<CoarseTriangle, 3>>,
-    /// The inverse mass of each seed, in 1/kg: its mass is the sum of its shares in its followers' masses. Zero if it is pinned.
-    ///
-    /// Moves of seeds that conserve Σ mass·position of seeds then conserve that of vertices: momentum is conserved.
+    /// The inverse mass of each seed, in 1/kg; zero if it is pinned. The mass is the sum of its shares in its followers' masses.
+    /// So moves of seeds that conserve Σ mass·position of seeds conserve that of vertices, and with it momentum.
     pub(crate) inverse_masses: Vec<f64>,
-    /// Vertices of the cloth.
+    /// The vertices of the cloth that are seeds.
     pub(super) seeds: Vec<u32>,
-    /// By vertex of the cloth. No shares where it is pinned or left out.
+    /// The seeds that each vertex of the cloth follows. A pinned or left-out vertex follows none.
     follows: Vec<Follows>,
 }
 
-/// A vertex that moves with these seeds, by these shares.
+/// The seeds that a vertex moves with, and their shares.
 #[derive(Clone, Copy, Debug, Default)]
 struct Follows {
     seeds: [u32; 3],
@@ -51,8 +50,8 @@ struct Follows {
 }
 
 impl Level {
-    /// Makes a level of the `wanted` parts of the cloth, and removes those that it does not represent well. `None` if no part
-    /// remains.
+    /// Makes a level of the `wanted` parts of the cloth, and removes those that it does not represent well. Returns `None` if no
+    /// part remains.
     pub(super) fn new(
         surface: &Surface<'_>,
         masses: &[f64],
@@ -91,7 +90,7 @@ impl Level {
             }
         };
         let inverse_masses: Vec<f64> = seeds.vertices.iter().zip(seed_masses).map(inverse).collect();
-        // A completely pinned triangle has nothing to move.
+        // A completely pinned triangle moves nothing.
         triangles.retain(|(corners, _)| corners.iter().any(|&seed| inverse_masses[seed as usize] > 0.0));
         Some(Self {
             spacing,
@@ -102,7 +101,7 @@ impl Level {
         })
     }
 
-    /// Computes the inverse masses of seeds where vertices are heavier, each by a mass in kg.
+    /// Computes the inverse masses of seeds when some vertices are heavier, each by a mass in kg.
     pub(crate) fn weigh(&self, heavier: &[(u32, f64)], inverse_masses: &mut Vec<f64>) {
         inverse_masses.clone_from(&self.inverse_masses);
         for &(vertex, mass) in heavier {
@@ -152,8 +151,8 @@ struct Nearest {
 }
 
 impl Interpolation {
-    /// Interpolates each cell in a chart of its own, together with the triangles around its seed, and with those around its
-    /// neighbours where it reaches beyond.
+    /// Interpolates each cell in a chart of its own. The chart has the triangles around the seed, and those around its neighbours
+    /// where the cell reaches beyond.
     fn new(surface: &Surface<'_>, seeds: &Seeds, spacing: f64) -> Self {
         let dual = Dual::new(surface, seeds);
         let owned = seeds.owner.iter().enumerate();
@@ -211,8 +210,8 @@ impl Interpolation {
         all
     }
 
-    /// Lets vertices that no chart reached follow what their neighbours follow, as beyond a vertex that alone joins two pieces of
-    /// cloth.
+    /// Makes vertices that no chart reached follow the seeds of their neighbours. Such vertices lie beyond a vertex that alone
+    /// joins two pieces of cloth.
     fn join(&mut self, surface: &Surface<'_>, seeds: &Seeds) {
         let follows_any = |follows: &Follows| follows.shares != [0.0; 3];
         let is_left =
@@ -236,7 +235,7 @@ impl Interpolation {
     }
 }
 
-/// Adds the neighbours of seeds to them, sorted. Returns the triangles around the seeds that were there before.
+/// Adds the neighbours of seeds to them, sorted. Returns the triangles around the original seeds.
 fn with_neighbours(dual: &Dual, near: &mut Vec<u32>) -> Vec<u32> {
     let mut triangles: Vec<u32> = near.iter().flat_map(|&seed| &dual.around[seed]).copied().collect();
     triangles.sort_unstable();
@@ -257,8 +256,8 @@ impl Flat {
         }
     }
 
-    /// Returns the nearest point of the triangle in barycentric coordinates, none of them negative; approximately the nearest at
-    /// a corner.
+    /// Returns the nearest point of the triangle in barycentric coordinates, none of them negative. At a corner it is only
+    /// approximately the nearest.
     fn nearest(&self, place: DVec2) -> Nearest {
         let [a, b, c] = self.places.map(|corner| corner - place);
         let [across_a, across_b, across_c] =

@@ -8,9 +8,9 @@
 //!                       meet
 //! ```
 //!
-//! Levels are made once, from the mesh at rest alone: any triangles, with holes, in several parts, open or closed, flat or
-//! curved. A part that a level does not represent well is left out of this level and of all coarser ones. Effects act there as
-//! without levels.
+//! Levels are made once, from the mesh at rest alone. The mesh may have any triangles, holes and several parts; it may be open or
+//! closed, flat or curved. A part that a level does not represent well is left out of this level and of all coarser ones. Effects
+//! act there as without levels.
 
 mod chart;
 mod dual;
@@ -29,7 +29,8 @@ use surface::Surface;
 
 /// The ratio of seed distances from level to level.
 const RATIO: f64 = 2.0;
-/// The least number of spacings along a part of the cloth (along a square of its area). A coarser level would hardly be a mesh.
+/// The least number of spacings along a part of the cloth (along a square of its area). Coarser levels would have too few
+/// triangles.
 const FEWEST_SPACINGS: f64 = 4.0;
 
 /// The levels so far, from fine to coarse, made on demand.
@@ -117,7 +118,7 @@ mod tests {
         crate::world::sheet(DVec3::new(-0.5, -0.5, 0.0), sides, [cells; 2])
     }
 
-    /// Regular, randomly displaced, relaxed, and with a hole.
+    /// Returns sheets that are regular, randomly displaced, relaxed, and with a hole.
     fn sheets() -> [Mesh; 4] {
         let thrown = irregular::sheet(32, 0);
         let hole = irregular::with_hole(&thrown, DVec3::new(-0.1, 0.2, 0.0), 0.15);
@@ -141,7 +142,7 @@ mod tests {
         }
     }
 
-    /// A cloth that moves, rotates or stretches evenly does the same after its seeds do.
+    /// A cloth moves, rotates or stretches evenly if its seeds do.
     #[test]
     fn what_is_linear_in_the_plane_is_interpolated_exactly_but_for_a_rim() {
         for mesh in sheets() {
@@ -211,7 +212,7 @@ mod tests {
         }
     }
 
-    /// A sheet, and a tube whose triangles lie on a cylinder: rest lengths go around it, not through.
+    /// On a sheet and on a tube whose triangles lie on a cylinder, rest lengths go around the cylinder, not through it.
     #[test]
     fn a_tube_is_laid_flat_around_each_of_its_seeds() {
         let tube = crate::world::tube([DVec3::ZERO, DVec3::Z], 0.2, [80, 64]);
@@ -244,7 +245,7 @@ mod tests {
         }
     }
 
-    /// Nothing of a ball can be laid flat: levels have at most as much cloth as there is.
+    /// No part of a ball can be laid flat, so levels have at most as much cloth as there is.
     #[test]
     fn a_closed_ball_has_levels_that_hold_no_more_cloth_than_there_is() {
         let ball = crate::world::capsule([DVec3::ZERO; 2], 0.3, 64);

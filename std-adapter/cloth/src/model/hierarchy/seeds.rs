@@ -1,21 +1,21 @@
 //! The vertices of a coarse level, by farthest-point sampling over the cloth (Eldar et al. 1997; Moenning and Dodgson 2003).
 //!
-//! Pins and corners come first, then the border, so that a level ends where the cloth ends and holds where it is held.
+//! Pins and corners come first, then the border, so that a level has the cloth's outline and its held vertices.
 
 use super::surface::Surface;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// The least distance, in spacings, of a pin or corner to those chosen before.
+/// The least distance, in spacings, of a pin or corner from earlier seeds.
 const FIRST: f64 = 0.3;
-/// The largest distance, in spacings, of a border vertex to a seed; no vertex at all is farther than one spacing.
+/// The largest distance, in spacings, of a border vertex from a seed. Every other vertex is within one spacing.
 const BORDER: f64 = 0.6;
 const INNER: f64 = 0.7;
 
 #[derive(Debug)]
 pub(super) struct Seeds {
     pub(super) vertices: Vec<u32>,
-    /// The nearest seed of each vertex, with its distance; none where the cloth is left out.
+    /// The nearest seed of each vertex, with its distance; unset in parts that are left out.
     pub(super) owner: Vec<u32>,
     pub(super) distance: Vec<f64>,
 }

@@ -9,13 +9,13 @@ use std::f64::consts::{FRAC_PI_4, PI};
 #[derive(Debug)]
 pub(super) struct Surface<'a> {
     pub(super) cloth: &'a Cloth,
-    /// Neighbours with distances: over edges, and straight across a hinge from one tip to the other where both triangles are
-    /// convex together. Paths over edges alone would be longer than the cloth's by half.
+    /// Neighbours with distances: along edges, and straight across a hinge from one tip to the other if both triangles are convex
+    /// together. Paths along edges alone would be up to half again as long.
     pub(super) ways: Grouped<(u32, f64)>,
     pub(super) triangles: Grouped<u32>,
-    /// Ends of an edge without exactly two triangles: a boundary, or a seam of several panels.
+    /// Whether a vertex ends an edge without exactly two triangles: a boundary, or a seam of several panels.
     pub(super) is_border: Vec<bool>,
-    /// Vertices at which the border turns.
+    /// Whether the border turns at a vertex.
     pub(super) is_corner: Vec<bool>,
     /// The connected part of each vertex, numbered from 0.
     pub(super) part: Vec<u32>,
@@ -129,8 +129,8 @@ impl<'a> Surface<'a> {
     }
 }
 
-/// Returns the distance from `c` to `d` over the edge from `a` to `b`, with both triangles laid flat. `None` if the path would
-/// miss the edge.
+/// Returns the distance from `c` to `d` over the edge from `a` to `b`, with both triangles laid flat. Returns `None` if the path
+/// would miss the edge.
 fn across([a, b, c, d]: [DVec3; 4]) -> Option<f64> {
     let edge = b - a;
     let length = edge.length();

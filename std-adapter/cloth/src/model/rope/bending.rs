@@ -16,8 +16,8 @@ use crate::world::Cloth;
 use crate::world::runs;
 use selvedge_core::glam::DVec3;
 
-/// The largest stiffness of a joint, in masses of a vertex over h². Masses then do not vanish beside it: rounding is 10⁻⁶ of a
-/// move.
+/// The largest stiffness of a joint, as a multiple of a vertex's mass over h². It keeps masses from being rounded away: the
+/// rounding of a move is 10⁻⁶ of it.
 const STIFFEST: f64 = 1e10;
 
 /// The joints of a cloth's loose edges.
@@ -30,13 +30,13 @@ pub(crate) struct Bending {
 #[derive(Debug)]
 struct Row {
     vertices: Vec<u32>,
-    /// Each of a vertex and the next two.
+    /// The joint of each vertex and the next two.
     joints: Vec<Joint>,
 }
 
 #[derive(Debug)]
 struct Joint {
-    /// e as a sum over the three vertices, in 1/m.
+    /// The weights of e at the three vertices, in 1/m.
     weights: [f64; 3],
     /// D/L, in J.
     stiffness: f64,
@@ -116,7 +116,7 @@ impl Row {
         let count = self.vertices.len();
         let inverse_mass = |k: usize| step.inverse_masses[self.vertices[k] as usize];
         band.diagonal.clear();
-        // The mass of a vertex that does not move has no meaning.
+        // A vertex that does not move has no meaningful mass.
         let mass = |k: usize| {
             let inverse = inverse_mass(k);
             if inverse > 0.0 { inverse.recip() } else { 1.0 }
@@ -136,7 +136,7 @@ impl Row {
             let largest: f64 = joint.weights.iter().map(|weight| weight * weight).sum();
             let stiffness = (joint.stiffness * step.h * step.h).min(STIFFEST * lightest / largest);
             if !stiffness.is_finite() {
-                // None of the three moves.
+                // None of the three vertices moves.
                 continue;
             }
             let turn = joint.turn([k, k + 1, k + 2].map(|k| positions[self.vertices[k] as usize]));
@@ -154,7 +154,7 @@ impl Row {
 }
 
 impl Joint {
-    /// e of the module.
+    /// Returns e of the module's documentation.
     fn turn(&self, [a, b, c]: [DVec3; 3]) -> DVec3 {
         (c - b) * self.weights[2] - (b - a) * self.weights[0]
     }
@@ -171,7 +171,7 @@ impl Band {
         } = self;
         for k in 0..diagonal.len() {
             if k >= 1 {
-                // Of rows before: their factors, times their diagonal.
+                // These are the factors of earlier rows, times their diagonal.
                 let (one, two) = (first[k - 1], if k >= 2 { second[k - 2] } else { 0.0 });
                 diagonal[k] -= one * one * diagonal[k - 1];
                 first[k] -= one * second[k - 1] * diagonal[k - 1];
@@ -203,7 +203,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// CᵀC plus a diagonal, as of joints, times the solution equals the right-hand side.
+        /// CᵀC plus a diagonal, times the solution, equals the right-hand side.
         #[test]
         fn the_band_solves_its_equations(
             masses in prop::collection::vec(0.1..2.0_f64, 3..12),

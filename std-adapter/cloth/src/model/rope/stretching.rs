@@ -10,15 +10,15 @@
 //!
 //! as Baraff and Witkin (1998) do for cloth. The second part of K is tension: a spring pulls back sideways motion, with a = T/ℓ.
 //! Without it a taut rope of short edges would be unstable, as explicit steps are when waves travel farther than an edge. A
-//! compressed spring would push sideways motion on; this term is left out (Choi and Ko 2002), so the matrix is always definite.
+//! compressed spring would amplify sideways motion; this term is left out (Choi and Ko 2002), so the matrix is always definite.
 //!
-//! **Tension.** Tension at the end of the step counts, since a pull travels along the whole rope within a step: at y no other
-//! edge knows of a jerk at one end. So the equations are solved twice: first with the tension at y, from which the tension T +
-//! k·n·(d of one end − d of the other) results, then with that tension.
+//! **Tension.** Tension at the end of the step counts, since a pull travels along the whole rope within a step: at y a jerk at
+//! one end has not reached the other edges. So the equations are solved twice: first with the tension at y, from which the
+//! tension T + k·n·(d of one end − d of the other) results, then with that tension.
 //!
-//! **Ties.** A rope whose end a seam joins with one other vertex is solved together with that vertex, by a spring as stiff as
-//! possible when the two are as far apart as they may be. Otherwise a light end would give way to a heavy load, by the ratio of
-//! the masses times the load's own fall.
+//! **Ties.** If a seam joins the end of a rope to one other vertex, the rope is solved together with that vertex. At the largest
+//! distance of the two, the spring between them is as stiff as possible. Otherwise a light end would give way to a heavy load, by
+//! the ratio of the masses times the load's own fall.
 //!
 //! **Elimination** keeps masses beside stiffnesses up to 10⁹ times theirs. The effective mass E of a vertex, felt through a
 //! spring K at the next vertex, is K(E + K)⁻¹E, the two in series, in which nothing is subtracted. E + K is never inverted but
@@ -31,8 +31,8 @@ use crate::world::Cloth;
 use crate::world::runs;
 use selvedge_core::glam::{DMat3, DVec3};
 
-/// The largest stiffness, in masses of the lighter vertex over h², so that rounding is 10⁻⁷ of a move. Under its own weight a
-/// rope of n vertices is then stretched by n·g·h²/10⁹ an edge: with n = 1,000 and h = 1 ms by a hundredth of a nanometre.
+/// The largest stiffness, as a multiple of the lighter vertex's mass over h², so that rounding is 10⁻⁷ of a move. A rope of n
+/// vertices then stretches under its own weight by n·g·h²/10⁹ an edge: with n = 1,000 and h = 1 ms by a hundredth of a nanometre.
 const STIFFEST: f64 = 1e9;
 
 /// A tie longer than this share of its largest length is taut. Earlier stitches leave it so, up to rounding.
@@ -41,7 +41,7 @@ const TAUT: f64 = 0.999;
 /// The loose edges of a cloth as springs.
 #[derive(Debug)]
 pub(crate) struct Stretching {
-    /// In N.
+    /// The axial stiffness, in N.
     stiffness: f64,
     pieces: Vec<Piece>,
     work: Work,
@@ -49,9 +49,9 @@ pub(crate) struct Stretching {
 
 #[derive(Debug)]
 struct Piece {
-    /// As the scene numbers them. The vertices to which the rope's ends are tied come before and after them.
+    /// The vertices, as the scene numbers them. The vertices to which the rope's ends are tied come before and after them.
     vertices: Vec<u32>,
-    /// Each from a vertex to the next.
+    /// The edges, each from a vertex to the next.
     edges: Vec<Edge>,
 }
 
@@ -62,7 +62,7 @@ enum Edge {
     Tied(Tie),
 }
 
-/// Of the piece that is being solved.
+/// The equations of the piece that is being solved.
 #[derive(Debug, Default)]
 struct Work {
     masses: Vec<Option<f64>>,
@@ -76,10 +76,10 @@ struct Work {
 struct Spring {
     /// The unit vector from its first end to its second; zero if the edge has hardly any length.
     along: DVec3,
-    /// At rest, in m.
+    /// The length at rest, in m.
     length: f64,
     stiffness: f64,
-    /// At the prediction of everything else.
+    /// The pull at the prediction of everything else.
     pull: f64,
     /// The tension that pulls back sideways motion.
     tension: f64,
@@ -118,7 +118,7 @@ impl Stretching {
 }
 
 impl Piece {
-    /// Adds the vertices to which the ends are tied, unless they are its own.
+    /// Adds the vertices to which the ends are tied, unless they belong to the row.
     fn tie(&mut self, ties: &[Tie]) {
         for is_last in [false, true] {
             let end = if is_last {
@@ -210,7 +210,6 @@ impl Work {
         self.springs.extend(edges.map(spring));
     }
 
-    /// Computes the move of each vertex.
     fn solve(&mut self) {
         let Self {
             masses,
@@ -220,7 +219,7 @@ impl Work {
         } = self;
         links.clear();
         let diagonal = |mass: f64| DMat3::from_diagonal(DVec3::splat(mass));
-        // The mass and the pull that the vertices before add to the next one.
+        // Earlier vertices add this mass and this pull to the next one.
         let (mut before, mut pulled) = (DMat3::ZERO, DVec3::ZERO);
         for (&mass, own) in masses.iter().zip(&*springs) {
             let (spring, force) = (own.matrix(), own.along * own.pull);
@@ -254,18 +253,18 @@ impl Work {
 
     /// Computes the tension that results from the moves.
     fn take_tension(&mut self) {
-        // By index: with `windows` the generated code varies with the rest of the program.
+        // The loop is by index: with `windows` the generated code varies with the rest of the program.
         for (k, spring) in self.springs.iter_mut().enumerate() {
             spring.tension = spring.pull + spring.stiffness * spring.along.dot(self.moves[k + 1] - self.moves[k]);
         }
     }
 }
 
-/// L·D·Lᵀ of a symmetric, positive definite matrix.
+/// The factors of a symmetric, positive definite matrix, L·D·Lᵀ.
 #[derive(Debug)]
 struct Factors {
     diagonal: DVec3,
-    /// L below its diagonal of ones: of the second row, then of the third.
+    /// The entries of L below its diagonal of ones: that of the second row, then those of the third.
     lower: [f64; 3],
 }
 
@@ -295,7 +294,7 @@ impl Factors {
 impl Spring {
     fn new(way: DVec3, length: f64, stiffness: f64) -> Self {
         let now = way.length();
-        // Shorter than a millionth the direction is meaningless.
+        // The direction of a shorter edge has no meaning.
         let is_there = now > 1e-6 * length;
         let pull = if is_there { stiffness * (now - length) } else { 0.0 };
         Self {
@@ -307,7 +306,7 @@ impl Spring {
         }
     }
 
-    /// Makes the spring of a tie with a largest length. It does nothing up to rounding where the two are nearer.
+    /// Makes the spring of a tie with a largest length. Below that length it does nothing, up to rounding.
     fn tied(way: DVec3, length: f64, stiffness: f64) -> Self {
         let spring = Self::new(way, length, stiffness);
         if way.length() >= TAUT * spring.length {
@@ -320,7 +319,7 @@ impl Spring {
         }
     }
 
-    /// K of the module. While the spring is under tension, a is less than its stiffness.
+    /// Returns K of the module's documentation. While the spring is under tension, a is less than its stiffness.
     fn matrix(&self) -> DMat3 {
         let n = self.along;
         let tension = self.tension.max(0.0);
@@ -354,7 +353,7 @@ mod tests {
     }
 
     proptest! {
-        /// M·d + K·d = h²f holds for the matrix as a whole: with pins, from soft to stiff.
+        /// M·d + K·d = h²f holds for the matrix as a whole, with pins, from soft to stiff.
         #[test]
         fn elimination_solves_the_implicit_step(
             moves in prop::collection::vec(point(), 6), pinned in prop::collection::vec(any::<bool>(), 6),
@@ -368,7 +367,7 @@ mod tests {
             let mut end = start.clone();
             Stretching::new(&cloth, stiffness, 0, &[]).project(&step(&start, &inverse), &mut end, &mut Touches::default());
             let moved: Vec<DVec3> = start.iter().zip(&end).map(|(from, to)| *to - *from).collect();
-            // With the tension of the first solution.
+            // The equations use the tension of the first solution.
             let mut work = Work::default();
             let own = Stretching::new(&cloth, stiffness, 0, &[]);
             work.begin(&own.pieces[0], stiffness, &step(&start, &inverse), &start);
@@ -393,7 +392,7 @@ mod tests {
         }
     }
 
-    /// The rounding of a thousand links: the whole equation holds.
+    /// The equation holds in spite of the rounding of a thousand links.
     #[test]
     fn elimination_is_exact_to_rounding_over_many_stiff_links() {
         let cloth = Cloth::rope(&[DVec3::ZERO, DVec3::new(0.5, 0.0, -0.4), DVec3::X], 1000, 0.03).unwrap();

@@ -8,24 +8,24 @@ use selvedge_core::glam::DVec3;
 use std::iter::repeat;
 use std::ops::Range;
 
-/// Fewer constraints than this are done before another thread has started.
+/// The number of constraints that are worth a thread. Fewer are done before another thread has started.
 pub(super) const WORTH_A_THREAD: usize = 1024;
 
 #[derive(Debug)]
 pub(super) struct Block<C: Local<N>, const N: usize> {
-    /// By colour; each on places among the block's vertices.
+    /// The constraints by colour, on places among the block's vertices.
     pub(super) constraints: Vec<On<C, N>>,
-    /// By constraint, for several sweeps in a row; otherwise empty.
+    /// The multipliers by constraint, for several sweeps in a row; otherwise empty.
     multipliers: Vec<C::Multipliers>,
-    /// The constraints of each colour with enough of them to share among threads.
+    /// The ranges of colours with enough constraints to share among threads.
     shared: Vec<Range<usize>>,
     pub(super) vertices: Vec<u32>,
-    /// Blocks that share a vertex with it.
+    /// The blocks that share a vertex with this one.
     pub(super) neighbours: Vec<u32>,
     /// The vertices' positions while the block runs, and whether any moved.
     pub(super) positions: Vec<DVec3>,
     pub(super) has_moved: bool,
-    /// By vertex.
+    /// The inverse masses by vertex.
     inverse_masses: Vec<f64>,
     /// The results of constraints that threads share.
     corrections: Vec<([DVec3; N], C::Multipliers)>,
@@ -148,12 +148,11 @@ fn stiffening(step: &TimeStep<'_>) -> f64 {
     1.0 / (step.h * step.h)
 }
 
-/// Returns the items of these vertices.
 fn at<T: Copy>(vertices: &[u32], all: &[T]) -> impl Iterator<Item = T> {
     vertices.iter().map(|&vertex| all[vertex as usize])
 }
 
-/// Returns the items at these places. By index, like the next function: `map` would not be inlined, and an iterator would pass
+/// Returns the items at these places. It indexes, like the next function: `map` would not be inlined, and an iterator would pass
 /// moves through memory.
 #[inline(always)]
 fn of<T: Copy + Default, const N: usize>(places: &[u32; N], all: &[T]) -> [T; N] {

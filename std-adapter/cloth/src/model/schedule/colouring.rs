@@ -3,7 +3,7 @@
 use selvedge_core::glam::DVec3;
 use std::ops::Range;
 
-/// The most constraints of one of many blocks: its vertices, positions and constraints take some 30 kB.
+/// The largest number of constraints in one of many blocks. Its vertices, positions and constraints take some 30 kB.
 const MOST: usize = 256;
 
 /// Splits constraints in two by position, repeatedly, until each group fits into a block.
@@ -28,8 +28,8 @@ pub(super) fn in_groups(order: &mut [u32], centres: &[DVec3], groups: &mut Vec<V
 
 /// Sorts items so that those of one colour, which share no vertex, are contiguous. Returns the range of each colour.
 ///
-/// Greedily, each item takes the first colour that no earlier item has at any of its vertices. An item that finds none, since a
-/// vertex has more neighbours than there are colours, gets a colour of its own.
+/// The colouring is greedy: each item takes the first colour that no earlier item has at any of its vertices. If a vertex has
+/// more neighbours than there are colours, the item gets a colour of its own.
 pub(super) fn sort_by_colour<T>(items: &mut Vec<T>, vertices: impl Fn(&T) -> &[u32], vertex_count: usize) -> Vec<Range<usize>> {
     let mut taken = vec![0_u128; vertex_count];
     let colour_of = |item: T| {

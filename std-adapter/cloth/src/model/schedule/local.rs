@@ -3,20 +3,19 @@
 use selvedge_core::glam::DVec3;
 use std::fmt::Debug;
 
-/// A constraint on `N` vertices.
 pub(crate) trait Local<const N: usize>: Debug + Send + Sync {
-    /// The multipliers of compliant constraints, kept from sweep to sweep of a step and zero before the first; `()` without
-    /// compliance.
+    /// The multipliers of compliant constraints. They are kept from sweep to sweep of a step, and are zero before the first.
+    /// Without compliance the type is `()`.
     type Multipliers: Copy + Debug + Default + Send + Sync;
 
-    /// A quick test: returns true only if all corrections are zero.
+    /// Returns true only if all corrections are zero. The test is quick, and may miss such cases.
     fn moves_nothing(&self, _positions: [DVec3; N]) -> bool {
         false
     }
 
     /// Returns the correction of each vertex. `stiffening` is 1/h², the factor of compliances.
     ///
-    /// `so_far` has the multipliers of earlier sweeps of the step, to which this one adds.
+    /// `so_far` has the multipliers of earlier sweeps of the step; this sweep adds to them.
     fn corrections(
         &self,
         positions: [DVec3; N],
@@ -25,7 +24,7 @@ pub(crate) trait Local<const N: usize>: Debug + Send + Sync {
         so_far: &mut Self::Multipliers,
     ) -> [DVec3; N];
 
-    /// Returns the elastic energy in J; `None` if the constraint never stores any.
+    /// Returns the elastic energy in J, or `None` if the constraint never stores any.
     fn energy(&self, _positions: [DVec3; N]) -> Option<f64> {
         None
     }

@@ -3,9 +3,10 @@
 //! Constraints are coloured greedily, once per mesh. Those of one colour share no vertex, so they may run in any order or at
 //! once, with the same bits. One colour after another is a Gauss–Seidel sweep.
 //!
-//! A block runs on its own copy of positions. All constraints of a mesh are one block, or, for several sweeps in a row, blocks of
-//! a few hundred neighbouring constraints, whose vertices stay in the nearest cache. Then blocks are coloured as well. Inside a
-//! block colours also serve speed: a constraint that waited for the vertices of the one before would take three times as long.
+//! A block runs on its own copy of positions. One block has all constraints of a mesh. For several sweeps in a row there are
+//! blocks of a few hundred neighbouring constraints instead, whose vertices stay in the nearest cache. These blocks are coloured
+//! as well. Inside a block colours also serve speed: a constraint that waited for the vertices of the one before would take three
+//! times as long.
 //!
 //! **Compliant constraints keep their multipliers** from sweep to sweep of a step (Macklin et al. 2016, algorithm 1). A
 //! constraint C of compliance α̃ = α/h² with the accumulated multiplier λ gets Δλ = −(C + α̃λ)/(∇C·W∇C + α̃) from the next sweep,
@@ -29,10 +30,10 @@ use selvedge::parallel;
 use selvedge_core::glam::DVec3;
 use std::ops::Range;
 
-/// Constraints that are projected in a fixed order, a number of times.
+/// Constraints that are projected in a fixed order, once or several times.
 #[derive(Debug)]
 pub(crate) struct Schedule<C: Local<N>, const N: usize> {
-    /// By colour.
+    /// The blocks, sorted by colour.
     blocks: Vec<Block<C, N>>,
     /// The blocks of each colour.
     colours: Vec<Range<usize>>,
@@ -149,7 +150,7 @@ mod tests {
     use selvedge::Threads;
     use selvedge::parallel::Workers;
 
-    /// Keeps two vertices no farther apart than one.
+    /// A constraint that keeps two vertices at most 1 apart.
     #[derive(Clone, Debug)]
     struct Rope;
 
@@ -171,7 +172,7 @@ mod tests {
         }
     }
 
-    /// Pulls two vertices back to their vector at rest, with a compliance.
+    /// A constraint that pulls two vertices back to their vector at rest, with a compliance.
     #[derive(Clone, Debug)]
     struct Spring {
         rest: DVec3,
@@ -215,7 +216,7 @@ mod tests {
         positions
     }
 
-    /// Points on a wave, and ropes from each to the next and to the one after that.
+    /// Returns points on a wave, and ropes from each to the next and to the one after that.
     fn wave(count: u32, spread: f64) -> (Vec<DVec3>, Vec<On<Rope, 2>>) {
         let at = |k: f64| DVec3::new(k, (k * 0.7).cos(), 0.3 * (k * 1.3).sin()) * spread;
         let ropes = (0..count - 2).flat_map(|k| [([k, k + 1], Rope), ([k, k + 2], Rope)]);
@@ -324,7 +325,7 @@ mod tests {
         are_the_same_for_any_number_of_threads(&start, Schedule::once(ropes.clone(), start.len()));
         are_the_same_for_any_number_of_threads(&start, Schedule::in_blocks(ropes, &start, 4));
         are_the_same_for_any_number_of_threads(&start, Schedule::in_blocks(give.clone(), &start, 4));
-        // In one block, whose colours threads share.
+        // All constraints are in one block, whose colours threads share.
         let in_one = Schedule {
             sweeps: 3,
             ..Schedule::once(give, start.len())

@@ -11,7 +11,7 @@ pub(crate) struct Tear {
     pub(crate) cloth: usize,
     /// One edge, or two within the cloth, each with its load in N/m.
     pub(crate) edges: Vec<([u32; 2], f64)>,
-    /// The split vertices with their fans. The first fan keeps the vertex.
+    /// The split vertices with their fans. The vertex stays in the first fan.
     pub(crate) splits: Vec<(u32, Vec<Vec<u32>>)>,
     /// All vertices of the fans, in order.
     pub(crate) around: Vec<u32>,
@@ -25,9 +25,9 @@ impl Tearable {
         let loads = this.edges.iter().map(|edge| this.load(edge));
         let above = { this.edges.iter().zip(loads) }.filter(|(edge, load)| *load > edge.strength);
         let mut above: Vec<(&Edge, f64)> = above.collect();
-        // Edges are in ascending order of their ends, and stay so where their loads are equal.
+        // The sort is stable, so edges with equal loads stay in ascending order of their ends.
         above.sort_by(|(one, a), (other, b)| (b / other.strength).total_cmp(&(a / one.strength)));
-        // For each end, the places of its edges.
+        // The places of edges, by their ends.
         let mut places: Vec<(u32, usize)> = { above.iter().enumerate() }
             .flat_map(|(place, (edge, _))| edge.vertices.map(|end| (end, place)))
             .collect();
@@ -96,7 +96,8 @@ mod tests {
     use super::*;
     use crate::world::{Cloth, sheet};
 
-    /// Tears of a sheet of 6 cells along x and y of a metre each, stretched by a tenth along x; `strength` selects edges.
+    /// Returns the tears of a sheet of 6 cells along x and y of a metre each, stretched by a tenth along x; `strength` selects
+    /// edges.
     fn tears(strength: impl Fn([DVec3; 2]) -> Option<f64>) -> Vec<Tear> {
         let cloth = Cloth::of(sheet(DVec3::ZERO, [DVec3::X * 6.0, DVec3::Y * 6.0], [6, 6]));
         let positions: Vec<_> = { cloth.mesh.positions.iter() }
@@ -114,7 +115,7 @@ mod tests {
             .collect()
     }
 
-    /// The edges from one row of the column x = 3 to the next.
+    /// Selects the edges from one row of the column x = 3 to the next.
     fn column(rows: std::ops::Range<u32>) -> impl Fn([DVec3; 2]) -> Option<f64> {
         move |[a, b]| {
             let is_within = a.x == 3.0 && b.x == 3.0 && rows.contains(&(a.y.min(b.y) as u32));
@@ -152,7 +153,7 @@ mod tests {
     #[test]
     fn nothing_tears_below_its_strength_or_at_a_vertex_that_must_stay_whole() {
         assert_eq!(tears(|edge| column(0..6)(edge).map(|_| 100.1)), []);
-        // The diagonal at the corner, which is held.
+        // This edge is the diagonal at the held corner.
         let corner = |edge: [DVec3; 2]| edge.contains(&DVec3::ZERO).then_some(50.0);
         assert_eq!(tears(corner), []);
     }

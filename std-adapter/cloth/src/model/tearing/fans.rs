@@ -3,7 +3,7 @@
 use crate::world::Incidence;
 use selvedge_core::glam::DVec3;
 
-/// The triangles of a cloth as it is now.
+/// The present triangles of a cloth.
 #[derive(Debug)]
 pub(super) struct Fabric {
     pub(super) triangles: Vec<[u32; 3]>,
@@ -18,7 +18,7 @@ impl Fabric {
         around.map(|&(triangle, _)| triangle).collect()
     }
 
-    /// Returns the fans of a vertex, if cutting these edges makes more of them than there are.
+    /// Returns the fans of a vertex, if cutting these edges increases their number.
     pub(super) fn parted(&self, vertex: u32, cut: &[[u32; 2]]) -> Option<Vec<Vec<u32>>> {
         let around = self.around(vertex);
         let is_cut = |edge: [u32; 2]| cut.iter().any(|own| *own == edge || [own[1], own[0]] == edge);
@@ -30,7 +30,7 @@ impl Fabric {
 /// Returns the triangles of each fan of `vertex`, among those `around` it, in ascending order. Fans are in the order of their
 /// first triangles.
 fn fans(vertex: u32, around: &[u32], triangles: &[[u32; 3]], is_cut: impl Fn([u32; 2]) -> bool) -> Vec<Vec<u32>> {
-    // The fan of each triangle, named by the place of one of its triangles.
+    // The fan of each triangle. Its name is the place of one of its triangles.
     let mut fan_of: Vec<usize> = (0..around.len()).collect();
     for first in 0..around.len() {
         for second in first + 1..around.len() {

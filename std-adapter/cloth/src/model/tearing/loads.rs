@@ -19,10 +19,10 @@ pub(crate) struct Tearable {
     pub(crate) effect: usize,
     /// The cloth's index.
     pub(crate) cloth: usize,
-    /// k_u and k_v of the module, in N/m.
+    /// k_u and k_v of the module's documentation, in N/m.
     stiffness: [f64; 2],
     pub(super) fabric: Fabric,
-    /// Of the triangles of such edges, each with its corners.
+    /// The triangles of such edges, each with its corners.
     membranes: Vec<(Membrane, [u32; 3])>,
     pub(super) edges: Vec<Edge>,
     /// T_u and T_v of each of these triangles.
@@ -32,13 +32,13 @@ pub(crate) struct Tearable {
 /// An edge between two triangles.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Edge {
-    /// Vertices of the cloth.
+    /// The ends, as vertices of the cloth.
     pub(super) vertices: [u32; 2],
-    /// Places among the triangles of such edges.
+    /// The two triangles, as places in the list of triangles.
     triangles: [u32; 2],
-    /// ν of the module in each triangle, along warp and weft.
+    /// ν of the module's documentation in each triangle, along warp and weft.
     across: [DVec2; 2],
-    /// In N/m.
+    /// The strength, in N/m.
     pub(super) strength: f64,
 }
 
@@ -91,7 +91,6 @@ impl Tearable {
         }
     }
 
-    /// Sets the effect and the cloth, by their indices.
     pub(crate) fn placed(self, effect: usize, cloth: usize) -> Self {
         Self { effect, cloth, ..self }
     }
@@ -135,7 +134,7 @@ mod tests {
     use super::*;
     use crate::world::sheet;
 
-    /// A sheet along x and y, stretched along its warp by a tenth, squeezed along its weft.
+    /// Returns a sheet along x and y, stretched along its warp by a tenth and compressed along its weft.
     fn stretched() -> (Cloth, Vec<DVec3>) {
         let cloth = Cloth::of(sheet(DVec3::ZERO, [DVec3::X, DVec3::Y], [4, 4]));
         let positions = { cloth.mesh.positions.iter() }

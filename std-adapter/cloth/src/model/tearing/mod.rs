@@ -6,16 +6,16 @@
 //! ```
 //!
 //! A **fan** of a vertex is a group of its triangles connected by edges that are not torn. A vertex is split if torn edges
-//! increase the number of its fans: one fan keeps it, each other gets a copy. So a tear begins at the border with one edge,
-//! within the cloth with two at a vertex, and advances from its ends. When it reaches the border a piece falls off. Pinned
+//! increase the number of its fans: one fan keeps it, each other gets a copy. So a tear begins with one edge at the border, or
+//! with two at a vertex within the cloth. It advances from its ends. A piece falls off when the tear reaches the border. Pinned
 //! vertices are never split.
 //!
 //! This is fracture after O'Brien and Hodgins 1999 without remeshing. Splits are snapped to edges as Müller and Gross 2004 snap
-//! them to faces (both from memory), so the path of a tear depends on the mesh. The load is that of each edge instead of an
-//! eigenvector at a vertex, so that a strength can be compared with measured strengths of seams and tears, in newtons per metre.
+//! them to faces (both from memory), so the path of a tear depends on the mesh. Each edge has a load, instead of an eigenvector
+//! at a vertex. So a strength can be compared with measured strengths of seams and tears, in newtons per metre.
 //!
-//! **At most an edge per step at each end of a tear**, since a tear changes the loads around it only in the next step. Of edges
-//! that share a triangle at a split vertex, the most loaded one tears.
+//! **At most an edge per step at each end of a tear**, since a tear changes the loads around it only in the next step. If several
+//! edges share a triangle at a split vertex, the most loaded one tears.
 
 mod choice;
 mod fans;

@@ -50,7 +50,6 @@ pub(crate) fn open(
     }
 }
 
-/// Returns the first two items; zero where there are fewer.
 fn two(mut all: impl Iterator<Item = DVec3>) -> [DVec3; 2] {
     [all.next().unwrap_or_default(), all.next().unwrap_or_default()]
 }
@@ -78,7 +77,7 @@ mod tests {
         assert_eq!(mean_direction(DVec3::X, -DVec3::X), DVec3::ZERO);
     }
 
-    /// Half a wheel around vertex 0, whose copy is vertex 4, cut in the middle.
+    /// The mesh is half a wheel around vertex 0, whose copy is vertex 4, cut in the middle.
     #[test]
     fn copies_move_apart_and_their_centre_of_mass_stays() {
         let mut positions = [DVec3::ZERO, DVec3::X, DVec3::Y, -DVec3::X, DVec3::ZERO];
