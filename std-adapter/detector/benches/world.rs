@@ -22,7 +22,7 @@ fn main() {
     insertion();
 }
 
-/// A sheet of so many quads along each side, each of two triangles.
+/// Makes a sheet of so many quads along each side, each of two triangles.
 fn sheet(across: u32, along: u32) -> Topology {
     let at = |x: u32, y: u32| y * (across + 1) + x;
     let quads = (0..along).flat_map(|y| (0..across).map(move |x| (x, y)));
@@ -34,7 +34,7 @@ fn sheet(across: u32, along: u32) -> Topology {
     Topology::new(vertices as usize, triangles.collect()).expect("vertices that exist")
 }
 
-/// Its vertices, a unit apart, with waves that travel with time, above a place.
+/// Returns its vertices, a unit apart, with waves that travel with time, above a place.
 fn waves(across: u32, along: u32, time: f32, place: Vec3) -> Vec<Vec3> {
     let vertices = (0..=along).flat_map(|y| (0..=across).map(move |x| (x as f32, y as f32)));
     let wave = |(x, y): (f32, f32)| Vec3::new(x, y, 3.0 * (0.4 * x + time).sin() * (0.3 * y).cos());
@@ -53,7 +53,7 @@ fn moves(world: &mut World<Vec3>, mesh: MeshHandle, [start, end]: &[Vec<Vec3>; 2
     clock.elapsed().as_secs_f64()
 }
 
-/// Meshes that rest, in rows, at this height.
+/// Returns meshes that rest, in rows, at this height.
 fn resting(above: f32) -> impl Iterator<Item = Vec<Vec3>> {
     (0..RESTING as u32).map(move |k| {
         let place = Vec3::new(30.0 * (k % 32) as f32 - 430.0, 25.0 * (k / 32) as f32 - 360.0, above);
@@ -64,7 +64,7 @@ fn resting(above: f32) -> impl Iterator<Item = Vec<Vec3>> {
 fn beside_what_rests(quads: u32) {
     let (topology, small) = (Arc::new(sheet(quads, quads)), Arc::new(sheet(25, 20)));
     let [first, _] = cloth(quads, 0);
-    // Nothing; out of reach; in its way.
+    // The cloth meets nothing, meshes out of reach, or meshes in its way.
     let mut worlds = [None, Some(8.0), Some(-1.5)].map(|above| {
         let mut world = World::<Vec3>::new();
         let cloth = world.insert(Arc::clone(&topology), &first, Groups::ALL).expect("in order");
@@ -73,7 +73,7 @@ fn beside_what_rests(quads: u32) {
         }
         (world, cloth)
     });
-    // Detectors of the first world and of the last, as one mesh.
+    // These are detectors of the first world and of the last, as one mesh.
     let still: Vec<Vec3> = resting(-1.5).flatten().collect();
     let mut triangles = topology.triangles().to_vec();
     for k in 0..RESTING {
@@ -114,7 +114,7 @@ fn beside_what_rests(quads: u32) {
     println!("  the same as one detector's     {union:8.3}  {:.3}", union / alone);
 }
 
-/// A mesh of 100,000 triangles comes into a world of a cloth and many resting meshes.
+/// Inserts a mesh of 100,000 triangles into a world of a cloth and many resting meshes.
 fn insertion() {
     let (quads, large) = (100, Arc::new(sheet(250, 200)));
     let positions = waves(250, 200, 0.0, Vec3::new(-800.0, 0.0, 8.0));

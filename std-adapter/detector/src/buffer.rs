@@ -1,6 +1,5 @@
 //! Buffers that are kept from step to step.
 
-/// Returns half as much again.
 fn with_headroom(len: usize) -> usize {
     len + len / 2 + 1
 }
@@ -25,7 +24,7 @@ pub fn append_selected<T, K: Copy + Default>(output: &mut Vec<K>, items: &[T], s
     let mut index = 0;
     for some in items.chunks(AT_ONCE) {
         let mut count = output.len();
-        // Room for some items only, so that it is in the cache when it is written.
+        // The room is for some items only, so that it is in the cache when it is written.
         output.resize(count + some.len(), K::default());
         for item in some {
             let (is_selected, item) = selected(index, item);
@@ -37,7 +36,7 @@ pub fn append_selected<T, K: Copy + Default>(output: &mut Vec<K>, items: &[T], s
     }
 }
 
-/// Items for which room is made at a time: some kilobytes.
+/// The number of items for which room is made at a time: some kilobytes.
 const AT_ONCE: usize = 1024;
 
 #[cfg(test)]

@@ -2,7 +2,6 @@
 
 use std::time::Duration;
 
-/// The moment at which something began.
 ///
 /// ```
 /// let clock = selvedge::clock::Clock::now();

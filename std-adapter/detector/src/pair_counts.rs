@@ -5,9 +5,9 @@ use std::ops::AddAssign;
 /// The number of pairs of each kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PairCounts {
-    /// Vertex–face pairs.
+    /// The number of vertex–face pairs.
     pub vertex_face: u64,
-    /// Edge–edge pairs.
+    /// The number of edge–edge pairs.
     pub edge_edge: u64,
 }
 

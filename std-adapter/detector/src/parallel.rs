@@ -25,7 +25,7 @@ pub use pool::{ThreadError, Threads, Workers, has_many_threads, own_index, threa
 #[cfg(feature = "parallel")]
 use rayon::prelude::*;
 
-/// The threads of a loop: the calling thread only, without the feature `parallel`.
+/// The threads of a loop. Without the feature `parallel` only the calling thread is used.
 #[cfg(not(feature = "parallel"))]
 #[derive(Debug, Default)]
 pub struct Workers(());
@@ -88,7 +88,7 @@ pub fn fill<I: Sync, O: Send>(output: &mut Vec<O>, input: &[I], make: impl Fn(&I
     output.extend(input.iter().map(make));
 }
 
-/// Replaces `output` by what `add` appends for chunks of the items, in their order.
+/// Replaces `output` by the items that `add` appends for chunks of `items`, in their order.
 pub fn gather<I: Sync, O: Copy + Send>(output: &mut Vec<O>, items: &[I], add: impl Fn(&[I], &mut Vec<O>) + Sync + Send) {
     output.clear();
     #[cfg(feature = "parallel")]
@@ -131,7 +131,7 @@ pub fn map_chunks<T: Send, R>(
     action(0, items, result);
 }
 
-/// Items of a chunk.
+/// The number of items of a chunk.
 #[cfg(feature = "parallel")]
 const CHUNK: usize = 4096;
 

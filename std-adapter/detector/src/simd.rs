@@ -11,7 +11,7 @@ pub fn best_level() -> Level {
     Level::new()
 }
 
-/// Returns every instruction set of the machine with its name, the plainest first.
+/// Returns every instruction set of the machine with its name, the simplest first.
 ///
 /// ```
 /// let levels = selvedge::simd::available_levels();

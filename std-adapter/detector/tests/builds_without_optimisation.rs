@@ -11,13 +11,12 @@ use std::hash::Hasher;
 /// The smallest stack of a pool's thread on any platform.
 const STACK: usize = 1 << 20;
 
-/// Runs `action` on a thread with this stack.
 fn in_little_stack<T: Send + 'static>(action: impl FnOnce() -> T + Send + 'static) -> T {
     let thread = std::thread::Builder::new().stack_size(STACK).spawn(action);
     thread.expect("a thread").join().expect("no panic")
 }
 
-/// FNV-1a.
+/// The hash FNV-1a.
 #[derive(Default)]
 struct Digest(FnvHasher);
 
@@ -34,7 +33,7 @@ impl Digest {
     }
 }
 
-/// SplitMix64.
+/// The generator SplitMix64.
 struct Random(u64);
 
 impl Random {
@@ -51,7 +50,7 @@ impl Random {
     }
 }
 
-/// Two uneven sheets of `SIDE`² vertices, the upper of which falls through the lower.
+/// The number of vertices along a side of two uneven sheets, the upper of which falls through the lower.
 const SIDE: u32 = 24;
 
 fn sheets() -> Topology {
@@ -104,7 +103,7 @@ fn detectors<S: Scalar>() -> [u64; 2] {
     answers::<S>(|detector, [start, end], digest| {
         let mut contacts = Vec::new();
         let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
-        // Twice: with new hierarchies, and with refitted ones.
+        // The first run has new hierarchies, the second refitted ones.
         for _ in 0..2 {
             detector.contacts(start, end, &mut contacts)?;
             assert!(contacts.len() > 1000);

@@ -1,4 +1,4 @@
-//! Tests that every method rebuilds degraded hierarchies when that pays.
+//! Every method rebuilds degraded hierarchies when that pays.
 
 use super::detector::CollisionDetector;
 use crate::mesh::Topology;
@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 const SIDE: u32 = 60;
 
-/// Makes a square sheet. Crumpled, every part of it lies in a small ball, and neighbours are near each other.
+/// Makes a square sheet. If it is crumpled, every part of it lies in a small ball, and neighbours are near each other.
 fn sheet(is_crumpled: bool) -> Vec<DVec3> {
     let at = |k: u32| {
         let [x, y] = [k % SIDE, k / SIDE].map(f64::from);

@@ -154,7 +154,7 @@ impl<S: Scalar> CollisionDetector<S> {
         Ok(())
     }
 
-    /// Sets whether each step starts where the last ended, as in a simulation. Off by default.
+    /// Sets whether each step starts where the last ended, as in a simulation. The default is false.
     ///
     /// The detector then finds near pairs for several steps at once and follows them, so that most steps look at these pairs only. This pays where
     /// a step moves vertices by much less than an edge, and not where every step is a different motion.
@@ -191,9 +191,9 @@ impl<S: Scalar> CollisionDetector<S> {
     /// Replaces `contacts` by all contacts of the step from `start` to `end`, vertex–face pairs first. There is one position for each vertex.
     ///
     /// # Errors
-    /// Returns an error if a frame's length is not the mesh's number of vertices, or a coordinate is NaN or infinite. Also if the
-    /// step is cut short: by a [`cancellation`](Self::cancellation), or by more [pairs](Self::set_pair_limit) or
-    /// [memory](Self::set_memory_limit) than allowed. `contacts` is then incomplete.
+    /// Returns an error if a frame's length is not the mesh's number of vertices, or a coordinate is NaN or infinite. Also
+    /// returns an error if the step is cut short: by a [`cancellation`](Self::cancellation), or by more
+    /// [pairs](Self::set_pair_limit) or [memory](Self::set_memory_limit) than allowed. `contacts` is then incomplete.
     pub fn contacts<P: Position<Scalar = S>>(
         &mut self,
         start: &[P],
@@ -207,7 +207,8 @@ impl<S: Scalar> CollisionDetector<S> {
         self.engine.pairs.stop.result()
     }
 
-    /// Returns the earliest contact of the step. Of several at the same time it returns the one with the smallest numbers, vertex–face pairs first.
+    /// Returns the earliest contact of the step. If several have the same time, it returns the one with the smallest numbers,
+    /// vertex–face pairs first.
     ///
     /// It is the first contact that [`contacts`](Self::contacts) finds, with the same time. Let s be the separation and δ the tolerance of the
     /// [criterion](Self::set_criterion):

@@ -14,7 +14,7 @@ use selvedge_core::separation::geometry::{Geometry, geometry};
 use selvedge_core::separation::largest_coordinate;
 use selvedge_core::{Motion, Position, PrimitivePair, Scalar};
 
-/// Two primitives, their vertices, and their closest points at some time. Computed in `f64`, whatever the format of the positions.
+/// Two primitives, their vertices, and their closest points at some time, in `f64` for either format of positions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactGeometry {
     /// Vertex–face or edge–edge.

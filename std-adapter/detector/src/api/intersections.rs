@@ -15,9 +15,10 @@ impl<S: Scalar> CollisionDetector<S> {
     /// are segments and points. The list is empty exactly if no two triangles have a point in common besides the vertices and the edge that they share.
     /// Steps can be certified from such a state.
     ///
-    /// Primitives with a common vertex always meet there; that is no intersection. Neither is a second triangle with the same vertices. But a face
-    /// without area whose corner lies on its own edge touches its neighbour at that edge, which is one. Vertices that [rest](Self::set_moving) are treated
-    /// as in a step. The [criterion](Self::set_criterion) and the [collision filter](Self::set_collision_filter) have no effect.
+    /// Primitives with a common vertex always meet there, which is no intersection. A second triangle with the same vertices is
+    /// none either. But a face without area whose corner lies on its own edge touches its neighbour at that edge, and this
+    /// counts. Vertices that [rest](Self::set_moving) are treated as in a step. The [criterion](Self::set_criterion) and the
+    /// [collision filter](Self::set_collision_filter) have no effect.
     ///
     /// ```
     /// use selvedge::{CollisionDetector, Intersection, Topology};
@@ -50,7 +51,7 @@ impl<S: Scalar> CollisionDetector<S> {
         self.engine.pairs.stop.result()
     }
 
-    /// Returns whether there are any [`intersections`](Self::intersections). Ends at the first.
+    /// Returns whether there are any [`intersections`](Self::intersections). The search ends at the first.
     ///
     /// # Errors
     /// Returns the errors of [`intersections`](Self::intersections).

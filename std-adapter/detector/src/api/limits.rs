@@ -14,7 +14,8 @@ impl<S: Scalar> CollisionDetector<S> {
         self.engine.pairs.stop.cancellation.clone()
     }
 
-    /// Sets the most pairs that a step may look at, of those that boxes leave. `None`, the default, is no limit.
+    /// Sets the largest number of pairs that a step may look at, counted after the test of boxes. `None`, the default, is no
+    /// limit.
     ///
     /// A step with more pairs ends with [`StepError::TooManyPairs`](crate::StepError::TooManyPairs), on any number of threads. This saves hours of work
     /// after a simulation has collapsed. [`is_free`](Self::is_free) and [`has_intersections`](Self::has_intersections) may find their answer before the
@@ -39,7 +40,7 @@ impl<S: Scalar> CollisionDetector<S> {
         self.engine.pairs.stop.set_pair_limit(limit);
     }
 
-    /// Sets the most memory that the pairs and contacts of a step may take, in bytes. `None` is no limit; the default is
+    /// Sets the largest memory that the pairs and contacts of a step may take, in bytes. `None` is no limit; the default is
     /// [`DEFAULT_MEMORY_LIMIT`](crate::DEFAULT_MEMORY_LIMIT).
     ///
     /// A step that needs more ends with [`StepError::TooMuchMemory`](crate::StepError::TooMuchMemory), on any number of threads. Many triangles through

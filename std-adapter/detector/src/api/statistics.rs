@@ -7,7 +7,7 @@ use crate::step::{Contact, StepError};
 use selvedge_core::{Position, Scalar};
 
 impl<S: Scalar> CollisionDetector<S> {
-    /// Forces the instruction set. The default is the best that the machine has. Changes no result.
+    /// Forces the instruction set. The default is the best that the machine has. The results are the same.
     pub const fn set_level(&mut self, level: Level) {
         self.engine.set_level(level);
     }

@@ -141,12 +141,13 @@ impl<P: Position> World<P> {
         self.stage.engine.stop.cancellation.clone()
     }
 
-    /// Sets the most pairs that a step may look at, as for a [detector](crate::CollisionDetector::set_pair_limit).
+    /// Sets the largest number of pairs that a step may look at, as for a [detector](crate::CollisionDetector::set_pair_limit).
     pub fn set_pair_limit(&mut self, limit: Option<u64>) {
         self.stage.engine.stop.set_pair_limit(limit);
     }
 
-    /// Sets the most memory that the contacts of a step may take, in bytes, as for a [detector](crate::CollisionDetector::set_memory_limit).
+    /// Sets the largest memory that the contacts of a step may take, in bytes, as for a
+    /// [detector](crate::CollisionDetector::set_memory_limit).
     pub fn set_memory_limit(&mut self, limit: Option<u64>) {
         self.stage.engine.stop.set_memory_limit(limit);
     }
@@ -221,7 +222,7 @@ impl<P: Position> World<P> {
     ///
     /// # Errors
     /// Returns an error if a mesh does not exist or is listed twice, or if its positions or poses are invalid. The world is then
-    /// unchanged. Also if the step is cut short: by a [`cancellation`](Self::cancellation), or by more
+    /// unchanged. Also returns an error if the step is cut short: by a [`cancellation`](Self::cancellation), or by more
     /// [pairs](Self::set_pair_limit) or [memory](Self::set_memory_limit) than allowed.
     pub fn contacts(
         &mut self,
@@ -237,8 +238,8 @@ impl<P: Position> World<P> {
         Ok(())
     }
 
-    /// Returns the earliest contact of such a step. The step is certainly free of contact before its time, and altogether free if there is none. Of
-    /// several contacts at the same time it returns the first by kind, meshes and pair.
+    /// Returns the earliest contact of such a step. The step is certainly free of contact before its time, or altogether if the
+    /// result is `None`. If several contacts have the same time, it returns the first by kind, meshes and pair.
     ///
     /// # Errors
     /// Returns the errors of [`contacts`](Self::contacts).
@@ -373,7 +374,7 @@ mod tests {
         let mut after = state(&world);
         assert_eq!(after.remove(&third), Some((1, Some(300))));
         assert_eq!(after, before);
-        // Most rows belong to no mesh: rows get new places, and hierarchies stay.
+        // Most rows then belong to no mesh: rows get new places, and hierarchies stay.
         for mesh in [first, second, third] {
             world.remove(mesh).unwrap();
         }

@@ -15,11 +15,13 @@ pub struct WorldContact<S> {
     pub meshes: [MeshHandle; 2],
     /// The vertex and the face, or the two edges, as their own meshes number them. Two edges of one mesh come with the smaller number first.
     pub pair: [u32; 2],
-    /// The time in [0, 1] of the step. It is not after the exact time, and hardly before it, as [`Contact::time`](crate::Contact::time).
+    /// The time in [0, 1] of the step. It is never after the exact time, and hardly before it, as for
+    /// [`Contact::time`](crate::Contact::time).
     pub time: S,
 }
 
-/// Two primitives of a [`World`](crate::World), their vertices, and their closest points at some time. Computed in `f64`, whatever the format of the positions.
+/// Two primitives of a [`World`](crate::World), their vertices, and their closest points at some time, in `f64` for either format
+/// of positions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WorldContactGeometry {
     /// Vertex–face or edge–edge.

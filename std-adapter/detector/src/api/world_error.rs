@@ -4,7 +4,7 @@ use crate::engine::world::MeshHandle;
 use crate::step::StepError;
 use std::fmt;
 
-/// The reason for refusing a call to a world. The world remains usable.
+/// The reason for refusing a call to a world, which remains usable.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum WorldError {

@@ -14,7 +14,7 @@ pub(super) struct Prices {
 pub(super) struct Degradation {
     /// Box tests for each unit of size just after the build, if a search was measured then. The size is that of items, at their price, and pairs.
     fresh: Option<f64>,
-    /// The same for other searches.
+    /// The same ratio for other searches.
     fresh_of_others: Option<f64>,
     /// Box tests beyond that, summed since the build.
     excess: f64,
@@ -31,7 +31,8 @@ impl Degradation {
         self.excess += excess(&mut self.fresh, 0.0, box_tests as f64, size, is_new);
     }
 
-    /// Notes a search with other boxes, or for other pairs. Such searches may be of several kinds, so the first one says less.
+    /// Notes a search with other boxes, or for other pairs. Such searches may be of several kinds, so the first one is a weaker
+    /// reference.
     pub(super) fn observe_another(&mut self, prices: Prices, box_tests: u64, items: usize, pairs: usize, is_new: bool) {
         let size = size(prices, items, pairs);
         self.excess += excess(&mut self.fresh_of_others, TYPICAL, box_tests as f64, size, is_new);

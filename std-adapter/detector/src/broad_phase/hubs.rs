@@ -9,13 +9,14 @@
 
 use super::order::{Centre, LEAF, order};
 
-/// Stands for no hub.
+/// Marks a primitive without a hub.
 pub(super) const NO_HUB: u32 = u32::MAX;
 
-/// Primitives of a block of the second level.
+/// The number of primitives in a block of the second level.
 const GROUP: usize = LEAF * LEAF;
 
-/// A vertex with so many triangles is a hub. With fewer, comparing each with each takes no more box tests than a usual mesh takes for an edge.
+/// The number of triangles from which on a vertex is a hub. With fewer, comparing each with each takes no more box tests than a
+/// usual mesh takes for an edge.
 const VALENCE: u32 = GROUP as u32;
 
 /// The hubs of a mesh.
@@ -77,19 +78,19 @@ mod tests {
     use crate::mesh::Topology;
     use crate::{CollisionDetector, StepStatistics};
 
-    /// A cone of so many triangles with its tip as the hub, and its rim.
+    /// Returns a cone of so many triangles with its tip as the hub, and its rim.
     fn fan(count: u32) -> (Topology, Vec<[f64; 3]>) {
         let triangles = (0..count).map(|k| [0, k + 1, (k + 1) % count + 1]).collect();
         let rim = (0..count).map(|k| {
             let angle = f64::from(k) / f64::from(count) * std::f64::consts::TAU;
-            // Numbers of `f32`, whose boxes are exact.
+            // The coordinates are `f32` numbers, whose boxes are exact.
             [angle.cos(), angle.sin(), 0.25].map(|x| f64::from(x as f32))
         });
         let positions = std::iter::once([0.0; 3]).chain(rim).collect();
         (Topology::new(count as usize + 1, triangles).unwrap(), positions)
     }
 
-    /// The statistics of a step in which the cone turns a little, and the box tests.
+    /// Returns the statistics of a step in which the cone turns a little, and the box tests.
     fn step(count: u32) -> (StepStatistics, u64) {
         let (topology, start) = fan(count);
         let end: Vec<_> = start.iter().map(|&[x, y, z]| [x - 1e-7 * y, y + 1e-7 * x, z]).collect();
@@ -110,7 +111,7 @@ mod tests {
 
     #[test]
     fn hubs_change_no_candidate() {
-        // Two cones with common rim: edges and faces of two hubs are near each other, and are pairs.
+        // Two cones share their rim: edges and faces of two hubs are near each other, and are pairs.
         let count = 600;
         let (_, cone) = fan(count);
         let other = count + 1;

@@ -51,12 +51,12 @@ impl MovingBroadPhase {
         }
     }
 
-    /// Forces the instruction set; the default is the best that the machine has. Changes no result.
+    /// Forces the instruction set; the default is the best that the machine has. The results are the same.
     pub const fn set_level(&mut self, level: Level) {
         self.hierarchies.set_level(level);
     }
 
-    /// Makes pairs that come within `separation` of each other candidates too, from the next update on. Zero at first.
+    /// Makes pairs that come within `separation` of each other candidates too, from the next update on. The default is zero.
     ///
     /// # Errors
     /// Returns an error if `separation` is negative, infinite or NaN. The old one then stays.
@@ -66,8 +66,8 @@ impl MovingBroadPhase {
         Ok(())
     }
 
-    /// Sets whether boxes that overlap at different times make a candidate, from the next update on. This is the common choice elsewhere: swept
-    /// boxes. Off at first.
+    /// Sets whether boxes that overlap at different times make a candidate, from the next update on. Such swept boxes are common
+    /// elsewhere. The default is false.
     pub const fn set_swept(&mut self, swept: bool) {
         self.fit.is_swept = swept;
     }
@@ -134,7 +134,7 @@ impl MovingBroadPhase {
         self.candidates_until(&|_| true, vertex_face, edge_edge);
     }
 
-    /// Finds [candidates](Self::candidates) as long as `continues` says so. It is called with the number of pairs that come next.
+    /// Finds [candidates](Self::candidates) until `continues` returns false. Its argument is the number of pairs that come next.
     pub(crate) fn candidates_until(
         &mut self,
         continues: &(dyn Fn(usize) -> bool + Sync),
@@ -193,7 +193,7 @@ impl MovingBroadPhase {
     }
 }
 
-/// Shares of a traversal for each thread and kind.
+/// The number of shares of a traversal for each thread and kind.
 const SHARES: usize = 16;
 
 impl Collector {
@@ -240,7 +240,7 @@ impl Sink for Collected<'_> {
 mod tests {
     use super::*;
 
-    /// Two rows of points, as near each other as their curve is tight.
+    /// Returns two rows of points; the tighter their curve, the nearer they are to each other.
     fn strip(radius: f64) -> Vec<DVec3> {
         let at = |k: u32| {
             let (angle, side) = (f64::from(k / 2) / radius, f64::from(k % 2));

@@ -54,7 +54,7 @@ impl Neighbours {
     #[inline(always)]
     #[must_use]
     pub fn are(&self, kind: PairKind, vertices: [u32; 4]) -> bool {
-        // Written out, since `map` is not inlined here.
+        // The calls are written out, since `map` is not inlined here.
         let rest = |corner: usize| self.rest[vertices[corner] as usize];
         let rest = [rest(0), rest(1), rest(2), rest(3)];
         are_boxes_within(kind, rest, self.within(vertices[0], vertices[3]))

@@ -5,13 +5,13 @@ use crate::parallel;
 /// The number of items in a group of the lowest level.
 pub(super) const LEAF: usize = 16;
 
-/// Shorter slices are not split between threads.
+/// The length below which slices are not split between threads.
 const SEQUENTIAL: usize = 4096;
 
 /// An item and its position.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Centre {
-    /// The position; finite.
+    /// The position, which is finite.
     pub(super) position: [f32; 3],
     /// The number of the item.
     pub(super) item: u32,
@@ -50,7 +50,7 @@ fn longest_axis(centres: &[Centre]) -> usize {
             upper[axis] = if x > upper[axis] { x } else { upper[axis] };
         }
     }
-    // Halves, so that the difference of finite numbers is finite.
+    // Halves keep the difference of finite numbers finite.
     let extent = |axis: usize| 0.5 * upper[axis] - 0.5 * lower[axis];
     (1..3).fold(0, |longest, axis| if extent(axis) > extent(longest) { axis } else { longest })
 }

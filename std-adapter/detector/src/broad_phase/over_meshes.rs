@@ -64,7 +64,7 @@ impl MeshHierarchy {
         }
     }
 
-    /// Replaces `pairs` by the pairs of meshes that come near each other, of which at least one moves and whose groups collide. The smaller index comes
+    /// Replaces `pairs` by the near pairs of meshes whose groups collide and of which at least one moves. The smaller index comes
     /// first, and pairs ascend.
     pub(crate) fn find(&mut self, pairs: &mut Vec<[u32; 2]>) {
         pairs.clear();

@@ -7,7 +7,7 @@ use super::tree::Tree;
 use crate::PairKind;
 use crate::step::CollisionFilter;
 
-/// Primitives of one mesh and of another, or of the same: vertices of the first and faces of the second, or edges of both.
+/// Two sets of primitives, of one mesh or of two: vertices of the first and faces of the second, or edges of both.
 ///
 /// The boxes of two meshes must be comparable: made by one [mapping](selvedge_core::boxes::mapping), or by several about one origin.
 #[derive(Clone, Copy, Debug)]
@@ -46,7 +46,7 @@ impl<'a> Pairing<'a> {
         ]
     }
 
-    /// Appends where to look for pairs to `tasks`. Returns the number of box tests.
+    /// Appends the tasks of a search for pairs. Returns the number of box tests.
     pub(crate) fn find_tasks(&self, stack: &mut Vec<BlockPair>, tasks: &mut Vec<BlockPair>) -> u64 {
         let level = self.meshes[0].level();
         match self.kind {
@@ -130,7 +130,7 @@ impl<'a> Pairing<'a> {
     }
 }
 
-/// Passes on what a filter allows.
+/// A sink that passes on the allowed pairs.
 struct Allowed<'a> {
     hierarchies: &'a Hierarchies,
     filter: &'a CollisionFilter,
@@ -157,7 +157,8 @@ impl Sink for Allowed<'_> {
     }
 }
 
-/// Faces and edges of one mesh without a common vertex. Faces come first, since they are fewer: each is compared with sixteen edges at once.
+/// The faces and edges of one mesh without a common vertex. Faces come first, since they are fewer: each is compared with sixteen
+/// edges at once.
 #[derive(Clone, Copy)]
 pub(crate) struct FacesAndEdges<'a>(pub(crate) &'a Hierarchies);
 
@@ -172,7 +173,7 @@ impl FacesAndEdges<'_> {
         }
     }
 
-    /// Appends where to look for pairs to `tasks`. Returns the number of box tests.
+    /// Appends the tasks of a search for pairs. Returns the number of box tests.
     pub(crate) fn find_tasks(&self, stack: &mut Vec<BlockPair>, tasks: &mut Vec<BlockPair>) -> u64 {
         self.trees().tasks(self.0.level(), TASK_LEVEL, stack, tasks)
     }
@@ -183,5 +184,5 @@ impl FacesAndEdges<'_> {
     }
 }
 
-/// Tasks are pairs of blocks of this level, of 256 primitives each.
+/// The level of the blocks of tasks, which have 256 primitives each.
 const TASK_LEVEL: usize = 1;

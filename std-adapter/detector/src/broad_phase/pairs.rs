@@ -15,7 +15,8 @@ pub(super) struct PairBuffer {
     len: usize,
 }
 
-/// Pairs that go to the sink at a time, or a few more. They fit into a core's own cache, with all that is computed from them.
+/// The number of pairs that go to the sink at a time, or a few more. They fit into a core's own cache, with all that is computed
+/// from them.
 pub(crate) const CHUNK: usize = 4096;
 
 /// The set bits of each byte, lowest first. The numbers after them have no meaning.
@@ -49,7 +50,7 @@ impl PairBuffer {
         self.len = 0;
     }
 
-    /// Returns whether it is time for the sink to take the pairs.
+    /// Returns whether the sink should take the pairs.
     #[inline(always)]
     pub(super) fn is_full(&self) -> bool {
         self.len >= CHUNK

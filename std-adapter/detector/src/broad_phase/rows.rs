@@ -9,7 +9,7 @@ use selvedge_core::batch::VertexRow;
 use selvedge_core::{Motion, Scalar};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Rows of all vertices.
+/// The rows of all vertices.
 #[derive(Debug, Default)]
 pub(crate) struct Rows {
     double: Vec<VertexRow<f64>>,
@@ -17,7 +17,7 @@ pub(crate) struct Rows {
     has_single: bool,
 }
 
-/// Rows to read: those of all vertices, and the same in `f32` if that is exact.
+/// The rows to read: those of all vertices, and the same in `f32` if that is exact.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RowSlices<'a> {
     pub(crate) double: &'a [VertexRow<f64>],
@@ -38,12 +38,12 @@ impl Rows {
         &self.double
     }
 
-    /// Returns the same in `f32`, if [`narrow`](Self::narrow) found that exact.
+    /// Returns the same rows in `f32`, if [`narrow`](Self::narrow) found that exact.
     pub(crate) fn single(&self) -> Option<&[VertexRow<f32>]> {
         self.has_single.then_some(&self.single)
     }
 
-    /// Copies all rows of `other` to `first` and after it, with those in `f32` if there are any.
+    /// Copies all rows of `other`, those in `f32` included, to the places from `first` on.
     pub(crate) fn put(&mut self, first: usize, other: &Self) {
         let end = first + other.double.len();
         if self.double.len() < end {
@@ -57,7 +57,7 @@ impl Rows {
         }
     }
 
-    /// Returns the rows that were [put](Self::put), with those in `f32` if the caller says that all have them.
+    /// Returns the rows that were [put](Self::put), in `f32` too if the caller says that all have them.
     pub(crate) fn put_slices(&self, are_single: bool) -> RowSlices<'_> {
         RowSlices {
             double: self.double(),
@@ -86,7 +86,8 @@ impl Rows {
             .extend((0..motions.len()).map(|vertex| VertexRow::new(motions.motion(vertex))));
     }
 
-    /// Replaces the rows of some vertices; the other rows have no meaning. Makes rows in `f32` too if all are such numbers.
+    /// Replaces the rows of some vertices; the other rows have no meaning. If all positions are `f32` numbers, it makes rows in
+    /// `f32` too.
     pub(crate) fn set_some(&mut self, motions: &dyn Motions, vertices: impl Iterator<Item = u32>, are_single: bool) {
         self.resize(motions.len());
         self.single
@@ -116,7 +117,7 @@ impl Rows {
     }
 }
 
-/// Vertices that one thread narrows at a time.
+/// The number of vertices that one thread narrows at a time.
 const VERTICES: usize = 4096;
 
 /// Replaces `single` by `double` as long as that is exact. Returns whether all rows are. On a thread that flushes subnormal numbers, these are not.

@@ -26,9 +26,9 @@ pub(crate) struct BlockPair {
 /// The primitives that two trees share.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Common {
-    /// All: it is one tree, and each pair comes once.
+    /// All. It is one tree, and each pair comes once.
     Tree,
-    /// Vertices of one mesh: primitives that share a vertex are no pair.
+    /// The vertices of one mesh. Primitives that share a vertex are no pair.
     Mesh,
     /// Nothing.
     Nothing,
@@ -42,7 +42,7 @@ pub(super) struct Trees<'a, const N: usize, const M: usize> {
     pub(super) common: Common,
     /// Whether there is a collision filter.
     pub(super) are_filtered: bool,
-    /// How boxes are drawn in for the separation of neighbours, if they have a smaller one.
+    /// The inset of boxes for the separation of neighbours, if they have a smaller one.
     pub(super) of_neighbours: Option<Inset>,
 }
 
@@ -169,7 +169,7 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
             let lane = next_lane(&mut own);
             let mut among = node_b.present & partners(node_a.moving >> lane & 1 != 0, node_b.moving);
             if is_same {
-                // A block against itself: each lane with itself and those after it.
+                // In a block against itself each lane meets itself and later lanes.
                 among &= Mask::MAX << lane;
             }
             let mut near = lanes.near(block_b, &block_a.get(lane as usize % LANES), among);

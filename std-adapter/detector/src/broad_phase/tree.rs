@@ -38,25 +38,25 @@ pub(super) struct Node {
     pub(super) hub: u32,
 }
 
-/// A tree over primitives of N vertices each. Empty until it is built.
+/// A tree over primitives of N vertices each. It is empty until it is built.
 #[derive(Debug, Default)]
 pub(super) struct Tree<const N: usize> {
     /// The primitive at each position.
     pub(super) primitives: Vec<u32>,
-    /// The positions of its vertices in the tree of vertices.
+    /// The positions of the primitive's vertices in the tree of vertices.
     pub(super) vertices: Vec<[u32; N]>,
-    /// The same side by side for each block of primitives, with [`NONE`] in empty lanes.
+    /// The same positions side by side for each block of primitives, with [`NONE`] in empty lanes.
     pub(super) corners: Vec<[[u32; LANES]; N]>,
     /// The shape at rest of each block of primitives, if there are [neighbours](super::Neighbours).
     pub(super) rest: Vec<RestBlock>,
-    /// The lowest level first, whose blocks hold primitives.
+    /// The levels, from the lowest, whose blocks hold primitives.
     pub(super) levels: Vec<TreeLevel>,
     /// Whether nodes may have a hub.
     pub(super) has_hubs: bool,
     centres: Vec<Centre>,
 }
 
-/// The shapes at rest of sixteen primitives, which decide who are neighbours.
+/// The shapes at rest of sixteen primitives, which decide about neighbours.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RestBlock {
     pub(super) boxes: BoxBlock,
@@ -66,7 +66,7 @@ pub(super) struct RestBlock {
     pub(super) within: [f32; LANES],
 }
 
-/// Stands for no vertex.
+/// Marks a lane without a vertex.
 const NONE: u32 = u32::MAX;
 
 impl<const N: usize> Tree<N> {
@@ -164,7 +164,7 @@ impl<const N: usize> Tree<N> {
                 let is_moving = |lane: usize| {
                     let child = block * LANES + lane;
                     match height {
-                        // Without a branch, since each answer is unpredictable.
+                        // There is no branch, since each answer is unpredictable.
                         0 => self.vertices[child].iter().fold(false, |any, &vertex| any | moves(vertex)),
                         _ => below[child].moving != 0,
                     }
@@ -248,7 +248,7 @@ impl<const N: usize> Tree<N> {
     }
 }
 
-/// Blocks that one thread refits at a time.
+/// The number of blocks that one thread refits at a time.
 const BLOCKS: usize = 64;
 
 fn refit_level(level: &mut TreeLevel, only_moving: bool, child: impl Fn(usize) -> MovingBox<f32> + Sync) {

@@ -5,12 +5,13 @@
 //!
 //! Costs are counts, not times, so they are the same on every machine and every number of threads.
 
-/// The number of steps before another choice is tried. Trials that are much more frequent cost 2 to 4 % of a step; rarer ones miss changes of the motion.
+/// The number of steps before another choice is tried. Trials that are much more frequent cost 2 to 4 % of a step; rarer ones
+/// miss changes of the motion.
 const PATIENCE: f64 = 32.0;
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ahead {
-    /// The most steps.
+    /// The largest number of steps.
     farthest: u32,
     steps: u32,
     /// The cost since the last choice.
@@ -42,7 +43,7 @@ impl Ahead {
         }
     }
 
-    /// Forgets the past. Starts with half of the most steps.
+    /// Forgets the past, and starts with half of the largest number of steps.
     pub(super) fn forget(&mut self) {
         *self = Self {
             steps: self.farthest.div_ceil(2),
@@ -70,7 +71,7 @@ impl Ahead {
             return;
         }
         match self.before.take() {
-            // Better than before: the next trial goes farther in the same direction.
+            // The trial was better, so the next one goes farther in the same direction.
             Some((_, cost_before)) if cost < cost_before => {}
             Some((steps_before, _)) => {
                 self.steps = steps_before;

@@ -1,8 +1,9 @@
-//! The near pairs of a detector's steps. Pairs that remembered directions do not settle go to the elementary test.
+//! The near pairs of a detector's steps. Pairs that no remembered direction keeps apart go to the elementary test.
 //!
-//! **No contact is missed.** A pair outside the list keeps its distance while no vertex strays too far ([`near`](super::near)). Every step measures the
-//! strays at its end, and at its start too unless it starts exactly where the last step ended. The distance is the separation and twice the tolerance,
-//! so a pair that is settled here is no contact of the elementary test either.
+//! **No contact is missed.** A pair outside the list keeps its distance while no vertex strays too far ([`near`](super::near)).
+//! Every step measures the strays at its end, and also at its start unless it starts exactly where the last step ended. The
+//! distance is the separation and twice the tolerance, so a pair that is proven apart here is no contact of the elementary test
+//! either.
 
 use super::interest::{CLASSES, Class, Interest, Reach};
 use super::near::NearPairs;
@@ -18,18 +19,21 @@ use selvedge_core::separation::gap::GapError;
 use selvedge_core::separation::largest_coordinate;
 use std::sync::Arc;
 
-/// The length beyond their distance within which pairs are looked for, in mean edges. More gives longer lists that last longer.
+/// The length by which the search for pairs exceeds their distance, in mean edges. A larger value gives longer lists that last
+/// longer.
 const BEYOND: f64 = 0.1;
-/// The most steps to look ahead. With 6 there are a third more searches, and with 12 nearly twice as many for strayed vertices; both take longer.
+/// The largest number of steps to look ahead. With 6 there are a third more searches, and with 12 nearly twice as many for
+/// strayed vertices; both take longer.
 const FARTHEST: u32 = 8;
 
-/// The cost of a listed pair in a step, in units of the cost of finding a pair: an estimate, since most pairs need no attention.
+/// The cost of a listed pair in a step, in units of the cost of finding a pair. It is an estimate, since most pairs need no
+/// attention.
 const UPKEEP: f64 = 0.1;
 
-/// Distances and edges from here on are not used, since sums of them might overflow.
+/// The bound from which on distances and edges are not used, since sums of them might overflow.
 pub(crate) const ENORMOUS: f64 = 1e100;
 
-/// Takes pairs with a moving vertex.
+/// The interest in pairs with a moving vertex.
 #[derive(Debug)]
 struct OfMoving(Option<Vec<bool>>);
 
@@ -54,7 +58,7 @@ pub(crate) struct Followed {
     filter: Option<Arc<CollisionFilter>>,
     /// Whether each vertex has a triangle.
     used: Vec<bool>,
-    /// Made in the first step.
+    /// The near pairs, made in the first step.
     near: Option<NearPairs<OfMoving>>,
     /// The distance of the pairs in the list.
     distance: f64,
@@ -123,7 +127,7 @@ impl Followed {
         true
     }
 
-    /// Makes the list good for the step.
+    /// Makes the list valid for the step.
     fn cover(&mut self, topology: &Arc<Topology>, distance: f64, continues: bool, memory_limit: u64) {
         let [start, end] = [&self.step[0][..], &self.step[1][..]];
         if let Some(near) = self.near.as_mut().filter(|_| self.distance == distance) {
@@ -169,7 +173,8 @@ impl Followed {
         near.find_strays(end, 1.0);
         let strays = std::mem::take(&mut near.strays);
 
-        // Four times what is needed: the elementary test gives up on pairs nearer than 20u of their size, and reports a contact.
+        // This is four times the error that is needed: the elementary test gives up on pairs nearer than 20u of their size, and
+        // reports a contact.
         let largest = largest_coordinate(start).max(largest_coordinate(end));
         let error = GapError::from_largest_coordinate(4.0 * largest);
         let mapping = mapping_within(motions, separation);

@@ -1,4 +1,4 @@
-//! The motion for which near pairs were found, and how long they stay good.
+//! The motion for which near pairs were found, and how long they stay valid.
 //!
 //! A search extends the present motion straight ahead for several steps. Every pair that it does not find keeps more than a distance along some direction
 //! on all of that way. As long as each vertex stays within some room of its way along each axis, the pair keeps the rest of that distance
@@ -41,7 +41,7 @@ impl Horizon {
         }
     }
 
-    /// Forgets the motion and the past. Looks half as far ahead as allowed.
+    /// Forgets the motion and the past, and looks half as far ahead as allowed.
     pub(super) fn forget(&mut self) {
         self.span = 0.0;
         self.ahead.forget();
@@ -50,7 +50,7 @@ impl Horizon {
 
     /// Begins a motion with the step from `start` to `end` in a time of `h`. Returns the motion to find pairs for.
     ///
-    /// Looks as many steps [ahead](Ahead) as cost least. Vertices have to stay within `room` of the motion.
+    /// It looks as many steps [ahead](Ahead) as cost least. Vertices have to stay within `room` of the motion.
     pub(super) fn begin<'a>(&'a mut self, start: &'a [DVec3], end: &[DVec3], h: f64, room: f64) -> [&'a [DVec3]; 2] {
         if self.span > 0.0 {
             let lasted = self.elapsed / self.span * f64::from(self.ahead.steps());
@@ -71,7 +71,7 @@ impl Horizon {
         self.far.extend(ways.map(|(&from, &drift)| expected(from, drift, span)));
         self.largest = largest_coordinate(start).max(largest_coordinate(&self.far));
         if !is_certain(room, self.largest) {
-            // Rounding is too coarse to measure strays: the motion is exactly this step.
+            // Rounding is too coarse to measure strays, so the motion is exactly this step.
             self.span = h;
             self.far.copy_from_slice(end);
         }
@@ -158,8 +158,8 @@ const GRADES: usize = 6;
 
 /// Returns the correction of a drift for a vertex whose way bends in each step.
 ///
-/// It is half of what leads to the end of the vertex's parabola, since bends do not last. It is limited so that the vertex stays within half of its room
-/// in the first step. On a bending sleeve this halves the strays.
+/// The correction is half of the one that leads to the end of the vertex's parabola, since bends do not last. It is limited so
+/// that the vertex stays within half of its room in the first step. On a bending sleeve this halves the strays.
 fn bent(bend: DVec3, steps: f64, h: f64, room: f64) -> DVec3 {
     let most = 0.5 * room;
     (bend * (0.25 * (steps - 1.0).max(0.0))).clamp(DVec3::splat(-most), DVec3::splat(most)) / h

@@ -24,13 +24,13 @@ pub trait Interest: Sync {
 /// The number of classes of pairs.
 pub const CLASSES: usize = 3;
 
-/// The distance of near pairs of one class.
+/// The distance of near pairs in one class.
 #[derive(Clone, Copy, Debug)]
 pub struct Class {
-    /// Pairs that come within this distance are near.
+    /// The distance within which pairs are near.
     pub distance: f64,
-    /// The share of the distance by which directions other than the axes must keep a pair farther apart for the sieve to drop it. It is no part of a
-    /// proof.
+    /// The share of the distance by which directions other than the axes must keep a pair farther apart for the sieve to drop it.
+    /// Proofs do not use it.
     pub margin: f32,
 }
 
@@ -44,7 +44,7 @@ pub struct Reach {
     pub beyond: f64,
     /// The length by which every pair may come closer than its distance.
     pub spare: f64,
-    /// The most steps to look ahead.
+    /// The largest number of steps to look ahead.
     pub farthest: u32,
     /// The cost of a listed pair in a step, in units of the cost of finding a pair.
     pub upkeep: f64,
@@ -52,7 +52,7 @@ pub struct Reach {
     pub is_graded: bool,
 }
 
-/// Takes all pairs, of one class.
+/// An interest in all pairs, of one class.
 #[cfg(test)]
 pub(super) struct OfClass(pub(super) usize);
 

@@ -39,7 +39,7 @@ fn find_in<'a, D: Copy>(run: &mut &'a [NearPair<D>], order: u128) -> Option<&'a 
 /// The number of pairs that are passed one by one; mostly none needs to be.
 const SINGLY: usize = 8;
 
-/// Returns how many pairs come before, in a time that grows with the logarithm of their number.
+/// Returns how many pairs come before, in logarithmic time.
 #[cold]
 fn how_many_before<D: Copy>(run: &[NearPair<D>], order: u128) -> usize {
     let comes_before = |other: &NearPair<D>| order_of(other.key()) < order;

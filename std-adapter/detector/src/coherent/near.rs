@@ -19,7 +19,7 @@ use selvedge_core::glam::DVec3;
 use selvedge_core::separation::course::room;
 use std::sync::Arc;
 
-/// All pairs are found again if one vertex in this number has strayed.
+/// The inverse of the share of strayed vertices from which on all pairs are found again.
 const MANY: usize = 4;
 
 /// Near pairs that are followed from step to step; see the [module](super). Times may be in any unit. Positions must be finite.
@@ -32,7 +32,8 @@ pub struct NearPairs<I: Interest> {
     pub list: Vec<NearPair<I::Data>>,
     /// The number of pairs of the last full search.
     first: usize,
-    /// The vertices of these pairs side by side, once they are needed: 16 bytes to read for each pair instead of some 56.
+    /// The vertices of these pairs side by side, made when they are needed. They take 16 bytes to read for each pair instead of
+    /// some 56.
     vertices: Vec<[u32; 4]>,
     /// For each vertex, whether it has [strayed](Self::find_strayed).
     strayed: Vec<bool>,
@@ -41,11 +42,10 @@ pub struct NearPairs<I: Interest> {
     reach: Reach,
     /// The largest stray along an axis for which the list holds every pair within its distance.
     slack: f64,
-    /// The same for every pair that may come closer than it has to keep.
+    /// The same stray for every pair that may come closer than it has to keep.
     room: f64,
     /// The stray of each vertex, in the measure of [`Reach::beyond`].
     pub(super) strays: Vec<f32>,
-    /// New pairs.
     found: Vec<NearPair<I::Data>>,
     statistics: NearStatistics,
 }
@@ -53,9 +53,9 @@ pub struct NearPairs<I: Interest> {
 /// Counts of [`NearPairs`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct NearStatistics {
-    /// Full searches.
+    /// The number of full searches.
     pub searches: u64,
-    /// Searches for the pairs of strayed vertices only.
+    /// The number of searches for the pairs of strayed vertices only.
     pub joined: u64,
 }
 
@@ -86,17 +86,16 @@ impl<I: Interest> NearPairs<I> {
         })
     }
 
-    /// Finds only pairs that the filter allows from here on.
     pub(super) fn set_filter(&mut self, filter: Option<Arc<CollisionFilter>>) {
         self.search.set_filter(filter);
     }
 
-    /// Sets the most bytes of candidates and near pairs that a search may store.
+    /// Sets the largest number of bytes of candidates and near pairs that a search may store.
     pub(super) const fn set_memory_limit(&mut self, limit: u64) {
         self.search.set_memory_limit(limit);
     }
 
-    /// Returns whether the last search needed more. The list is then incomplete.
+    /// Returns whether the last search needed more bytes than that. The list is then incomplete.
     pub(super) const fn is_over_memory_limit(&self) -> bool {
         self.search.is_over_limit
     }
@@ -139,8 +138,8 @@ impl<I: Interest> NearPairs<I> {
         &self.strayed
     }
 
-    /// Forgets all earlier steps, as if there had been none. Then finds the pairs for a motion that begins with the step from `start` to `end`, which
-    /// takes a time of `h`.
+    /// Forgets all earlier steps. Then finds the pairs for a motion that begins with the step from `start` to `end`, which takes
+    /// a time of `h`.
     ///
     /// # Panics
     /// Panics as [`cover`](Self::cover) does.
@@ -171,7 +170,7 @@ impl<I: Interest> NearPairs<I> {
         strayed < end.len() / MANY && self.horizon.lasts(h) && self.find_of_strayed(start, end, h)
     }
 
-    /// Makes the list good for the step from `start`, where the last step ended, to `end`, which takes a time of `h`.
+    /// Makes the list valid for the step from `start`, where the last step ended, to `end`, which takes a time of `h`.
     ///
     /// # Panics
     /// Panics if a position is not finite.
@@ -189,7 +188,7 @@ impl<I: Interest> NearPairs<I> {
         self.horizon.bends.extend(bends);
     }
 
-    /// Makes the list [good](Self::cover) for a step from `start` to `end` where the last step may have ended elsewhere.
+    /// Makes the list [valid](Self::cover) for a step from `start` to `end` where the last step may have ended elsewhere.
     ///
     /// # Panics
     /// Panics if a position is not finite.
@@ -266,8 +265,8 @@ impl<I: Interest> NearPairs<I> {
         self.vertices.clear();
     }
 
-    /// Finds how far each vertex strays up to `positions`, a time of `h` later, if the list [covers](Self::cover) them. This decides which pairs
-    /// [need attention](NearPair::needs_attention).
+    /// Finds how far each vertex strays up to `positions`, a time of `h` later, if the list [covers](Self::cover) them. The
+    /// strays decide which pairs [need attention](NearPair::needs_attention).
     pub(super) fn find_strays(&mut self, positions: &[DVec3], h: f64) {
         self.horizon.find_strays(positions, h, self.reach.beyond, &mut self.strays);
     }
@@ -296,7 +295,7 @@ impl<I: Interest> NearPairs<I> {
 
 /// Merges `found` into the pairs from `first` on. Both ascend by key, and have no pair in common.
 fn add<D: Copy>(pairs: &mut Vec<NearPair<D>>, first: usize, found: &mut Vec<NearPair<D>>) {
-    // From the end, so that every pair moves at most once, and pairs before the first new one do not move.
+    // The merge goes backwards, so that every pair moves at most once, and pairs before the first new one do not move.
     let mut known = pairs.len();
     pairs.extend_from_slice(found);
     while let Some(&new) = found.last() {
@@ -324,7 +323,7 @@ mod tests {
         keys.iter().map(pair).collect()
     }
 
-    /// Takes all pairs, each with a number that the caller may replace.
+    /// An interest in all pairs, each with a number that the caller may replace.
     struct Numbered;
 
     impl Interest for Numbered {
@@ -398,7 +397,7 @@ mod tests {
             prop_assert!(of_added.iter().all(|pair| (pair.data == 2) == added.contains(&pair.pair)));
         }
 
-        /// Layers of triangles, one of which strays towards another.
+        /// One of several layers of triangles strays towards another.
         #[test]
         fn places_are_those_of_all_pairs_with_a_marked_vertex(
             marked in prop::collection::vec(any::<bool>(), 15),

@@ -19,8 +19,8 @@ pub struct NearPair<D> {
     pub vertices: [u32; 4],
     /// The direction that kept the sets apart at the end of the last tested step.
     separating: SeparatingDirection,
-    /// The length by which vertices of both sets may stray together, twice along each axis, before the pair needs attention. Negative if it needs
-    /// attention at once.
+    /// The length by which vertices of both sets may stray together, twice along each axis, before the pair needs attention. It
+    /// is negative if the pair needs attention at once.
     pub(super) stray: f32,
     /// The caller's data.
     pub data: D,
@@ -61,7 +61,7 @@ impl<D: Copy> NearPair<D> {
             PairKind::VertexFace => (a, b.max(c).max(d)),
             PairKind::EdgeEdge => (a.max(b), c.max(d)),
         };
-        // NaN proves nothing.
+        // A NaN proves nothing.
         let is_settled = 0.5 * (first + second) <= self.stray;
         !is_settled
     }
@@ -69,7 +69,7 @@ impl<D: Copy> NearPair<D> {
     /// Returns the positions of the pair's vertices.
     #[inline(always)]
     pub fn points(&self, positions: &[DVec3]) -> [DVec3; 4] {
-        // Written out, since `map` with a closure is not always inlined.
+        // The calls are written out, since `map` with a closure is not always inlined.
         let [a, b, c, d] = self.vertices;
         [
             positions[a as usize],
@@ -128,8 +128,8 @@ impl<D: Copy> NearPair<D> {
         later.is_some()
     }
 
-    /// Returns whether a direction certainly keeps the pair more than `separation` apart on the way from `start` to `end`, and remembers it. Tries the
-    /// remembered direction, then those of the closest points at the end and at the start.
+    /// Returns whether a direction certainly keeps the pair more than `separation` apart on the way from `start` to `end`, and
+    /// remembers it. It tries the remembered direction, then those of the closest points at the end and at the start.
     #[inline]
     pub fn keeps_apart(&mut self, path: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> bool {
         let [_, end] = path;
@@ -145,7 +145,7 @@ impl<D: Copy> NearPair<D> {
     }
 
     /// Tries the direction of the closest points at the end, which is given, and that at the start: the second part of
-    /// [`keeps_apart`](Self::keeps_apart). Forgets the gap if neither keeps the pair apart.
+    /// [`keeps_apart`](Self::keeps_apart). If neither keeps the pair apart, the gap is forgotten.
     #[inline]
     pub fn keeps_apart_along(
         &mut self,

@@ -23,9 +23,9 @@ pub(super) struct Search<I> {
     /// Whether the broad phase finds pairs of few vertices only.
     is_narrowed: bool,
     broad_phase: MovingBroadPhase,
-    /// The most bytes of candidates and near pairs.
+    /// The largest number of bytes of candidates and near pairs.
     memory_limit: u64,
-    /// Whether the last search needed more. It then found no pairs.
+    /// Whether the last search needed more bytes. It then found no pairs.
     pub(super) is_over_limit: bool,
     sieve: Sieve,
     vertex_face: Vec<[u32; 2]>,
@@ -80,8 +80,8 @@ impl<I: Interest> Search<I> {
         self.broad_phase.set_separation(largest + reach.beyond)
     }
 
-    /// Replaces `pairs` by those of a motion, in ascending order of their keys, so that they do not depend on earlier steps. Keeps what is `known` of
-    /// each.
+    /// Replaces `pairs` by those of a motion, in ascending order of their keys, so that they do not depend on earlier steps. The
+    /// data of `known` pairs stay.
     ///
     /// # Panics
     /// Panics if a position is not finite.
@@ -99,8 +99,8 @@ impl<I: Interest> Search<I> {
         self.find(reach, None, known, pairs);
     }
 
-    /// Replaces `pairs` by those with a vertex in `only`. The other vertices must have the motion of the last search. Leaves out `known` pairs, unless
-    /// strays are graded.
+    /// Replaces `pairs` by those with a vertex in `only`. The other vertices must have the motion of the last search. Pairs that
+    /// are `known` are left out, unless strays are graded.
     ///
     /// # Panics
     /// Panics if a position is not finite.
@@ -118,7 +118,7 @@ impl<I: Interest> Search<I> {
         self.find(reach, Some(only), known, pairs);
     }
 
-    /// Returns the number of near boxes of the last search, including neighbours that were left out: about its cost.
+    /// Returns the number of near boxes of the last search, including neighbours that were left out. It is a measure of the cost.
     pub(super) fn work(&self) -> f64 {
         let left_out = self.broad_phase.neighbours_left_out();
         (self.vertex_face.len() + self.edge_edge.len()) as f64 + left_out as f64
@@ -192,9 +192,9 @@ impl<I: Interest> Search<I> {
     }
 }
 
-/// Visits different pairs in ascending order. Their first numbers are below `count`.
+/// Visits distinct pairs in ascending order. Their first numbers are below `count`.
 ///
-/// Unless they are few, a counting sort orders them by the first number, then each group by the second.
+/// A counting sort orders many pairs by the first number, and then each group by the second.
 fn for_each_in_order(
     pairs: &mut [SievedPair],
     count: usize,
@@ -215,7 +215,7 @@ fn for_each_in_order(
     for first in 0..count {
         places[first + 1] += places[first];
     }
-    // All entries are written over.
+    // All entries are overwritten.
     by_first.resize(pairs.len(), SievedPair::default());
     for left in &*pairs {
         let place = &mut places[left.pair[0] as usize];
@@ -229,7 +229,7 @@ fn for_each_in_order(
             same.iter().copied().for_each(&mut visit);
             continue;
         }
-        // By the number of smaller ones, side by side and without unpredictable branches.
+        // The place of a pair is the number of smaller ones, counted side by side and without unpredictable branches.
         let mut seconds = [u32::MAX; FEW];
         seconds
             .iter_mut()
@@ -244,7 +244,7 @@ fn for_each_in_order(
     }
 }
 
-/// The most pairs of a group that are compared each with each: a multiple of eight. Most groups have fewer than ten.
+/// The largest number of pairs of a group that are compared each with each; a multiple of eight. Most groups have fewer than ten.
 const FEW: usize = 64;
 
 #[cfg(test)]
@@ -254,7 +254,7 @@ mod tests {
     use crate::broad_phase::Neighbours;
     use proptest::prelude::*;
 
-    /// Takes every pair; neighbours have a smaller distance.
+    /// An interest in every pair; neighbours have a smaller distance.
     struct Told {
         neighbours: Arc<Neighbours>,
         at_once: bool,
@@ -369,7 +369,7 @@ mod tests {
             expected.sort_unstable();
             let expected: Vec<_> = expected.iter().map(of_pair).collect();
             let mut pairs: Vec<_> = pairs.iter().map(of_pair).collect();
-            // Buffers of an earlier search.
+            // The buffers are those of an earlier search.
             let (mut by_first, mut places) = (vec![of_pair(&[9, 9]); 150], vec![9; 50]);
             let mut visited = Vec::new();
             for_each_in_order(&mut pairs, count, &mut by_first, &mut places, |left| visited.push(left));

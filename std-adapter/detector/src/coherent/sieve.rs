@@ -32,7 +32,7 @@ pub(super) struct SievedPair {
     pub(super) stray: f32,
 }
 
-/// Pairs that are tested at a time: their vertices and strays are some kilobytes.
+/// The number of pairs that are tested at a time: their vertices and strays are some kilobytes.
 const AT_ONCE: usize = 128;
 
 impl Sieve {
@@ -45,7 +45,7 @@ impl Sieve {
         }
     }
 
-    /// Sets the motion. If there is an `only`, vertices outside of it keep the last motion.
+    /// Sets the motion. If there is an `only`, other vertices keep the last motion.
     ///
     /// Returns a gap between boxes: [`leave`](Self::leave) certainly drops a pair of the first class whose boxes keep that gap along one axis throughout the
     /// motion.
@@ -81,7 +81,7 @@ impl Sieve {
             largest_strays_from_rows(self.level, kind, &self.clearances, &self.rows, own, &classes, &mut strays);
             append_selected(left, pairs, |place, &pair| {
                 let stray = strays[place];
-                // NaN keeps nothing apart.
+                // A NaN keeps nothing apart.
                 let keeps_apart = stray >= enough;
                 (!keeps_apart, SievedPair { pair, stray })
             });
@@ -205,14 +205,14 @@ mod tests {
                 [0, 1, 2, 3].map(|k| points[k] + DVec3::AXES[axis] * if first(kind, k) { 0.0 } else { by })
             };
             let reach = reach([distance, 1.0, 1.0], 0.5, beyond);
-            // No coordinate is larger.
+            // No coordinate is larger than this.
             let gap = Sieve::new(4).set_motion(&reach, [&[DVec3::splat(8.0); 4]; 2], None);
             let gap = gap * (1.0 + 1e-14) + 1e-14;
             prop_assert!(gap < (distance + beyond) * 1.0001 + 1e-4);
             prop_assert!(left_out(kind, &reach, [&ahead(start, gap), &ahead(end, gap)])[0]);
         }
 
-        /// Two triangles side by side, in any position. Boxes may overlap, but the sets are nearly a height apart.
+        /// Boxes of two triangles side by side may overlap in any position, but the sets are nearly a height apart.
         #[test]
         fn pairs_of_triangles_side_by_side_are_left_out(
             turn in prop::array::uniform4(-1.0..1.0_f64),
@@ -226,13 +226,13 @@ mod tests {
             let below = DVec3::new(0.0, -height, 0.0);
             let above = DVec3::new(0.0, height * bend.cos(), height * bend.sin());
             let points = if is_edge {
-                // Two sides of the strip's hexagon.
+                // These are two sides of the strip's hexagon.
                 [above, above + DVec3::X, left, right]
             } else {
                 [above, left, right, below]
             };
             let points = points.map(|point| turn.normalize() * point);
-            // A margin as in cloth simulation.
+            // This is a margin as in cloth simulation.
             let reach = reach([0.16; CLASSES], 2.0 / 3.0, 0.05);
             prop_assert!(left_out(kind(is_edge), &reach, [&points, &points])[1]);
         }

@@ -12,10 +12,10 @@
 //! ```
 //!
 //! # `f32` first
-//! Where all positions are `f32` numbers, in whichever format they came, filter and sweeps run in `f32` first. A register then holds twice as
-//! many pairs, and half as many bytes are read. A proof in `f32` holds for the positions themselves. The pairs that `f32` leaves open continue
-//! in `f64`, from the times up to which they are proven apart, so contacts and times are as sharp as those of `f64`. The separation and the
-//! end of the time range are rounded up.
+//! If all positions are `f32` numbers, in either format, filter and sweeps run in `f32` first. A register then holds twice as
+//! many pairs, and half as many bytes are read. A proof in `f32` holds for the positions themselves. The pairs that `f32` leaves
+//! open continue in `f64`, from the times up to which they are proven apart, so contacts and times are as sharp as those of
+//! `f64`. The separation and the end of the time range are rounded up.
 
 use super::findings::{Findings, count_of};
 use super::numbers::Numbers;
@@ -36,10 +36,12 @@ use selvedge_core::filter::{Filter, Tier};
 use selvedge_core::narrowing::rounded_up;
 use selvedge_core::{PrimitivePair, Scalar};
 
-/// Sweeps in `f64` before pairs are decided one by one. On a large cloth, 5 sweeps take a third more time than 16, and 12 take 3 % more.
+/// The number of sweeps in `f64` before pairs are decided one by one. On a large cloth, 5 sweeps take a third more time than 16,
+/// and 12 take 3 % more.
 const SWEEPS: usize = 16;
 
-/// Sweeps in `f32` before those in `f64`, where `f32` is exact. On a large cloth, 4, 6 and 8 take the same time, and 12 take a tenth more.
+/// The number of sweeps in `f32` before those in `f64`, where `f32` is exact. On a large cloth, 4, 6 and 8 take the same time,
+/// and 12 take a tenth more.
 const SINGLE_SWEEPS: usize = 4;
 
 /// The input of all chunks of a source.
@@ -86,18 +88,18 @@ impl<'a> StepInput<'a> {
 /// The chunk of one thread.
 #[derive(Debug)]
 pub(super) struct Chunk {
-    /// Pairs that the filter keeps, and the rows of their vertices.
+    /// The pairs that the filter keeps, and the rows of their vertices.
     pairs: Vec<[u32; 2]>,
     indices: Vec<[u32; 4]>,
     masks: Vec<Mask>,
     /// The pairs that are open, in the sweeps of either format.
     single: Open<f32>,
     double: Open<f64>,
-    /// For each of `pairs` the time from which contact is possible; [`NEVER`] if it is excluded.
+    /// The time from which contact is possible for each of `pairs`; [`NEVER`] if it is excluded.
     impacts: Vec<f64>,
 }
 
-/// A contact is held once for the engine and once for the caller.
+/// The memory of a contact, which is held once for the engine and once for the caller.
 const BYTES_OF_CONTACT: usize = 2 * size_of::<Contact<f64>>();
 
 /// A time after the step.
@@ -115,7 +117,6 @@ impl Chunk {
         }
     }
 
-    /// Removes the pairs that an early end of a traversal leaves.
     pub(super) fn clear(&mut self) {
         self.pairs.clear();
         self.indices.clear();
@@ -201,7 +202,7 @@ impl Chunk {
             kind,
             rows,
             limits: Limits {
-                // No part of a proof: it only decides when a pair goes to `f64`.
+                // This tolerance is no part of a proof: it only decides when a pair goes to `f64`.
                 tolerance: f32::from_f64(limits.tolerance),
                 separation: rounded_up(limits.separation),
             },
@@ -295,7 +296,7 @@ fn touches(step: &StepInput<'_>, kind: PairKind, pair: [u32; 2], time: f64) -> b
     contact_given_impact(&pair, &impact) != Verdict::Never
 }
 
-/// Takes the pairs of a traversal into a chunk.
+/// A sink that takes the pairs of a traversal into a chunk.
 pub(super) struct ChunkSink<'a> {
     pub(super) chunk: &'a mut Chunk,
     pub(super) findings: &'a mut Findings,

@@ -28,7 +28,7 @@ pub(super) struct Findings {
 }
 
 impl Findings {
-    /// Forgets the last step; keeps the memory.
+    /// Forgets the last step, but keeps the memory.
     pub(super) fn clear(&mut self) {
         self.contacts.clear();
         self.first = 0;
@@ -50,7 +50,6 @@ pub(super) fn by_time_and_pair(a: &Contact<f64>, b: &Contact<f64>) -> Ordering {
     by_time.then((a.kind, a.pair).cmp(&(b.kind, b.pair)))
 }
 
-/// Returns the count of one kind.
 pub(super) fn count_of(counts: &mut PairCounts, kind: PairKind) -> &mut u64 {
     match kind {
         PairKind::VertexFace => &mut counts.vertex_face,

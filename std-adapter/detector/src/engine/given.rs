@@ -51,7 +51,7 @@ impl Row {
 #[derive(Debug, Default)]
 pub(super) struct PrimitiveBoxes {
     vertex_boxes: Vec<MovingBox<f32>>,
-    /// For VF and EE pairs.
+    /// The boxes of first primitives, for VF and EE pairs.
     firsts: [Vec<Row>; 2],
     seconds: [Vec<Row>; 2],
 }
@@ -102,7 +102,7 @@ impl PrimitiveBoxes {
     }
 }
 
-/// Moves near pairs to the front of `near`, which is as long as `pairs`. Returns how many there are.
+/// A kernel that moves near pairs to the front of `near`, which is as long as `pairs`, and returns their number.
 struct SelectNear<'a> {
     firsts: &'a [Row],
     seconds: &'a [Row],
@@ -161,7 +161,7 @@ mod tests {
             (at(0.2, 0.2, -1.0), at(0.2, 0.2, -0.5), false),
             (at(0.2, 0.2, 1.0), at(0.2, 0.2, 0.0), true),
             (at(0.2, 0.2, 1.0), at(0.2, 0.2, -1.0), true),
-            // Along one axis at the start, along another at the end.
+            // The boxes are apart along one axis at the start, along another at the end.
             (at(0.2, 0.2, 1.0), at(-1.0, 0.2, 0.0), true),
             (at(-1.0, 0.2, 1.0), at(-1.0, 0.2, -1.0), false),
             (at(0.2, 1.5, 1.0), at(0.2, 1.1, -1.0), false),

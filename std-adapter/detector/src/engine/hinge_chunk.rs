@@ -3,7 +3,6 @@
 use crate::mesh::Hinge;
 use selvedge_core::batch::Mask;
 
-/// The hinges of one thread.
 #[derive(Debug, Default)]
 pub(super) struct HingeChunk {
     pub(super) hinges: Vec<Hinge>,

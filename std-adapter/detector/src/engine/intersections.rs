@@ -15,7 +15,7 @@ use selvedge_core::batch::VertexRow;
 use selvedge_core::elementary::Limits;
 
 impl MeshEngine {
-    /// Replaces `found` by the intersections of a mesh at rest, or by some of them if any will do.
+    /// Replaces `found` by the intersections of a mesh at rest, or by some of them if the caller needs only one.
     pub(crate) fn intersections(
         &mut self,
         threads: &Workers,
@@ -23,7 +23,7 @@ impl MeshEngine {
         wanted: Wanted,
         found: &mut Vec<Intersection>,
     ) {
-        // Whether a state is free does not depend on the collision filter.
+        // The collision filter does not decide whether a state is free.
         let filter = self.filter.take();
         if filter.is_some() {
             self.broad_phase.set_filter(None);
@@ -53,7 +53,7 @@ impl MeshEngine {
                 numbers: Numbers::FacesAndEdges(hierarchies),
                 rows: self.rows.slices(),
                 question: Question {
-                    // The sweeps stop this near to contact, and the exact verdict decides. The limits change no result.
+                    // The sweeps stop at this distance, and the exact verdict decides. The limits change no result.
                     limits: Limits::default(),
                     wanted,
                     keeps_filtered: false,
@@ -86,7 +86,7 @@ impl MeshEngine {
                 found.extend(worker.findings.contacts.iter().map(|contact| part.intersection(contact)));
             }
         }
-        // Where a traversal ends early depends on which thread is first.
+        // The place where a traversal ends early depends on which thread is first.
         if !search.has_enough() {
             self.broad_phase.hierarchies.observe_face_edge(tests, candidates as usize);
         }
@@ -95,7 +95,7 @@ impl MeshEngine {
     }
 }
 
-/// Rows that one thread makes at a time.
+/// The number of rows that one thread makes at a time.
 const ROWS: usize = 4096;
 
 /// Makes a row for each vertex, at rest, and then one for each edge, from one end to the other.

@@ -20,14 +20,14 @@ use selvedge_core::elementary::Limits;
 use selvedge_core::{PairKind, Scalar};
 use std::sync::Arc;
 
-/// The first part of a step in which the earliest contact is looked for where a whole step has many candidates.
+/// The first part of a step. The earliest contact is looked for there first if a whole step has many candidates.
 ///
 /// A shorter part finds about as few candidates; a longer one finds more of them.
 const EARLY: f64 = 1.0 / 16.0;
 
-/// The candidates for each edge from which on a search of the [early part](EARLY) alone may pay. A traversal costs about six box tests for each
-/// edge in any part of the step, and a candidate as much as about one test in the stages after it. So from here on the traversal is a small
-/// part of the whole step, and one that finds nothing is no great loss.
+/// The number of candidates for each edge from which on a search of the [early part](EARLY) alone may pay. A traversal costs
+/// about six box tests for each edge in any part of the step, and a candidate as much as about one test in the stages after it.
+/// With this number the traversal is a small part of the whole step, and one that finds nothing is no great loss.
 const MANY_CANDIDATES: u64 = 8;
 
 /// Finds the contacts of one mesh: a world of one mesh, whose pairs can also be listed or followed.
@@ -35,16 +35,16 @@ const MANY_CANDIDATES: u64 = 8;
 pub(crate) struct MeshEngine {
     pub(crate) broad_phase: MovingBroadPhase,
     pub(crate) pairs: PairEngine,
-    /// In the mode for coherent motion.
+    /// The followed pairs, in the mode for coherent motion.
     followed: Option<Box<Followed>>,
     /// For each vertex, whether it moves; `None` if all do.
     moving: Option<Vec<bool>>,
-    /// Excludes pairs.
+    /// The pairs that are excluded.
     pub(super) filter: Option<Arc<CollisionFilter>>,
     /// The motion of each vertex as the mesh numbers them, for listed pairs.
     pub(super) rows: Rows,
     boxes: PrimitiveBoxes,
-    /// Once a mesh at rest was looked at.
+    /// The hinges, made when a mesh at rest is first searched.
     pub(super) hinges: Option<Hinges>,
     pub(super) rest_tasks: RestTasks,
     statistics: StepStatistics,
@@ -76,12 +76,12 @@ impl MeshEngine {
         self.set_coherent(self.followed.is_some());
     }
 
-    /// Sets whether steps continue one another. Forgets earlier steps.
+    /// Sets whether each step starts where the last ended. Forgets earlier steps.
     pub(crate) fn set_coherent(&mut self, coherent: bool) {
         self.followed = coherent.then(|| Box::new(Followed::new(self.moving.clone(), self.filter.clone())));
     }
 
-    /// Looks only at pairs that the filter allows from here on.
+    /// Excludes pairs from here on.
     pub(crate) fn set_filter(&mut self, filter: CollisionFilter) {
         self.filter = (!filter.excludes_nothing()).then(|| Arc::new(filter));
         self.broad_phase.set_filter(self.filter.clone());
@@ -130,7 +130,7 @@ impl MeshEngine {
         self.broad_phase.hierarchies.narrow();
     }
 
-    /// Counts what was found, and what it cost unless the run ended early.
+    /// Counts the findings, and their cost unless the run ended early.
     fn finish(&mut self, begin: Clock, update: f64, is_whole: bool) {
         self.count(begin, update);
         if is_whole && !self.pairs.stop.has_stopped() {
@@ -278,7 +278,7 @@ impl MeshEngine {
         self.earliest_found()
     }
 
-    /// Looks at the whole step, or at its [early part](EARLY) first where that may pay.
+    /// Looks at the whole step, or at its [early part](EARLY) first if that may pay.
     fn run_for_earliest(&mut self, motions: &dyn Motions, question: &Question) {
         let begin = Clock::now();
         self.fit(1.0, motions, question);

@@ -4,7 +4,7 @@ use crate::PairKind;
 use crate::broad_phase::{Hierarchies, Pairing};
 use crate::mesh::Topology;
 
-/// Says how pairs are numbered.
+/// The way in which pairs are numbered.
 #[derive(Clone, Copy)]
 pub(super) enum Numbers<'a> {
     /// Positions in the hierarchies.

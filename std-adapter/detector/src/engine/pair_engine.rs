@@ -14,11 +14,10 @@ use crate::step::Contact;
 use std::ops::Range;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Decides the candidates of sources.
 #[derive(Debug)]
 pub(crate) struct PairEngine {
     pub(super) workers: Vec<Worker>,
-    /// One for each thread.
+    /// The spaces of the threads.
     pub(super) spaces: Vec<Mutex<Space>>,
     work: Vec<Work>,
     tasks: Vec<BlockPair>,
@@ -29,12 +28,12 @@ pub(crate) struct PairEngine {
 /// The work of a source: tasks of a traversal, or pairs of a list.
 #[derive(Clone, Copy, Debug)]
 struct Work {
-    /// Its place among the work of all sources.
+    /// The place of the source among the work of all sources.
     begin: usize,
     end: usize,
-    /// The first of its tasks.
+    /// The first of the source's tasks.
     first_task: usize,
-    /// Box tests that found the tasks.
+    /// The number of box tests that found the tasks.
     tests: u64,
 }
 
@@ -82,7 +81,7 @@ impl PairEngine {
         }
     }
 
-    /// Finds what there is to do for these sources. [`run`](Self::run) must follow, with the same ones.
+    /// Finds the work of these sources. [`run`](Self::run) must follow, with the same ones.
     pub(crate) fn prepare(&mut self, sources: &[Source<'_>]) {
         self.work.clear();
         self.tasks.clear();
@@ -122,10 +121,12 @@ impl PairEngine {
         count.0 * step as u64
     }
 
-    /// Finds the contacts until a time, all or those that are `wanted`. `refine` replaces the time of each, or rejects it. The question of a
-    /// source of which it may reject contacts must want all of them, since a rejected contact hides no other.
+    /// Finds the contacts until a time, all or those that are `wanted`. `refine` replaces the time of each, or rejects it. If it
+    /// may reject contacts of a source, the question of that source must want all of them, since a rejected contact hides no
+    /// other.
     ///
-    /// Returns false if it has ended early because one contact is enough. Where it ends then depends on which thread is first.
+    /// Returns false if it has ended early because one contact is enough. The place where it ends then depends on which thread is
+    /// first.
     pub(crate) fn run(&mut self, sources: &[Source<'_>], wanted: Wanted, until: f64, refine: Option<&Refine<'_>>) -> bool {
         self.stop.begin();
         let total = self.work.last().map_or(0, |work| work.end);
@@ -294,7 +295,7 @@ impl Run<'_> {
     }
 }
 
-/// Counts pairs.
+/// A sink that counts pairs.
 struct Count(u64);
 
 impl Sink for Count {
@@ -304,13 +305,13 @@ impl Sink for Count {
     }
 }
 
-/// About how many tasks an estimate looks at.
+/// The approximate number of tasks that an estimate looks at.
 const SAMPLES: usize = 32;
 
-/// Shares for each thread. With many shares, a slow one does not keep the other threads waiting.
+/// The number of shares for each thread. With many shares, a slow one does not keep the other threads waiting.
 const SHARES: usize = 16;
 
-/// Returns into how many shares work is split on the present threads.
+/// Returns the number of shares of the work on the present threads.
 pub(super) fn shares() -> usize {
     match parallel::threads() {
         1 => 1,

@@ -10,7 +10,7 @@ pub(crate) enum Wanted {
     All,
     /// The earliest contact.
     Earliest,
-    /// Any contact, if there is one.
+    /// Any contact.
     Any,
 }
 

@@ -41,13 +41,13 @@ use selvedge_core::separation::hinge::is_wide_open;
 #[derive(Debug, Default)]
 pub(super) struct RestTasks {
     faces_and_edges: Vec<BlockPair>,
-    /// If there are loose edges or points.
+    /// The tasks for vertices and faces, if there are loose edges or points.
     vertices_and_faces: Vec<BlockPair>,
     stack: Vec<BlockPair>,
 }
 
 impl RestTasks {
-    /// Finds where to look. Returns the box tests for faces and edges.
+    /// Finds the tasks. Returns the number of box tests for faces and edges.
     pub(super) fn find(&mut self, hierarchies: &Hierarchies, hinges: &Hinges) -> u64 {
         self.vertices_and_faces.clear();
         if hinges.has_loose_features() {
@@ -59,7 +59,7 @@ impl RestTasks {
     }
 }
 
-/// Returns one share of a list, of so many.
+/// Returns one of several equal shares of a list.
 fn part_of<T>(list: &[T], [share, shares]: [usize; 2]) -> &[T] {
     let place = |share: usize| list.len() * share / shares;
     &list[place(share)..place(share + 1)]
@@ -92,7 +92,7 @@ impl Part {
 
 /// The input of all threads.
 pub(super) struct RestSearch<'a> {
-    /// For edges and faces.
+    /// The input for edges and faces.
     pub(super) step: StepInput<'a>,
     pub(super) hierarchies: &'a Hierarchies,
     pub(super) hinges: &'a Hinges,
@@ -165,7 +165,7 @@ impl RestSearch<'_> {
         } = space;
         while hinges.peek().is_some() && !self.has_enough() {
             own.clear();
-            // Each gives two pairs of a kind.
+            // Each hinge gives two pairs of a kind.
             for (hinge, places) in hinges.by_ref().take(CHUNK / 2) {
                 own.indices.push([own.hinges.len() as u32; 2]);
                 own.hinges.push(hinge);
@@ -210,7 +210,7 @@ impl RestSearch<'_> {
     }
 }
 
-/// Takes the vertices and faces that no edge and face show.
+/// A sink that takes the vertices and faces that touch without an edge and a face that meet.
 struct TiedSink<'a> {
     search: &'a RestSearch<'a>,
     step: &'a StepInput<'a>,

@@ -7,22 +7,22 @@ use crate::pair_counts::PairCounts;
 /// The times of stages are sums over all threads. They are zero without the feature `timing`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StepStatistics {
-    /// Pairs that the caller listed.
+    /// The pairs that the caller listed.
     pub given: PairCounts,
-    /// Pairs that moving boxes leave, listed ones included.
+    /// The pairs that moving boxes leave, listed ones included.
     pub candidates: PairCounts,
-    /// Pairs that may become coplanar.
+    /// The pairs that may become coplanar.
     pub filtered: PairCounts,
-    /// Pairs that the elementary test finds in contact.
+    /// The pairs that the elementary test finds in contact.
     pub contacts: PairCounts,
-    /// Pairs that are followed from step to step, if steps are [coherent](crate::CollisionDetector::set_coherent).
+    /// The pairs that are followed from step to step, if steps are [coherent](crate::CollisionDetector::set_coherent).
     pub followed: u64,
-    /// Time of boxes, hierarchies and traversal.
+    /// The time of boxes, hierarchies and traversal.
     pub broad_phase_seconds: f64,
-    /// Time of the certified non-coplanarity filter.
+    /// The time of the certified non-coplanarity filter.
     pub filter_seconds: f64,
-    /// Time of the time of impact.
+    /// The time of the elementary test.
     pub elementary_seconds: f64,
-    /// Elapsed time of the whole step.
+    /// The elapsed time of the whole step.
     pub seconds: f64,
 }

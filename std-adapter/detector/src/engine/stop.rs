@@ -6,13 +6,13 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 /// The default limit on the memory of a step's pairs and contacts, in bytes: 2 GiB.
 pub const DEFAULT_MEMORY_LIMIT: u64 = 1 << 31;
 
-/// Says whether a step may continue. All threads ask every few thousand pairs.
+/// Decides whether a step may continue. All threads call it every few thousand pairs.
 #[derive(Debug)]
 pub(crate) struct Stop {
     pub(crate) cancellation: Cancellation,
-    /// The most pairs to look at.
+    /// The largest number of pairs to look at.
     pair_limit: u64,
-    /// The most bytes of pairs and contacts to store.
+    /// The largest number of bytes of pairs and contacts to store.
     memory_limit: u64,
     looked_at: AtomicU64,
     stored: AtomicU64,
@@ -31,7 +31,7 @@ impl Stop {
         }
     }
 
-    /// Begins a question: nothing is looked at or stored yet.
+    /// Begins a question, with nothing looked at or stored.
     pub(crate) fn begin(&mut self) {
         *self.looked_at.get_mut() = 0;
         *self.stored.get_mut() = 0;
@@ -56,7 +56,7 @@ impl Stop {
         self.memory_limit
     }
 
-    /// Takes note that the question needs more memory than allowed.
+    /// Notes that the question needs more memory than allowed.
     pub(crate) fn exceed_memory(&mut self) {
         *self.stored.get_mut() = u64::MAX;
     }
@@ -74,12 +74,12 @@ impl Stop {
         self.stored.load(Ordering::Relaxed) > self.memory_limit
     }
 
-    /// Sets the most pairs to look at from the next question on; `None` is no limit.
+    /// Sets the largest number of pairs to look at from the next question on; `None` is no limit.
     pub(crate) fn set_pair_limit(&mut self, limit: Option<u64>) {
         self.pair_limit = limit.unwrap_or(u64::MAX);
     }
 
-    /// Sets the most bytes to store from the next question on; `None` is no limit.
+    /// Sets the largest number of bytes to store from the next question on; `None` is no limit.
     pub(crate) fn set_memory_limit(&mut self, limit: Option<u64>) {
         self.memory_limit = limit.unwrap_or(u64::MAX);
     }

@@ -1,4 +1,4 @@
-//! Sweeps: each is one round of advancing for all open pairs, and drops the pairs that it decides.
+//! Sweeps. Each is one round of advancing for all open pairs, and drops the pairs that it decides.
 
 use crate::broad_phase::CHUNK;
 use crate::simd::Level;
@@ -10,7 +10,7 @@ use selvedge_core::elementary::Limits;
 /// The first sweep that also tests the signed volume. Earlier sweeps with that test cost more than they save.
 const VOLUME_SWEEP: usize = 3;
 
-/// The most pairs of a chunk: it is swept as soon as it holds as many as one visit brings.
+/// The largest number of pairs of a chunk, which is swept as soon as it holds as many as one visit brings.
 pub(super) const MOST: usize = 3 * CHUNK;
 
 /// Open pairs: their places in the chunk, the rows of their vertices, and the times up to which they are proven apart.
@@ -63,7 +63,7 @@ impl<F: Scalar> Open<F> {
 pub(super) enum Undecided {
     /// The pair is within the tolerance of the separation at its time.
     Near,
-    /// Lanes can prove no more.
+    /// The lanes cannot prove more.
     Stuck,
 }
 

@@ -12,10 +12,12 @@
 //! **The result is free.** A pair that swept boxes exclude keeps its distance wherever each vertex ends in the box of its way. Every other pair passes
 //! the certified tests for the final ends of its vertices: in the last round, or in an earlier one since which none of its vertices changed.
 //!
-//! **It ends.** Every contact found in a round is a pair that moves. The first time, its planes lower the shares of its vertices, or its vertices rest
-//! at once; the second time they rest. A resting pair is not tested again. So each pair takes at most two rounds.
+//! **It ends.** Every contact found in a round is a pair that moves. The first time, its planes lower the shares of its vertices,
+//! or its vertices rest at once; the second time they rest. A resting pair is not tested again. So each pair takes at most two
+//! rounds.
 //!
-//! **Pairs in contact at the start** are in contact for every share. Their vertices rest, so that they come no nearer, and they are counted.
+//! **Pairs in contact at the start** stay in contact for every share. Their vertices rest, so that they come no nearer, and they
+//! are counted.
 
 use super::mesh_engine::MeshEngine;
 use super::question::Question;
@@ -35,7 +37,7 @@ use std::collections::BTreeSet;
 struct Held<'a> {
     start: &'a [DVec3],
     wanted: &'a [DVec3],
-    /// The distance that pairs keep, and a little more, so that the elementary test confirms it.
+    /// The distance that pairs keep, with a margin so that the elementary test confirms it.
     distance: f64,
     error: GapError<f64>,
     /// The share of its way that each vertex goes.

@@ -2,21 +2,21 @@
 
 use std::borrow::Cow;
 
-/// Stands for no edge.
+/// Marks a triangle's side without an edge.
 pub(super) const NO_EDGE: u32 = u32::MAX;
 
-/// The most triangles. Three edges of each must have numbers below [`NO_EDGE`].
+/// The largest number of triangles. Three edges of each must have numbers below [`NO_EDGE`].
 pub(super) const MAX_TRIANGLES: usize = (u32::MAX / 3) as usize;
 
-/// The vertices that triangles name. Where few vertices have a triangle, they are numbered again, so that a list of them is short.
+/// The vertices that triangles name. If few vertices have a triangle, they are renumbered, so that a list of them is short.
 pub(super) struct Named<'a> {
     pub(super) vertex_count: usize,
     pub(super) triangles: Cow<'a, [[u32; 3]]>,
-    /// The mesh's own numbers of the vertices, ascending, if they are numbered again.
+    /// The mesh's own numbers of the vertices, ascending, if they are renumbered.
     names: Option<Vec<u32>>,
 }
 
-/// With so many vertices for each corner of a triangle, most have no triangle. A usual mesh has one vertex for six corners.
+/// The ratio of vertices to corners from which on most vertices have no triangle. A usual mesh has one vertex for six corners.
 const SPARSE: usize = 4;
 
 impl<'a> Named<'a> {

@@ -19,7 +19,8 @@ pub(crate) struct Hinges {
     loose: Vec<[u32; 2]>,
     /// The vertices of points, ascending.
     points: Vec<u32>,
-    /// For each loose edge that is also an edge of a triangle: the opposite vertex of the triangle, then the ends, the smaller first. Ascending.
+    /// Loose edges that are also an edge of a triangle: the opposite vertex of the triangle, then the ends, the smaller first.
+    /// The list ascends.
     opposite: Vec<[u32; 3]>,
 }
 
@@ -97,7 +98,7 @@ impl Hinges {
 #[inline(always)]
 fn opposite_vertex(topology: &Topology, triangle: u32, [u, v]: [u32; 2]) -> u32 {
     let vertices = topology.triangles()[triangle as usize];
-    // Exact: the two vertices of the edge cancel.
+    // This is exact: the two vertices of the edge cancel.
     vertices[0] ^ vertices[1] ^ vertices[2] ^ u ^ v
 }
 

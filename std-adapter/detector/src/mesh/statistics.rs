@@ -1,36 +1,36 @@
-//! Counts of what is unusual about a mesh.
+//! Counts of unusual properties of a mesh.
 
 use super::edges::{ByKey, Named};
 use super::topology::{Topology, is_degenerate};
 use std::fmt;
 
-/// Counts of what is unusual about a mesh. None of it is an error. Everything takes part in collision except isolated vertices, which belong to no
-/// primitive.
+/// Counts of unusual properties of a mesh. They are no errors. Everything takes part in collision except isolated vertices, which
+/// belong to no primitive.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TopologyStatistics {
-    /// Sets of triangles, loose edges and points connected through shared vertices.
+    /// The number of sets of triangles, loose edges and points connected through shared vertices.
     pub components: usize,
-    /// Vertices without a triangle, and that are not loose. They keep their number.
+    /// The number of vertices without a triangle, loose edge or point. They keep their numbers.
     pub isolated_vertices: usize,
-    /// Edges with one triangle.
+    /// The number of edges with one triangle.
     pub boundary_edges: usize,
-    /// Edges with two triangles.
+    /// The number of edges with two triangles.
     pub interior_edges: usize,
-    /// Edges with three triangles or more.
+    /// The number of edges with three triangles or more.
     pub non_manifold_edges: usize,
-    /// Triangles with the same set of vertices as an earlier one, whatever the order.
+    /// The number of triangles with the same set of vertices as an earlier one, in any order.
     pub duplicate_triangles: usize,
-    /// Triangles that name a vertex twice. A triangle of zero area with three different vertices
-    /// is not counted: that is geometry, and changes as the mesh moves.
+    /// The number of triangles that name a vertex twice. A triangle of zero area with three different vertices is not counted:
+    /// its area changes as the mesh moves.
     pub degenerate_triangles: usize,
-    /// [Loose edges](Topology::with_loose_features) that were given.
+    /// The number of [loose edges](Topology::with_loose_features) that were given.
     pub loose_edges: usize,
-    /// Points that were given.
+    /// The number of points that were given.
     pub points: usize,
 }
 
 impl fmt::Display for TopologyStatistics {
-    /// One line that names only what is there: `1 component, 41 boundary and 1996 interior edges`.
+    /// Writes one line that names only non-zero counts: `1 component, 41 boundary and 1996 interior edges`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let s = |count| if count == 1 { "" } else { "s" };
         write!(
@@ -58,7 +58,7 @@ impl fmt::Display for TopologyStatistics {
 }
 
 impl Topology {
-    /// Counts what is unusual about the mesh. It takes about as long as [`Topology::new`].
+    /// Counts unusual properties of the mesh. It takes about as long as [`Topology::new`].
     #[must_use]
     pub fn statistics(&self) -> TopologyStatistics {
         let (components, used) = count_components(&Named::new(self.vertex_count(), self.triangles()));

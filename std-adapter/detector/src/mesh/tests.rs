@@ -4,7 +4,7 @@ use crate::{Topology, TopologyError, TopologyStatistics};
 use proptest::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Any triangles over a few vertices: many duplicates, degenerates and non-manifold edges.
+/// Generates triangles over a few vertices, with many duplicates, degenerates and non-manifold edges.
 fn index_soup() -> impl Strategy<Value = (usize, Vec<[u32; 3]>)> {
     (1..9_u32).prop_flat_map(|vertex_count| {
         let triangles = prop::collection::vec(prop::array::uniform3(0..vertex_count), 1..24);

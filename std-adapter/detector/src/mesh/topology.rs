@@ -37,10 +37,10 @@ pub struct Topology {
 }
 
 impl Topology {
-    /// Stands for no edge in [`triangle_edges`](Self::triangle_edges), where both ends are the same vertex.
+    /// Marks a side without an edge in [`triangle_edges`](Self::triangle_edges), where both ends are the same vertex.
     pub const NO_EDGE: u32 = NO_EDGE;
 
-    /// The most triangles. Three edges of each must have numbers below [`NO_EDGE`](Self::NO_EDGE).
+    /// The largest number of triangles. Three edges of each must have numbers below [`NO_EDGE`](Self::NO_EDGE).
     pub const MAX_TRIANGLES: usize = MAX_TRIANGLES;
 
     /// Finds the edges of `triangles`.

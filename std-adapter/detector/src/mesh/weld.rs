@@ -1,4 +1,4 @@
-//! Vertices in the same place become one.
+//! Merges vertices in the same place.
 
 use super::Mesh;
 use selvedge_core::glam::DVec3;
@@ -7,7 +7,8 @@ use std::collections::HashMap;
 /// A mesh whose coincident vertices are merged, and the way back to the original's numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WeldedMesh {
-    /// The merged mesh. Each vertex has the position of the lowest-numbered vertex that was merged into it; vertices keep their order.
+    /// The merged mesh. Each vertex has the position of the lowest-numbered vertex that was merged into it; vertices keep their
+    /// order.
     pub mesh: Mesh,
     /// For each vertex of the original, its vertex in [`mesh`](Self::mesh).
     pub vertex_of: Vec<u32>,
@@ -16,7 +17,8 @@ pub struct WeldedMesh {
 }
 
 impl WeldedMesh {
-    /// Returns values of the merged vertices, such as positions of a later frame, for the vertices of the original: seams stay where they were.
+    /// Returns values of the merged vertices, such as positions of a later frame, for the vertices of the original. Seams stay
+    /// closed.
     ///
     /// # Panics
     /// Panics if there are fewer values than merged vertices.
@@ -51,7 +53,7 @@ impl Mesh {
                 welded.mesh.positions.push(self.positions[vertex]);
                 welded.mesh.positions.len() as u32 - 1
             } else {
-                // An earlier vertex, which has its number.
+                // This is an earlier vertex, which has its number.
                 welded.vertex_of[first as usize]
             };
             welded.vertex_of.push(number);
@@ -99,7 +101,7 @@ pub fn first_coincident(positions: &[DVec3], tolerance: f64) -> Vec<u32> {
 /// Returns, for each position, the lowest number of an equal one.
 fn first_equal(positions: &[DVec3]) -> Vec<u32> {
     const EMPTY: u32 = u32::MAX;
-    // A table of at least twice as many places, whose size is a power of two; a taken place leads to the next.
+    // The table has at least twice as many places, and its size is a power of two. A taken place leads to the next.
     let bits_of_size = (2 * positions.len()).next_power_of_two().trailing_zeros().max(1);
     let mut table = vec![EMPTY; 1 << bits_of_size];
     let mask = table.len() - 1;
@@ -125,10 +127,10 @@ fn first_equal(positions: &[DVec3]) -> Vec<u32> {
     first
 }
 
-/// An odd number whose bits look random: 2⁶⁴ over the golden ratio.
+/// An odd number with irregular bits: 2⁶⁴ over the golden ratio.
 const MIX: u64 = 0x9e37_79b9_7f4a_7c15;
 
-/// Equal for equal coordinates: zero has one sign.
+/// Returns the same bits for equal coordinates; zero has one sign.
 fn bits(position: DVec3) -> [u64; 3] {
     (position + 0.0).to_array().map(f64::to_bits)
 }
@@ -155,7 +157,7 @@ mod tests {
         ) {
             let positions: Vec<DVec3> = points.iter().map(|point| DVec3::from_array(point.map(f64::from)) * -1.0).collect();
             let first = first_coincident(&positions, tolerance);
-            // By the definition: as long as anything changes.
+            // The definition merges as long as anything changes.
             let mut expected: Vec<u32> = (0..positions.len() as u32).collect();
             loop {
                 let before = expected.clone();

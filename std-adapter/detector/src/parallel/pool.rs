@@ -23,7 +23,7 @@ pub enum Threads {
     /// The threads of the rayon pool in which a method is called, or the calling thread outside of one. The global pool counts only for code that
     /// runs on its threads.
     CallersPool,
-    /// This number of own threads, at most [`most`](Self::most). One is the calling thread.
+    /// This number of own threads, at most [`most`](Self::most). One of them is the calling thread.
     Own(NonZeroUsize),
     /// One own thread for each core.
     EachCore,
@@ -40,7 +40,8 @@ impl Threads {
         }
     }
 
-    /// Returns the most threads that are started: four for each core, and at least 256. More would only take memory, some megabytes each.
+    /// Returns the largest number of threads that are started: four for each core, and at least 256. More would only take memory,
+    /// some megabytes each.
     #[must_use]
     pub fn most() -> usize {
         let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
@@ -102,7 +103,7 @@ impl Workers {
             Threads::CallersPool => return Ok(Self(Kind::CallersPool)),
             Threads::Own(count) if count.get() > Threads::most() => return Err(ThreadError { threads, source: None }),
             Threads::Own(count) => count.get(),
-            // One for each core, in rayon.
+            // Rayon starts one for each core.
             Threads::EachCore => 0,
         };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();

@@ -23,7 +23,7 @@ pub struct Groups {
 }
 
 impl Groups {
-    /// Is in all groups and collides with all.
+    /// Groups with all memberships that collide with all.
     pub const ALL: Self = Self::new(u32::MAX, u32::MAX);
 
     /// Makes groups from memberships and a filter.
@@ -38,7 +38,7 @@ impl Groups {
         self.memberships & other.filter != 0 && other.memberships & self.filter != 0
     }
 
-    /// Returns groups that collide with whatever one of the two collides with.
+    /// Returns groups that collide with everything that one of the two collides with.
     const fn either(self, other: Self) -> Self {
         Self::new(self.memberships | other.memberships, self.filter | other.filter)
     }
@@ -88,12 +88,12 @@ impl Default for Groups {
 pub struct CollisionFilter {
     groups: Option<Vec<Groups>>,
     patches: Option<Vec<u32>>,
-    /// Ascending, the smaller number first.
+    /// The excluded pairs of vertices, ascending, the smaller number first.
     excluded: Vec<[u32; 2]>,
     rule: Option<Arc<Rule>>,
 }
 
-/// Takes a kind of pair, its two primitives and its four vertices.
+/// A rule on a kind of pair, its two primitives and its four vertices.
 type Rule = dyn Fn(PairKind, [u32; 2], [u32; 4]) -> bool + Send + Sync;
 
 impl fmt::Debug for CollisionFilter {
@@ -192,7 +192,7 @@ impl CollisionFilter {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Members {
     groups: Groups,
-    /// `None` for vertices of several patches.
+    /// The common patch; `None` for vertices of several patches.
     patch: Option<u32>,
 }
 

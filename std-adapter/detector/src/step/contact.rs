@@ -12,20 +12,20 @@ pub struct Contact<S> {
     /// The vertex and the face, or the two edges, as the [`Topology`](crate::Topology) numbers them.
     /// [`features_of`](crate::Topology::features_of) says whether the face is a loose edge or a point.
     pub pair: [u32; 2],
-    /// The time in [0, 1] of the step. It is not after the exact time, and hardly before it: see
-    /// [how early](crate::CollisionDetector::earliest).
+    /// The time in [0, 1] of the step. It is never after the exact time, and hardly before it: see [how
+    /// early](crate::CollisionDetector::earliest).
     pub time: S,
 }
 
 /// The result of a [truncated](crate::CollisionDetector::truncate) step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Truncation {
-    /// Vertices that do not go all of their way.
+    /// The number of vertices that do not go all of their way.
     pub held_back: usize,
-    /// Pairs that are in contact at the start, by the detector's criterion. Their vertices rest. If there are none, the step is certainly free of
-    /// contact.
+    /// The number of pairs that are in contact at the start, by the detector's criterion. Their vertices rest. If it is zero, the
+    /// step is certainly free of contact.
     pub in_contact: usize,
-    /// Searches for contacts.
+    /// The number of searches for contacts.
     pub rounds: usize,
 }
 
@@ -39,15 +39,15 @@ pub enum Intersection {
         /// The face.
         face: u32,
     },
-    /// A vertex touches a face that has an edge in common with a triangle of the vertex: the two are folded flat onto each other. Or a
-    /// [loose point](crate::Topology::with_loose_features) touches a face, edge or point.
+    /// A vertex touches a face that has an edge in common with a triangle of the vertex: the two are folded flat onto each other.
+    /// This also stands for a [loose point](crate::Topology::with_loose_features) that touches a face, edge or point.
     VertexFace {
         /// The vertex.
         vertex: u32,
         /// The face.
         face: u32,
     },
-    /// Two edges touch that belong to triangles with a common edge: the triangles are folded flat onto each other.
+    /// Two edges touch whose triangles have a common edge and are folded flat onto each other.
     EdgeEdge {
         /// The edges, the smaller number first.
         edges: [u32; 2],

@@ -12,7 +12,7 @@ use selvedge_core::{Motion, Position, Scalar};
 /// Checks that a separation, a tolerance or a distance is finite and not negative.
 ///
 /// # Errors
-/// [`StepError::BadLimit`] otherwise.
+/// Returns [`StepError::BadLimit`] otherwise.
 pub(crate) fn check_length<S: Scalar>(length: S) -> Result<(), StepError> {
     if length >= S::ZERO && length.is_finite() {
         Ok(())
@@ -24,7 +24,7 @@ pub(crate) fn check_length<S: Scalar>(length: S) -> Result<(), StepError> {
 /// Checks that both frames have a finite position for each vertex.
 ///
 /// # Errors
-/// [`StepError::WrongLength`] or [`StepError::NotFinite`] otherwise, for the first frame that is at fault.
+/// Returns [`StepError::WrongLength`] or [`StepError::NotFinite`] otherwise, for the first frame with an error.
 pub fn check_frames<P: Position>(start: &[P], end: &[P], vertex_count: usize) -> Result<(), StepError> {
     check_frame(Frame::Start, start, vertex_count)?;
     check_frame(Frame::End, end, vertex_count)
@@ -76,7 +76,7 @@ pub(crate) trait Motions: Sync {
     fn len(&self) -> usize;
     /// Returns where a vertex starts and ends, exactly.
     fn motion(&self, vertex: usize) -> Motion<f64>;
-    /// Returns how boxes are made of the positions, whose extent is given. The other arguments are those of [`Mapping::new`].
+    /// Returns the mapping of boxes for the positions, whose extent is given. The other arguments are those of [`Mapping::new`].
     fn mapping(&self, extent: &Aabb<f64>, separation: f64, until: f64, is_swept: bool) -> Mapping;
 }
 

@@ -1,4 +1,4 @@
-//! A step as every layer sees it: positions, motions, contacts, errors.
+//! A step as every layer uses it: positions, motions, contacts, errors.
 
 mod cancellation;
 mod collision_filter;

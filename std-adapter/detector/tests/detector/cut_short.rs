@@ -6,7 +6,7 @@ use std::num::NonZeroUsize;
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Makes triangles without a common vertex, each moved on from the last.
+/// Makes triangles without a common vertex, each moved by `by` from the last.
 fn stack(count: u32, by: DVec3) -> (Topology, Vec<DVec3>) {
     let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
     let positions = (0..count).flat_map(|k| corners.map(|corner| corner + f64::from(k) * by));
@@ -59,7 +59,7 @@ fn ask_all(detector: &mut CollisionDetector<f64>, start: &[DVec3], end: &[DVec3]
 
 #[test]
 fn a_question_that_is_cancelled_ends_soon_and_the_next_is_answered_in_full() {
-    // Six million pairs of vertices and faces, all in one place, and as many more of edges: minutes of exact verdicts.
+    // There are six million pairs of vertices and faces in one place, and as many of edges: minutes of exact verdicts.
     let (topology, positions) = stack(1500, DVec3::ZERO);
     for threads in [1, 3] {
         let mut detector = CollisionDetector::<f64>::new(topology.clone());

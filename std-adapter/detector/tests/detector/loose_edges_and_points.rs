@@ -21,7 +21,7 @@ fn contacts(topology: &Topology, start: &Frame, end: &Frame, separation: f64) ->
     features
 }
 
-/// Reports pairs within the separation, or without one only pairs that truly touch.
+/// Reports pairs within the separation; if it is zero, only pairs that truly touch.
 fn criterion(separation: f64) -> Criterion<f64> {
     let tolerance = 1e-6;
     if separation > 0.0 {
@@ -125,7 +125,7 @@ fn a_rope_meets_a_rope_and_a_triangle_and_a_particle_meets_the_inside_of_a_trian
 fn particles_meet_if_they_meet_exactly_or_come_within_the_separation() {
     let topology = Topology::with_loose_features(2, vec![], &[], &[0, 1]).unwrap();
     let start = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]];
-    // Each is the other's point.
+    // Each is the point of the other.
     let both = [[0, 1], [1, 0]].map(|vertices| FeaturePair::VertexVertex { vertices });
     let through = shifted(&start, &[1], [-3.0, 0.0, 0.0]);
     assert_eq!(contacts(&topology, &start, &through, 0.0), both);
@@ -232,7 +232,7 @@ fn the_normal_of_two_particles_and_of_a_particle_at_an_edge_points_from_the_seco
     );
 }
 
-/// No edge of the vertex is free of the loose edge's ends, and the two share no proper triangle's edge.
+/// Every edge of the vertex has an end of the loose edge, and the two share no proper triangle's edge.
 #[test]
 fn at_rest_a_vertex_on_a_loose_edge_that_lies_on_the_opposite_edge_of_its_triangle_is_an_intersection() {
     let topology = Topology::with_loose_features(3, vec![[2, 0, 1]], &[[0, 1]], &[]).unwrap();

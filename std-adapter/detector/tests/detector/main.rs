@@ -1,4 +1,4 @@
-//! The detector as its users meet it. Worlds, and what is compared with exact arithmetic, are in `verification`.
+//! Tests of the detector's public interface. Worlds, and comparisons with exact arithmetic, are in `verification`.
 
 mod cut_short;
 mod loose_edges_and_points;

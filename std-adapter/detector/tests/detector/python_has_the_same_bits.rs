@@ -9,7 +9,7 @@ const SIZE: u32 = 12;
 const STEPS: u32 = 8;
 const DIGESTS: &str = include_str!("../../../python/tests/contacts.digests");
 
-/// Two sheets of triangles, one above the other.
+/// Returns two sheets of triangles, one above the other.
 fn faces() -> Vec<[u32; 3]> {
     let mut faces = Vec::new();
     for first in [0, SIZE * SIZE] {
@@ -24,7 +24,8 @@ fn faces() -> Vec<[u32; 3]> {
     faces
 }
 
-/// Returns the position of a vertex in a frame: whole numbers of 2⁻¹⁶, from a multiplicative congruence, so that every language has the same.
+/// Returns the position of a vertex in a frame. Coordinates are whole multiples of 2⁻¹⁶, from a multiplicative congruence, so
+/// that every language has the same.
 fn frame(number: u32) -> Vec<[f64; 3]> {
     let mut state = number + 1;
     let mut shift = |range: u32| {
@@ -62,7 +63,7 @@ fn digests<S: Scalar>() -> Vec<String> {
         for contact in &contacts {
             digest.write(&[u8::from(contact.kind == PairKind::EdgeEdge)]);
             contact.pair.iter().for_each(|number| digest.write(&number.to_le_bytes()));
-            // Exact for f32 as well.
+            // The time is exact in `f32` as well.
             digest.write(&contact.time.to_f64().to_le_bytes());
         }
         digests.push(format!("{} {step} {} {:016x}", S::NAME, contacts.len(), digest.finish()));

@@ -21,7 +21,7 @@ impl Hierarchies {
         };
         let topology = &*self.topology;
         let (edges, faces) = (topology.edges(), topology.triangles());
-        // Which vertices have a triangle.
+        // This marks the vertices that have a triangle.
         self.positions.clear();
         self.positions.resize(topology.vertex_count(), NOWHERE);
         for &vertex in faces.iter().flatten() {

@@ -19,7 +19,7 @@ use selvedge_core::boxes::mapping::{Inset, Mapping};
 use selvedge_core::boxes::{Aabb, moving::MovingBox};
 use std::sync::Arc;
 
-/// The prices of a mesh, for each edge: there are about as many vertices and faces together.
+/// The prices of a mesh, for each edge. There are about as many vertices and faces together.
 ///
 /// Build: the time of building all three hierarchies is 0.6 to 0.7 of that of a box test for each edge and halving.
 ///
@@ -27,12 +27,12 @@ use std::sync::Arc;
 /// third of a test, and an edge 5.3 tests.
 pub(super) const PRICES: Prices = Prices { build: 0.65, item: 16.0 };
 
-/// The contents of boxes.
+/// The quantities that boxes hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Fit {
-    /// The distance beyond which a pair is no candidate; finite, not negative.
+    /// The distance beyond which a pair is no candidate; finite and not negative.
     pub(crate) separation: f64,
-    /// The same for neighbours, if it is less.
+    /// The same distance for neighbours, if it is smaller.
     pub(crate) of_neighbours: f64,
     /// The time of the step at which the boxes of the end are taken, in (0, 1].
     pub(crate) until: f64,
@@ -73,9 +73,9 @@ enum Scope {
 enum State {
     /// Never built.
     Empty,
-    /// Built, and not yet fitted as a whole.
+    /// Built, but not yet fitted as a whole.
     Built,
-    /// Fitted as a whole for the first time: a search now measures what new hierarchies cost.
+    /// Fitted as a whole for the first time. A search then measures the cost of new hierarchies.
     New,
     /// Fitted again since.
     Refitted,
@@ -92,19 +92,19 @@ pub(crate) struct Hierarchies {
     pub(super) faces: Tree<3>,
     /// The ends and number of each edge, by position.
     edge_ends: Vec<EdgeEnds>,
-    /// The position of each of the mesh's vertices; isolated ones have none.
+    /// The position of each of the mesh's vertices. Isolated vertices have none.
     positions: Vec<u32>,
     rows: Rows,
     boxes: Vec<MovingBox<f32>>,
     /// For each vertex, whether it moves; `None` if all do.
     moving: Option<Vec<bool>>,
-    /// Excludes pairs.
+    /// The pairs that are excluded.
     pub(super) filter: Option<Arc<CollisionFilter>>,
     /// Pairs with a separation of their own.
     neighbours: Option<Arc<Neighbours>>,
     scope: Scope,
     state: State,
-    /// The mapping of the boxes of resting vertices, if they are still good.
+    /// The mapping of the boxes of resting vertices, if they are still valid.
     resting: Option<Mapping>,
     /// The contents of the boxes.
     fit: Fit,
@@ -215,7 +215,7 @@ impl Hierarchies {
         top.unwrap_or_else(MovingBox::empty)
     }
 
-    /// Returns how neighbours are left out, if they have a separation of their own.
+    /// Returns the inset by which neighbours are left out, if they have a separation of their own.
     pub(super) fn of_neighbours(&self) -> Option<Inset> {
         let is_less = self.neighbours.is_some() && self.fit.of_neighbours < self.fit.separation;
         is_less.then(|| Inset::new(self.fit.separation, self.fit.of_neighbours))

@@ -12,7 +12,7 @@ impl Hierarchies {
         self.rows.double().get(position as usize).map(VertexRow::motion)
     }
 
-    /// Returns the number of positions: there is a row for each.
+    /// Returns the number of positions, each of which has a row.
     pub(crate) fn vertex_positions(&self) -> usize {
         self.vertices.len()
     }
@@ -92,7 +92,7 @@ impl Hierarchies {
     }
 }
 
-/// The positions of an edge's ends, and its number in the mesh. Never on two cache lines.
+/// The positions of an edge's ends, and its number in the mesh. The alignment keeps an item on one cache line.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(16))]
 pub(super) struct EdgeEnds {
@@ -100,5 +100,5 @@ pub(super) struct EdgeEnds {
     pub(super) edge: u32,
 }
 
-/// Stands for no position.
+/// Marks a vertex without a position.
 pub(super) const NOWHERE: u32 = u32::MAX;

@@ -8,7 +8,7 @@ use selvedge_core::boxes::mapping::Mapping;
 use selvedge_core::boxes::{Aabb, moving::MovingBox};
 
 impl Hierarchies {
-    /// Takes the positions of a step. Builds the hierarchies first if there are none, or if that pays.
+    /// Takes the positions of a step. It builds the hierarchies first if there are none, or if that pays.
     pub(crate) fn fit_boxes(&mut self, motions: &dyn Motions, fit: &Fit) {
         let is_whole = self.scope != Scope::Narrowed;
         let builds = self.state == State::Empty || is_whole && self.are_degraded();
@@ -54,10 +54,10 @@ impl Hierarchies {
     }
 }
 
-/// Vertices that one thread refits at a time.
+/// The number of vertices that one thread refits at a time.
 const VERTICES: usize = 1024;
 
-/// Returns the mapping of boxes that hold what comes within `separation`, as in the first step of a detector.
+/// Returns the mapping of boxes that hold all points within `separation`, as in the first step of a detector.
 pub(crate) fn mapping_within(motions: &dyn Motions, separation: f64) -> Mapping {
     let fit = Fit {
         separation,

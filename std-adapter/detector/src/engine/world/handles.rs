@@ -4,7 +4,7 @@ use std::fmt;
 
 /// Names a mesh of a [`World`](crate::World). No other mesh gets the same handle, even after the mesh is removed.
 ///
-/// A world does not recognise handles of other worlds: it may take one for a handle of its own.
+/// A world does not recognise handles of other worlds: it may mistake one for a handle of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct MeshHandle {
     index: u32,
@@ -21,7 +21,7 @@ impl MeshHandle {
     /// Returns the handle as one number, which is never zero. [`from_bits`](Self::from_bits) is the inverse.
     #[must_use]
     pub const fn to_bits(self) -> u64 {
-        // Indices end before the last number.
+        // Indices end before the largest number.
         (self.generation as u64) << 32 | (self.index as u64 + 1)
     }
 

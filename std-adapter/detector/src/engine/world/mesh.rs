@@ -14,13 +14,13 @@ use std::sync::Arc;
 /// The motion of a mesh in a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Moves {
-    /// Rests.
+    /// The mesh rests.
     Not,
     /// Each vertex goes its own way, so the mesh can meet itself.
     Deforming,
     /// All vertices move alike, straight.
     Straight,
-    /// Turns as a body. The number is the largest distance of a vertex from its straight way.
+    /// The mesh rotates as a body. The number is the largest distance of a vertex from its straight way.
     Turning(RigidMotion, f64),
 }
 
@@ -54,7 +54,7 @@ pub(crate) struct WorldMesh {
 /// A place among the rows of all meshes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RowsAt {
-    /// Places of another arrangement are invalid.
+    /// The arrangement of rows for which the place is valid.
     pub(crate) arrangement: u64,
     pub(crate) first: u32,
     /// Whether the rows are those of the hierarchies.
@@ -77,7 +77,7 @@ impl WorldMesh {
         mesh
     }
 
-    /// Moves in the next step. Boxes hold `separation`.
+    /// Sets the motion of the next step. Boxes hold `separation`.
     pub(crate) fn set_motion(&mut self, motions: &dyn Motions, moves: Moves, separation: f64) {
         let separation = match moves {
             // A box holds half of the separation on each side, and the whole deviation.
@@ -96,7 +96,7 @@ impl WorldMesh {
         }
     }
 
-    /// Rests from now on where its last motion ended.
+    /// Lets the mesh rest where its last motion ended.
     pub(crate) fn come_to_rest(&mut self, separation: f64) {
         let motion = |vertex| self.hierarchies.motion_of(vertex).unwrap_or_default();
         let vertices = 0..self.hierarchies.topology().vertex_count();
@@ -143,7 +143,8 @@ impl Motions for AboutOrigin<'_> {
 /// A rotation, and the position of the mesh's origin.
 pub(crate) type Pose = (DQuat, DVec3);
 
-/// Returns how a mesh moves from one pose to another, or `None` if a pose is invalid or too far out. `rounded` rounds the positions of straight motion.
+/// Returns the motion of a mesh from one pose to another, or `None` if a pose is invalid or too far out. `rounded` rounds the
+/// positions of straight motion.
 pub(crate) fn between_poses(shape: &[DVec3], [start, end]: [Pose; 2], rounded: fn(DVec3) -> DVec3) -> Option<(Frames, Moves)> {
     let motion = RigidMotion::between(start, end)?;
     let turn = start.0.normalize();

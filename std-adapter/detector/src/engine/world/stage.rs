@@ -10,7 +10,7 @@ use selvedge_core::elementary::Limits;
 use selvedge_core::paths::{Path, RigidMotion, separation_of_pieces, time_of_impact};
 use std::cmp::Ordering;
 
-/// The most vertices of all meshes. Rows are numbered by `u32`, and up to half of their places are unused.
+/// The largest number of vertices of all meshes. Rows are numbered by `u32`, and up to half of their places are unused.
 pub(crate) const MOST_VERTICES: usize = u32::MAX as usize / 2;
 
 /// All meshes, and the buffers of a step.
@@ -163,7 +163,7 @@ impl Stage {
         self.moved = listed;
     }
 
-    /// Places the rows of meshes that are near others.
+    /// Gives places to the rows of meshes that are near others.
     fn place_rows(&mut self) {
         let mut near: Vec<u32> = self.near.iter().flatten().copied().collect();
         near.sort_unstable();
@@ -180,7 +180,7 @@ impl Stage {
         }
     }
 
-    /// Reports to hierarchies what their searches cost, which decides when they are built again.
+    /// Reports the costs of searches to the hierarchies, which decide when they are built again.
     fn observe(&mut self) {
         if self.engine.stop.result().is_err() {
             return;

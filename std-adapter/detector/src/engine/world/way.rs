@@ -54,7 +54,7 @@ pub(crate) fn vertices_of([first, second]: [&Hierarchies; 2], kind: PairKind, pa
     }
 }
 
-/// Returns the paths of [such vertices](vertices_of): arcs where their mesh turns.
+/// Returns the paths of [such vertices](vertices_of): arcs if their mesh rotates.
 pub(crate) fn ways(
     meshes: [&Hierarchies; 2],
     motions: &[Option<RigidMotion>; 2],
@@ -63,7 +63,7 @@ pub(crate) fn ways(
 ) -> [Way; 4] {
     let way = |side: usize, vertex: u32| {
         let straight = meshes[side].motion_of(vertex as usize).unwrap_or_default();
-        // The same arcs as for boxes and sweeps: an arc has its start without rounding.
+        // These are the same arcs as for boxes and sweeps: an arc has its start without rounding.
         motions[side].map_or(Way::Straight(straight), |motion| Way::Arc(motion.path(straight.start)))
     };
     let second = usize::from(kind == PairKind::VertexFace);
