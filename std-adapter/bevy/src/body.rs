@@ -12,18 +12,18 @@ use selvedge::Groups;
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[require(Transform, CollisionGroups)]
 pub enum CollisionBody {
-    /// Rests. A new `Transform` places it elsewhere, and it meets nothing on the way.
+    /// The body rests. A new `Transform` places it elsewhere, without contacts on the way.
     #[default]
     Fixed,
-    /// Moves as a rigid body, with its `Transform` and those of its ancestors. A step leads from its place at the end of the previous step
-    /// to its current place; vertices move on arcs if it rotates. Its pivot, the mesh's origin, moves straight.
+    /// The body moves as a rigid body, with its `Transform` and those of its ancestors. A step leads from its place at the end of
+    /// the previous step to its current place. Vertices move on arcs if it rotates. Its pivot, the mesh's origin, moves straight.
     ///
     /// Make it `Fixed` for a step to place it elsewhere without contacts on the way.
     ///
     /// While its scale changes, its vertices move straight, and its hierarchies are built again in each step.
     Rigid,
-    /// Deforms. Each vertex moves straight from its previous to its current position; the mesh and the `Transform` may change in each step.
-    /// It can meet itself.
+    /// The body deforms. Each vertex moves straight from its previous to its current position; the mesh and the `Transform` may
+    /// change in each step. The body can meet itself.
     Deforming,
 }
 
@@ -31,8 +31,8 @@ pub enum CollisionBody {
 #[derive(Component, Clone, Debug)]
 pub struct CollisionMesh(pub Handle<Mesh>);
 
-/// The bodies that this one can collide with; by default all. A [`Deforming`](CollisionBody::Deforming) body does not meet itself if it is
-/// in none of the groups that it collides with.
+/// The bodies that this one can collide with; the default is all. A [`Deforming`](CollisionBody::Deforming) body does not meet
+/// itself if it is in none of the groups that it collides with.
 ///
 /// ```
 /// use selvedge_bevy::{CollisionGroups, Groups};

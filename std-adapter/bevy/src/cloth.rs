@@ -69,7 +69,7 @@ enum State {
     /// The scene, until the first step.
     Planned(Box<Scene>),
     Running(Box<Simulation>),
-    /// Its last state, if it ever ran.
+    /// The last state, if the simulation ever ran.
     Ended(Option<Box<Simulation>>),
 }
 
@@ -143,13 +143,13 @@ impl ClothSimulation {
         &self.tubes
     }
 
-    /// Says whether it has stopped: its set-up failed, or it is blocked and its scene stops then.
+    /// Returns whether it has stopped: its set-up failed, or it is blocked and its scene stops then.
     #[must_use]
     pub const fn has_ended(&self) -> bool {
         matches!(self.state, State::Ended(_))
     }
 
-    /// Says whether this differs from the last report on that subject.
+    /// Returns whether this differs from the last report on that subject.
     fn is_new(&mut self, part: Part, result: Result<(), SelvedgeError>) -> Option<SelvedgeError> {
         match result {
             Ok(()) => {
@@ -194,8 +194,8 @@ pub fn mesh_of_cloths(scene: &Scene) -> Mesh {
     mesh_of(&all)
 }
 
-/// Creates a cloth at rest from a Bevy mesh, in metres and in world coordinates. Vertices at the same position become one vertex, in the
-/// order of the first of each. `warp` and `density` as [`Cloth::from_mesh`] has them.
+/// Creates a cloth at rest from a Bevy mesh, in metres and in world coordinates. Vertices at the same position become one vertex,
+/// in the order of the first of each. `warp` and `density` are those of [`Cloth::from_mesh`].
 ///
 /// # Errors
 /// Returns an error if the mesh does not consist of triangles with positions, or cannot be cloth.
@@ -265,7 +265,7 @@ pub(crate) fn step_cloths(
 type Met = BTreeMap<Part, Result<(), SelvedgeError>>;
 
 impl ClothSimulation {
-    /// The goals of the bodies.
+    /// Returns the goals of the bodies.
     fn leading(&self, places: &Places<'_, '_>, met: &mut Met) -> BTreeMap<usize, Placement> {
         let mut leading = BTreeMap::new();
         for (&body, &leader) in &self.leaders {

@@ -21,11 +21,11 @@ use std::sync::{Arc, Weak};
 /// The settings of the search for contacts. They may change at any time.
 #[derive(Resource, Clone, Copy, Debug, Default)]
 pub struct CollisionSettings {
-    /// The criterion for a contact, in the unit of Bevy's positions; by default bodies that touch.
+    /// The criterion for a contact, in the unit of Bevy's positions. The default is that bodies touch.
     pub criterion: Criterion<f64>,
-    /// The threads; by default the one that runs the system. Contacts and their order do not depend on it.
+    /// The threads. The default is the one that runs the system. Contacts and their order do not depend on it.
     pub threads: Threads,
-    /// The largest number of candidate pairs of a step; by default there is no limit.
+    /// The largest number of candidate pairs of a step. By default there is no limit.
     pub pair_limit: Option<u64>,
 }
 
@@ -38,8 +38,8 @@ pub struct BodyContact {
     pub kind: PairKind,
     /// The bodies of the vertex and of the face, or of the two edges. They may have been despawned since.
     pub entities: [Entity; 2],
-    /// The vertex and the corners of the face, or the ends of both edges, with the numbers of their meshes. Of several vertices at the same
-    /// position it is the first.
+    /// The vertex and the corners of the face, or the ends of both edges, with the numbers of their meshes. If several vertices
+    /// have the same position, it is the first.
     pub vertices: [u32; 4],
     /// The time in [0, 1] of the step. It is never after the exact time.
     pub time: f64,
@@ -70,13 +70,13 @@ struct Body {
     handle: MeshHandle,
     source: Source,
     shape: Arc<Shape>,
-    /// The form with which its shape was inserted.
+    /// The form with which the body's shape was inserted.
     inserted: Place,
-    /// Its place at the end of the last step.
+    /// The place at the end of the last step.
     place: Place,
     /// The vertices of a deforming body at the end of the last step.
     positions: Vec<DVec3>,
-    /// Whether its place must be set, even if it does not move.
+    /// Whether the place must be set, even if the body does not move.
     is_new: bool,
 }
 
@@ -90,9 +90,9 @@ struct Source {
 
 /// The motion of a body in a step.
 enum Way {
-    /// Rigid, to this place.
+    /// A rigid motion to this place.
     Rigid(Place),
-    /// Each point straight from one position to another, while the body moves to a place and its mesh's vertices to positions.
+    /// A straight motion of each point, while the body moves to a place and its mesh's vertices to positions.
     Straight {
         points: [Vec<DVec3>; 2],
         place: Place,
@@ -166,7 +166,7 @@ pub(crate) fn find_contacts(
 }
 
 impl Collisions {
-    /// The reason why a setting was refused.
+    /// Applies the settings. Returns the reasons why some were refused.
     fn set(&mut self, settings: &CollisionSettings) -> Vec<String> {
         self.world.set_pair_limit(settings.pair_limit);
         let criterion = self
@@ -362,7 +362,7 @@ impl Collisions {
             ways.retain(|&(own, _)| own != entity);
             met.insert(entity, SelvedgeError::World(error));
             if self.bodies.get(&entity).is_some_and(|body| body.is_new) {
-                // It has left the place where it was inserted.
+                // The body has left the place where it was inserted.
                 self.remove(entity);
             }
         }

@@ -45,7 +45,7 @@ pub enum SelvedgeSystems {
 
 /// Finds the contacts of all [`CollisionBody`]s, and moves all [`ClothSimulation`]s, in each fixed step.
 ///
-/// Needs `TransformPlugin`, `TimePlugin`, `AssetPlugin` and `MeshPlugin`, which are among Bevy's default plugins.
+/// The plugin needs `TransformPlugin`, `TimePlugin`, `AssetPlugin` and `MeshPlugin`, which are among Bevy's default plugins.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SelvedgePlugin;
 
@@ -68,7 +68,7 @@ impl Plugin for SelvedgePlugin {
     }
 }
 
-/// The examples of the readme are tests.
+/// Runs the examples of the readme as tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 mod readme {}

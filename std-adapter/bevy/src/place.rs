@@ -41,11 +41,11 @@ impl Place {
         self.rotation.is_finite() && self.form.is_finite() && self.translation.is_finite()
     }
 
-    /// Says whether a motion from one place to the other keeps the form.
+    /// Returns whether a motion from one place to the other keeps the form.
     ///
-    /// The form is a product of matrices whose numbers come from `f32`. Each ancestor adds errors of a few units in the last place of `f64`,
-    /// together less than 2⁻⁴⁰ of it below a hundred ancestors; the smallest change of a scale that `f32` can hold is 2⁻²⁴ of it. Forms that are
-    /// taken for equal differ by far less than the rounding of the mesh's positions.
+    /// The form is a product of matrices whose numbers come from `f32`. Each ancestor adds errors of a few units in the last
+    /// place of `f64`. Below a hundred ancestors they sum to less than 2⁻⁴⁰ of the form. The smallest change of a scale that
+    /// `f32` can hold is 2⁻²⁴ of it. Forms that count as equal differ by far less than the rounding of the mesh's positions.
     pub(crate) fn has_form_of(&self, other: &Self) -> bool {
         let largest = |matrix: DMat3| {
             matrix
@@ -64,7 +64,7 @@ impl Place {
         DMat3::from_quat(self.rotation) * self.form
     }
 
-    /// Returns a position in the form, before the pose.
+    /// Applies the form to a position, without the pose.
     pub(crate) fn formed(&self, position: [f32; 3]) -> DVec3 {
         self.form * widened(position)
     }

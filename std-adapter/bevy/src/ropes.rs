@@ -93,7 +93,7 @@ impl RopesOf {
         vertex_normals(&self.positions, &self.triangles, &mut self.normals);
     }
 
-    /// Returns the mesh; creates it again unless it has these triangles.
+    /// Returns the mesh. Creates it again unless it has these triangles.
     fn prepare(&mut self, id: AssetId<Mesh>, mesh: &mut Mesh) {
         let corners = mesh.try_indices().map_or(0, Indices::len);
         if self.made != Some(id) || corners != 3 * self.triangles.len() {

@@ -24,7 +24,7 @@ pub(crate) fn write(
     Ok(())
 }
 
-/// Allocates nothing if the mesh has room for them.
+/// Writes an attribute, without an allocation if the mesh has room for it.
 fn put(mesh: &mut Mesh, are_positions: bool, values: impl Iterator<Item = [f32; 3]>) {
     let attribute = if are_positions {
         Mesh::ATTRIBUTE_POSITION

@@ -10,10 +10,10 @@ use std::sync::Arc;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MeshError {
-    /// It is not a triangle list.
+    /// The mesh is not a triangle list.
     #[error("its primitive topology is {found:?}: make it a TriangleList")]
     NotTriangles {
-        /// Its topology.
+        /// The mesh's topology.
         found: PrimitiveTopology,
     },
     /// The attribute `Mesh::ATTRIBUTE_POSITION` is missing.
@@ -22,7 +22,7 @@ pub enum MeshError {
     /// The positions are compressed or two-dimensional.
     #[error("its positions are not Float32x3: uncompressed positions in three dimensions are needed")]
     PositionFormat,
-    /// Bevy has moved its data to the graphics card.
+    /// Bevy has moved the mesh's data to the graphics card.
     #[error("its data is only on the graphics card: add RenderAssetUsages::MAIN_WORLD to the mesh")]
     OnlyRendered,
     /// The number of indices or vertices is not a multiple of three.
@@ -147,7 +147,7 @@ impl Shape {
         self.vertices.iter().map(|&vertex| of_vertices[vertex as usize]).collect()
     }
 
-    /// Says whether all vertices of each point have the same position.
+    /// Returns whether all vertices of each point have the same position.
     pub(crate) fn is_together<T: PartialEq>(&self, of_vertices: &[T]) -> bool {
         let first = |point: u32| self.vertices[point as usize] as usize;
         self.points

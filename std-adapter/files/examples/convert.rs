@@ -1,6 +1,6 @@
 //! Reads a mesh and writes it in another format: `cargo run --example convert -- FROM TO`, both named `.obj`, `.ply` and so on.
 //!
-//! Reports on standard error what the file is like and what was left out.
+//! It reports on standard error the properties of the file and the parts that were left out.
 
 use selvedge_files::mesh::{Findings, MeshError, read, write};
 use std::path::{Path, PathBuf};

@@ -3,7 +3,7 @@
 use fnv::FnvHasher;
 use std::hash::Hasher;
 
-/// Takes numbers off the front of bytes; `None` where there are too few.
+/// Takes numbers off the front of bytes, and returns `None` if there are too few.
 #[derive(Clone, Copy, Debug)]
 pub struct Reader<'a>(pub &'a [u8]);
 
@@ -43,7 +43,7 @@ impl<'a> Reader<'a> {
         (count.checked_mul(size)? <= self.0.len()).then_some(count)
     }
 
-    /// Bytes that a [`block`](put_block) holds.
+    /// Returns the bytes of a [`block`](put_block).
     pub fn block(&mut self) -> Option<&'a [u8]> {
         let count = self.count(1)?;
         self.bytes(count)

@@ -1,7 +1,7 @@
 //! A file's text in a message.
 
-/// The beginning of `text`, at most `limit` characters and an ellipsis where it is cut. Control characters are written
-/// as escapes: a file must not be able to write over the terminal that a message is shown on.
+/// Returns the beginning of `text`: at most `limit` characters, and an ellipsis if it is cut. Control characters are escaped,
+/// since a file must not overwrite the terminal that shows the message.
 #[must_use]
 pub fn excerpt(text: &str, limit: usize) -> String {
     let mut excerpt = String::new();

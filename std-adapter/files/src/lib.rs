@@ -10,7 +10,7 @@
 #![forbid(unsafe_code)]
 
 pub mod animation;
-// For the project's other crates; these modules may change at any time.
+// These modules are for the project's other crates, and may change at any time.
 #[doc(hidden)]
 pub mod bytes;
 #[doc(hidden)]
@@ -19,7 +19,7 @@ pub mod mesh;
 #[doc(hidden)]
 pub mod temporary_file;
 
-/// The readme's examples are tests.
+/// Runs the examples of the readme as tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 mod readme {}

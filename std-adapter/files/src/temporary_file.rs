@@ -1,10 +1,11 @@
-//! Files that get their name once they are complete.
+//! Files that get their name when they are complete.
 
 use std::io;
 use std::path::Path;
 use tempfile::NamedTempFile;
 
-/// A new file in the folder of `path`, which is deleted unless it is given that name. It gets the permissions of any new file.
+/// Creates a file in the folder of `path`, which is deleted unless it is renamed to that path. It gets the permissions of any new
+/// file.
 ///
 /// # Errors
 /// Returns an error if it cannot be made there.

@@ -1,4 +1,5 @@
-//! Every kind of file in `zoo/` is read, or refused, as `zoo/expected.txt` says; damaged ones never panic, and no lost face goes unnoticed.
+//! Every kind of file in `zoo/` is read or refused as `zoo/expected.txt` says. Damaged files never cause a panic, and every lost
+//! face is reported.
 
 use selvedge::CollisionDetector;
 use selvedge_files::mesh::{FileFormat, Findings, LooseMesh, ReadOptions, read_bytes, read_bytes_with, write_bytes};
@@ -9,12 +10,12 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/zoo")
 }
 
-/// A file's name, format, bytes and what is expected of it.
+/// A file's name, format, bytes and expected result.
 struct Animal {
     name: String,
     format: FileFormat,
     bytes: Vec<u8>,
-    /// Vertices, triangles, and intersections.
+    /// The numbers of vertices, triangles, and intersections.
     counts: String,
     report: String,
 }
@@ -110,10 +111,10 @@ fn what_is_read_written_and_read_again_is_the_same_mesh() {
     }
 }
 
-/// How often each file is damaged.
+/// The number of times that each file is damaged.
 const DAMAGED: usize = 40;
 
-/// Numbers that look random, the same in every run.
+/// A generator of reproducible pseudo-random numbers.
 struct Numbers(u64);
 
 impl Numbers {
@@ -160,7 +161,7 @@ fn damage(bytes: &[u8], numbers: &mut Numbers) -> Vec<u8> {
     damaged
 }
 
-/// The faces that a file speaks of, counted in another way than the readers count: lines of text that begin like a face.
+/// Counts the faces of a file independently of the readers, by lines of text that begin like a face.
 fn face_lines(bytes: &[u8], format: FileFormat) -> Option<usize> {
     let text = std::str::from_utf8(bytes).ok()?;
     let word = |line: &str| line.split_whitespace().next().map(str::to_ascii_lowercase);
@@ -176,7 +177,7 @@ fn face_lines(bytes: &[u8], format: FileFormat) -> Option<usize> {
     }
 }
 
-/// The most memory that a reader may hold at a time, for each byte of its file, and for small files.
+/// The largest memory that a reader may hold at a time, for each byte of its file, and for small files.
 const MEMORY: [usize; 2] = [200, 65_536];
 
 #[test]
@@ -213,7 +214,7 @@ fn damaged_files_end_in_a_mesh_or_a_message_with_little_memory_and_no_lost_face_
     }
 }
 
-/// A file of nothing but one kind of line takes no more memory than its size allows, and no time that grows faster.
+/// A file with only one kind of line takes memory in proportion to its size, and a time that does not grow faster.
 #[test]
 fn large_files_are_read_in_proportion() {
     let wheel: String = (0..20_000).map(|k| format!(" {}", k % 9_000 + 1)).collect();

@@ -8,7 +8,7 @@ use selvedge::{Contact, ContactGeometry, Intersection, PairKind, Scalar, Topolog
 use selvedge_cloth::effects::Release;
 use selvedge_cloth::{Crossing, EdgeStretch, ProximityPair, TornEdge, Untangled};
 
-/// A class of `selvedge/_answers.py`.
+/// Returns a class of `selvedge/_answers.py`.
 pub(crate) fn class<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
     static MODULE: PyOnceLock<Py<PyModule>> = PyOnceLock::new();
     let module = MODULE.get_or_try_init(py, || py.import("selvedge._answers").map(Bound::unbind))?;
@@ -29,18 +29,18 @@ pub(crate) fn kind_of(number: u8) -> Option<PairKind> {
         .find(|&kind| self::number(kind) == number)
 }
 
-/// An array of one dimension.
+/// Makes an array of one dimension.
 fn column<'py, T: Element>(py: Python<'py>, values: Vec<T>) -> Bound<'py, PyAny> {
     values.into_pyarray(py).into_any()
 }
 
-/// An array of shape (n, N).
+/// Makes an array of shape (n, N).
 pub(crate) fn rows<'py, T: Element, const N: usize>(py: Python<'py>, values: Vec<[T; N]>) -> PyResult<Bound<'py, PyAny>> {
     let count = values.len();
     Ok(values.into_flattened().into_pyarray(py).reshape([count, N])?.into_any())
 }
 
-/// Contacts, with their geometry if it is wanted.
+/// The columns of contacts, with their geometry on request.
 pub(crate) struct Columns<S> {
     kind: Vec<u8>,
     pair: Vec<[u32; 2]>,
@@ -70,7 +70,7 @@ impl<S: Scalar + Element> Columns<S> {
         }
     }
 
-    /// Near pairs of a mesh at rest.
+    /// Makes the columns of near pairs of a mesh at rest.
     pub(crate) fn at_rest(near: &[ContactGeometry]) -> Self {
         Self {
             kind: near.iter().map(|pair| number(pair.kind)).collect(),
@@ -121,7 +121,7 @@ impl GeometryColumns {
     }
 }
 
-/// One contact.
+/// Converts one contact.
 pub(crate) fn show_contact<'py, S: Scalar>(
     py: Python<'py>,
     contact: &Contact<S>,
@@ -145,7 +145,7 @@ pub(crate) fn show_intersections<'py>(py: Python<'py>, found: &[Intersection]) -
     class(py, "Intersections")?.call1((column(py, kinds), rows(py, pairs)?))
 }
 
-/// The near pairs of a simulation.
+/// Converts the near pairs of a simulation.
 pub(crate) fn show_near_pairs<'py>(py: Python<'py>, pairs: &[ProximityPair]) -> PyResult<Bound<'py, PyAny>> {
     class(py, "NearPairs")?.call1((
         rows(py, pairs.iter().map(|pair| pair.vertices).collect())?,
@@ -155,7 +155,7 @@ pub(crate) fn show_near_pairs<'py>(py: Python<'py>, pairs: &[ProximityPair]) -> 
     ))
 }
 
-/// The crossings of a tangled state.
+/// Converts the crossings of a tangled state.
 pub(crate) fn show_crossings<'py>(py: Python<'py>, crossings: &[Crossing]) -> PyResult<Bound<'py, PyAny>> {
     let body = |crossing: &Crossing| crossing.body.map_or(-1, |body| body as i64);
     class(py, "Crossings")?.call1((
@@ -166,7 +166,7 @@ pub(crate) fn show_crossings<'py>(py: Python<'py>, crossings: &[Crossing]) -> Py
     ))
 }
 
-/// The result of untangling; None without one.
+/// Converts the result of untangling; None without one.
 pub(crate) fn show_untangled<'py>(py: Python<'py>, untangled: Option<&Untangled>) -> PyResult<Option<Bound<'py, PyAny>>> {
     let Some(&untangled) = untangled else {
         return Ok(None);
@@ -186,14 +186,14 @@ pub(crate) fn show_untangled<'py>(py: Python<'py>, untangled: Option<&Untangled>
         .map(Some)
 }
 
-/// The torn edges of cloth.
+/// Converts the torn edges of cloth.
 pub(crate) fn show_torn_edges<'py>(py: Python<'py>, torn: &[TornEdge]) -> PyResult<Vec<Bound<'py, PyAny>>> {
     let class = class(py, "TornEdge")?;
     let show = |edge: &TornEdge| class.call1((edge.cloth, (edge.vertices[0], edge.vertices[1]), edge.time, edge.load));
     torn.iter().map(show).collect()
 }
 
-/// The vertices that attachments have released.
+/// Converts the vertices that attachments have released.
 pub(crate) fn show_released<'py>(py: Python<'py>, released: &[Release]) -> PyResult<Vec<Bound<'py, PyAny>>> {
     let class = class(py, "Release")?;
     let show = |release: &Release| class.call1((release.group, release.vertex, release.time));

@@ -25,7 +25,7 @@ impl<'py, T: Element, const N: usize> Rows<'py, T, N> {
     }
 
     fn made(value: &Bound<'py, PyAny>, name: &str) -> PyResult<Self> {
-        // The only remaining reason: another extension has borrowed it for writing.
+        // Only one reason remains: another extension has borrowed it for writing.
         Self::as_it_is(value).ok_or_else(|| InputError::new_err(format!("{name}: another extension is writing to it")))
     }
 
@@ -35,7 +35,7 @@ impl<'py, T: Element, const N: usize> Rows<'py, T, N> {
     }
 }
 
-/// `N` frames of positions in one format: `f32` if all frames are, otherwise `f64`.
+/// `N` frames of positions in one format: `f32` if all frames have it, otherwise `f64`.
 pub(crate) enum Frames<'py, const N: usize> {
     Single([Rows<'py, f32, 3>; N]),
     Double([Rows<'py, f64, 3>; N]),
@@ -80,7 +80,7 @@ fn rows_of<'py, T: Element, const N: usize>(
     rows.ok_or_else(|| error.unwrap_or_else(|| InputError::new_err("there are too few frames")))
 }
 
-/// Returns all of the rows, or none.
+/// Returns all of the rows, or `None` if one is missing.
 fn all<'a, 'py, T, const N: usize>(
     values: [(&'a str, &'a Bound<'py, PyAny>); N],
     mut make: impl FnMut(&'a str, &'a Bound<'py, PyAny>) -> Option<T>,

@@ -14,9 +14,9 @@ const POLL: Duration = Duration::from_millis(50);
 /// The expected length of a call.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Length {
-    /// A second at most.
+    /// The call takes a second at most.
     Short,
-    /// Any length.
+    /// The call may take any time.
     Long,
 }
 
@@ -27,7 +27,7 @@ pub(crate) enum Length {
 /// therefore runs on a separate thread.
 ///
 /// # Errors
-/// The outer result is an exception, the inner one the message of a panic.
+/// The outer result is an exception. The inner one is the message of a panic.
 pub(crate) fn interruptible<T: Send>(
     py: Python<'_>,
     length: Length,

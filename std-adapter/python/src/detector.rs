@@ -80,7 +80,7 @@ impl Detector {
         *self.asked() = Some(cancellation.clone());
         let answer = interruptible(py, length, || cancellation.cancel(), || question(finder));
         *self.asked() = None;
-        // Kept for the next call; no other reference is left.
+        // It is kept for the next call, and no other reference remains.
         cancellation.reset();
         match answer? {
             Ok(answer) => answer.map_err(|error| errors::of_step(&error)),
@@ -313,7 +313,7 @@ impl Detector {
         })
     }
 
-    /// Any thread may call this.
+    /// Cancels the running call. Any thread may call this.
     fn cancel(&self) {
         if let Some(asked) = &*self.asked() {
             asked.cancel();
@@ -338,7 +338,7 @@ impl Detector {
         let limits = (separation, tolerance, touching);
         let mut finders = self.finders()?;
         let of = |settings: &Settings| (settings.separation, settings.tolerance, settings.touching);
-        // Set again before each call, so the other settings, with an entry per vertex, need no copy.
+        // The limits are set again before each call, so the other settings, with an entry per vertex, need no copy.
         if of(&finders.settings) == limits {
             return Ok(());
         }

@@ -199,7 +199,7 @@ impl Finders {
         Ok(S::finder(self).as_mut().expect("it was made"))
     }
 
-    /// Says whether their threads stayed behind in a parent process. Waiting for them would never end.
+    /// Returns whether the threads stayed behind in a parent process. Waiting for them would never end.
     pub(crate) fn is_forked(&self) -> bool {
         self.threads_of.is_some_and(|process| process != std::process::id())
     }

@@ -16,7 +16,7 @@ mod simulation;
 
 use pyo3::prelude::*;
 
-/// The names that `selvedge/__init__.py` re-exports.
+/// Defines the names that `selvedge/__init__.py` re-exports.
 #[pymodule]
 mod _native {
     #[pymodule_export]

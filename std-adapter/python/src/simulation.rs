@@ -29,7 +29,7 @@ pub(crate) struct Simulation {
 
 /// The positions that the caller sees.
 struct Shown {
-    /// Updated after each call that runs steps.
+    /// The positions, updated after each call that runs steps.
     written: Py<PyArray2<f64>>,
     /// The read-only view that the caller sees.
     view: Py<PyAny>,
@@ -214,7 +214,7 @@ impl Simulation {
     fn step(&self, py: Python<'_>, count: u64) -> PyResult<()> {
         let mut simulation = self.simulation()?;
         let simulation = &mut *simulation;
-        // Runs on the caller's thread: nothing interrupts a step, and signals are checked after each.
+        // The steps run on the caller's thread: nothing interrupts a step, and signals are checked after each.
         let mut done = Ok(Ok(Ok(())));
         for _ in 0..count {
             done = interruptible(py, Length::Short, || (), || simulation.step());

@@ -25,7 +25,7 @@ fn move_to(app: &mut App, entity: Entity, height: f32) {
     app.world_mut().get_mut::<Transform>(entity).unwrap().translation.z = height;
 }
 
-/// With whom the first meets as it moves through them all, and back.
+/// Returns the bodies that the first meets as it moves through them all, and back.
 fn met(app: &mut App, mover: Entity) -> Vec<Entity> {
     let mut met = Vec::new();
     for height in [-9.0, 9.0] {
@@ -95,7 +95,7 @@ fn a_body_starts_when_its_mesh_is_there_where_it_is_then() {
         .resource_mut::<Assets<Mesh>>()
         .insert(&late, crate::mesh(positions, &triangles))
         .unwrap();
-    // It did not come there from above.
+    // The body did not come there from above.
     assert_eq!(step(&mut app).contacts, []);
     assert_eq!(met(&mut app, mover), [other]);
 }
@@ -129,17 +129,17 @@ fn a_rigid_body_whose_scale_or_mesh_changes_goes_on_from_where_it_was() {
         "it does not meet itself"
     );
     assert!(!contacts.is_empty());
-    // Of its new size now: beside the other it would not reach it at its old one.
+    // The body has its new size: at its old one it would not reach the other.
     app.world_mut()
         .entity_mut(mover)
         .insert(Transform::from_xyz(3.0, 0.0, 2.0).with_scale(Vec3::splat(3.0)));
     assert_eq!(step(&mut app).contacts, []);
     move_to(&mut app, mover, 0.0);
     assert!(!step(&mut app).contacts.is_empty());
-    // It turns inside out, which a deforming body would not without meeting itself.
+    // The body turns inside out, which a deforming body would not do without meeting itself.
     app.world_mut().get_mut::<Transform>(mover).unwrap().scale.x = -3.0;
     assert_eq!(step(&mut app).contacts, []);
-    // Another mesh while it moves back. Bevy tells of it after the first of these steps.
+    // The body gets another mesh while it moves back. Bevy reports it after the first of these steps.
     let (mut positions, triangles) = sheet(3);
     positions.iter_mut().for_each(|position| position[2] += 0.01);
     app.world_mut()
@@ -162,11 +162,11 @@ fn a_mesh_may_shrink_or_grow_before_bevy_tells_of_it() {
             let mover = spawn(&mut app, &other, CollisionBody::Rigid, 9.0);
             let first = spawn(&mut app, &changing, body, 0.0);
             step(&mut app);
-            // Until now it has told that the mesh was added.
+            // Until now it has only reported that the mesh was added.
             step(&mut app);
             let new = crate::mesh(positions.clone(), triangles);
             app.world_mut().resource_mut::<Assets<Mesh>>().insert(&changing, new).unwrap();
-            // One of the new mesh, and one that moves and changes its scale.
+            // One body has the new mesh, and one moves and changes its scale.
             let second = spawn(&mut app, &changing, body, 1.0);
             app.world_mut().get_mut::<Transform>(first).unwrap().scale = Vec3::new(1.0, 2.0, 1.0);
             move_to(&mut app, first, -1.0);
@@ -182,7 +182,7 @@ fn a_mesh_may_shrink_or_grow_before_bevy_tells_of_it() {
 #[test]
 fn vertices_that_bevy_parts_for_normals_are_one() {
     let mut app = app();
-    // Three vertices in each corner.
+    // The mesh has three vertices in each corner.
     let cuboid = Mesh::from(bevy_mesh::primitives::CuboidMeshBuilder::default());
     assert_eq!(cuboid.count_vertices(), 24);
     let handle = add(&mut app, cuboid);
@@ -246,7 +246,7 @@ fn meshes_of_bevys_own_shapes_collide() {
     assert_eq!(met(&mut app, mover), [other]);
 }
 
-/// With poles, where triangles have no area, and a seam.
+/// Returns a sphere with a seam, and with poles where triangles have no area.
 fn bevy_math_sphere() -> Mesh {
     bevy_shape::Sphere::new(0.5).mesh().uv(12, 8)
 }

@@ -1,4 +1,4 @@
-//! Cloth that entities lead.
+//! Cloth whose bodies follow entities.
 
 use crate::figure::{self, DURATION};
 use crate::{add, app, empty_mesh, mesh, sheet, step};
@@ -39,7 +39,7 @@ fn attribute(app: &App, entity: Entity, attribute: bevy_mesh::MeshVertexAttribut
     }
 }
 
-/// An entity that leads the ball, and the cloth above it.
+/// Spawns an entity that leads the ball, and the cloth above it.
 fn spawn_over_a_ball(app: &mut App) -> [Entity; 2] {
     let ball = app.world_mut().spawn(Transform::default()).id();
     let cloth = ClothSimulation::new(over_a_ball()).led_by(0, ball);
@@ -50,7 +50,7 @@ fn simulation(app: &App, entity: Entity) -> &Simulation {
     app.world().get::<ClothSimulation>(entity).unwrap().simulation().unwrap()
 }
 
-/// A sheet above a ball, without the ball's motion.
+/// Makes a scene of a sheet above a ball, without the ball's motion.
 fn over_a_ball() -> Scene {
     let cloth = Cloth::sheet(
         DVec3::new(-0.15, 0.12, -0.15),
@@ -132,7 +132,7 @@ fn a_cape_on_a_moving_figure_stays_free_of_intersections() {
         let simulation = simulation(&app, figure.cape);
         let (positions, cloth) = (simulation.positions(), simulation.cloth_vertices());
         assert!(simulation.is_certified() && simulation.blocked_steps() == 0);
-        // What is seen is what is simulated.
+        // The rendered cloth is the simulated one.
         let seen = attribute(&app, figure.cape, Mesh::ATTRIBUTE_POSITION);
         assert!(
             seen.iter()
@@ -167,7 +167,7 @@ fn a_cape_on_a_moving_figure_stays_free_of_intersections() {
         lowest < -0.3 && highest > 2.5,
         "it hung on the back, and on the other side after the turn: {lowest} {highest}"
     );
-    // The bodies were where their entities are.
+    // The bodies were at the places of their entities.
     let simulation = simulation(&app, figure.cape);
     for (body, &entity) in figure.parts.iter().enumerate() {
         let drawn = app
@@ -253,7 +253,7 @@ fn a_cloths_own_transform_does_not_move_it_and_its_mesh_is_seen_where_it_is() {
     for (vertex, (position, normal)) in seen.iter().zip(&normals).enumerate() {
         let drawn = wide(transform.transform_point((*position).into()).to_array());
         assert!(drawn.distance(simulated.positions()[vertex]) < 1e-5);
-        // As Bevy transforms normals.
+        // Bevy transforms normals in this way.
         let drawn = transform.rotation * (Vec3::from(*normal) / transform.scale);
         assert!(wide(drawn.normalize().to_array()).distance(expected[vertex]) < 1e-5);
     }
@@ -371,7 +371,7 @@ fn what_cannot_be_simulated_is_told_once_and_the_app_runs_on() {
         assert_eq!(step(&mut app).problems, []);
         assert!(app.world().get::<ClothSimulation>(entity).unwrap().has_ended());
     }
-    // A body that the scene does not have.
+    // The scene does not have this body.
     let mut app = app();
     let leader = app.world_mut().spawn(Transform::default()).id();
     let entity = app
@@ -389,7 +389,7 @@ fn a_cloth_that_is_blocked_ends_if_its_scene_says_so_and_tells() {
     let mut app = app();
     let mut scene = over_a_ball();
     scene.on_blocked = OnBlocked::Stop;
-    // Pins that a ball is driven into.
+    // A ball is driven into these pins.
     let pins = selvedge_bevy::selvedge_cloth::effects::PinGroup::resting((0..169).collect::<Vec<u32>>());
     scene.add(selvedge_bevy::selvedge_cloth::effects::Pins { groups: vec![pins] });
     let ball = app.world_mut().spawn(Transform::default()).id();
@@ -429,7 +429,7 @@ fn a_mesh_that_is_not_the_cloths_and_a_time_step_that_changes_are_told() {
     assert_eq!(told, [problem(cloth, error)]);
 }
 
-/// A rope of 21 vertices beside a sheet, both of one scene.
+/// Makes a scene of a sheet and, beside it, a rope of 21 vertices.
 fn rope_and_sheet() -> Scene {
     let mut scene = over_a_ball();
     let points = [DVec3::new(0.5, 0.0, 0.0), DVec3::new(1.5, 0.0, 0.0)];

@@ -1,4 +1,4 @@
-//! Contacts are the detector's.
+//! The contacts are those of the detector.
 
 use crate::{add, app, mesh, sheet, step};
 use bevy_app::App;
@@ -12,7 +12,7 @@ use selvedge_bevy::selvedge::{CollisionDetector, MeshMotion, Topology, World};
 use selvedge_bevy::{BodyContact, CollisionBody, CollisionSettings, Groups, PairKind, Threads};
 use std::sync::Arc;
 
-/// Kind, vertices, time: of bodies that a test knows by the order of their vertices.
+/// A kind, vertices and a time, for bodies that a test knows by the order of their vertices.
 type Found = (PairKind, [u32; 4], u64);
 
 fn at(x: f32, y: f32, z: f32) -> Transform {
@@ -23,7 +23,7 @@ fn transform(app: &mut App, entity: Entity, change: impl FnOnce(&mut Transform))
     change(&mut app.world_mut().get_mut::<Transform>(entity).unwrap());
 }
 
-/// Contacts with vertices counted on from one body to the next, sorted.
+/// Returns sorted contacts, with vertices numbered through all bodies.
 fn found(contacts: &[BodyContact], bodies: &[(Entity, u32)]) -> Vec<Found> {
     let first = |entity: Entity| bodies.iter().find(|body| body.0 == entity).unwrap().1;
     let mut found: Vec<Found> = contacts
@@ -42,7 +42,7 @@ fn found(contacts: &[BodyContact], bodies: &[(Entity, u32)]) -> Vec<Found> {
     found
 }
 
-/// A face may be told from any corner, and two edges in any order.
+/// Sorts the vertices: a face may start at any corner, and two edges may come in any order.
 fn in_order(kind: PairKind, [a, b, c, d]: [u32; 4], time: f64) -> Found {
     let vertices = match kind {
         PairKind::VertexFace => {
@@ -63,7 +63,7 @@ fn in_order(kind: PairKind, [a, b, c, d]: [u32; 4], time: f64) -> Found {
 fn contacts_of_deforming_bodies_are_those_of_a_detector_bit_for_bit() {
     let (floor, triangles) = sheet(4);
     let (cloth, cloth_triangles) = sheet(9);
-    // It falls, and folds onto itself.
+    // The sheet falls, and folds onto itself.
     let deformed = |turn: f32| -> Vec<[f32; 3]> {
         let folded = |&[x, y, z]: &[f32; 3]| {
             if x > 0.3 {
@@ -104,7 +104,7 @@ fn contacts_of_deforming_bodies_are_those_of_a_detector_bit_for_bit() {
             cloth_triangles,
         ),
     ];
-    // As bodies are ordered.
+    // Bodies have this order.
     parts.sort_unstable_by_key(|part| part.0);
     let [one, other] = &parts;
     let count = one.1[0].len() as u32;
@@ -156,7 +156,7 @@ fn contacts_of_bodies_that_turn_are_those_of_a_world_of_meshes_bit_for_bit() {
         (low, (identity, place(0.1, 0.2, -0.6)), (identity, place(0.1, 0.2, -0.5))),
         (high, (identity, place(0.0, 0.0, 0.2)), (turn, place(0.0, 0.0, 0.2))),
     ];
-    // As bodies are ordered.
+    // Bodies have this order.
     motions.sort_unstable_by_key(|motion| motion.0);
     let count = positions.len() as u32;
     let own = found(&told.contacts, &[(motions[0].0, 0), (motions[1].0, count)]);
@@ -192,7 +192,7 @@ fn contacts_of_bodies_that_turn_are_those_of_a_world_of_meshes_bit_for_bit() {
     assert!(!own.is_empty());
     assert_eq!(own, expected);
 
-    // Where they meet: every digit is printed.
+    // The digest covers every digit of the points.
     let mut geometries = Vec::new();
     world.contact_geometries(&contacts, &mut geometries).unwrap();
     let sorted = |mut texts: Vec<String>| {
@@ -210,7 +210,7 @@ fn contacts_of_bodies_that_turn_are_those_of_a_world_of_meshes_bit_for_bit() {
     );
 }
 
-/// A corner that falls onto a floor, in Bevy's world.
+/// A corner falls onto a floor in Bevy's world.
 #[test]
 fn a_contact_says_where_and_along_which_normal() {
     let mut app = app();
@@ -243,7 +243,7 @@ fn a_contact_says_where_and_along_which_normal() {
 fn a_body_on_a_turning_parent_is_met_on_its_arc() {
     let mut app = app();
     let plank = mesh(vec![[1.9, -0.1, 0.0], [1.9, 0.1, 0.0], [2.0, 0.0, 0.0]], &[[0, 1, 2]]);
-    // Between the arc of the tip and the straight way from its start to its end.
+    // The post is between the arc of the tip and the straight way from its start to its end.
     let post = mesh(vec![[1.40, 1.40, -0.5], [1.40, 1.40, 0.5], [1.405, 1.395, 0.0]], &[[0, 1, 2]]);
     let (plank, post) = (add(&mut app, plank), add(&mut app, post));
     let hub = app.world_mut().spawn(Transform::default()).id();

@@ -1,4 +1,4 @@
-//! The plugin as an app meets it: without a window, and without the rest of Bevy.
+//! The plugin in an app without a window, and without the rest of Bevy.
 
 mod bodies;
 mod cloth;
@@ -18,7 +18,7 @@ use bevy_time::{TimePlugin, TimeUpdateStrategy};
 use bevy_transform::TransformPlugin;
 use selvedge_bevy::{BodyContact, SelvedgePlugin, SelvedgeProblem};
 
-/// What the plugin has told since it was last asked.
+/// The messages since the last reading.
 #[derive(Resource, Default)]
 struct Told {
     contacts: Vec<BodyContact>,
@@ -34,7 +34,7 @@ fn listen(
     told.problems.extend(problems.read().cloned());
 }
 
-/// An app in which each update is one fixed step.
+/// Makes an app in which each update is one fixed step.
 fn app() -> App {
     let mut app = App::new();
     app.add_plugins((
@@ -55,7 +55,7 @@ fn app() -> App {
     app
 }
 
-/// One fixed step, and what it has told.
+/// Runs one fixed step, and returns its messages.
 fn step(app: &mut App) -> Told {
     app.update();
     std::mem::take(&mut *app.world_mut().resource_mut::<Told>())
@@ -75,7 +75,7 @@ fn mesh(positions: Vec<[f32; 3]>, triangles: &[[u32; 3]]) -> Mesh {
         .with_inserted_indices(Indices::U32(triangles.as_flattened().to_vec()))
 }
 
-/// A square of 2 by 2 about the origin, at height zero, of n by n cells, wavy enough to be in no special position.
+/// Returns a square of 2 by 2 about the origin, at height zero, of n by n cells, with waves so that no position is special.
 fn sheet(n: u32) -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
     let coordinate = |k: u32| 2.0 * k as f32 / n as f32 - 1.0;
     let vertices = (0..=n).flat_map(|i| (0..=n).map(move |j| (i, j)));

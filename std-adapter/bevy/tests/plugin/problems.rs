@@ -1,4 +1,4 @@
-//! What goes wrong is told, and the app runs on.
+//! Problems are reported, and the app continues.
 
 use crate::{add, app, empty_mesh, mesh, sheet, step};
 use bevy_app::App;
@@ -17,7 +17,7 @@ fn problem(entity: Entity, error: SelvedgeError) -> SelvedgeProblem {
     }
 }
 
-/// Two sheets, one of which moves through the other when the app is told to.
+/// Makes two sheets, one of which moves through the other when a test moves it.
 fn two_sheets(app: &mut App) -> [Entity; 2] {
     let (positions, triangles) = sheet(3);
     let handle = add(app, mesh(positions, &triangles));
@@ -121,12 +121,12 @@ fn a_body_that_cannot_be_placed_stays_where_it_was_until_it_can() {
     app.world_mut().get_mut::<Transform>(mover).unwrap().translation.z = f32::NAN;
     assert_eq!(step(&mut app).problems, [problem(mover, SelvedgeError::BadTransform)]);
     assert_eq!(step(&mut app).problems, []);
-    // From where it was.
+    // The body is back at its earlier place.
     app.world_mut().get_mut::<Transform>(mover).unwrap().translation.z = -1.0;
     let told = step(&mut app);
     assert!(told.problems.is_empty() && told.contacts.iter().all(|contact| contact.entities.contains(&other)));
     assert!(!told.contacts.is_empty());
-    // An ancestor without a place.
+    // This ancestor has no place.
     let nowhere = app.world_mut().spawn_empty().id();
     app.world_mut().entity_mut(mover).insert(ChildOf(nowhere));
     assert_eq!(
@@ -141,7 +141,7 @@ fn a_body_out_of_the_range_of_numbers_is_told_and_the_others_go_on() {
     let [other, mover] = two_sheets(&mut app);
     let (positions, triangles) = sheet(2);
     let handle = add(&mut app, mesh(positions, &triangles));
-    // Each of the scales is an f32; together they are none.
+    // Each of the scales is a finite `f32`, but their product is not.
     let mut parent = app
         .world_mut()
         .spawn(Transform::from_scale(bevy_math::Vec3::splat(1e38)))
@@ -209,7 +209,7 @@ fn a_setting_that_is_none_is_told_and_the_one_before_holds() {
             error: SelvedgeError::Setting(_)
         }]
     ));
-    // It comes within half a unit, and no nearer.
+    // The body comes within half a unit, and no nearer.
     app.world_mut().get_mut::<Transform>(mover).unwrap().translation.z = 0.3;
     assert!(!step(&mut app).contacts.is_empty());
 }

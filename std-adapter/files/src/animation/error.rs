@@ -5,7 +5,7 @@ use crate::mesh::FileProblem;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// Why a figure could not be read.
+/// The reason why a figure could not be read.
 #[derive(Debug, thiserror::Error)]
 #[error("{}: {problem}", path.display())]
 pub struct AnimationError {
@@ -36,23 +36,23 @@ pub enum AnimationProblem {
         "this program was built without the reader of glTF files; build it with the feature `gltf` of selvedge-cloth or selvedge-files"
     )]
     NotBuiltIn,
-    /// It is no glTF 2.0 file, or one that contradicts itself.
+    /// The file is not valid glTF 2.0, or contradicts itself.
     #[error("is not a valid glTF 2.0 file: {0}")]
     NotGltf(String),
     /// The bytes of a buffer are missing.
     #[error("buffer {buffer} {reason}")]
     Buffer {
-        /// Which buffer.
+        /// The number of the buffer.
         buffer: usize,
         /// The problem.
         reason: String,
     },
-    /// Numbers are wrong.
+    /// Some numbers are invalid.
     #[error("{what}: {reason}")]
     Values {
-        /// Whose they are, in words.
+        /// The owner of the numbers, in words.
         what: String,
-        /// The problem, and the right form.
+        /// The problem, and the valid form.
         reason: String,
     },
     /// No node has a mesh.
@@ -61,12 +61,12 @@ pub enum AnimationProblem {
     /// No node with a mesh has this name.
     #[error("no node '{name}' has a mesh; those that have: {choices}")]
     NoSuchNode {
-        /// The name that is wanted.
+        /// The requested name.
         name: String,
         /// The names of the file.
         choices: Choices,
     },
-    /// Several nodes with a mesh have the name.
+    /// Several nodes with a mesh have this name.
     #[error("{} nodes of this name have a mesh; name one by its path: {choices}", choices.0.len())]
     SeveralNodes {
         /// The paths of these nodes.
@@ -83,7 +83,7 @@ pub enum AnimationProblem {
     /// No animation has this name.
     #[error("there is no animation '{name}'; {}", if choices.0.is_empty() { "there is none".to_owned() } else { format!("choose from {choices}") })]
     NoSuchAnimation {
-        /// The name that is wanted.
+        /// The requested name.
         name: String,
         /// The names of the file.
         choices: Choices,
@@ -96,7 +96,7 @@ pub enum AnimationProblem {
     },
 }
 
-/// Names that there are to choose from, in the order of the file.
+/// The names to choose from, in the order of the file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Choices(pub Vec<String>);
 

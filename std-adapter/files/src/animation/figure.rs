@@ -6,7 +6,7 @@ use crate::mesh::LeftOut;
 use selvedge::Mesh;
 use selvedge_core::glam::{DAffine3, DQuat, DVec3};
 
-/// A mesh, and where an animation moves its vertices: read from a [file](super::read).
+/// A mesh and the motion of its vertices in an animation, read from a [file](super::read).
 ///
 /// ```no_run
 /// use selvedge_files::animation::{Choice, read};
@@ -20,21 +20,21 @@ use selvedge_core::glam::{DAffine3, DQuat, DVec3};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// At its first key.
+    /// The mesh at the first key.
     pub(super) mesh: Mesh,
     pub(super) shape: Shape,
     pub(super) left_out: Vec<LeftOut>,
     pub(super) fingerprint: u64,
 }
 
-/// The meshes of nodes, and what moves their vertices.
+/// The meshes of nodes, and the nodes and tracks that move their vertices.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Shape {
-    /// Parents before children.
+    /// The nodes, parents before children.
     pub(super) nodes: Vec<Node>,
     pub(super) tracks: Vec<Track>,
     pub(super) parts: Vec<Part>,
-    /// The times of the first and of the last key of the whole animation: nodes that share it share its clock.
+    /// The times of the first and of the last key of the whole animation. Nodes that share it share its clock.
     pub(super) span: [f64; 2],
     /// The length of the file's unit.
     pub(super) scale: f64,
@@ -47,7 +47,7 @@ pub(super) struct Part {
     pub(super) rest: Vec<DVec3>,
     pub(super) targets: Vec<Target>,
     pub(super) node: usize,
-    /// `None`: the mesh follows its node.
+    /// The skin. With `None` the mesh follows its node.
     pub(super) skin: Option<Skin>,
 }
 
@@ -65,14 +65,14 @@ pub(super) enum Local {
         rotation: DQuat,
         scale: DVec3,
     },
-    /// A matrix, which no track moves.
+    /// A matrix. No track moves it.
     Whole(DAffine3),
 }
 
 /// A morph target.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Target {
-    /// The weight unless a track changes it.
+    /// The weight, unless a track changes it.
     pub(super) weight: f64,
     /// The vector that it adds to each vertex.
     pub(super) moves: Vec<DVec3>,
@@ -80,23 +80,23 @@ pub(super) struct Target {
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Skin {
-    /// Nodes, each with where the mesh at rest is as it sees it.
+    /// The joints: nodes, each with the placement of the mesh at rest relative to it.
     pub(super) joints: Vec<(usize, DAffine3)>,
     /// For each vertex, the end of its influences.
     pub(super) ends: Vec<u32>,
-    /// Joints, and how much they count: of each vertex together one.
+    /// Joints and their weights; those of a vertex sum to one.
     pub(super) influences: Vec<(u32, f64)>,
 }
 
 impl Figure {
-    /// The triangles, and the positions of vertices at the first key and before, in the file's unit (glTF: metres, y is up), or
-    /// [scaled](Self::scaled).
+    /// Returns the triangles, and the positions of vertices at the first key and before, in the file's unit (glTF: metres, y is
+    /// up), or [scaled](Self::scaled).
     #[must_use]
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
     }
 
-    /// The parts of the file that were left out.
+    /// Returns the parts of the file that were left out.
     #[must_use]
     pub fn left_out(&self) -> &[LeftOut] {
         &self.left_out
@@ -110,13 +110,15 @@ impl Figure {
         self
     }
 
-    /// The times of the first and of the last key of the animation, in seconds, whichever nodes they move; zeros if nothing moves.
+    /// Returns the times of the first and of the last key of the animation, in seconds, for all of its nodes. Both are zero if
+    /// nothing moves.
     #[must_use]
     pub fn span(&self) -> [f64; 2] {
         self.shape.span
     }
 
-    /// The times of all keys that move the figure, and both ends of the [span](Self::span), in seconds, ascending, each once.
+    /// Returns the times of all keys that move the figure, and both ends of the [span](Self::span), in seconds. They ascend, and
+    /// each occurs once.
     #[must_use]
     pub fn key_times(&self) -> Vec<f64> {
         let mut times: Vec<f64> = self.shape.tracks.iter().flat_map(|track| &track.times).copied().collect();
@@ -126,14 +128,14 @@ impl Figure {
         times
     }
 
-    /// Returns whether a part of the figure jumps from key to key (`STEP`), instead of moving there.
+    /// Returns whether a part of the figure jumps from key to key (`STEP`).
     #[must_use]
     pub fn has_steps(&self) -> bool {
         let jumps = |track: &Track| track.interpolation == Interpolation::Step && track.times.len() > 1;
         self.shape.tracks.iter().any(jumps)
     }
 
-    /// A number that differs for figures of different files, or of different parts of one.
+    /// Returns a number that differs for figures of different files, or of different parts of one.
     #[must_use]
     pub fn fingerprint(&self) -> u64 {
         if self.shape.scale == 1.0 {
@@ -145,8 +147,8 @@ impl Figure {
         fingerprint.value()
     }
 
-    /// Replaces `positions` by those of all vertices at a time, in seconds. Before the first key vertices are where they are at that key, after
-    /// the last key likewise. The result has the same bits for the same time on every platform.
+    /// Replaces `positions` by those of all vertices at a time, in seconds. Vertices rest before the first key and after the last
+    /// one. The result has the same bits for the same time on every platform.
     pub fn positions_at(&self, time: f64, positions: &mut Vec<DVec3>) {
         self.shape.positions_at(time, positions);
     }
@@ -179,7 +181,7 @@ impl Shape {
         }
     }
 
-    /// Returns where each node is at a time. Writes to `weights` those of each part that tracks change.
+    /// Returns the placement of each node at a time. Writes the weights that tracks change to `weights`, part by part.
     fn places(&self, time: f64, weights: &mut [Vec<f64>]) -> Vec<DAffine3> {
         let mut locals: Vec<Local> = self.nodes.iter().map(|node| node.local).collect();
         let mut values = Vec::new();

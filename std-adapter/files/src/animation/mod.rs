@@ -1,13 +1,13 @@
-//! Figures of glTF 2.0 files (`.gltf`, `.glb`): meshes of one node or of a whole scene, and where one of the file's animations moves their
-//! vertices.
+//! Figures of glTF 2.0 files (`.gltf`, `.glb`): meshes of one node or of a whole scene, and the motion of their vertices in one
+//! animation.
 //!
-//! The reader takes the triangles of each mesh (lists, strips and fans), all its primitives one after the other, with their morph targets; the
-//! node's skin; and one animation's channels of translation, rotation, scale and weights, with interpolation `STEP`, `LINEAR` (rotations along
-//! the shorter arc) and `CUBICSPLINE`. A file without animations is a figure that rests. Looks, lights and cameras are ignored, also where the
-//! file requires extensions for them; points, lines and other channels are [listed](Figure::left_out). Compressed meshes (Draco, meshopt) are
-//! refused with the command that converts them.
+//! The reader takes the triangles of each mesh (lists, strips and fans), all its primitives one after the other, with their morph
+//! targets; the node's skin; and one animation's channels of translation, rotation, scale and weights, with interpolation `STEP`,
+//! `LINEAR` (rotations along the shorter arc) and `CUBICSPLINE`. A file without animations is a figure that rests. Looks, lights
+//! and cameras are ignored, even if the file requires extensions for them. Points, lines and other channels are
+//! [listed](Figure::left_out). Compressed meshes (Draco, meshopt) are refused; the message has the command that converts them.
 //!
-//! Positions are computed in `f64` from the file's numbers, by the same operations on every platform: they are the same bits everywhere.
+//! Positions are computed in `f64` from the file's numbers, with the same bits on every platform.
 //!
 //! Reading needs the feature `gltf`; without it [`read`] returns [`AnimationProblem::NotBuiltIn`].
 
@@ -36,11 +36,12 @@ use std::path::Path;
 /// The part of a file that the caller wants.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Choice<'a> {
-    /// The name of a node that has a mesh, the name of its mesh, or its path, such as `figure/arm`; `None`: all nodes of the scene as one mesh.
+    /// The name of a node that has a mesh, the name of its mesh, or its path, such as `figure/arm`. With `None` all nodes of the
+    /// scene are one mesh.
     pub node: Option<&'a str>,
-    /// The name of an animation; `None`: the only one, if there is one.
+    /// The name of an animation. With `None` it is the only one, if there is one.
     pub animation: Option<&'a str>,
-    /// Whether the figure rests in the pose of its nodes, whatever animations there are.
+    /// Whether the figure rests in the pose of its nodes, without an animation.
     pub at_rest: bool,
 }
 
@@ -55,8 +56,8 @@ pub fn read(path: &Path, choice: &Choice<'_>) -> Result<Figure, AnimationError> 
     read_bytes(&bytes, path, choice)
 }
 
-/// Reads such a figure from the bytes of a file. Paths in it are relative to the folder of `path`, which is named in errors. Never panics,
-/// whatever the bytes, and asks for memory only in proportion to them and to the files that they name.
+/// Reads such a figure from the bytes of a file. Paths in it are relative to the folder of `path`, which errors name. No input
+/// causes a panic, and the memory is in proportion to the bytes and the files that they name.
 ///
 /// # Errors
 /// Returns the errors of [`read`].

@@ -1,4 +1,4 @@
-//! Promises of the reader of figures.
+//! Tests of the reader of figures.
 
 use super::figure::{Local, Node, Part, Shape, Skin};
 use super::track::{Interpolation, Property, Track};
@@ -8,8 +8,8 @@ use proptest::prelude::*;
 use selvedge_core::glam::{DAffine3, DQuat, DVec3};
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
 
-/// A strip of two triangles: the upper two vertices follow the upper of two joints, which turns by a quarter about z in the second from 1 to 2
-/// and lies a metre up; the joint itself moves along x. One morph target lifts vertex 0 along z.
+/// A strip of two triangles. The upper two vertices follow the upper of two joints, which lies a metre up and turns by a quarter
+/// about z in the second from 1 to 2. The joint itself moves along x. One morph target lifts vertex 0 along z.
 const NUMBERS: [(&str, &[f32]); 9] = [
     ("positions", &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 2.0, 0.0, 1.0, 2.0, 0.0]),
     (
@@ -36,7 +36,7 @@ const NUMBERS: [(&str, &[f32]); 9] = [
 const JOINTS: [u8; 16] = [0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0];
 const INDICES: [u16; 6] = [0, 1, 2, 1, 3, 2];
 
-/// The file's JSON, whose one buffer is given in it.
+/// Returns the file's JSON, which contains its one buffer.
 fn text(name: impl Fn(String) -> String) -> String {
     let mut bytes: Vec<u8> = Vec::new();
     let mut views = Vec::new();
@@ -45,7 +45,7 @@ fn text(name: impl Fn(String) -> String) -> String {
         match what {
             "indices" => {
                 bytes.extend(INDICES.iter().flat_map(|index| index.to_le_bytes()));
-                // What follows begins at a multiple of four.
+                // The next view begins at a multiple of four.
                 views.push(format!(r#"{{"buffer":0,"byteOffset":{begin},"byteLength":12}}"#));
                 continue;
             }
@@ -114,13 +114,13 @@ fn vertices_go_with_their_joints_and_their_morph_targets_and_rest_before_and_aft
     assert_near(&at(&figure, 1.0), &rest);
     assert_eq!(at(&figure, 0.0), at(&figure, 1.0));
     assert_eq!(figure.mesh().positions, at(&figure, 1.0));
-    // A quarter about (0, 1): (1, 2) goes to (-1, 2), and (0, 2), which follows it by half, halfway to (-1, 1).
+    // A quarter turn about (0, 1) takes (1, 2) to (-1, 2). (0, 2), which follows it by half, goes halfway to (-1, 1).
     assert_near(
         &at(&figure, 2.0),
         &[[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [-0.5, 1.5, 0.0], [-1.0, 2.0, 0.0]],
     );
     assert_eq!(at(&figure, 9.0), at(&figure, 2.0));
-    // Halfway along the arc, not along the chord.
+    // The vertex is halfway along the arc, not along the chord.
     let half = FRAC_1_SQRT_2 * (1.0 - 1.0);
     assert_near(&at(&figure, 1.5)[3..], &[[half, 1.0 + 2.0 * FRAC_1_SQRT_2, 0.0]]);
     assert_near(&at(&figure, 1.5)[..1], &[[0.0, 0.0, 0.5]]);
@@ -146,7 +146,7 @@ fn a_figure_is_chosen_by_the_name_of_its_node_or_its_mesh() {
     assert_eq!(message, "strip.gltf: there is no animation 'wave'; choose from 'bend'");
 }
 
-/// The file with one passage replaced, and the message.
+/// Checks the message for the file with one passage replaced.
 #[track_caller]
 fn message(passage: &str, by: &str) -> String {
     let good = text(|text| text);
@@ -400,7 +400,7 @@ fn all_nodes_of_the_scene_are_one_figure_and_one_is_chosen_by_its_path() {
 #[test]
 fn all_nodes_of_an_animation_share_its_clock() {
     let text = text(|text| text);
-    // Rotations alone, from 1 s on; the times of weights are the weights: 0 and 1.
+    // Only rotations remain, from 1 s on. The times of weights are the weights: 0 and 1.
     let shifted = text.replacen(r#"{"input":3,"output":6}"#, r#"{"input":6,"output":6}"#, 1);
     let figure = read_text(&shifted, &Choice::default()).unwrap();
     assert_eq!((figure.span(), figure.key_times()), ([0.0, 2.0], vec![0.0, 1.0, 2.0]));
@@ -463,7 +463,7 @@ fn binary_files_that_are_cut_short_or_say_another_length_are_refused() {
     assert_eq!(error.to_string(), "no/such.glb: there is no such file");
 }
 
-/// A joint that turns about z.
+/// Makes a joint that turns about z.
 fn turning(interpolation: Interpolation, values: Vec<f64>) -> Figure {
     let shape = Shape {
         nodes: vec![Node {
@@ -520,13 +520,13 @@ fn rotations_take_the_shorter_arc_evenly_and_steps_jump_at_the_key() {
     assert!(figure.has_steps());
     assert_eq!(at(&figure, 0.999), at(&figure, 0.0));
     assert!(at(&figure, 1.0)[0].distance(DVec3::Y) < 1e-12);
-    // Its tangents are zero: it starts and ends slowly.
+    // The tangents are zero, so it starts and ends slowly.
     let zero = [0.0; 4];
     let figure = turning(Interpolation::Cubic, [zero, half(0.0), zero, zero, quarter, zero].concat());
     let turn = |time: f64| at(&figure, time)[0].y;
     assert!(turn(0.0).abs() < 1e-12 && (turn(1.0) - 1.0).abs() < 1e-12);
     assert!(turn(0.1) < 0.1 && (turn(0.5) - FRAC_1_SQRT_2).abs() < 1e-12);
-    // Through zero: any rotation, but one.
+    // The curve goes through zero. It may give any rotation, but must give one.
     let figure = turning(
         Interpolation::Cubic,
         [zero, half(0.0), zero, zero, half(0.0).map(|x| -x), zero].concat(),
@@ -537,7 +537,7 @@ fn rotations_take_the_shorter_arc_evenly_and_steps_jump_at_the_key() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
-    /// Whatever is done to the bytes of a file.
+    /// No change of a file's bytes causes a panic.
     #[test]
     fn no_bytes_make_the_reader_panic(changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6)) {
         let mut bytes = text(|text| text).into_bytes();
@@ -550,7 +550,7 @@ proptest! {
         }
     }
 
-    /// Numbers of the JSON half replaced by others.
+    /// No replaced number in the JSON half causes a panic.
     #[test]
     fn no_numbers_make_the_reader_panic(which in any::<prop::sample::Index>(), by in prop_oneof![Just(u64::MAX), Just(u64::from(u32::MAX)), 0..20_u64]) {
         let text = text(|text| text);

@@ -19,7 +19,7 @@ pub(super) enum Property {
 pub(super) enum Interpolation {
     /// The earlier key.
     Step,
-    /// The straight way; of rotations the shorter arc.
+    /// The straight way, or for rotations the shorter arc.
     Linear,
     /// A cubic: each key has a tangent before, a value and a tangent after it.
     Cubic,
@@ -32,15 +32,15 @@ pub(super) struct Track {
     pub(super) node: usize,
     pub(super) property: Property,
     pub(super) interpolation: Interpolation,
-    /// In seconds, one or more, ascending.
+    /// The times of the keys in seconds, one or more, ascending.
     pub(super) times: Vec<f64>,
-    /// For each key [`width`](Self::width) numbers, three times as many for cubics.
+    /// The values: [`width`](Self::width) numbers for each key, three times as many for cubics.
     pub(super) values: Vec<f64>,
     pub(super) width: usize,
 }
 
 impl Track {
-    /// Replaces `values` by those at a time: before the first key that one's, after the last the last's.
+    /// Replaces `values` by those at a time. They are constant before the first key and after the last.
     pub(super) fn sample(&self, time: f64, values: &mut Vec<f64>) {
         values.clear();
         let next = self.times.partition_point(|&key| key <= time);
@@ -100,15 +100,15 @@ impl Track {
     }
 }
 
-/// On the shorter arc from one rotation to another.
+/// Returns a rotation on the shorter arc from one to another.
 fn arc(from: DQuat, to: DQuat, share: f64) -> DQuat {
     let cosine = from.dot(to);
     let (to, cosine) = if cosine < 0.0 { (-to, -cosine) } else { (to, cosine) };
-    // So near each other that the chord is the arc to the last digits, and sines would be divided by next to nothing.
+    // The two are so close that the chord is the arc to the last digits, and sines would be divided by nearly zero.
     if cosine > 1.0 - 1e-9 {
         return from + (to - from) * share;
     }
-    // The same bits on every platform: glam's own may ask the system for sines.
+    // These functions have the same bits on every platform; glam's own may use the system's sines.
     let angle = acos(cosine.min(1.0));
     let [first, second] = [sin((1.0 - share) * angle), sin(share * angle)];
     (from * first + to * second) * sin(angle).recip()

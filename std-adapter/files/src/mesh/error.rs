@@ -9,11 +9,11 @@ use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Why a mesh could not be read or written.
+/// The reason why a mesh could not be read or written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MeshError {
-    /// One file is at fault.
+    /// One file has a problem.
     #[error("{}: {problem}", path.display())]
     File {
         /// The file, as named by the caller.
@@ -79,13 +79,13 @@ pub enum FileProblem {
     /// The file holds more with an area than the reader can read, and the caller needs it whole.
     #[error("not all of the file can be read: {0}; export it as plain triangles")]
     Incomplete(String),
-    /// One group is wanted of a format that has none.
+    /// One group was requested of a format that has none.
     #[error("this kind of file has no groups; only OBJ and glTF files can be read in part")]
     NoGroups,
     /// The file has no group or object of that name.
     #[error("there is no group or object '{}'; {}", excerpt(name, 40), Choices(choices))]
     NoSuchGroup {
-        /// The name that is wanted.
+        /// The requested name.
         name: String,
         /// The names of the file.
         choices: Vec<String>,
@@ -93,7 +93,7 @@ pub enum FileProblem {
     /// A line cannot be understood.
     #[error("line {line}: {reason}")]
     Line {
-        /// Which line.
+        /// The number of the line.
         line: usize,
         /// The problem.
         reason: String,
@@ -108,11 +108,11 @@ pub enum FileProblem {
     TooShort {
         /// Name of the element.
         element: String,
-        /// The number that the header declares.
+        /// The number of elements that the header declares.
         declared: usize,
-        /// The least that they need.
+        /// The least number of bytes that they need.
         needed: usize,
-        /// The number of bytes that are left.
+        /// The number of bytes that remain.
         left: usize,
     },
     /// The file ends before all declared elements were read.
@@ -120,7 +120,7 @@ pub enum FileProblem {
     Truncated {
         /// Name of the element.
         element: String,
-        /// The number that the header declares.
+        /// The number of elements that the header declares.
         declared: usize,
         /// The number of complete elements.
         found: usize,
@@ -130,7 +130,7 @@ pub enum FileProblem {
     Element {
         /// Name of the element.
         element: String,
-        /// Which one.
+        /// The number of the element.
         index: usize,
         /// The problem.
         reason: String,
@@ -138,9 +138,9 @@ pub enum FileProblem {
     /// A coordinate is NaN or infinite.
     #[error("{}the {coordinate} coordinate of vertex {vertex} is {value}, but must be finite", Place(*line))]
     NonFinite {
-        /// Where, in a file with lines.
+        /// The line, in a file with lines.
         line: Option<usize>,
-        /// Which vertex.
+        /// The number of the vertex.
         vertex: usize,
         /// `x`, `y` or `z`.
         coordinate: char,
@@ -150,9 +150,9 @@ pub enum FileProblem {
     /// A face names a vertex that does not exist.
     #[error("{}face {face} names vertex {vertex}, but there are {vertex_count} vertices, numbered from {first}", Place(*line))]
     IndexOutOfRange {
-        /// Where, in a file with lines.
+        /// The line, in a file with lines.
         line: Option<usize>,
-        /// Which face.
+        /// The number of the face.
         face: usize,
         /// The vertex as the file names it.
         vertex: i64,
@@ -164,9 +164,9 @@ pub enum FileProblem {
     /// A face has fewer than three vertices.
     #[error("{}face {face} has {corners} vertices, but needs three or more", Place(*line))]
     TooFewCorners {
-        /// Where, in a file with lines.
+        /// The line, in a file with lines.
         line: Option<usize>,
-        /// Which face.
+        /// The number of the face.
         face: usize,
         /// The number of its corners.
         corners: usize,
@@ -189,7 +189,7 @@ impl FileProblem {
     }
 }
 
-/// `line 7: `, or nothing in a file without lines.
+/// Writes `line 7: `, or nothing in a file without lines.
 struct Place(Option<usize>);
 
 impl fmt::Display for Place {
@@ -198,7 +198,7 @@ impl fmt::Display for Place {
     }
 }
 
-/// The names that there are to choose from.
+/// The names to choose from.
 struct Choices<'a>(&'a [String]);
 
 impl fmt::Display for Choices<'_> {
@@ -213,30 +213,30 @@ impl fmt::Display for Choices<'_> {
 /// The first difference between the faces of two frames.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum FrameDifference {
-    /// Different numbers of vertices.
+    /// The numbers of vertices differ.
     #[error("the first has {start} vertices, the second {end}")]
     VertexCount {
-        /// At the start of the step.
+        /// The number at the start of the step.
         start: usize,
-        /// At the end of the step.
+        /// The number at the end of the step.
         end: usize,
     },
-    /// A face with different vertices, or with the same in another order.
+    /// A face has different vertices, or the same ones in another order.
     #[error("face {face} is {} in the first, {} in the second", Corners(start), Corners(end))]
     Face {
-        /// Which face, numbered from 0.
+        /// The number of the face, from 0.
         face: usize,
         /// Its vertices at the start of the step.
         start: Vec<u32>,
         /// Its vertices at the end of the step.
         end: Vec<u32>,
     },
-    /// Different numbers of faces, all alike as far as both go.
+    /// The numbers of faces differ, and all faces are alike as far as both lists go.
     #[error("the first has {start} faces, the second {end}")]
     FaceCount {
-        /// At the start of the step.
+        /// The number at the start of the step.
         start: usize,
-        /// At the end of the step.
+        /// The number at the end of the step.
         end: usize,
     },
 }

@@ -1,38 +1,39 @@
-//! Properties of meshes that stand in the way of a simulation, besides intersections.
+//! Properties of meshes that hinder a simulation, besides intersections.
 
 use robust::{Coord, orient2d};
 use selvedge::{Topology, TopologyStatistics, first_coincident};
 use selvedge_core::glam::DVec3;
 use std::fmt;
 
-/// Properties of a mesh that often come from its export, and stand in the way of a simulation. None of them is an intersection.
+/// Properties of a mesh that often come from its export, and hinder a simulation. Intersections are not among them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Findings {
-    /// Used vertices in the same place as an earlier used one, with that one: seams that an exporter has split. Welding merges them.
+    /// Used vertices in the same place as an earlier used one, each with that one. An exporter has split the seam; welding merges
+    /// them.
     pub coincident_vertices: Vec<[u32; 2]>,
     /// Triangles with the same vertices as an earlier one.
     pub duplicate_triangles: usize,
-    /// Triangles whose corners lie on one line, exactly, or that name a vertex twice.
+    /// Triangles whose corners lie exactly on one line, or that name a vertex twice.
     pub flat_triangles: Vec<u32>,
-    /// Other triangles that are lower than [`THIN`] of their longest side.
+    /// Other triangles whose height is less than [`THIN`] times their longest side.
     pub thin_triangles: Vec<u32>,
-    /// Vertices of no triangle, loose edge or point.
+    /// The number of vertices that belong to no triangle, loose edge or point.
     pub unused_vertices: usize,
-    /// Edges of three triangles or more.
+    /// The number of edges with three triangles or more.
     pub non_manifold_edges: usize,
-    /// Edges whose two triangles run along them in the same direction: one of the two faces the wrong way.
+    /// Edges whose two triangles run along them in the same direction, so that one faces the wrong way.
     pub inconsistent_edges: Vec<[u32; 2]>,
     /// The sides of the bounding box, in the file's unit.
     pub size: DVec3,
 }
 
-/// The height of a thin triangle over its longest side.
+/// The largest height of a thin triangle over its longest side.
 pub const THIN: f64 = 1e-6;
 /// The size from which on a mesh looks as if it were not in metres.
 const LARGE: f64 = 50.0;
 
 impl Findings {
-    /// Looks at a mesh: time grows with its size alone.
+    /// Examines a mesh, in a time that grows with its size alone.
     #[must_use]
     pub fn of(positions: &[DVec3], topology: &Topology) -> Self {
         let TopologyStatistics {
@@ -67,7 +68,7 @@ impl Findings {
         findings
     }
 
-    /// Counts with the names of what they count, without those that are 0, and the remedy where there is one.
+    /// Returns counts with their names and remedies, without those that are 0.
     fn counts(&self) -> impl Iterator<Item = (usize, [&'static str; 2], &'static str)> {
         [
             (
@@ -109,7 +110,7 @@ impl Findings {
 }
 
 impl fmt::Display for Findings {
-    /// One line, empty if there is nothing: `2 vertices in the same place as others (weld merges them), 1 unused vertex`.
+    /// Writes one line, empty without findings: `2 vertices in the same place as others (weld merges them), 1 unused vertex`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut comma = "";
         for (count, [singular, plural], remedy) in self.counts() {
@@ -133,7 +134,8 @@ fn size(positions: &[DVec3]) -> DVec3 {
     low.zip(high).map_or(DVec3::ZERO, |(low, high)| high - low)
 }
 
-/// Three points lie on one line if they do in all three planes of coordinates. Exact, short of underflow.
+/// Returns whether three points lie on one line, as they do if their projections do in all three coordinate planes. It is exact
+/// except for underflow.
 fn is_flat([a, b, c]: [DVec3; 3]) -> bool {
     (0..3).all(|axis| {
         let project = |point: DVec3| Coord {
@@ -152,7 +154,7 @@ fn is_thin([a, b, c]: [DVec3; 3]) -> bool {
 }
 
 fn inconsistent_edges(topology: &Topology) -> Vec<[u32; 2]> {
-    // The number of triangles along each edge from its first to its second vertex, and back.
+    // The numbers of triangles along each edge from its first to its second vertex, and back.
     let mut ways = vec![[0_u8; 2]; topology.edges().len()];
     for (corners, edges) in topology.proper_triangles().iter().zip(topology.triangle_edges()) {
         for (k, &edge) in edges.iter().enumerate() {
@@ -186,7 +188,7 @@ mod tests {
     fn each_finding_is_counted_and_named() {
         let clean = findings("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
         assert_eq!(clean.to_string(), "");
-        // A split seam, a triangle turned round, one on a line, a sliver, a duplicate, an unused vertex far away.
+        // The file has a split seam, a reversed triangle, one on a line, a sliver, a duplicate, and an unused vertex far away.
         let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 1 0\nv -0 0 0\nf 1 2 3\nf 6 4 5\nf 1 2 4\n\
                     v 3 3 3\nv 4 4 4\nv 5 5 5\nf 7 8 9\nv 6 0 0\nv 7 0 0\nv 6.5 1e-9 0\nf 10 11 12\nf 12 10 11\nv 90 0 0\n";
         let all = findings(text);

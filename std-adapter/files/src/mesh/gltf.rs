@@ -6,7 +6,7 @@ use super::parsed::Parsed;
 use crate::animation::{AnimationProblem, Choice, parse as parse_figure};
 use std::path::Path;
 
-/// Reads all meshes of the scene, or that of the node that `options` name. Files that it refers to are beside `path`.
+/// Reads all meshes of the scene, or that of the node that `options` name. Other files are looked for beside `path`.
 pub(super) fn parse(bytes: &[u8], path: &Path, options: &ReadOptions<'_>) -> Result<Parsed, FileProblem> {
     let choice = Choice {
         node: options.only,

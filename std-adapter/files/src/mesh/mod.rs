@@ -1,10 +1,9 @@
 //! Mesh files: OBJ and PLY, read and written exactly.
 //!
-//! Positions keep their order and their number, and every bit that the file holds: a vertex that
-//! no face names is kept, several objects in one file are one mesh, nothing is merged. Polygons
-//! are split into triangles, as a fan from their first vertex. Edges and points that belong to no triangle are left out by [`read`],
-//! which reads triangles, and kept by [`read_with_loose_features`]. Whatever else a file holds (normals, colours, texture coordinates,
-//! materials) is left out.
+//! Positions keep their order, their number and every bit that the file holds. Vertices that no face names are kept, several
+//! objects in one file are one mesh, and no vertices are merged. Polygons are split into triangles, as a fan from their first
+//! vertex. [`read`] leaves out edges and points that belong to no triangle; [`read_with_loose_features`] keeps them. Normals,
+//! colours, texture coordinates and materials are left out.
 
 mod error;
 mod findings;
@@ -36,7 +35,7 @@ use selvedge_core::glam::DVec3;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
-/// A kind of mesh file.
+/// The format of a mesh file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileFormat {
     /// Wavefront OBJ: text, vertices numbered from 1.
@@ -53,8 +52,8 @@ pub enum FileFormat {
 }
 
 impl FileFormat {
-    /// The format that the extension of `path` names, in capitals or not: `.obj`, `.stl`, `.off`, `.gltf`, `.glb`, or `.ply`,
-    /// which is written as binary, little endian.
+    /// Returns the format that the extension of `path` names, in upper or lower case: `.obj`, `.stl`, `.off`, `.gltf`, `.glb`, or
+    /// `.ply`, which is written as binary, little endian.
     #[must_use]
     pub fn from_path(path: &Path) -> Option<Self> {
         const FORMATS: [(&str, FileFormat); 6] = [
@@ -71,10 +70,10 @@ impl FileFormat {
     }
 }
 
-/// A mesh and what its file looked like.
+/// A mesh and a report about its file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeshFile {
-    /// The mesh: all vertices finite, all triangles in range, at least one of them.
+    /// The mesh. All vertices are finite, and all triangles are in range; there is at least one.
     pub mesh: Mesh,
     /// A report about the file.
     pub notes: MeshNotes,
@@ -91,21 +90,21 @@ pub fn read(path: &Path) -> Result<MeshFile, MeshError> {
     read.map_err(|problem| MeshError::file(path, problem))
 }
 
-/// A mesh with ropes, hair and particles: positions, and the topology of triangles, then
-/// [loose edges and points](Topology::with_loose_features).
+/// A mesh with ropes, hair and particles: positions, and the topology of triangles, then [loose edges and
+/// points](Topology::with_loose_features).
 #[derive(Clone, Debug, PartialEq)]
 pub struct LooseMesh {
-    /// One for each vertex, all finite.
+    /// The position of each vertex; all are finite.
     pub positions: Vec<DVec3>,
-    /// Triangles, loose edges and points: at least one of them.
+    /// The triangles, loose edges and points; there is at least one of them.
     pub topology: Topology,
     /// A report about the file.
     pub notes: MeshNotes,
 }
 
-/// Reads the mesh file at `path` like [`read`], and with it edges and points that belong to no triangle: the lines `l` (each piece of it an
-/// edge) and `p` of an OBJ file, the element `edge` (`vertex1`, `vertex2`) of a PLY file. A PLY file with neither faces nor edges is a cloud of
-/// points: all its vertices.
+/// Reads the mesh file at `path` like [`read`], together with edges and points that belong to no triangle. These are the lines
+/// `l` (each piece of one is an edge) and `p` of an OBJ file, and the element `edge` (`vertex1`, `vertex2`) of a PLY file. A PLY
+/// file with neither faces nor edges is a cloud of points: all its vertices.
 ///
 /// # Errors
 /// Returns the errors of [`read`], except that a file may have edges or points alone. Also returns an error if one of these names
@@ -120,7 +119,7 @@ const WITH_LOOSE_FEATURES: ReadOptions<'static> = ReadOptions {
     weld: None,
 };
 
-/// Reads the wanted parts of the mesh file at `path`, like [`read`].
+/// Reads the requested parts of the mesh file at `path`, like [`read`].
 ///
 /// # Errors
 /// Returns the errors of [`read`] and, on request, of [`read_with_loose_features`]. Also returns an error if the file has no such
@@ -130,7 +129,7 @@ pub fn read_with(path: &Path, options: &ReadOptions<'_>) -> Result<LooseMesh, Me
     read.map_err(|problem| MeshError::file(path, problem))
 }
 
-/// Reads such a mesh from the bytes of a file, as [`read_bytes`].
+/// Reads such a mesh from the bytes of a file, like [`read_bytes`].
 ///
 /// # Errors
 /// Returns the errors of [`read_with_loose_features`], without the file's name.
@@ -147,7 +146,7 @@ pub fn read_bytes_with_loose_features(bytes: &[u8], format: FileFormat) -> Resul
     parse(bytes, format, &WITH_LOOSE_FEATURES)?.into_loose()
 }
 
-/// Reads the wanted parts of the bytes of a file, as [`read_with`].
+/// Reads the requested parts of the bytes of a file, like [`read_with`].
 ///
 /// # Errors
 /// Returns the errors of [`read_with`], without the file's name.
@@ -155,9 +154,8 @@ pub fn read_bytes_with(bytes: &[u8], format: FileFormat, options: &ReadOptions<'
     parse(bytes, format, options)?.into_loose()
 }
 
-/// Reads a mesh from the bytes of a file. For [`FileFormat::Ply`] the header decides on the
-/// encoding, not the argument. Never panics, whatever the bytes, and asks for memory only in
-/// proportion to them.
+/// Reads a mesh from the bytes of a file. For [`FileFormat::Ply`] the header decides on the encoding, not the argument. No input
+/// causes a panic, and the memory is in proportion to the input.
 ///
 /// # Errors
 /// Returns the errors of [`read`], without the file's name.
@@ -174,10 +172,10 @@ pub fn read_bytes(bytes: &[u8], format: FileFormat) -> Result<MeshFile, FileProb
     parse(bytes, format, &ReadOptions::default())?.into_file()
 }
 
-/// Writes `mesh` to `path`, in the format that its extension names; a reader gets every bit back.
+/// Writes `mesh` to `path`, in the format that its extension names. A reader gets every bit back.
 ///
-/// The file appears in one piece: it is written under another name in the same folder and renamed
-/// when complete. On an error nothing is left behind and an older file stays as it was.
+/// The file appears in one piece: it is written under another name in the same folder and renamed when complete. On an error
+/// there is no new file, and an older one is unchanged.
 ///
 /// # Errors
 /// Returns an error if the extension is unknown, the file cannot be written, or the mesh is one that [`read`] would refuse.
@@ -185,8 +183,9 @@ pub fn write(path: &Path, mesh: &Mesh) -> Result<(), MeshError> {
     write_with_loose_edges(path, mesh, &[])
 }
 
-/// Writes `mesh` to `path` like [`write()`], and with it edges that belong to no triangle, each by its two vertices: lines `l` of an OBJ file,
-/// the element `edge` of a PLY file, which [`read_with_loose_features`] reads. The mesh needs no triangles if there are any.
+/// Writes `mesh` to `path` like [`write()`], together with edges that belong to no triangle, each by its two vertices. They are
+/// lines `l` of an OBJ file, or the element `edge` of a PLY file; [`read_with_loose_features`] reads them. If there are edges,
+/// the mesh needs no triangles.
 ///
 /// ```
 /// use selvedge::{Mesh, glam::DVec3};
@@ -209,7 +208,7 @@ pub fn write_with_loose_edges(path: &Path, mesh: &Mesh, loose_edges: &[[u32; 2]]
     }
 }
 
-/// Writes `mesh` to `path` like [`write()`], but in the given format whatever the extension.
+/// Writes `mesh` to `path` like [`write()`], but in the given format; the extension is ignored.
 ///
 /// # Errors
 /// Returns the errors of [`write()`], except those about the extension.
@@ -223,7 +222,7 @@ fn write_checked(path: &Path, mesh: &Mesh, loose_edges: &[[u32; 2]], format: Fil
         .map_err(|problem| MeshError::file(path, problem))
 }
 
-/// The bytes of a file that holds `mesh`, as [`write()`] would write it: the counterpart of [`read_bytes`].
+/// Returns the bytes of a file that holds `mesh`, as [`write()`] would write it. It is the inverse of [`read_bytes`].
 ///
 /// # Errors
 /// Returns an error if the mesh is one that [`read`] would refuse.
@@ -250,13 +249,14 @@ pub fn write_bytes(mesh: &Mesh, format: FileFormat) -> Result<Vec<u8>, FileProbl
 /// The parts of a file that the caller wants.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ReadOptions<'a> {
-    /// Edges and points that belong to no triangle, besides triangles. See [`read_with_loose_features`].
+    /// Whether edges and points that belong to no triangle are read as well. See [`read_with_loose_features`].
     pub loose_features: bool,
-    /// The group or object of an OBJ file whose faces are wanted, or the node of a glTF file; `None`: all. Vertices of OBJ files keep their
-    /// numbers.
+    /// The group or object of an OBJ file, or the node of a glTF file, whose faces are read. `None` reads all. Vertices of OBJ
+    /// files keep their numbers.
     pub only: Option<&'a str>,
-    /// The distance up to which vertices become one, in the file's unit, 0 for equal positions alone: triangles, edges and points name the
-    /// lowest-numbered vertex instead of the others, which stay as unused vertices, so that all keep their numbers. `None`: nothing is merged.
+    /// The distance up to which vertices are merged, in the file's unit; 0 merges only equal positions, and `None` merges
+    /// nothing. Triangles, edges and points then name the lowest-numbered vertex. The others stay as unused vertices, so that all
+    /// keep their numbers.
     pub weld: Option<f64>,
 }
 
@@ -274,7 +274,7 @@ fn parse(bytes: &[u8], format: FileFormat, options: &ReadOptions<'_>) -> Result<
     parse_at(bytes, Path::new(""), format, options)
 }
 
-/// Parses a file; the path is where it looks for others.
+/// Parses a file. Other files that it names are relative to the path.
 fn parse_at(bytes: &[u8], path: &Path, format: FileFormat, options: &ReadOptions<'_>) -> Result<Parsed, FileProblem> {
     if bytes.is_empty() {
         return Err(FileProblem::Empty);
@@ -292,7 +292,7 @@ fn parse_at(bytes: &[u8], path: &Path, format: FileFormat, options: &ReadOptions
     })
 }
 
-/// Refuses what could not be read again.
+/// Refuses a mesh that could not be read again.
 fn check(mesh: &Mesh, loose_edges: &[[u32; 2]]) -> Result<(), FileProblem> {
     for (vertex, position) in mesh.positions.iter().enumerate() {
         check_finite(vertex, *position, None)?;

@@ -1,4 +1,4 @@
-//! The report about a file beside its mesh.
+//! The report about a file.
 
 use crate::excerpt::excerpt;
 use selvedge::TopologyStatistics;
@@ -9,20 +9,20 @@ use std::fmt;
 pub struct MeshNotes {
     /// The number of faces with more than three corners, which were split into triangles.
     pub polygons_triangulated: usize,
-    /// Faces of which no triangulation without overlap was found, numbered from 0. Each is split as a fan from its first corner.
+    /// Faces for which no triangulation without overlap was found, numbered from 0. Each is split as a fan from its first corner.
     pub overlapping_polygons: Vec<usize>,
     /// The number of vertices that were merged into others.
     pub welded_vertices: usize,
-    /// The number of triangles that lost their area by that, and are left out.
+    /// The number of triangles that lost their area in the merge, and are left out.
     pub collapsed_triangles: usize,
-    /// Counts of the mesh after that, duplicate and degenerate triangles included.
+    /// Counts of the resulting mesh, duplicate and degenerate triangles included.
     pub statistics: TopologyStatistics,
     /// The parts of the file that are not in the mesh. Normals, colours, texture coordinates and materials are not listed.
     pub left_out: Vec<LeftOut>,
 }
 
 impl MeshNotes {
-    /// Returns whether everything that has an area was read. If not, nothing is known about what the file holds besides the mesh.
+    /// Returns whether everything that has an area was read. If not, the file may have contacts that the mesh does not have.
     #[must_use]
     pub fn is_complete(&self) -> bool {
         !self.left_out.iter().any(|part| part.may_have_area)
@@ -100,15 +100,15 @@ pub enum FilePart {
 /// A part of a file that is not in the mesh.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LeftOut {
-    /// Its kind.
+    /// The kind of the part.
     pub part: FilePart,
-    /// Its keyword or name in the file; may be empty.
+    /// The keyword or name of the part in the file, which may be empty.
     pub name: String,
     /// The number of such parts.
     pub count: usize,
     /// The line of the first, in a file with lines.
     pub line: Option<usize>,
-    /// Whether it has an area, or may have one: then contacts of the mesh are not all contacts of the file.
+    /// Whether the part may have an area. If so, the file may have contacts that the mesh does not have.
     pub may_have_area: bool,
 }
 

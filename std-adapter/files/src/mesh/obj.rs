@@ -1,11 +1,10 @@
 //! Wavefront OBJ: lines `v` and `f`, and `l` and `p` on request.
 //!
-//! This reader is our own because a collision pair is reported by the numbers of its vertices, so
-//! they must be the file's, and its positions must be exact. No crate keeps both (looked at in
-//! their current versions): `tobj` renumbers vertices in the order of their first use and drops
-//! the rest; `obj`, `obj-rs` and `wobj` hold 32-bit coordinates; `wavefront_obj` numbers vertices
-//! for each object separately and refuses faces that reach into another; `wavefront-obj-io` refuses
-//! negative indices and needs a newer compiler than we promise. None reports the lines that it skips.
+//! This reader is our own because a collision pair is reported by the numbers of its vertices, so they must be the file's, and
+//! its positions must be exact. No crate keeps both (looked at in their current versions). `tobj` renumbers vertices in the order
+//! of their first use and drops the rest. `obj`, `obj-rs` and `wobj` hold 32-bit coordinates. `wavefront_obj` numbers vertices
+//! for each object separately and refuses faces that name vertices of another. `wavefront-obj-io` refuses negative indices and
+//! needs a newer compiler than we promise. None reports the lines that it skips.
 
 use super::error::FileProblem;
 use super::notes::{FilePart, LeftOut};
@@ -31,7 +30,7 @@ pub(super) fn parse(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Parsed, F
     reader.finish()
 }
 
-/// Returns a line without its comment and the white space around it. A comment ends with its line, even after a backslash.
+/// Returns a line without its comment and the surrounding white space. A comment ends with its line, even after a backslash.
 fn statement(line: &[u8]) -> &[u8] {
     let comment = line.iter().position(|&byte| byte == b'#');
     trim(&line[..comment.unwrap_or(line.len())])
@@ -78,15 +77,15 @@ pub(super) fn write(out: &mut impl Write, mesh: &Mesh, loose_edges: &[[u32; 2]])
 struct Reader<'a> {
     options: ReadOptions<'a>,
     parsed: Parsed,
-    /// All faces of the file so far, whether they are wanted or not.
+    /// The number of all faces of the file so far, requested or not.
     face: usize,
     corners: Vec<u32>,
-    /// Line, owner and number of vertices that come later, if they come at all: each higher than those before.
+    /// References to later vertices: line, owner and number of vertices that must exist, in ascending order of that number.
     forward: Vec<(usize, Owner, i64)>,
     groups: Groups,
 }
 
-/// The groups and objects of a file, if one of them alone is wanted.
+/// The groups and objects of a file, if only one of them is read.
 #[derive(Default)]
 struct Groups {
     object_is_wanted: bool,
@@ -132,7 +131,7 @@ impl<'a> Reader<'a> {
         };
         match keyword {
             b"v" => self.vertex(line, fields),
-            // `fo` is an old spelling of `f`.
+            // The keyword `fo` is an old spelling of `f`.
             b"f" | b"fo" => self.face(line, fields),
             b"l" if self.options.loose_features => self.edges(line, fields),
             b"p" if self.options.loose_features => self.points(line, fields),
@@ -140,7 +139,7 @@ impl<'a> Reader<'a> {
                 self.group(keyword, trim(&text[1..]));
                 Ok(())
             }
-            // Looks, and what describes curves and surfaces that are counted by their own lines.
+            // These lines are looks, and parts of curves and surfaces that are counted by their own lines.
             b"vn" | b"vt" | b"vp" | b"vc" | b"s" | b"mg" | b"usemtl" | b"mtllib" | b"usemap" | b"maplib" | b"bevel"
             | b"c_interp" | b"d_interp" | b"lod" | b"shadow_obj" | b"trace_obj" | b"ctech" | b"stech" | b"cstype" | b"deg"
             | b"bmat" | b"step" | b"parm" | b"trim" | b"hole" | b"scrv" | b"sp" | b"end" | b"con" => Ok(()),
@@ -148,7 +147,7 @@ impl<'a> Reader<'a> {
                 self.leave_out(line, keyword, false);
                 Ok(())
             }
-            // Free-form surfaces, other files, and whatever we do not know.
+            // These are free-form surfaces, other files, and unknown lines.
             _ => {
                 self.leave_out(line, keyword, true);
                 Ok(())
@@ -166,7 +165,7 @@ impl<'a> Reader<'a> {
         });
     }
 
-    /// `g a b …` or `o name`.
+    /// Reads `g a b …` or `o name`.
     fn group(&mut self, keyword: &[u8], names: &[u8]) {
         let Some(only) = self.options.only else {
             return;
@@ -188,7 +187,7 @@ impl<'a> Reader<'a> {
         self.options.only.is_none() || self.groups.object_is_wanted || self.groups.group_is_wanted
     }
 
-    /// `v x y z`, then perhaps a weight or a colour, which are left out.
+    /// Reads `v x y z`. A weight or a colour after it is left out.
     fn vertex<'b>(&mut self, line: usize, mut fields: impl Iterator<Item = &'b [u8]>) -> Result<(), FileProblem> {
         let vertex = self.parsed.positions.len();
         let mut coordinates = [0.0; 3];
@@ -205,7 +204,7 @@ impl<'a> Reader<'a> {
                 ))
             })?;
         }
-        // Two lines that a backslash has joined by mistake.
+        // A backslash has joined two lines by mistake.
         let is_word = |field: &&[u8]| field[0].is_ascii_alphabetic() && number(field).is_none();
         if let Some(word) = fields.find(is_word) {
             let reason = format!(
@@ -230,7 +229,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// `f a b c …`, each corner a vertex, perhaps with `/texture/normal`, which are left out.
+    /// Reads `f a b c …`. `/texture/normal` after a vertex is left out.
     fn face<'b>(&mut self, line: usize, fields: impl Iterator<Item = &'b [u8]>) -> Result<(), FileProblem> {
         self.corners(line, fields, Owner::Face(self.face))?;
         if self.corners.len() < 3 {
@@ -247,7 +246,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// `l a b …`, from vertex to vertex, each perhaps with `/texture`, which is left out.
+    /// Reads `l a b …`, from vertex to vertex. `/texture` after a vertex is left out.
     fn edges<'b>(&mut self, line: usize, fields: impl Iterator<Item = &'b [u8]>) -> Result<(), FileProblem> {
         self.corners(line, fields, Owner::Edges)?;
         if self.corners.len() < 2 {
@@ -261,7 +260,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// `p a …`.
+    /// Reads `p a …`.
     fn points<'b>(&mut self, line: usize, fields: impl Iterator<Item = &'b [u8]>) -> Result<(), FileProblem> {
         self.corners(line, fields, Owner::Points)?;
         if self.is_wanted() {
@@ -270,7 +269,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// The vertex that a corner names: from 1 for the file's first, or from −1 for the one just
+    /// Returns the vertex that a corner names. Numbers count from 1 for the file's first vertex, or from −1 for the one just
     /// above the face.
     fn corner(&mut self, line: usize, field: &[u8], owner: Owner) -> Result<u32, FileProblem> {
         let name = field.split(|&byte| byte == b'/').next().unwrap_or_default();

@@ -1,6 +1,6 @@
 //! OFF, the Object File Format of Geomview: text, with or without colours and normals.
 //!
-//! No kept crate reads it with 64-bit coordinates.
+//! No maintained crate reads it with 64-bit coordinates.
 
 use super::error::FileProblem;
 use super::notes::{FilePart, LeftOut};
@@ -63,7 +63,7 @@ pub(super) fn parse(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Parsed, F
     Ok(parsed)
 }
 
-/// Lines with their numbers, without comments and empty lines.
+/// The lines with their numbers, without comments and empty lines.
 struct Content<'a>(Lines<'a>);
 
 impl<'a> Iterator for Content<'a> {
@@ -80,7 +80,8 @@ impl<'a> Iterator for Content<'a> {
     }
 }
 
-/// The kind, perhaps with the counts behind it, even without a space: `OFF`, `COFF 8 6 12`, `OFF8 6 12`. Returns the numbers of vertices and faces.
+/// Reads the kind, and the counts if they follow on the same line, even without a space: `OFF`, `COFF 8 6 12`, `OFF8 6 12`.
+/// Returns the numbers of vertices and faces.
 fn read_header(content: &mut Content<'_>) -> Result<[usize; 2], FileProblem> {
     let header = |what: &str| FileProblem::Header(what.to_owned());
     let (mut line, mut text) = content
@@ -121,7 +122,7 @@ fn read_header(content: &mut Content<'_>) -> Result<[usize; 2], FileProblem> {
         .collect();
     match numbers.as_slice() {
         [Some(vertices), Some(faces)] | [Some(vertices), Some(faces), Some(_)] => {
-            // Each takes a digit and a line end.
+            // Each element takes a digit and a line end.
             let left = content.0.rest().len() + 1;
             for (element, declared) in [("vertex", *vertices), ("face", *faces)] {
                 if declared > left / 2 {
@@ -145,7 +146,7 @@ fn read_header(content: &mut Content<'_>) -> Result<[usize; 2], FileProblem> {
     }
 }
 
-/// `n v₁ … vₙ`, then perhaps a colour, which is left out.
+/// Reads `n v₁ … vₙ`. A colour after it is left out.
 fn read_face(face: usize, line: usize, text: &[u8], vertex_count: usize, corners: &mut Vec<u32>) -> Result<(), FileProblem> {
     let wrong = |reason: String| FileProblem::Line { line, reason };
     let mut fields = fields(text);

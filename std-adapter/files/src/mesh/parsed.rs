@@ -1,4 +1,4 @@
-//! The common result of all parsers, and the mesh made of it.
+//! The common result of all parsers, and its conversion to a mesh.
 
 use super::error::FileProblem;
 use super::notes::{LeftOut, MeshNotes, count_part, missing};
@@ -7,17 +7,17 @@ use super::{LooseMesh, MeshFile};
 use selvedge::{Mesh, Topology, first_coincident};
 use selvedge_core::glam::DVec3;
 
-/// A file's content: finite and in range, perhaps without faces.
+/// A file's content: finite and in range, but it may have no faces.
 #[derive(Debug, Default)]
 pub(super) struct Parsed {
     pub(super) positions: Vec<DVec3>,
     pub(super) faces: Faces,
-    /// Edges of no face, if they are wanted.
+    /// The edges of no face, if they were requested.
     pub(super) loose_edges: Vec<[u32; 2]>,
-    /// Points of no face, if they are wanted.
+    /// The points of no face, if they were requested.
     pub(super) points: Vec<u32>,
     pub(super) left_out: Vec<LeftOut>,
-    /// See [`ReadOptions`](super::ReadOptions::weld).
+    /// The distance of [`ReadOptions`](super::ReadOptions::weld).
     pub(super) weld: Option<f64>,
 }
 
@@ -25,7 +25,7 @@ pub(super) struct Parsed {
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Faces {
     corners: Vec<u32>,
-    /// For each face, the end of its corners.
+    /// The end of the corners of each face.
     ends: Vec<usize>,
 }
 
@@ -60,7 +60,7 @@ impl Parsed {
         count_part(&mut self.left_out, part);
     }
 
-    /// Refuses a file of which something with an area is left out.
+    /// Refuses a file if a part with an area was left out.
     pub(super) fn whole(self) -> Result<Self, FileProblem> {
         match missing(&self.left_out) {
             None => Ok(self),

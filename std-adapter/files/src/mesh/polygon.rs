@@ -1,17 +1,18 @@
-//! Polygons as triangles that do not overlap.
+//! Splits polygons into triangles that do not overlap.
 //!
-//! A polygon is projected along the largest component of its normal: a coordinate is left out, which rounds nothing. If all triangles of the
-//! fan from its first corner turn the right way within half a turn, the fan covers it without overlap. Otherwise ears are clipped: a corner is
-//! one if its triangle turns the right way and has no other corner inside or on it. All signs are exact (`robust`, after Shewchuk 1997),
-//! short of underflow. A wrong sign could only choose worse triangles: whether these intersect is decided elsewhere, on the triangles.
+//! A polygon is projected along the largest component of its normal: a coordinate is left out, which rounds nothing. If all
+//! triangles of the fan from its first corner turn the right way within half a turn, the fan covers it without overlap. Otherwise
+//! ears are clipped: a corner is one if its triangle turns the right way and has no other corner inside or on it. All signs are
+//! exact (`robust`, after Shewchuk 1997), except for underflow. A wrong sign could only choose worse triangles: intersections are
+//! decided elsewhere, on the triangles.
 
 use robust::{Coord, orient2d};
 use selvedge_core::glam::DVec3;
 
-/// The most corners of a polygon that is clipped: time grows with their square.
+/// The largest number of corners of a polygon that is clipped, since time grows with their square.
 const MOST_CLIPPED: usize = 10_000;
 
-/// Splits polygons into triangles; keeps its memory from one to the next.
+/// Splits polygons into triangles, and keeps its memory from one to the next.
 #[derive(Default)]
 pub(super) struct Triangulator {
     ring: Vec<u32>,
@@ -20,8 +21,8 @@ pub(super) struct Triangulator {
 }
 
 impl Triangulator {
-    /// Appends the triangles of a polygon of four corners or more, with its winding. Returns whether they cover it without overlap in its
-    /// projection; if none were found that do, they are the fan from the first corner.
+    /// Appends the triangles of a polygon of four corners or more, with its winding. Returns whether they cover it without
+    /// overlap in its projection. If no such triangles were found, they are the fan from the first corner.
     pub(super) fn triangulate(&mut self, positions: &[DVec3], corners: &[u32], triangles: &mut Vec<[u32; 3]>) -> bool {
         self.ring.clear();
         self.ring.extend_from_slice(corners);
@@ -57,7 +58,7 @@ impl Triangulator {
         false
     }
 
-    /// Leaves out a coordinate; mirrored if the polygon would turn clockwise.
+    /// Leaves out a coordinate, and mirrors the polygon if it would turn clockwise.
     fn project(&mut self, positions: &[DVec3], axis: usize, is_mirrored: bool) {
         let (mut first, mut second) = ((axis + 1) % 3, (axis + 2) % 3);
         if is_mirrored {
@@ -95,7 +96,7 @@ impl Triangulator {
                 self.links[after][0] = before;
                 remaining -= 1;
                 misses = 0;
-                // Neighbours in turn would make one corner the tip of many slivers.
+                // Clipping neighbours in turn would make one corner the tip of many slivers.
                 corner = self.links[after][1];
                 if remaining == 2 {
                     return true;
@@ -158,15 +159,15 @@ fn fan(ring: &[u32]) -> impl Iterator<Item = [u32; 3]> {
     ring.windows(2).skip(1).map(|pair| [ring[0], pair[0], pair[1]])
 }
 
-/// Newell's normal: of each plane of coordinates twice the area of the polygon's projection, rounded.
+/// Returns Newell's normal: twice the areas of the polygon's projections on the coordinate planes, rounded.
 fn normal(positions: &[DVec3], ring: &[u32]) -> DVec3 {
     let scale = scale(positions, ring);
     let at = |k: usize| positions[ring[k % ring.len()] as usize] * scale;
-    // From the first corner, so that less cancels.
+    // Differences from the first corner lose fewer digits.
     (1..ring.len() - 1).map(|k| (at(k) - at(0)).cross(at(k + 1) - at(0))).sum()
 }
 
-/// A power of two that keeps products of coordinates within the range of `f64`.
+/// Returns a power of two that keeps products of coordinates within the range of `f64`.
 fn scale(positions: &[DVec3], ring: &[u32]) -> f64 {
     const FAR: f64 = 1e100;
     let largest = ring.iter().map(|&vertex| positions[vertex as usize].abs().max_element());
@@ -181,7 +182,7 @@ fn scale(positions: &[DVec3], ring: &[u32]) -> f64 {
 mod tests {
     use super::*;
 
-    /// Triangles of a polygon in the plane z = x + 2 y, and whether they do not overlap.
+    /// Returns triangles of a polygon in the plane z = x + 2 y, and whether they do not overlap.
     fn triangulated(outline: &[[f64; 2]]) -> (Vec<[u32; 3]>, bool) {
         let positions: Vec<DVec3> = outline.iter().map(|&[x, y]| DVec3::new(x, y, x + 2.0 * y)).collect();
         let corners: Vec<u32> = (0..outline.len() as u32).collect();

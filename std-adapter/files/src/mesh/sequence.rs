@@ -13,13 +13,13 @@ use std::path::{Path, PathBuf};
 pub struct MeshSequence {
     /// The triangles of all frames.
     pub triangles: Vec<[u32; 3]>,
-    /// Positions of all vertices, frame by frame: one at least.
+    /// The positions of all vertices, frame by frame; there is at least one frame.
     pub frames: Vec<Vec<DVec3>>,
     /// The file of each frame.
     pub files: Vec<PathBuf>,
 }
 
-/// Why files are no sequence of frames.
+/// The reason why files are no sequence of frames.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SequenceProblem {
@@ -31,7 +31,7 @@ pub enum SequenceProblem {
     Folder {
         /// The folder.
         folder: PathBuf,
-        /// Why.
+        /// The error of the system.
         error: std::io::Error,
     },
     /// No file has such a name.
@@ -53,7 +53,7 @@ pub enum SequenceProblem {
     /// Two files have the same number.
     #[error("frame {frame} is there twice: '{}' and '{}'", excerpt(one, 60), excerpt(other, 60))]
     TwiceThere {
-        /// Its number.
+        /// The number.
         frame: u64,
         /// A file.
         one: String,
@@ -74,9 +74,9 @@ pub enum SequenceProblem {
     },
 }
 
-/// Reads numbered OBJ or PLY files as the frames of one mesh: `pattern` is a path whose file name has one run of `#` where the number stands
-/// (`body-####.ply`), with as many digits as there are `#`, or more; or a folder whose mesh files are one such sequence. Frames go from
-/// the lowest number to the highest, none left out.
+/// Reads numbered OBJ or PLY files as the frames of one mesh. `pattern` is a path whose file name has one run of `#` in place of
+/// the number (`body-####.ply`), which has as many digits as there are `#`, or more. It may also be a folder whose mesh files are
+/// one such sequence. Frames go from the lowest number to the highest without a gap.
 ///
 /// # Errors
 /// Returns the errors of [`read`](super::read) for any of the files. Also returns an error if a file has parts with an area that
@@ -108,7 +108,7 @@ pub fn read_sequence(pattern: &Path) -> Result<MeshSequence, MeshError> {
         let whole = load(path, &ReadOptions::default()).and_then(Parsed::whole);
         whole.map_err(|problem| MeshError::file(path, problem))
     };
-    // There is one: sequences of none were refused.
+    // There is a first file, since empty sequences were refused.
     let mut first = read(&files[0])?;
     let triangles = first.triangles().triangles;
     let topology = Topology::new(first.positions.len(), triangles).map_err(|error| MeshError::file(&files[0], error.into()))?;
@@ -132,7 +132,7 @@ pub fn read_sequence(pattern: &Path) -> Result<MeshSequence, MeshError> {
     })
 }
 
-/// The text before and after a number, and the least number of its digits.
+/// The text before and after a number, and its least number of digits.
 #[derive(Clone, Copy)]
 struct Names<'a> {
     before: &'a str,
@@ -141,7 +141,7 @@ struct Names<'a> {
 }
 
 impl Names<'_> {
-    /// The number of a file with such a name.
+    /// Returns the number of a file with such a name.
     fn number(&self, name: &str) -> Option<u64> {
         let digits = name.strip_prefix(self.before)?.strip_suffix(self.after)?;
         let is_number = digits.len() >= self.digits && digits.bytes().all(|byte| byte.is_ascii_digit());
@@ -176,7 +176,7 @@ fn of_folder(folder: &Path) -> Result<Vec<PathBuf>, SequenceProblem> {
             folder: folder.to_owned(),
         });
     };
-    // The last run of digits: the number, and not the 4 of `v4-body-001.ply`.
+    // The number is the last run of digits, not the 4 of `v4-body-001.ply`.
     let end = one.rfind(|c: char| c.is_ascii_digit()).map_or(0, |last| last + 1);
     let start = one[..end]
         .rfind(|c: char| !c.is_ascii_digit())
@@ -195,7 +195,7 @@ fn of_folder(folder: &Path) -> Result<Vec<PathBuf>, SequenceProblem> {
     }
 }
 
-/// The names of all files in a folder, in order.
+/// Returns the names of all files in a folder, in order.
 fn listing(folder: &Path) -> Result<Vec<String>, SequenceProblem> {
     let failed = |error| SequenceProblem::Folder {
         folder: folder.to_owned(),
@@ -210,7 +210,7 @@ fn listing(folder: &Path) -> Result<Vec<String>, SequenceProblem> {
     Ok(names)
 }
 
-/// The files with such names in the order of their numbers, none left out.
+/// Returns the files with such names in the order of their numbers, without a gap.
 fn in_order(folder: &Path, all: &[String], names: Names<'_>) -> Result<Vec<PathBuf>, SequenceProblem> {
     let numbered = all.iter().filter_map(|name| Some((names.number(name)?, name)));
     let mut numbered: Vec<(u64, &String)> = numbered.collect();

@@ -15,12 +15,12 @@ pub struct MeshStep {
     pub start: Vec<DVec3>,
     /// Positions at the end of the step, one for each vertex.
     pub end: Vec<DVec3>,
-    /// A report about the first file, and what may have an area and is left out of the second.
+    /// A report about the first file, with the parts of the second that may have an area and were left out.
     pub notes: MeshNotes,
 }
 
-/// Reads two frames of one mesh, of any formats: as many vertices, and the same faces in the
-/// same order. Polygons are split by their shape at the start.
+/// Reads two frames of one mesh, of any formats. They must have as many vertices, and the same faces in the same order. Polygons
+/// are split by their shape at the start.
 ///
 /// # Errors
 /// Returns the errors of [`read`](super::read) for either file, or an error with both files and their first difference.

@@ -1,7 +1,8 @@
-//! STL, text and binary. Vertices in exactly the same place are one, numbered by their first appearance, since the format has no numbers.
+//! STL, text and binary. The format has no vertex numbers, so vertices in exactly the same place are one, numbered by their first
+//! appearance.
 //!
-//! This reader is our own because `stl_io` reads text as 32-bit numbers and skips lines that it does not know, and neither it nor `nom_stl`
-//! refuses a loop of other than three vertices; the binary form is fifty bytes a triangle.
+//! This reader is our own because `stl_io` reads text as 32-bit numbers and skips unknown lines, and neither it nor `nom_stl`
+//! refuses a loop of other than three vertices. The binary form is fifty bytes a triangle.
 
 use super::error::FileProblem;
 use super::notes::{FilePart, LeftOut};
@@ -11,9 +12,9 @@ use super::{ReadOptions, check_finite};
 use selvedge::first_coincident;
 use selvedge_core::glam::DVec3;
 
-/// A text of eighty bytes, and the number of triangles.
+/// The size of the header: a text of eighty bytes, and the number of triangles.
 const HEADER: usize = 84;
-/// A normal, three corners of 32-bit numbers, and two bytes.
+/// The size of a triangle: a normal, three corners of 32-bit numbers, and two bytes.
 const TRIANGLE: usize = 50;
 
 pub(super) fn parse(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Parsed, FileProblem> {
@@ -35,7 +36,7 @@ pub(super) fn parse(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Parsed, F
     Ok(welded(parsed))
 }
 
-/// A text begins with `solid`, and the first line after it with `facet` or `endsolid`.
+/// Returns whether a text begins with `solid`, and the first line after it with `facet` or `endsolid`.
 fn starts_text(bytes: &[u8]) -> bool {
     let mut lines = Lines::new(bytes).filter_map(|line| fields(line).next());
     let is = |word: Option<&[u8]>, names: &[&str]| {

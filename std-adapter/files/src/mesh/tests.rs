@@ -1,4 +1,4 @@
-//! Promises of the readers and writers of mesh files.
+//! Tests of the readers and writers of mesh files.
 
 use super::*;
 use proptest::prelude::*;
@@ -13,7 +13,7 @@ const FORMATS: [FileFormat; 4] = [
 ];
 const PLY: FileFormat = FileFormat::Ply(PlyEncoding::Ascii);
 
-/// Any finite coordinates, denormals, huge ones and both zeros included; any triangles.
+/// Generates meshes with any triangles and finite coordinates, which include denormals, huge ones and both zeros.
 fn meshes() -> impl Strategy<Value = Mesh> {
     let coordinate = prop_oneof![
         any::<u64>()
@@ -60,7 +60,7 @@ fn problem(bytes: impl AsRef<[u8]>, format: FileFormat) -> String {
     read_bytes(bytes.as_ref(), format).unwrap_err().to_string()
 }
 
-/// An ASCII PLY file: a header for three-number vertices and faces, and what follows it.
+/// Writes an ASCII PLY file with a header for vertices of three numbers and faces, and this body.
 fn ply_text(vertices: usize, faces: usize, body: &str) -> String {
     format!(
         "ply\nformat ascii 1.0\nelement vertex {vertices}\nproperty double x\nproperty double y\n\
@@ -68,7 +68,7 @@ fn ply_text(vertices: usize, faces: usize, body: &str) -> String {
     )
 }
 
-/// A binary PLY file with the properties of its elements and its bytes given.
+/// Writes a binary PLY file with these properties of its elements and these bytes.
 fn ply_binary(vertex: &str, faces: &str, body: &[u8]) -> Vec<u8> {
     let mut bytes = format!("ply\nformat binary_little_endian 1.0\n{vertex}\n{faces}\nend_header\n").into_bytes();
     bytes.extend_from_slice(body);
@@ -519,7 +519,7 @@ fn the_start_of_a_step_splits_polygons_for_both_frames() {
     fs::write(path("start.obj"), "v 0 0 0\nv 2 -1 0\nv 1 0 0\nv 2 1 0\nf 1 2 3 4\n").unwrap();
     fs::write(path("end.obj"), "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nsurf 1\nf 1 2 3 4\n").unwrap();
     let step = read_step(&path("start.obj"), &path("end.obj")).unwrap();
-    // Not the fan of the end, which would cover the notch at the start.
+    // This is not the fan of the end, which would cover the notch at the start.
     assert!(step.topology.edges().contains(&[0, 2]), "{:?}", step.topology);
     assert_eq!(step.topology.triangles().len(), 2);
     assert_eq!(step.notes.missing().as_deref(), Some("1 line 'surf' (line 5)"));
@@ -601,7 +601,7 @@ fn loose_problem(text: &str, format: FileFormat) -> String {
     read.unwrap_err().to_string()
 }
 
-/// A header and its lines, in text.
+/// Writes a header and its lines, as text.
 fn ply_of(elements: &str, body: &str) -> String {
     format!(
         "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double z\n{elements}end_header\n0 0 0\n1 0 0\n0 1 0\n{body}"
@@ -620,7 +620,7 @@ fn edges_and_points_of_no_triangle_are_kept_where_they_are_wanted() {
         (mesh.topology.statistics().loose_edges, mesh.topology.statistics().points),
         (3, 1)
     );
-    // Where triangles are asked for, there are no others.
+    // A caller that asks for triangles gets no other features.
     assert_eq!(read_obj(&text).mesh.triangles, [[0, 1, 2]]);
 
     let edges = "element edge 2\nproperty int vertex1\nproperty uchar weight\nproperty int vertex2\n";
@@ -634,7 +634,7 @@ fn edges_and_points_of_no_triangle_are_kept_where_they_are_wanted() {
         let cloud = loose(&ply_of(elements, ""), PLY);
         assert_eq!(cloud.topology.triangles(), [[0, 0, 0], [1, 1, 1], [2, 2, 2]]);
     }
-    // What `read` makes of all meshes is what this makes of them.
+    // The result is what `read` makes of all meshes.
     for format in FORMATS {
         let mesh = triangle();
         let read = read_bytes_with_loose_features(&bytes_of(&mesh, format), format).unwrap();
@@ -697,7 +697,7 @@ fn edges_and_points_that_are_none_are_errors_that_name_their_line() {
     ] {
         let text = format!("{three}{line}\n");
         assert_eq!(loose_problem(&text, FileFormat::Obj), expected);
-        // Nobody asks for them.
+        // They were not requested.
         assert!(read_bytes(format!("{text}f 1 2 3\n").as_bytes(), FileFormat::Obj).is_ok());
     }
     assert_eq!(loose_problem(three, FileFormat::Obj), problem(three, FileFormat::Obj));
@@ -727,7 +727,7 @@ fn numbered_files_are_frames_in_the_order_of_their_numbers() {
             .collect(),
         ..triangle()
     };
-    // Past the digits of the first, and in both formats.
+    // The numbers have more digits than the first, and files are of both formats.
     for number in [8, 9, 10, 11] {
         write(&folder.path().join(format!("leaf{number}.ply")), &frame(number)).unwrap();
     }

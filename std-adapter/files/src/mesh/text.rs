@@ -1,4 +1,4 @@
-//! Text files as they are found: any line end, any encoding of names, numbers as C and Rust spell them.
+//! Text files with any line end and any encoding of names, and with numbers as C and Rust spell them.
 
 use super::error::FileProblem;
 use crate::excerpt::excerpt;
@@ -47,7 +47,7 @@ impl<'a> Iterator for Lines<'a> {
 pub(super) fn without_byte_order_mark(bytes: &[u8]) -> Result<&[u8], FileProblem> {
     let is_wide = match bytes {
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => true,
-        // Without a mark: a letter and a zero byte, in either order.
+        // Without a mark the text is a letter and a zero byte, in either order.
         [a, b, c, d, ..] => matches!(
             [a, b, c, d].map(|&byte| byte != 0),
             [true, false, true, false] | [false, true, false, true]
@@ -65,7 +65,7 @@ pub(super) fn is_space(&byte: &u8) -> bool {
     matches!(byte, b' ' | 9..=13)
 }
 
-/// The parts of a line between white space.
+/// Returns the parts of a line between white space.
 pub(super) fn fields(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
     line.split(is_space).filter(|field| !field.is_empty())
 }
@@ -125,7 +125,7 @@ pub(super) fn integer(field: &[u8]) -> Option<i64> {
     Some(if is_negative { -value } else { value })
 }
 
-/// A piece of a file for a message, whatever its encoding.
+/// Returns a piece of a file for a message, in any encoding.
 pub(super) fn quoted(text: &[u8], limit: usize) -> String {
     excerpt(&String::from_utf8_lossy(trim(text)), limit)
 }

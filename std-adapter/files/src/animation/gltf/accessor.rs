@@ -1,4 +1,4 @@
-//! Numbers out of bytes, every range checked.
+//! Reads numbers from bytes, and checks every range.
 
 use super::{File, wrong};
 use crate::animation::error::AnimationProblem;
@@ -17,7 +17,7 @@ impl<'a> File<'a> {
         Ok(numbers.chunks_exact(3).map(DVec3::from_slice).collect())
     }
 
-    /// All numbers of an accessor, which must be of these dimensions, and as many as `count` if that is known.
+    /// Returns all numbers of an accessor. It must have these dimensions, and `count` elements if that is known.
     pub(super) fn numbers(
         &self,
         accessor: &Accessor<'a>,
@@ -41,7 +41,7 @@ impl<'a> File<'a> {
                 let run = self.run(&view, accessor.offset(), view.stride(), accessor.size(), accessor.count());
                 read(run.map_err(wrong)?, accessor.count(), data, width)
             }
-            // Zeros: as many as something else has the bytes for, or the whole file.
+            // Zeros have no bytes: their number is limited by that of another accessor, or by the size of the whole file.
             None if count.is_some() || accessor.count() <= self.buffers.iter().map(Vec::len).sum() => {
                 vec![0.0; accessor.count() * width]
             }
@@ -85,7 +85,7 @@ impl<'a> File<'a> {
         }
     }
 
-    /// The bytes of a view from an offset on, with what goes from one element to the next, if all its elements are there.
+    /// Returns the bytes of a view from an offset on, with the distance between elements, if all its elements are there.
     fn run(&self, view: &View<'a>, offset: usize, stride: Option<usize>, size: usize, count: usize) -> Result<Run<'_>, String> {
         let stride = stride.unwrap_or(size);
         let buffer = &self.buffers[view.buffer().index()];
@@ -125,7 +125,7 @@ fn read(run: Run<'_>, count: usize, data: DataType, width: usize) -> Vec<f64> {
             (DataType::U16, &[a, b]) => f64::from(u16::from_le_bytes([a, b])),
             (DataType::U32, &[a, b, c, d]) => f64::from(u32::from_le_bytes([a, b, c, d])),
             (DataType::F32, &[a, b, c, d]) => f64::from(f32::from_le_bytes([a, b, c, d])),
-            // Chunks are of the type's size.
+            // Chunks have the type's size.
             _ => f64::NAN,
         }));
     }

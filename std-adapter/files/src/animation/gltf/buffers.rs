@@ -1,4 +1,4 @@
-//! The bytes that a file points to: within it, beside it, or written in it as text.
+//! The bytes that a file points to: in the file, beside it, or written in it as text.
 
 use super::short;
 use crate::animation::error::AnimationProblem;
@@ -8,7 +8,7 @@ use gltf::buffer::Source;
 use std::io::{self, Read};
 use std::path::Path;
 
-/// The bytes of all buffers, each as long as the file says.
+/// Returns the bytes of all buffers, each as long as the file says.
 pub(super) fn read(document: &gltf::Document, blob: Option<Vec<u8>>, path: &Path) -> Result<Vec<Vec<u8>>, AnimationProblem> {
     let mut blob = blob;
     let one = |buffer: gltf::Buffer<'_>| {
@@ -41,13 +41,13 @@ pub(super) fn read(document: &gltf::Document, blob: Option<Vec<u8>>, path: &Path
     document.buffers().map(one).collect()
 }
 
-/// The first bytes of a file in the folder of `path`; an empty path is that of bytes that came from no file.
+/// Returns the first bytes of a file in the folder of `path`. The path is empty if the bytes came from no file.
 fn beside(path: &Path, name: &str, length: usize) -> io::Result<Vec<u8>> {
     if path.as_os_str().is_empty() {
         return Err(io::Error::other("the bytes come without a folder"));
     }
     let path = path.parent().unwrap_or(Path::new("")).join(name);
-    // Not a device, which may have no end.
+    // This refuses devices, which may have no end.
     if !std::fs::metadata(&path)?.is_file() {
         return Err(io::Error::other("it is no file"));
     }
@@ -56,14 +56,14 @@ fn beside(path: &Path, name: &str, length: usize) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// The bytes of `TYPE;base64,TEXT`.
+/// Returns the bytes of `TYPE;base64,TEXT`.
 fn inline(data: &str) -> Result<Vec<u8>, String> {
     let text = data.split_once(";base64,").map(|(_, text)| text);
     let text = text.ok_or("is given in the file, but not in base64")?;
     STANDARD.decode(text).map_err(|error| format!("is no valid base64: {error}"))
 }
 
-/// A file's name with what is escaped in an URI (`%20`).
+/// Returns a file's name without the escapes of a URI (`%20`).
 fn plain(uri: &str) -> String {
     let mut bytes = Vec::new();
     let mut rest = uri.as_bytes();

@@ -5,7 +5,7 @@ use crate::animation::Choice;
 use crate::animation::error::{AnimationProblem, Choices};
 
 impl<'a> File<'a> {
-    /// The nodes with a mesh that have a name or a path, or all of the scene.
+    /// Returns the nodes with a mesh that have a name or a path, or all nodes with a mesh in the scene.
     pub(super) fn choose_nodes(&self, name: Option<&str>) -> Result<Vec<gltf::Node<'a>>, AnimationProblem> {
         let mut with_mesh: Vec<_> = self.nodes.iter().filter(|node| node.mesh().is_some()).cloned().collect();
         if with_mesh.is_empty() {
@@ -38,7 +38,7 @@ impl<'a> File<'a> {
         }
     }
 
-    /// For each node, the names of the nodes above it and its own, with `/` between them.
+    /// Returns the path of each node: the names of its ancestors and its own, with `/` between them.
     fn paths(&self) -> Vec<String> {
         let mut paths: Vec<String> = self.nodes.iter().map(label).collect();
         let mut parents = vec![None; self.nodes.len()];
@@ -47,7 +47,7 @@ impl<'a> File<'a> {
         }
         for (node, path) in paths.iter_mut().enumerate() {
             let mut above = parents[node];
-            // A path of a thousand names is a circle, or of no use.
+            // A path of a thousand names is a circle, or useless.
             for _ in 0..1000 {
                 let Some(parent) = above else { break };
                 *path = format!("{}/{path}", label(&self.nodes[parent]));
@@ -60,7 +60,7 @@ impl<'a> File<'a> {
         paths
     }
 
-    /// For each node, whether the file's scene shows it.
+    /// Returns for each node whether the file's scene shows it.
     fn shown(&self) -> Vec<bool> {
         let mut shown = vec![false; self.nodes.len()];
         let scene = self.document.default_scene().or_else(|| self.document.scenes().next());
@@ -76,7 +76,7 @@ impl<'a> File<'a> {
         shown
     }
 
-    /// The animation of that name, the only one, or none.
+    /// Returns the animation with that name, or the only one, or none.
     pub(super) fn choose_animation(&self, choice: &Choice<'_>) -> Result<Option<gltf::Animation<'a>>, AnimationProblem> {
         let label = |animation: &gltf::Animation<'_>| match animation.name() {
             Some(name) => name.to_owned(),

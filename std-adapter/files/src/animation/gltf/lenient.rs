@@ -1,12 +1,12 @@
-//! Removes all but shapes and motion from the JSON half of a file before the `gltf` crate validates it: looks, lights, cameras,
-//! attributes of an application's own, and extensions for these, even where the file requires them.
+//! Removes all but shapes and motion from the JSON half of a file before the `gltf` crate validates it. This drops looks, lights,
+//! cameras, attributes of applications, and extensions for these, even if the file requires them.
 
 use super::short;
 use crate::animation::error::AnimationProblem;
 use crate::mesh::{FilePart, LeftOut};
 use serde_json::{Map, Value};
 
-/// Beginnings of the names of extensions that do not change where vertices are.
+/// The beginnings of names of extensions that do not change the positions of vertices.
 const IGNORED: [&str; 17] = [
     "KHR_materials_",
     "KHR_texture_",
@@ -27,7 +27,7 @@ const IGNORED: [&str; 17] = [
     "ADOBE_materials_",
 ];
 
-/// The attributes that are read; others are normals, colours, texture coordinates, or an application's own.
+/// Returns whether an attribute is read. The others are normals, colours, texture coordinates, or belong to an application.
 fn is_read(attribute: &str) -> bool {
     attribute == "POSITION" || attribute.starts_with("JOINTS_") || attribute.starts_with("WEIGHTS_")
 }
@@ -98,7 +98,7 @@ pub(super) fn reduce(root: &mut Value) -> Result<Vec<LeftOut>, AnimationProblem>
             }
         }
     }
-    // Bounds are required of positions, and not used.
+    // The format requires bounds of positions, but they are not used here.
     let accessors = root.get_mut("accessors").and_then(Value::as_array_mut);
     for accessor in accessors.into_iter().flatten().filter_map(Value::as_object_mut) {
         accessor.remove("extensions");
@@ -126,14 +126,14 @@ pub(super) fn reduce(root: &mut Value) -> Result<Vec<LeftOut>, AnimationProblem>
     Ok(left_out)
 }
 
-/// A channel without a node, or of a pointer, moves something else.
+/// Returns false for a channel without a node, or for a pointer, since these move something else.
 fn moves_a_node(channel: &Value) -> bool {
     let target = channel.get("target");
     let path = target.and_then(|target| target.get("path")).and_then(Value::as_str);
     path != Some("pointer") && target.is_none_or(|target| target.get("node").is_some())
 }
 
-/// The objects in a list of an object.
+/// Returns the objects in a list of an object.
 fn objects<'a>(of: &'a mut Map<String, Value>, list: &str) -> impl Iterator<Item = &'a mut Map<String, Value>> {
     let list = of.get_mut(list).and_then(Value::as_array_mut);
     list.into_iter().flatten().filter_map(Value::as_object_mut)

@@ -1,4 +1,4 @@
-//! All primitives of a mesh as one: triangles, vertices, morph targets, and which joints move each vertex.
+//! All primitives of a mesh as one: triangles, vertices, morph targets, and the joints of each vertex.
 
 use super::{File, wrong};
 use crate::animation::error::AnimationProblem;
@@ -86,7 +86,7 @@ impl<'a> File<'a> {
         }
     }
 
-    /// Adds which joints move the `count` vertices of a primitive.
+    /// Adds the joints of the `count` vertices of a primitive.
     fn add_influences(
         &self,
         primitive: &Primitive<'a>,

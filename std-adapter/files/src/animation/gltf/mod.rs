@@ -1,5 +1,5 @@
-//! Figures of glTF 2.0 files. The `gltf` crate reads and validates the JSON half; the bytes that it points to are read here, where every
-//! range is checked: that crate's own readers trust it.
+//! Figures of glTF 2.0 files. The `gltf` crate reads and validates the JSON half. This module reads the bytes that it points to
+//! and checks every range, which that crate's own readers do not.
 
 mod accessor;
 mod buffers;
@@ -72,7 +72,6 @@ pub(crate) fn parse(bytes: &[u8], path: &Path, choice: &Choice<'_>) -> Result<Fi
     Ok(figure)
 }
 
-/// A file with all its bytes.
 struct File<'a> {
     document: &'a gltf::Document,
     nodes: Vec<gltf::Node<'a>>,
@@ -116,7 +115,6 @@ impl<'a> File<'a> {
         Ok((shape, triangles))
     }
 
-    /// Reads the mesh of one node.
     fn part(
         &self,
         node: &gltf::Node<'a>,
@@ -157,7 +155,7 @@ impl<'a> File<'a> {
     }
 }
 
-/// Numbers that are wrong, and whose they are.
+/// Returns an error about invalid numbers and their owner.
 fn wrong(what: &str, reason: impl Into<String>) -> AnimationProblem {
     AnimationProblem::Values {
         what: what.to_owned(),

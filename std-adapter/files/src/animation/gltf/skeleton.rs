@@ -1,4 +1,4 @@
-//! The nodes that a mesh hangs on.
+//! The nodes that a mesh depends on.
 
 use super::{File, label, short, wrong};
 use crate::animation::error::AnimationProblem;
@@ -8,7 +8,7 @@ use gltf::scene::Transform;
 use selvedge_core::glam::{DAffine3, DMat4, DQuat, DVec3};
 
 impl<'a> File<'a> {
-    /// The nodes that `wanted` depend on, parents first, and where among them each node of the file is.
+    /// Returns the nodes that `wanted` depend on, parents first, and the place of each node of the file among them.
     pub(super) fn skeleton(&self, wanted: Vec<usize>) -> Result<(Vec<Node>, Vec<Option<usize>>), AnimationProblem> {
         let mut parents = vec![None; self.nodes.len()];
         for node in &self.nodes {
@@ -21,7 +21,7 @@ impl<'a> File<'a> {
         let mut nodes = Vec::new();
         let mut places = vec![None; self.nodes.len()];
         for node in wanted {
-            // Up to what is there already, then down again.
+            // The way goes up to a node that is already there, then down again.
             let mut way = Vec::new();
             let mut above = Some(node);
             while let Some(node) = above.filter(|&node| places[node].is_none()) {

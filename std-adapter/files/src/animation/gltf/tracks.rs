@@ -8,7 +8,7 @@ use gltf::scene::Transform;
 use selvedge_core::glam::DQuat;
 
 impl<'a> File<'a> {
-    /// The times of the first and the last key of an animation, whatever it moves.
+    /// Returns the times of the first and the last key of an animation, for everything that it moves.
     pub(super) fn span(&self, animation: &gltf::Animation<'a>) -> Result<[f64; 2], AnimationProblem> {
         let mut span: Option<[f64; 2]> = None;
         for (index, channel) in animation.channels().enumerate() {
@@ -19,7 +19,7 @@ impl<'a> File<'a> {
         Ok(span.unwrap_or_default())
     }
 
-    /// The times of a channel's keys, one or more.
+    /// Returns the times of a channel's keys, one or more.
     fn times(&self, channel: &gltf::animation::Channel<'a>, what: &str) -> Result<Vec<f64>, AnimationProblem> {
         let times = self.numbers(
             &channel.sampler().input(),
@@ -36,7 +36,8 @@ impl<'a> File<'a> {
         Ok(times)
     }
 
-    /// The channels that move one of the nodes in `places`, or the weights of one of `parts`: nodes with their numbers of morph targets.
+    /// Returns the channels that move one of the nodes in `places`, or the weights of one of `parts`: nodes with their numbers of
+    /// morph targets.
     pub(super) fn tracks(
         &self,
         animation: &gltf::Animation<'a>,

@@ -1,10 +1,11 @@
-//! Checks that the `gltf` crate leaves out.
+//! Checks that the `gltf` crate omits.
 
 use super::short;
 use crate::animation::error::AnimationProblem;
 use gltf::json::validation::Checked;
 
-/// Checks that a binary file is as long as its header says. The `gltf` crate would take a length below that of the header for an enormous one.
+/// Checks that a binary file is as long as its header says. The `gltf` crate would take a length below that of the header for an
+/// enormous one.
 pub(super) fn check_length(bytes: &[u8]) -> Result<(), AnimationProblem> {
     if !bytes.starts_with(b"glTF") {
         return Ok(());
@@ -21,8 +22,8 @@ pub(super) fn check_length(bytes: &[u8]) -> Result<(), AnimationProblem> {
     Ok(())
 }
 
-/// Whether all attributes of primitives are there, which the `gltf` crate looks at before it asks, and all that animations name, which it does
-/// not ask.
+/// Checks that all indices in attributes of primitives and in animations exist. The `gltf` crate uses the former before it checks
+/// them, and does not check the latter.
 pub(super) fn check_indices(root: &gltf::json::Root) -> Result<(), AnimationProblem> {
     let primitives = root.meshes.iter().flat_map(|mesh| &mesh.primitives);
     let missing = { primitives }

@@ -25,7 +25,6 @@ impl Encoding {
     }
 }
 
-/// The used numbers of one element.
 #[derive(Debug, Default)]
 pub(super) struct Row {
     pub(super) coordinates: [f64; 3],
@@ -36,7 +35,7 @@ pub(super) struct Row {
 /// The bytes after the header.
 pub(super) struct Body<'a> {
     encoding: Encoding,
-    /// In a text file; their rest in a binary one.
+    /// The lines of a text file, or the bytes of a binary one.
     lines: Lines<'a>,
     rest: &'a [u8],
 }
@@ -44,7 +43,7 @@ pub(super) struct Body<'a> {
 impl<'a> Body<'a> {
     pub(super) fn new(encoding: Encoding, lines: Lines<'a>, bytes: &'a [u8]) -> Self {
         let mut rest = lines.rest();
-        // A header of lines that end in CR alone: the next byte belongs to the numbers, even if it looks like LF.
+        // If the lines of the header end in CR alone, the next byte belongs to the numbers, even if it looks like LF.
         let first_end = bytes.iter().position(|&byte| byte == b'\r' || byte == b'\n').unwrap_or(0);
         let header = &bytes[..bytes.len() - rest.len()];
         if bytes[first_end..].starts_with(b"\r") && !bytes[first_end..].starts_with(b"\r\n") && header.ends_with(b"\r\n") {
@@ -53,7 +52,7 @@ impl<'a> Body<'a> {
         Self { encoding, lines, rest }
     }
 
-    /// Reads all elements of one kind; `take` gets each one's number, content and line.
+    /// Reads all elements of one kind. `take` gets the number, content and line of each.
     pub(super) fn read(
         &mut self,
         element: &Element,
@@ -61,7 +60,7 @@ impl<'a> Body<'a> {
     ) -> Result<(), FileProblem> {
         self.check_room(element)?;
         if self.encoding != Encoding::Ascii && element.properties.is_empty() {
-            // Any number of them takes no bytes at all.
+            // Such elements take no bytes at all.
             return Ok(());
         }
         let mut row = Row::default();
@@ -81,8 +80,7 @@ impl<'a> Body<'a> {
     pub(super) fn check_room(&self, element: &Element) -> Result<(), FileProblem> {
         let properties = element.properties.iter();
         let (each, last, left) = match self.encoding {
-            // A digit and a separator for each property, or an empty line; the last line may end
-            // with the file.
+            // An element takes a digit and a separator for each property, or an empty line. The last line may end with the file.
             Encoding::Ascii => ((2 * properties.len()).max(1), 1, self.lines.rest().len()),
             _ => (
                 properties.map(|property| property.kind.smallest_size()).sum(),
@@ -149,7 +147,7 @@ impl<'a> Body<'a> {
         Ok(line)
     }
 
-    /// Reports what is left, unless it is white space or zeros.
+    /// Reports the remaining bytes, unless they are white space or zeros.
     pub(super) fn finish(self, parsed: &mut Parsed) {
         let rest = match self.encoding {
             Encoding::Ascii => self.lines.rest(),
@@ -168,7 +166,7 @@ impl<'a> Body<'a> {
     }
 }
 
-/// Reads exactly the fields that an element has; those that are not used may be anything.
+/// Reads exactly the fields that an element has. Unused fields may be anything.
 fn read_fields(element: &Element, text: &[u8], row: &mut Row) -> Option<()> {
     let mut fields = fields(text);
     for property in &element.properties {
@@ -195,25 +193,25 @@ fn read_fields(element: &Element, text: &[u8], row: &mut Row) -> Option<()> {
     fields.next().is_none().then_some(())
 }
 
-/// A number of that type; numbers of the type `float` are rounded to it.
+/// Reads a number of that type. Numbers of the type `float` are rounded to it.
 fn spelled(kind: Number, field: &[u8]) -> Option<f64> {
     let value = number(field)?;
     match kind {
         Number::F64 => Some(value),
-        // Directly, since rounding twice may differ.
+        // The text is rounded once, since rounding twice may differ.
         Number::F32 => Some(
             std::str::from_utf8(field)
                 .ok()?
                 .parse()
                 .map_or(value, |single: f32| f64::from(single)),
         ),
-        // C reads the digits before the point; a fraction would be lost.
+        // C reads the digits before the point, so a fraction would be lost.
         _ if value.fract() == 0.0 || !value.is_finite() => Some(value),
         _ => None,
     }
 }
 
-/// Why a line is not the element that it should be.
+/// Returns the reason why a line is not the expected element.
 #[cold]
 fn line_problem(element: &Element, index: usize, line: usize, text: &[u8]) -> FileProblem {
     let scalars = element
@@ -268,7 +266,7 @@ fn take<'a>(rest: &mut &'a [u8], count: usize) -> Option<&'a [u8]> {
     Some(taken)
 }
 
-/// The bytes of a number, least significant first, as an array of its size.
+/// Returns the bytes of a number, least significant first, as an array of its size.
 fn ordered<const BIG: bool, const N: usize>(bytes: &[u8]) -> [u8; N] {
     let mut own = [0; N];
     own.copy_from_slice(bytes);
@@ -287,7 +285,8 @@ fn value<const BIG: bool>(number: Number, bytes: &[u8]) -> f64 {
     }
 }
 
-/// A whole number; −1 where it does not fit, which is no length and no vertex. Numbers with a fraction are not read here.
+/// Returns a whole number. If it does not fit, it returns −1, which is no length and no vertex. Numbers with a fraction are not
+/// read here.
 fn whole<const BIG: bool>(number: Number, bytes: &[u8]) -> i64 {
     match number {
         Number::I8 => i8::from_le_bytes(ordered::<BIG, 1>(bytes)).into(),

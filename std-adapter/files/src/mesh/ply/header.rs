@@ -30,14 +30,14 @@ pub(super) enum Role {
     Coordinate(usize),
     Corners,
     End(usize),
-    /// It may hold anything.
+    /// The property is not used.
     Unused,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kind {
     Scalar(Number),
-    /// The type of its length, and of its numbers.
+    /// A list, with the types of its length and of its numbers.
     List(Number, Number),
 }
 
@@ -56,7 +56,7 @@ pub(super) enum Number {
 }
 
 impl Number {
-    /// Both sets of names that are in use, and 64-bit integers, which some programs add.
+    /// Returns the type for a name. There are two sets of names in use, and 64-bit integers, which some programs add.
     fn named(name: &[u8]) -> Option<Self> {
         Some(match name {
             b"char" | b"int8" => Self::I8,
@@ -77,7 +77,7 @@ impl Number {
         matches!(self, Self::F32 | Self::F64)
     }
 
-    /// Its bytes in a binary file.
+    /// Returns the number of bytes in a binary file.
     pub(super) fn size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
@@ -89,7 +89,7 @@ impl Number {
 }
 
 impl Kind {
-    /// Its bytes in a binary file, with an empty list.
+    /// Returns the number of bytes in a binary file, with an empty list.
     pub(super) fn smallest_size(self) -> usize {
         match self {
             Self::Scalar(number) | Self::List(number, _) => number.size(),
@@ -108,7 +108,7 @@ impl Element {
         self.properties.iter().any(|property| property.role == role)
     }
 
-    /// The role of a property of that name and kind. Coordinates may be of any type; vertices are named by whole numbers.
+    /// Returns the role of a property of that name and kind. Coordinates may be of any type; vertices are named by whole numbers.
     fn role(&self, name: &str, kind: Kind) -> Role {
         let place = |names: &[&str]| names.iter().position(|own| *own == name);
         let wanted = match (self.name.as_str(), kind) {
@@ -121,7 +121,7 @@ impl Element {
     }
 }
 
-/// Reads the header, and returns what follows it.
+/// Reads the header. Returns it with the rest of the file.
 pub(super) fn read(bytes: &[u8]) -> Result<(Header, Body<'_>), FileProblem> {
     let mut lines = Lines::new(bytes);
     if !lines.next().is_some_and(|line| fields(line).eq([b"ply"])) {

@@ -1,8 +1,9 @@
 //! PLY in its three encodings, with faces, triangle strips, and loose edges on request.
 //!
-//! This reader is our own because `ply-rs-bw`, the crate that is kept best, refuses text that C writes and reads (`.5`, `1e5`, `nan` in a
-//! property that is not used, lines that end in CR), makes a table of names and values of each element, which takes twenty times as long, and
-//! does not check that a header's counts fit the file. `plyfile`-style crates read 32-bit coordinates, or no lists of unknown properties.
+//! This reader is our own because `ply-rs-bw`, the best maintained crate, refuses text that C writes and reads (`.5`, `1e5`,
+//! `nan` in an unused property, lines that end in CR). It makes a table of names and values for each element, which takes twenty
+//! times as long, and does not check that a header's counts fit the file. `plyfile`-style crates read 32-bit coordinates, or no
+//! lists of unknown properties.
 
 mod body;
 mod header;
@@ -31,7 +32,7 @@ pub enum PlyEncoding {
 }
 
 const COORDINATES: [&str; 3] = ["x", "y", "z"];
-/// Both names are in use for the list of a face's vertices.
+/// The names of the list of a face's vertices; both are in use.
 const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
 /// The names of the two vertices of an edge.
 const ENDS: [&str; 2] = ["vertex1", "vertex2"];
@@ -51,7 +52,7 @@ pub(super) fn parse(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Parsed, F
     for element in &header.elements {
         match element.name.as_str() {
             "vertex" => {
-                // As many as the file has room for.
+                // The header may declare at most as many elements as the file has room for.
                 body.check_room(element)?;
                 reader.parsed.positions.reserve_exact(element.count);
                 body.read(element, |index, row, line| reader.vertex(index, row, line))?;
@@ -68,7 +69,7 @@ pub(super) fn parse(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Parsed, F
     let mut parsed = reader.parsed;
     body.finish(&mut parsed);
     if options.loose_features && parsed.faces.len() == 0 && parsed.loose_edges.is_empty() && header.has_no_faces() {
-        // As many as the file holds, which were read.
+        // There are as many points as vertices, which were read.
         parsed.points = (0..vertex_count as u32).collect();
     }
     Ok(parsed)
@@ -125,8 +126,8 @@ impl Reader {
         self.push(&row.corners, line)
     }
 
-    /// Triangle strips, one after the other, with −1 between them. Every other triangle is turned round; those that name a vertex twice only
-    /// join two parts.
+    /// Adds triangle strips, one after the other, with −1 between them. Every other triangle is reversed; those that name a
+    /// vertex twice only join two parts.
     fn strip(&mut self, index: usize, row: &Row, line: Option<usize>) -> Result<(), FileProblem> {
         let is_restart = |&vertex: &i64| vertex == -1 || vertex == i64::from(u32::MAX);
         for strip in row.corners.split(is_restart).filter(|strip| !strip.is_empty()) {
@@ -137,7 +138,7 @@ impl Reader {
             for (k, corners) in strip.windows(3).enumerate() {
                 let &[a, b, c] = corners else { continue };
                 if a == b || b == c || c == a {
-                    // Still, they must be there.
+                    // The vertices must exist all the same.
                     if let Some(&vertex) = corners.iter().find(|&&vertex| self.is_vertex(vertex).is_none()) {
                         let count = self.vertex_count;
                         let reason = format!("names vertex {vertex}, but there are {count} vertices, numbered from 0");
@@ -166,7 +167,7 @@ impl Reader {
         }
     }
 
-    /// Lists of whole numbers may name the corners of something.
+    /// Leaves out an element. Its lists of whole numbers may name the corners of faces.
     fn leave_out(&mut self, element: &Element) {
         if element.count > 0 {
             let has_list = element.properties.iter().any(|property| match property.kind {
@@ -204,7 +205,7 @@ impl Header {
         is_empty("face") && is_empty("tristrips")
     }
 
-    /// Refuses a header without vertices, faces or edges as we need them; otherwise returns the number of vertices.
+    /// Returns the number of vertices. Refuses a header without the required vertices, faces or edges.
     fn vertex_count(&self, options: &ReadOptions<'_>) -> Result<usize, FileProblem> {
         let missing = |what: String| FileProblem::Header(format!("declares no {what}"));
         let vertex = self.element("vertex").ok_or_else(|| missing("element 'vertex'".to_owned()))?;
