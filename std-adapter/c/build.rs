@@ -21,7 +21,7 @@ fn main() {
     }
 
     let version = |part: &str| var(format!("CARGO_PKG_VERSION_{part}")).expect("cargo sets it");
-    // On other systems cargo's own name stays.
+    // On other systems the library has cargo's name.
     let is_elf = var("CARGO_CFG_TARGET_FAMILY").is_ok_and(|family| family == "unix")
         && var("CARGO_CFG_TARGET_VENDOR").is_ok_and(|vendor| vendor != "apple");
     if is_elf {
@@ -46,7 +46,7 @@ fn twins(source: &str) -> String {
                 {
                     twins.push_str(&format!("/// {name} for float.\n"));
                     if documentation.contains(&"/// # Safety") {
-                        twins.push_str(&format!("///\n/// # Safety\n/// As {name}.\n"));
+                        twins.push_str(&format!("///\n/// # Safety\n/// The conditions are those of {name}.\n"));
                     }
                     twins.push_str("#[unsafe(no_mangle)]\n");
                     documentation.clear();

@@ -1,10 +1,10 @@
-//! What C's border costs: a step asked through it beside the same step asked of the detector, in turn.
+//! Measures the cost of C's interface: a step through it beside the same step of the detector, in turn.
 //!
 //! ```sh
 //! cargo bench -p selvedge-c -- START.ply END.ply
 //! ```
 //!
-//! Both are linked into this program, so that nothing but the border differs.
+//! Both are linked into this program, so that only the interface differs.
 
 use selvedge::{CollisionDetector, Contact};
 use selvedge_files::mesh::{MeshStep, read_step};
@@ -28,9 +28,9 @@ unsafe extern "C" {
     fn selvedge_detector_free(detector: *mut c_void) -> i32;
 }
 
-/// Detectors are made anew so often: what memory each happens to get changes its time by more than the border does.
+/// The number of pairs of new detectors. The memory that each happens to get changes its time by more than the interface does.
 const PAIRS: usize = 10;
-/// Steps of each.
+/// The number of steps of each.
 const STEPS: usize = 12;
 
 fn main() {
@@ -99,7 +99,7 @@ impl C {
     fn new(step: &MeshStep) -> Self {
         let mut handle = ptr::null_mut();
         let (triangles, vertices) = (step.topology.triangles(), step.topology.vertex_count());
-        // SAFETY: as many as it says; 1 is for double.
+        // SAFETY: the arrays are as long as the counts say; 1 is for double.
         let made = unsafe { selvedge_detector_new(1, vertices, triangles.as_ptr().cast(), triangles.len(), &raw mut handle) };
         assert_eq!(made, 0);
         Self(handle)
@@ -108,7 +108,7 @@ impl C {
     fn step(&mut self, step: &MeshStep) -> usize {
         let (mut rows, mut found) = (ptr::null(), 0);
         let (start, end, vertices) = (step.start.as_ptr().cast(), step.end.as_ptr().cast(), step.start.len());
-        // SAFETY: positions of that mesh, three numbers each.
+        // SAFETY: these are positions of that mesh, three numbers each.
         let status = unsafe { selvedge_detector_contacts_f64(self.0, start, end, vertices, &raw mut rows, &raw mut found) };
         assert_eq!(status, 0);
         found
@@ -117,7 +117,7 @@ impl C {
 
 impl Drop for C {
     fn drop(&mut self) {
-        // SAFETY: made above.
+        // SAFETY: it was made above.
         unsafe { selvedge_detector_free(self.0) };
     }
 }

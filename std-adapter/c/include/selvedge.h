@@ -431,7 +431,7 @@ typedef struct selvedge_geometry {
    */
   double normal[3];
   /**
-   * A time at which the sides were certainly apart along the normal: that of the contact, or slightly earlier. 0 without a normal.
+   * A time at which the sides were certainly apart along the normal: that of the contact, or slightly earlier; 0 without a normal.
    */
   double separated_at;
   /**
@@ -582,7 +582,7 @@ extern "C" {
 #endif // __cplusplus
 
 /**
- * Returns the version of the library as a text, such as "0.1.0". Never NULL; valid forever.
+ * Returns the version of the library as a text, such as "0.1.0". It is never NULL, and valid forever.
  */
 const char *selvedge_version_string(void);
 
@@ -592,14 +592,14 @@ const char *selvedge_version_string(void);
 uint32_t selvedge_version(void);
 
 /**
- * Returns the message of the last failed call on this thread, or an empty text. Never NULL.
+ * Returns the message of the last failed call on this thread, or an empty text. It is never NULL.
  *
  * The text is valid until the next failed call on this thread, or until the thread ends. Successful calls do not change it.
  */
 const char *selvedge_last_error(void);
 
 /**
- * Returns a short text for a selvedge_status, or for any other number. Never NULL; valid forever.
+ * Returns a short text for a selvedge_status, or for any other number. It is never NULL, and valid forever.
  */
 const char *selvedge_status_string(int32_t status);
 
@@ -623,7 +623,7 @@ selvedge_status selvedge_detector_new(uint32_t scalar,
 
 /**
  * Cancels the call that another thread is making, and all later calls, if `cancelled` is not 0. They fail with
- * SELVEDGE_STATUS_CANCELLED unless they are nearly done. 0 ends this; the detector then answers as usual.
+ * SELVEDGE_STATUS_CANCELLED unless they are nearly done. 0 ends this; the detector then works as usual.
  *
  * Any thread may call this at any time. Besides selvedge_detector_free it is the only function that a detector in use accepts.
  */
@@ -663,7 +663,7 @@ selvedge_status selvedge_detector_set_touching(struct selvedge_detector *detecto
                                                double tolerance);
 
 /**
- * Names the moving vertices: a byte for each vertex, not 0 if it moves. NULL and 0, the default: all vertices move.
+ * Names the moving vertices: a byte for each vertex, not 0 if it moves. With NULL and 0, the default, all vertices move.
  *
  * From the next step on, pairs without a moving vertex are skipped. The next step sets the positions of resting vertices; they are
  * not read again until the next call of this function. The bytes are copied.
@@ -710,8 +710,8 @@ selvedge_status selvedge_detector_set_pair_limit(struct selvedge_detector *detec
                                                  uint64_t limit);
 
 /**
- * Sets the most memory that the pairs and contacts of a call may take, in bytes, at 48 bytes for a contact; 2 GiB at first. UINT64_MAX is no
- * limit. A call that needs more fails with SELVEDGE_STATUS_TOO_MUCH_MEMORY, on any number of threads.
+ * Limits the memory of the pairs and contacts of a call, in bytes, at 48 bytes for a contact. The default is 2 GiB; UINT64_MAX is
+ * no limit. A call that needs more fails with SELVEDGE_STATUS_TOO_MUCH_MEMORY, on any number of threads.
  */
 selvedge_status selvedge_detector_set_memory_limit(struct selvedge_detector *detector,
                                                    uint64_t limit);
@@ -755,7 +755,7 @@ selvedge_status selvedge_detector_contacts_f64(struct selvedge_detector *detecto
  * as for selvedge_detector_contacts_f64.
  *
  * The caller promises:
- * As selvedge_detector_contacts_f64; `vertex_face` and `edge_edge` point to as many pairs as their counts say.
+ * The conditions are those of selvedge_detector_contacts_f64; `vertex_face` and `edge_edge` point to as many pairs as their counts say.
  */
 selvedge_status selvedge_detector_contacts_of_f64(struct selvedge_detector *detector,
                                                   const double *start,
@@ -769,7 +769,7 @@ selvedge_status selvedge_detector_contacts_of_f64(struct selvedge_detector *dete
                                                   size_t *count);
 
 /**
- * Finds the earliest contact of the step. Of several at the same time it is the one with the smallest numbers.
+ * Finds the earliest contact of the step. If several have the same time, it is the one with the smallest numbers.
  *
  * `*found` says whether there is one. If so, `*contact` receives it, and the step is free of contact before its time. Otherwise
  * the whole step is free, and `*contact` stays unchanged.
@@ -948,7 +948,7 @@ selvedge_status selvedge_world_set_pair_limit(struct selvedge_world *world,
                                               uint64_t limit);
 
 /**
- * Sets the most memory that the contacts of a step may take, as for a detector. UINT64_MAX is no limit.
+ * Limits the memory of the contacts of a step, as for a detector. UINT64_MAX is no limit.
  */
 selvedge_status selvedge_world_set_memory_limit(struct selvedge_world *world, uint64_t limit);
 
@@ -958,7 +958,7 @@ selvedge_status selvedge_world_set_memory_limit(struct selvedge_world *world, ui
 selvedge_status selvedge_world_remove(struct selvedge_world *world, selvedge_mesh mesh);
 
 /**
- * Sets which meshes this one can collide with from now on, itself included. NULL: with all.
+ * Sets which meshes this one can collide with from now on, itself included. NULL means all.
  *
  * The caller promises:
  * `groups` points to one entry unless it is NULL.
@@ -983,7 +983,7 @@ selvedge_status selvedge_world_edges(const struct selvedge_world *world,
 /**
  * Inserts a mesh that rests at these positions. `*mesh` receives its number.
  *
- * `groups` says which meshes it can collide with, itself included; NULL: with all. Triangles and positions are copied. Edges and
+ * `groups` says which meshes it can collide with, itself included; NULL means all. Triangles and positions are copied. Edges and
  * points of ropes, hair and particles are triangles that name a vertex twice or three times, as for a detector.
  *
  * The caller promises:
@@ -1023,7 +1023,7 @@ selvedge_status selvedge_world_contacts_f64(struct selvedge_world *world,
  * `*found` says whether there is one. If not, the whole step is free, and `*contact` stays unchanged.
  *
  * The caller promises:
- * As selvedge_world_contacts_f64; `found` and `contact` point to one value each.
+ * The conditions are those of selvedge_world_contacts_f64; `found` and `contact` point to one value each.
  */
 selvedge_status selvedge_world_earliest_f64(struct selvedge_world *world,
                                             const struct selvedge_deforming_f64 *deforming,
@@ -1037,7 +1037,7 @@ selvedge_status selvedge_world_earliest_f64(struct selvedge_world *world,
  * Decides whether such a step is certainly free of contact.
  *
  * The caller promises:
- * As selvedge_world_contacts_f64; `is_free` points to one value.
+ * The conditions are those of selvedge_world_contacts_f64; `is_free` points to one value.
  */
 selvedge_status selvedge_world_is_free_f64(struct selvedge_world *world,
                                            const struct selvedge_deforming_f64 *deforming,
@@ -1065,7 +1065,7 @@ selvedge_status selvedge_world_contact_geometries(struct selvedge_world *world,
  * selvedge_detector_contacts_f64 for float.
  *
  * The caller promises:
- * As selvedge_detector_contacts_f64.
+ * The conditions are those of selvedge_detector_contacts_f64.
  */
 selvedge_status selvedge_detector_contacts_f32(struct selvedge_detector *detector,
                                                const float *start,
@@ -1078,7 +1078,7 @@ selvedge_status selvedge_detector_contacts_f32(struct selvedge_detector *detecto
  * selvedge_detector_contacts_of_f64 for float.
  *
  * The caller promises:
- * As selvedge_detector_contacts_of_f64.
+ * The conditions are those of selvedge_detector_contacts_of_f64.
  */
 selvedge_status selvedge_detector_contacts_of_f32(struct selvedge_detector *detector,
                                                   const float *start,
@@ -1095,7 +1095,7 @@ selvedge_status selvedge_detector_contacts_of_f32(struct selvedge_detector *dete
  * selvedge_detector_earliest_f64 for float.
  *
  * The caller promises:
- * As selvedge_detector_earliest_f64.
+ * The conditions are those of selvedge_detector_earliest_f64.
  */
 selvedge_status selvedge_detector_earliest_f32(struct selvedge_detector *detector,
                                                const float *start,
@@ -1108,7 +1108,7 @@ selvedge_status selvedge_detector_earliest_f32(struct selvedge_detector *detecto
  * selvedge_detector_is_free_f64 for float.
  *
  * The caller promises:
- * As selvedge_detector_is_free_f64.
+ * The conditions are those of selvedge_detector_is_free_f64.
  */
 selvedge_status selvedge_detector_is_free_f32(struct selvedge_detector *detector,
                                               const float *start,
@@ -1120,7 +1120,7 @@ selvedge_status selvedge_detector_is_free_f32(struct selvedge_detector *detector
  * selvedge_detector_candidates_f64 for float.
  *
  * The caller promises:
- * As selvedge_detector_candidates_f64.
+ * The conditions are those of selvedge_detector_candidates_f64.
  */
 selvedge_status selvedge_detector_candidates_f32(struct selvedge_detector *detector,
                                                  const float *start,
@@ -1136,7 +1136,7 @@ selvedge_status selvedge_detector_candidates_f32(struct selvedge_detector *detec
  * selvedge_detector_intersections_f64 for float.
  *
  * The caller promises:
- * As selvedge_detector_intersections_f64.
+ * The conditions are those of selvedge_detector_intersections_f64.
  */
 selvedge_status selvedge_detector_intersections_f32(struct selvedge_detector *detector,
                                                     const float *positions,
@@ -1148,7 +1148,7 @@ selvedge_status selvedge_detector_intersections_f32(struct selvedge_detector *de
  * selvedge_detector_has_intersections_f64 for float.
  *
  * The caller promises:
- * As selvedge_detector_has_intersections_f64.
+ * The conditions are those of selvedge_detector_has_intersections_f64.
  */
 selvedge_status selvedge_detector_has_intersections_f32(struct selvedge_detector *detector,
                                                         const float *positions,
@@ -1159,7 +1159,7 @@ selvedge_status selvedge_detector_has_intersections_f32(struct selvedge_detector
  * selvedge_detector_contact_geometries_f64 for float.
  *
  * The caller promises:
- * As selvedge_detector_contact_geometries_f64.
+ * The conditions are those of selvedge_detector_contact_geometries_f64.
  */
 selvedge_status selvedge_detector_contact_geometries_f32(struct selvedge_detector *detector,
                                                          const float *start,
@@ -1174,7 +1174,7 @@ selvedge_status selvedge_detector_contact_geometries_f32(struct selvedge_detecto
  * selvedge_detector_near_f64 for float.
  *
  * The caller promises:
- * As selvedge_detector_near_f64.
+ * The conditions are those of selvedge_detector_near_f64.
  */
 selvedge_status selvedge_detector_near_f32(struct selvedge_detector *detector,
                                            const float *positions,
@@ -1187,7 +1187,7 @@ selvedge_status selvedge_detector_near_f32(struct selvedge_detector *detector,
  * selvedge_detector_truncate_f64 for float.
  *
  * The caller promises:
- * As selvedge_detector_truncate_f64.
+ * The conditions are those of selvedge_detector_truncate_f64.
  */
 selvedge_status selvedge_detector_truncate_f32(struct selvedge_detector *detector,
                                                const float *start,
@@ -1200,7 +1200,7 @@ selvedge_status selvedge_detector_truncate_f32(struct selvedge_detector *detecto
  * selvedge_world_insert_f64 for float.
  *
  * The caller promises:
- * As selvedge_world_insert_f64.
+ * The conditions are those of selvedge_world_insert_f64.
  */
 selvedge_status selvedge_world_insert_f32(struct selvedge_world *world,
                                           size_t vertex_count,
@@ -1214,7 +1214,7 @@ selvedge_status selvedge_world_insert_f32(struct selvedge_world *world,
  * selvedge_world_contacts_f64 for float.
  *
  * The caller promises:
- * As selvedge_world_contacts_f64.
+ * The conditions are those of selvedge_world_contacts_f64.
  */
 selvedge_status selvedge_world_contacts_f32(struct selvedge_world *world,
                                             const struct selvedge_deforming_f32 *deforming,
@@ -1228,7 +1228,7 @@ selvedge_status selvedge_world_contacts_f32(struct selvedge_world *world,
  * selvedge_world_earliest_f64 for float.
  *
  * The caller promises:
- * As selvedge_world_earliest_f64.
+ * The conditions are those of selvedge_world_earliest_f64.
  */
 selvedge_status selvedge_world_earliest_f32(struct selvedge_world *world,
                                             const struct selvedge_deforming_f32 *deforming,
@@ -1242,7 +1242,7 @@ selvedge_status selvedge_world_earliest_f32(struct selvedge_world *world,
  * selvedge_world_is_free_f64 for float.
  *
  * The caller promises:
- * As selvedge_world_is_free_f64.
+ * The conditions are those of selvedge_world_is_free_f64.
  */
 selvedge_status selvedge_world_is_free_f32(struct selvedge_world *world,
                                            const struct selvedge_deforming_f32 *deforming,

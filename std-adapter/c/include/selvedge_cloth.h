@@ -216,7 +216,7 @@ selvedge_status selvedge_simulation_body(const struct selvedge_simulation *simul
  * Finds the cloth of this name.
  *
  * The caller promises:
- * As selvedge_simulation_body.
+ * The conditions are those of selvedge_simulation_body.
  */
 selvedge_status selvedge_simulation_cloth(const struct selvedge_simulation *simulation,
                                           const char *name,
@@ -327,7 +327,7 @@ selvedge_status selvedge_simulation_move_body(struct selvedge_simulation *simula
  * Moves each vertex of a driven group of pins in the next step. `group` is its number in the scene, from 0.
  *
  * The caller promises:
- * As selvedge_simulation_move_body.
+ * The conditions are those of selvedge_simulation_move_body.
  */
 selvedge_status selvedge_simulation_move_pins(struct selvedge_simulation *simulation,
                                               size_t group,

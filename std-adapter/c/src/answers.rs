@@ -1,4 +1,4 @@
-//! The rows in which C reads what a detector found.
+//! The rows in which C reads the results of a detector.
 
 use crate::detector::Finder;
 use crate::input::unknown;
@@ -115,7 +115,7 @@ pub struct GeometryRow {
     pub points: [[f64; 3]; 2],
     /// The direction from the second side to the first, of length one; zeros if there is no normal.
     pub normal: [f64; 3],
-    /// A time at which the sides were certainly apart along the normal: that of the contact, or slightly earlier. 0 without a normal.
+    /// A time at which the sides were certainly apart along the normal: that of the contact, or slightly earlier; 0 without a normal.
     pub separated_at: f64,
     /// A lower and an upper bound of the distance of the two sides at that time.
     pub distance: [f64; 2],
@@ -205,7 +205,6 @@ impl From<&Intersection> for IntersectionRow {
     }
 }
 
-/// Pairs of vertices and faces, and pairs of edges.
 #[derive(Default)]
 pub(crate) struct CandidatePairs {
     pub(crate) vertex_face: Vec<[u32; 2]>,
@@ -217,7 +216,7 @@ pub(crate) struct CandidatePairs {
 pub(crate) struct Answers {
     pub(crate) contacts: Vec<ContactRow>,
     pub(crate) candidates: CandidatePairs,
-    /// New candidates go here first, so that a cancelled search keeps the list that C reads.
+    /// New candidates, kept apart so that a cancelled search keeps the list that C reads.
     pub(crate) found_candidates: CandidatePairs,
     pub(crate) found_at_rest: Vec<Intersection>,
     pub(crate) intersections: Vec<IntersectionRow>,

@@ -151,7 +151,7 @@ pub unsafe extern "C" fn selvedge_detector_new(
 /// Unless `triangles` is null or misaligned, it points to three numbers for each of so many.
 pub(crate) unsafe fn topology(vertex_count: usize, triangles: *const u32, triangle_count: usize) -> Result<Topology, Failure> {
     if triangle_count > Topology::MAX_TRIANGLES {
-        // Checked before any of them is read.
+        // The counts are checked before any number is read.
         let error = TopologyError::TooLarge {
             vertex_count,
             triangle_count,
@@ -161,7 +161,7 @@ pub(crate) unsafe fn topology(vertex_count: usize, triangles: *const u32, triang
     // SAFETY: the caller's promise.
     let given = unsafe { view::<_, 3>("triangles", triangles, triangle_count) }?;
     let mut triangles = Vec::new();
-    // A wrong count is the likeliest reason why the system refuses memory, so that is an error and no abort.
+    // A wrong count is the likeliest reason why the system refuses memory, so this is an error and no abort.
     triangles.try_reserve_exact(given.len()).map_err(|_| {
         let text = format!("the operating system refuses memory for {} triangles", given.len());
         Failure::new(Status::NoMemory, text)
@@ -171,7 +171,7 @@ pub(crate) unsafe fn topology(vertex_count: usize, triangles: *const u32, triang
 }
 
 /// Cancels the call that another thread is making, and all later calls, if `cancelled` is not 0. They fail with
-/// SELVEDGE_STATUS_CANCELLED unless they are nearly done. 0 ends this; the detector then answers as usual.
+/// SELVEDGE_STATUS_CANCELLED unless they are nearly done. 0 ends this; the detector then works as usual.
 ///
 /// Any thread may call this at any time. Besides selvedge_detector_free it is the only function that a detector in use accepts.
 #[unsafe(no_mangle)]

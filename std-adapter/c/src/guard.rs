@@ -19,7 +19,7 @@ fn message_of(payload: Box<dyn Any + Send>) -> String {
         (Some(message), _) => message.clone(),
         (None, Some(&message)) => message.to_owned(),
         (None, None) => {
-            // Another payload's drop may itself panic.
+            // The drop of another payload may itself panic.
             std::mem::forget(payload);
             "a panic without a message".to_owned()
         }

@@ -29,7 +29,7 @@ pub(crate) trait Handled: Send + Sized + 'static {
         Cancellation::default()
     }
 
-    /// Says whether the new item has threads of its own.
+    /// Returns whether the new item has threads of its own.
     fn has_threads(&self) -> bool {
         false
     }
@@ -44,7 +44,7 @@ impl<T> Living<T> {
     }
 }
 
-/// An item, and what other threads may know of it while a call uses it.
+/// An item, and the data that other threads may read while a call uses it.
 pub(crate) struct Kept<T> {
     item: Mutex<T>,
     /// The process that started its threads, if it has any.
@@ -62,7 +62,7 @@ impl<T> Kept<T> {
         *self.threads_of() = has_threads.then(std::process::id);
     }
 
-    /// Says whether its threads stayed behind in a parent process. Waiting for them would never end.
+    /// Returns whether its threads stayed behind in a parent process. Waiting for them would never end.
     fn is_forked(&self) -> bool {
         self.threads_of().is_some_and(|process| process != std::process::id())
     }
@@ -124,7 +124,7 @@ pub(crate) fn on<T: Handled>(handle: *const T::Handle, action: impl FnOnce(&Kept
     })
 }
 
-/// Cancels the calls on an item, or ends that.
+/// Sets or ends the cancellation of the calls on an item.
 pub(crate) fn set_cancelled<T: Handled>(handle: *const T::Handle, cancelled: i32) -> Status {
     guarded(|| {
         let cancellation = &find::<T>(handle)?.cancellation;

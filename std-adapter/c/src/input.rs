@@ -1,4 +1,4 @@
-//! Checks what comes from C: pointers, counts and enumeration values.
+//! Checks the input from C: pointers, counts and enumeration values.
 
 use crate::answers::{ContactRow, Pair};
 use crate::status::{Failure, Status};
@@ -34,7 +34,8 @@ pub(crate) unsafe fn view<'a, T: Plain, const N: usize>(
         let text = format!("{name} cannot have {count} entries: they do not fit into memory");
         return Err(Failure::new(Status::BadCount, text));
     }
-    // SAFETY: neither null nor misaligned, of a valid size; any bits are a value of `T`; the rest is the caller's promise.
+    // SAFETY: the pointer is neither null nor misaligned, and the size is valid. Any bits are a value of `T`; the rest is the
+    // caller's promise.
     Ok(unsafe { slice::from_raw_parts(start.cast(), count) })
 }
 
@@ -65,7 +66,8 @@ impl<T> Out<T> {
 
     /// Writes the answer.
     pub(crate) fn set(self, answer: T) {
-        // SAFETY: aligned, and the caller of `new` promised that it may be written to. The old value is plain and is not dropped.
+        // SAFETY: the pointer is aligned, and the caller of `new` promised that it may be written to. The old value is plain and
+        // is not dropped.
         unsafe { self.0.write(answer) }
     }
 }
@@ -79,7 +81,7 @@ pub(crate) struct OutFrame<S> {
 
 impl<S: Plain> OutFrame<S> {
     /// # Safety
-    /// As [`Out::new`], for as many numbers, until [`set`](Self::set).
+    /// The conditions are those of [`Out::new`], for as many numbers, until [`set`](Self::set).
     pub(crate) unsafe fn new(name: &str, start: *mut S, vertex_count: usize) -> Result<Self, Failure> {
         // SAFETY: the caller's promise.
         let start = unsafe { Out::new(name, start) }?;
@@ -91,7 +93,7 @@ impl<S: Plain> OutFrame<S> {
     pub(crate) fn fill<const N: usize>(self, rows: impl Iterator<Item = [S; N]>) {
         let start = self.start.0.cast::<[S; N]>();
         for (index, row) in rows.take(self.vertex_count).enumerate() {
-            // SAFETY: aligned as its numbers are, and the caller of `new` promised that so many may be written to.
+            // SAFETY: the pointer is aligned as its numbers are, and the caller of `new` promised that so many may be written to.
             unsafe { start.add(index).write(row) };
         }
     }
@@ -100,7 +102,8 @@ impl<S: Plain> OutFrame<S> {
     pub(crate) fn set(self, positions: &[[S; 3]]) {
         let count = positions.len().min(self.vertex_count);
         let (from, to) = (NonNull::from(positions).cast::<[S; 3]>(), self.start.0.cast());
-        // SAFETY: aligned, and the caller of `new` promised that so many may be written to; the library's slice does not overlap.
+        // SAFETY: the pointer is aligned, and the caller of `new` promised that so many may be written to; the library's slice
+        // does not overlap.
         unsafe { to.copy_from_nonoverlapping(from, count) };
     }
 }
@@ -114,7 +117,7 @@ pub(crate) struct OutList<T> {
 
 impl<T> OutList<T> {
     /// # Safety
-    /// As [`Out::new`], for both.
+    /// The conditions are those of [`Out::new`], for both pointers.
     pub(crate) unsafe fn new(name: &str, start: *mut *const T, count: *mut usize) -> Result<Self, Failure> {
         // SAFETY: the caller's promise.
         let (start, count) = unsafe { (Out::new(name, start)?, Out::new("the count", count)?) };
@@ -131,7 +134,7 @@ impl<T> OutList<T> {
 impl OutList<Pair> {
     /// Writes the address and the number of pairs.
     pub(crate) fn set_pairs(self, pairs: &[[u32; 2]]) {
-        // The layout is two numbers, as fields or as an array.
+        // Two numbers have the same layout as fields and as an array.
         let start = if pairs.is_empty() {
             std::ptr::null()
         } else {
@@ -149,7 +152,7 @@ impl OutList<Pair> {
 #[cfg(feature = "cloth")]
 pub(crate) unsafe fn text<'a>(name: &str, start: *const c_char) -> Result<&'a str, Failure> {
     check_pointer(name, start)?;
-    // SAFETY: not null; the rest is the caller's promise.
+    // SAFETY: the pointer is not null; the rest is the caller's promise.
     let bytes = unsafe { CStr::from_ptr(start) };
     let not_utf8 = |error| Failure::new(Status::BadText, format!("{name} is not UTF-8: {error}"));
     bytes.to_str().map_err(not_utf8)

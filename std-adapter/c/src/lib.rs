@@ -18,7 +18,7 @@
 //! null nor misaligned points to as many items as the count says, and no other thread writes to them during the call.
 
 #![deny(unsafe_op_in_unsafe_fn, clippy::undocumented_unsafe_blocks)]
-// C can only see public functions. Rust code cannot name them.
+// C can only call public functions. Rust code cannot name them.
 #![allow(unreachable_pub)]
 
 #[cfg(not(panic = "unwind"))]

@@ -9,7 +9,7 @@ use selvedge::core::elementary::Limits;
 use selvedge::core::narrowing::rounded_up;
 use selvedge::{CollisionFilter, Criterion, Groups, Scalar, StepError, Threads};
 
-// The header and the tests use the next two.
+// Only the header and the tests use the next two.
 /// The default tolerance of detectors for float: 2^-20, a micrometre if positions are in metres.
 #[allow(dead_code)]
 pub const SELVEDGE_DEFAULT_TOLERANCE_F32: f64 = 9.5367431640625e-7;
@@ -67,7 +67,7 @@ pub extern "C" fn selvedge_detector_set_touching(detector: *mut Handle, toleranc
     })
 }
 
-/// Names the moving vertices: a byte for each vertex, not 0 if it moves. NULL and 0, the default: all vertices move.
+/// Names the moving vertices: a byte for each vertex, not 0 if it moves. With NULL and 0, the default, all vertices move.
 ///
 /// From the next step on, pairs without a moving vertex are skipped. The next step sets the positions of resting vertices; they are
 /// not read again until the next call of this function. The bytes are copied.
@@ -83,7 +83,7 @@ pub unsafe extern "C" fn selvedge_detector_set_moving(detector: *mut Handle, mov
             return Ok(());
         }
         if count != expected {
-            // Checked before any of them is read.
+            // The count is checked before any byte is read.
             return Err(StepError::WrongCount { found: count, expected }.into());
         }
         // SAFETY: the caller's promise.
@@ -129,13 +129,13 @@ pub unsafe extern "C" fn selvedge_detector_set_collision_filter(
         let expected = it.topology().vertex_count();
         let has_entries = !groups.is_null() || !patches.is_null();
         if has_entries && vertex_count != expected {
-            // Checked before any of them is read.
+            // The count is checked before any entry is read.
             let found = vertex_count;
             return Err(StepError::WrongCount { found, expected }.into());
         }
         let mut filter = CollisionFilter::new();
         if !groups.is_null() {
-            // SAFETY: the caller's promise. Two numbers in a row, whether as fields or as an array.
+            // SAFETY: the caller's promise. Two numbers have the same layout as fields and as an array.
             let given = unsafe { view("groups", groups.cast::<u32>(), vertex_count) }?;
             let groups = given.iter().map(|&[memberships, filter]| Groups::new(memberships, filter));
             filter = filter.with_groups(groups.collect());
@@ -145,7 +145,7 @@ pub unsafe extern "C" fn selvedge_detector_set_collision_filter(
             let given = unsafe { view::<_, 1>("patches", patches, vertex_count) }?;
             filter = filter.with_patches(given.as_flattened().to_vec());
         }
-        // SAFETY: the caller's promise. Two numbers in a row, as above.
+        // SAFETY: the caller's promise. The layout is two numbers, as above.
         let excluded = unsafe { view::<_, 2>("excluded", excluded.cast::<u32>(), excluded_count) }?;
         filter = filter.without_vertex_pairs(excluded.iter().copied());
         with_either!(&mut it.finder, finder => finder.detector.set_collision_filter(filter))?;
@@ -174,8 +174,8 @@ pub extern "C" fn selvedge_detector_set_pair_limit(detector: *mut Handle, limit:
     })
 }
 
-/// Sets the most memory that the pairs and contacts of a call may take, in bytes, at 48 bytes for a contact; 2 GiB at first. UINT64_MAX is no
-/// limit. A call that needs more fails with SELVEDGE_STATUS_TOO_MUCH_MEMORY, on any number of threads.
+/// Limits the memory of the pairs and contacts of a call, in bytes, at 48 bytes for a contact. The default is 2 GiB; UINT64_MAX is
+/// no limit. A call that needs more fails with SELVEDGE_STATUS_TOO_MUCH_MEMORY, on any number of threads.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_detector_set_memory_limit(detector: *mut Handle, limit: u64) -> Status {
     on(detector, |it| {

@@ -206,7 +206,7 @@ impl From<StepError> for Failure {
             StepError::Cancelled => Status::Cancelled,
             StepError::TooManyPairs { .. } => Status::TooManyPairs,
             StepError::TooMuchMemory { .. } => Status::TooMuchMemory,
-            // An error that this crate does not know yet.
+            // This crate does not know the error yet.
             _ => Status::Internal,
         };
         Self::new(status, error)
@@ -221,7 +221,7 @@ impl From<WorldError> for Failure {
             WorldError::BadPositions { error, .. } | WorldError::Step(error) => Self::from(error).status,
             WorldError::BadPose { .. } => Status::BadPose,
             WorldError::TooLarge { .. } => Status::TooLarge,
-            // An error that this crate does not know yet.
+            // This crate does not know the error yet.
             _ => Status::Internal,
         };
         Self::new(status, error)
@@ -257,7 +257,7 @@ pub(crate) fn remember(failure: &Failure) -> Status {
     failure.status
 }
 
-/// Returns the message of the last failed call on this thread, or an empty text. Never NULL.
+/// Returns the message of the last failed call on this thread, or an empty text. It is never NULL.
 ///
 /// The text is valid until the next failed call on this thread, or until the thread ends. Successful calls do not change it.
 #[unsafe(no_mangle)]
@@ -265,7 +265,7 @@ pub extern "C" fn selvedge_last_error() -> *const c_char {
     LAST.with(|last| last.as_ptr().cast::<c_char>().cast_const())
 }
 
-/// Returns a short text for a selvedge_status, or for any other number. Never NULL; valid forever.
+/// Returns a short text for a selvedge_status, or for any other number. It is never NULL, and valid forever.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_status_string(status: i32) -> *const c_char {
     let known = Status::ALL.into_iter().find(|&known| known as i32 == status);

@@ -1,4 +1,4 @@
-//! C's functions, called as C does, beside the detector itself. Programs in C and C++ are tried in `tests/interface/programs.rs`.
+//! C's functions, called as C does, beside the detector itself. `tests/interface/programs.rs` tests programs in C and C++.
 
 use crate::answers::{Boxes, ContactRow, GeometryRow, IntersectionRow, Kind, Pair, TruncationRow};
 use crate::detector::{Handle, ScalarFormat, on, selvedge_detector_free, selvedge_detector_new, selvedge_detector_set_cancelled};
@@ -18,7 +18,7 @@ use std::ptr;
 pub(crate) mod sheet;
 
 fn last_error() -> String {
-    // SAFETY: a text that ends, of this thread, which calls nothing meanwhile.
+    // SAFETY: the text ends with a zero and belongs to this thread, which calls nothing meanwhile.
     unsafe { CStr::from_ptr(selvedge_last_error()) }.to_str().unwrap().to_owned()
 }
 
@@ -26,7 +26,7 @@ fn new(format: ScalarFormat) -> *mut Handle {
     let triangles = sheet::triangles();
     let vertex_count = sheet::frame(0).len();
     let mut handle = ptr::null_mut();
-    // SAFETY: as long as it says.
+    // SAFETY: the array is as long as the count says.
     let status = unsafe {
         let start = triangles.as_ptr().cast();
         selvedge_detector_new(format as u32, vertex_count, start, triangles.len(), &raw mut handle)
@@ -182,7 +182,7 @@ for_c!(
     selvedge_detector_truncate_f64
 );
 
-/// A list that C was given.
+/// Returns a list that C was given.
 fn list<T: Copy + Debug>(ask: impl FnOnce(OutPair<T>) -> Status) -> Vec<T> {
     let (mut start, mut count) = (ptr::null(), usize::MAX);
     let status = ask((&raw mut start, &raw mut count));
@@ -191,7 +191,7 @@ fn list<T: Copy + Debug>(ask: impl FnOnce(OutPair<T>) -> Status) -> Vec<T> {
     if count == 0 {
         return Vec::new();
     }
-    // SAFETY: what the library says is there, until it is asked again.
+    // SAFETY: the list is valid until the next call.
     unsafe { std::slice::from_raw_parts(start, count) }.to_vec()
 }
 
@@ -221,7 +221,7 @@ fn with_bits(rows: &[ContactRow]) -> Vec<(u64, ContactRow)> {
     rows.iter().map(|row| (row.time.to_bits(), *row)).collect()
 }
 
-/// Bits of all the numbers of a geometry: kind, pair, vertices, whether there is a normal, and the rest in its order.
+/// The bits of all numbers of a geometry: kind, pair, vertices, whether there is a normal, and the rest in its order.
 type Bits = (u32, [u32; 2], [u32; 4], bool, Vec<u64>);
 
 fn geometries_from_c(rows: &[GeometryRow]) -> Vec<Bits> {
@@ -269,20 +269,20 @@ fn geometries_from_rust(found: &[ContactGeometry]) -> Vec<Bits> {
     found.iter().map(bits).collect()
 }
 
-/// Geometries of contacts and of what is near, and how far each vertex may go, of one step; of how many.
+/// Compares geometries of contacts and near pairs, and truncation, of one step. Returns the number of geometries.
 fn ask_both_where<S: ForC>(handle: *mut Handle, detector: &mut CollisionDetector<S>, frames: [&[[S; 3]]; 2]) -> [usize; 3] {
     let [start, end] = frames;
     let (mut contacts, mut found) = (Vec::new(), Vec::new());
     detector.contacts(start, end, &mut contacts).unwrap();
     detector.contact_geometries(start, end, &contacts, &mut found).unwrap();
     let (mut rows, mut count) = (ptr::null(), 0);
-    // SAFETY: frames of the mesh; lists are written to for as long as they last.
+    // SAFETY: these are frames of the mesh; lists are only written to while they live.
     let status = unsafe { S::contacts(handle, frames, (&raw mut rows, &raw mut count)) };
     assert_eq!((status, count), (Status::Ok, contacts.len()));
-    // The detector's own list, given back.
+    // The detector's own list is passed back.
     let rows = match count {
         0 => &[],
-        // SAFETY: what the library says is there, until contacts are asked for again.
+        // SAFETY: the list is valid until the next search for contacts.
         _ => unsafe { std::slice::from_raw_parts(rows, count) },
     };
     // SAFETY: as above.
@@ -303,17 +303,17 @@ fn ask_both_where<S: ForC>(handle: *mut Handle, detector: &mut CollisionDetector
     let nowhere = vec![[S::from_double(f64::NAN); 3]; start.len()];
     let (mut elsewhere, mut over_start, mut over_wanted) = (nowhere, start.to_vec(), end.to_vec());
     let (first, last) = (over_start.as_mut_ptr(), over_wanted.as_mut_ptr());
-    // To its own place, and over either of the frames.
+    // The result goes to its own place, and over either of the frames.
     let places = [
         (start.as_ptr(), end.as_ptr(), elsewhere.as_mut_ptr()),
         (first.cast_const(), end.as_ptr(), first),
         (start.as_ptr(), last.cast_const(), last),
     ];
     for (first, wanted, place) in places {
-        // As often: in which order contacts come depends on the questions before.
+        // The detector has had as many calls, since the order of contacts depends on earlier ones.
         truncation = detector.truncate(start, end, &mut truncated).unwrap().into();
         let mut row = TruncationRow::default();
-        // SAFETY: as many positions each as the mesh has vertices.
+        // SAFETY: each frame has as many positions as the mesh has vertices.
         let status = unsafe { S::truncate(handle, first, wanted, truncated.len(), place, &raw mut row) };
         assert_eq!((status, row), (Status::Ok, truncation));
     }
@@ -331,7 +331,7 @@ fn ask_both_where<S: ForC>(handle: *mut Handle, detector: &mut CollisionDetector
     [count_of_contacts, count_of_near, truncation.held_back]
 }
 
-/// Every question on each step of the sheet; how many contacts there were.
+/// Compares all calls on each step of the sheet. Returns the number of contacts.
 fn ask_both<S: ForC>(handle: *mut Handle, detector: &mut CollisionDetector<S>) -> usize {
     let (mut contacts, mut vf, mut ee, mut total) = (Vec::new(), Vec::new(), Vec::new(), 0);
     let topology = detector.topology().clone();
@@ -341,7 +341,7 @@ fn ask_both<S: ForC>(handle: *mut Handle, detector: &mut CollisionDetector<S>) -
         let [start, end] = frames;
 
         detector.contacts(start, end, &mut contacts).unwrap();
-        // SAFETY: frames of the mesh; lists are written to for as long as they last.
+        // SAFETY: these are frames of the mesh; lists are only written to while they live.
         let from_c = list(|out| unsafe { S::contacts(handle, frames, out) });
         assert_eq!(with_bits(&from_c), rows(&contacts, &topology));
         total += contacts.len();
@@ -379,7 +379,7 @@ fn ask_both<S: ForC>(handle: *mut Handle, detector: &mut CollisionDetector<S>) -
             assert_eq!(unsafe { S::candidates(handle, frames, number as u32, out) }, Status::Ok);
             let pairs = |which: usize| {
                 list(|(start, count)| {
-                    // SAFETY: of `list`.
+                    // SAFETY: the pointers come from `list`.
                     unsafe { (*start, *count) = (at[which], counts[which]) };
                     Status::Ok
                 })
@@ -387,10 +387,10 @@ fn ask_both<S: ForC>(handle: *mut Handle, detector: &mut CollisionDetector<S>) -
             let as_pairs = |pairs: &[[u32; 2]]| pairs.iter().map(|&pair| Pair::from(pair)).collect::<Vec<_>>();
             assert_eq!((pairs(0), pairs(1)), (as_pairs(&vf), as_pairs(&ee)));
 
-            // The detector's own lists, given back.
+            // The detector's own lists are passed back.
             detector.contacts_of(start, end, &vf, &ee, &mut contacts).unwrap();
             let given = [(at[0], counts[0]), (at[1], counts[1])];
-            // SAFETY: as above; the lists last until candidates are asked for again.
+            // SAFETY: as above; the lists live until the next search for candidates.
             let from_c = list(|out| unsafe { S::contacts_of(handle, frames, given, out) });
             assert_eq!(with_bits(&from_c), rows(&contacts, &topology));
         }
@@ -443,26 +443,26 @@ fn every_question_in_every_setting<S: ForC>() {
     let moving: Vec<bool> = sheet::frame(0).iter().map(|position| position[0] < 0.0).collect();
     let bytes: Vec<u8> = moving.iter().map(|&moves| if moves { 7 } else { 0 }).collect();
     detector.set_moving(Some(&moving)).unwrap();
-    // SAFETY: as long as it says.
+    // SAFETY: the array is as long as the count says.
     let status = unsafe { selvedge_detector_set_moving(handle, bytes.as_ptr(), bytes.len()) };
     assert_eq!(status, Status::Ok);
     ask_both(handle, &mut detector);
     detector.set_moving(None).unwrap();
-    // SAFETY: no bytes.
+    // SAFETY: there are no bytes.
     let status = unsafe { selvedge_detector_set_moving(handle, ptr::null(), 0) };
     assert_eq!(status, Status::Ok);
     ask_both(handle, &mut detector);
     assert_eq!(selvedge_detector_free(handle), Status::Ok);
 }
 
-/// A rope of two pieces and two particles, one of which falls onto the other and one piece.
+/// One of two particles falls onto the other and onto one piece of a rope of two.
 #[test]
 fn ropes_and_particles_are_triangles_that_name_a_vertex_again() {
     let (edges, points) = ([[0, 1], [1, 2]], [3, 4]);
     let topology = Topology::with_loose_features(5, vec![], &edges, &points).unwrap();
     let faces = [[0_u32, 1, 1], [1, 2, 2], [3, 3, 3], [4, 4, 4]];
     let mut handle = ptr::null_mut();
-    // SAFETY: as long as it says.
+    // SAFETY: the array is as long as the count says.
     let status = unsafe { selvedge_detector_new(ScalarFormat::F64 as u32, 5, faces.as_ptr().cast(), 4, &raw mut handle) };
     assert_eq!(status, Status::Ok, "{}", last_error());
     let start = [
@@ -482,13 +482,13 @@ fn ropes_and_particles_are_triangles_that_name_a_vertex_again() {
         3,
         "each particle with the other, one with the piece: {contacts:?}"
     );
-    // SAFETY: as long as they are.
+    // SAFETY: the frames are as long as the mesh requires.
     let from_c = list(|out| unsafe { f64::contacts(handle, [&start, &end], out) });
     assert_eq!(with_bits(&from_c), rows(&contacts, &topology));
     assert_eq!(selvedge_detector_free(handle), Status::Ok);
 }
 
-/// Groups, patches and vertex pairs, one by one and together, and none again.
+/// Tests groups, patches and vertex pairs, one by one and together, and then no filter.
 fn filters_exclude_what_they_do_in_rust<S: ForC>() {
     let handle = new(S::FORMAT);
     let topology = Topology::new(sheet::frame(0).len(), sheet::triangles()).unwrap();
@@ -501,12 +501,12 @@ fn filters_exclude_what_they_do_in_rust<S: ForC>() {
         .iter()
         .map(|&Groups { memberships, filter }| GroupsRow { memberships, filter })
         .collect();
-    // The halves of each of the sheet's rows.
+    // The patches are the halves of each of the sheet's rows.
     let patches: Vec<u32> = vertices().map(|vertex| vertex / 8).collect();
     let mut detector = CollisionDetector::<S>::new(topology);
     let all = ask_both(handle, &mut detector);
 
-    // All that a vertex of the first contacts may meet, in either order.
+    // The excluded pairs are all those of one vertex in contact, in either order.
     let [start, end] = frames::<S>(2);
     let mut contacts = Vec::new();
     detector.contacts(&start, &end, &mut contacts).unwrap();
@@ -545,7 +545,7 @@ fn filters_exclude_what_they_do_in_rust<S: ForC>() {
         }
         detector.set_collision_filter(filter).unwrap();
         let length = if has_groups || has_patches { count } else { 0 };
-        // SAFETY: as long as they say.
+        // SAFETY: the arrays are as long as the counts say.
         let status =
             unsafe { selvedge_detector_set_collision_filter(handle, at_groups, at_patches, length, at_pairs.0, at_pairs.1) };
         assert_eq!(status, Status::Ok, "{}", last_error());
@@ -586,7 +586,7 @@ fn default_tolerances_are_the_detectors() {
 
 #[test]
 fn a_separation_is_never_rounded_down() {
-    // The float nearest to it is more, less, none.
+    // The nearest float is larger, smaller, or zero.
     for separation in [0.1, 0.7, 1e-60] {
         let kept: f64 = length::<f32>(separation).unwrap().into();
         assert!(
@@ -615,7 +615,7 @@ fn a_panic_breaks_its_detector_and_no_other() {
     assert_eq!(selvedge_detector_free(other), Status::Ok);
 }
 
-/// Its drop panics, as any payload's may.
+/// A panic payload whose drop panics.
 struct Unhappy;
 impl Drop for Unhappy {
     fn drop(&mut self) {
@@ -640,7 +640,7 @@ fn a_second_thread_is_refused_and_may_cancel_and_free() {
             let handle = ptr::without_provenance_mut(address);
             let refused = selvedge_detector_set_coherent(handle, 1);
             let words = last_error();
-            // But for these two.
+            // These two calls are the exceptions.
             let cancelled = selvedge_detector_set_cancelled(handle, 1);
             (refused, words, cancelled, selvedge_detector_free(handle))
         });
@@ -665,7 +665,7 @@ fn each_thread_has_its_own_last_error() {
 #[test]
 fn every_status_has_a_text_of_its_own() {
     let text = |status| {
-        // SAFETY: a text that ends, for ever.
+        // SAFETY: the text ends with a zero and is valid forever.
         unsafe { CStr::from_ptr(selvedge_status_string(status)) }.to_str().unwrap()
     };
     let last = Status::TooMuchMemory as i32;

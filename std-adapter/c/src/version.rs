@@ -16,7 +16,7 @@ const TEXT: &CStr = match CStr::from_bytes_with_nul(concat!(env!("CARGO_PKG_VERS
     Err(_) => panic!("a version has no zero byte"),
 };
 
-/// Returns the version of the library as a text, such as "0.1.0". Never NULL; valid forever.
+/// Returns the version of the library as a text, such as "0.1.0". It is never NULL, and valid forever.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_version_string() -> *const c_char {
     TEXT.as_ptr()

@@ -59,7 +59,7 @@ impl<S: Format, const N: usize> Asked<S, N> {
                 return Err(Failure::new(Status::WrongScalar, text));
             };
             if found != expected {
-                // Checked before any of them is read.
+                // The count is checked before any number is read.
                 let frame = Frame::Start;
                 return Err(StepError::WrongLength { frame, found, expected }.into());
             }
@@ -244,7 +244,7 @@ pub(super) unsafe fn truncate<S: Format>(asked: AskedStep<S>, end: *mut S, trunc
             Ok(())
         })
     };
-    // Written only now, since `end` may be one of the frames.
+    // The answer is written last, since `end` may be one of the frames.
     if let Some((end, truncation, found)) = out {
         end.set(&positions);
         truncation.set(found);

@@ -32,7 +32,7 @@ pub unsafe extern "C" fn selvedge_detector_contacts_f64(
 /// as for selvedge_detector_contacts_f64.
 ///
 /// # Safety
-/// As selvedge_detector_contacts_f64; `vertex_face` and `edge_edge` point to as many pairs as their counts say.
+/// The conditions are those of selvedge_detector_contacts_f64; `vertex_face` and `edge_edge` point to as many pairs as their counts say.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn selvedge_detector_contacts_of_f64(
     detector: *mut Handle,
@@ -52,7 +52,7 @@ pub unsafe extern "C" fn selvedge_detector_contacts_of_f64(
     unsafe { find_contacts_of(asked, pairs.0, pairs.1, contacts, count) }
 }
 
-/// Finds the earliest contact of the step. Of several at the same time it is the one with the smallest numbers.
+/// Finds the earliest contact of the step. If several have the same time, it is the one with the smallest numbers.
 ///
 /// `*found` says whether there is one. If so, `*contact` receives it, and the step is free of contact before its time. Otherwise
 /// the whole step is free, and `*contact` stays unchanged.

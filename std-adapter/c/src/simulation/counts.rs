@@ -115,7 +115,7 @@ pub unsafe extern "C" fn selvedge_simulation_progress(simulation: *const Simulat
 }
 
 /// # Safety
-/// As selvedge_simulation_body.
+/// The conditions are those of selvedge_simulation_body.
 unsafe fn find_part(
     simulation: *const SimulationHandle,
     (kind, names): (&str, fn(&Simulation) -> &[String]),
@@ -167,7 +167,7 @@ pub unsafe extern "C" fn selvedge_simulation_body(
 /// Finds the cloth of this name.
 ///
 /// # Safety
-/// As selvedge_simulation_body.
+/// The conditions are those of selvedge_simulation_body.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn selvedge_simulation_cloth(
     simulation: *const SimulationHandle,

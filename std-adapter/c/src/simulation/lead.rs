@@ -97,7 +97,7 @@ unsafe fn move_to(
     on(simulation, |it| {
         let most = it.simulation.positions().len();
         if count > most {
-            // Checked before any of them is read.
+            // The count is checked before any number is read.
             check_count("vertices in the scene", count, most)?;
         }
         // SAFETY: the caller's promise.
@@ -130,7 +130,7 @@ pub unsafe extern "C" fn selvedge_simulation_move_body(
 /// Moves each vertex of a driven group of pins in the next step. `group` is its number in the scene, from 0.
 ///
 /// # Safety
-/// As selvedge_simulation_move_body.
+/// The conditions are those of selvedge_simulation_move_body.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn selvedge_simulation_move_pins(
     simulation: *mut SimulationHandle,

@@ -1,4 +1,4 @@
-//! C's functions beside the simulation itself. Wrong calls are in `tests/programs/simulations.c`.
+//! C's functions beside the simulation itself. `tests/programs/simulations.c` tests wrong calls.
 
 use super::checkpoint::*;
 use super::counts::*;
@@ -48,7 +48,7 @@ driven = true
 
 fn in_c(threads: usize) -> *mut SimulationHandle {
     let mut handle = ptr::null_mut();
-    // SAFETY: a text that ends, and a place for the handle.
+    // SAFETY: the text ends with a zero, and there is a place for the handle.
     let status = unsafe { selvedge_simulation_new(SCENE.as_ptr(), ptr::null(), threads, &raw mut handle) };
     assert_eq!(status, Status::Ok);
     handle
@@ -59,7 +59,7 @@ fn in_rust() -> Simulation {
     Simulation::new(scene, 1).unwrap()
 }
 
-/// What one of C's functions copies, as bits.
+/// Returns the bits that one of C's functions copies.
 fn copied(count: usize, copy: impl FnOnce(*mut f64) -> Status) -> Vec<u64> {
     let mut numbers = vec![f64::NAN; 3 * count];
     assert_eq!(copy(numbers.as_mut_ptr()), Status::Ok);
@@ -70,7 +70,7 @@ fn bits(vectors: &[DVec3]) -> Vec<u64> {
     vectors.iter().flat_map(|it| it.to_array()).map(f64::to_bits).collect()
 }
 
-/// Tells both the same of their next step: the ball rises and turns, pins sway, the wind changes.
+/// Sets the same next step for both: the ball rises and turns, pins sway, the wind changes.
 fn lead(handle: *mut SimulationHandle, simulation: &mut Simulation, step: u32) {
     let t = f64::from(step);
     let placement = Placement {
@@ -82,13 +82,13 @@ fn lead(handle: *mut SimulationHandle, simulation: &mut Simulation, step: u32) {
         rotation: placement.rotation.to_array(),
         origin: placement.translation.to_array(),
     };
-    // SAFETY: one entry.
+    // SAFETY: there is one entry.
     let status = unsafe { selvedge_simulation_place_body(handle, 0, &raw const pose) };
     assert_eq!(status, Status::Ok);
     let pins: Vec<[f64; 3]> = (0..11).map(|pin| [0.0, 0.04 * f64::from(pin), 0.0001 * t]).collect();
     let positions: Vec<DVec3> = pins.iter().map(|&pin| pin.into()).collect();
     simulation.move_pins(0, &positions).unwrap();
-    // SAFETY: as long as it says.
+    // SAFETY: the array is as long as the count says.
     let status = unsafe { selvedge_simulation_move_pins(handle, 0, pins.as_ptr().cast(), pins.len()) };
     assert_eq!(status, Status::Ok);
     let wind = DVec3::new(0.0, f64::from(step % 7), -1.0);
@@ -96,7 +96,7 @@ fn lead(handle: *mut SimulationHandle, simulation: &mut Simulation, step: u32) {
     assert_eq!(selvedge_simulation_set_wind(handle, wind.x, wind.y, wind.z), Status::Ok);
 }
 
-/// Returns how many pairs are near.
+/// Checks that both have the same state. Returns the number of near pairs.
 fn are_alike(handle: *mut SimulationHandle, simulation: &Simulation) -> usize {
     let count = simulation.positions().len();
     let mut normals = Vec::new();
@@ -129,7 +129,7 @@ fn are_alike(handle: *mut SimulationHandle, simulation: &Simulation) -> usize {
     assert!(progress.is_certified);
     let near: Vec<NearPairRow> = simulation.near_pairs().map(NearPairRow::from).collect();
     if !near.is_empty() {
-        // SAFETY: the list that was shown last.
+        // SAFETY: this is the list that was shown last.
         assert_eq!(unsafe { std::slice::from_raw_parts(pairs, pair_count) }, near);
     }
     assert_eq!(pair_count, near.len());
@@ -138,10 +138,10 @@ fn are_alike(handle: *mut SimulationHandle, simulation: &Simulation) -> usize {
 
 #[test]
 fn a_simulation_goes_as_in_rust_bit_for_bit_and_goes_on_from_rusts_checkpoint() {
-    // On another number of threads, which changes nothing.
+    // The number of threads differs, which changes nothing.
     let (handle, mut simulation) = (in_c(2), in_rust());
     let mut sizes = SizesRow::default();
-    // SAFETY: one entry, and as many triangles as there are.
+    // SAFETY: there is one entry, and there is room for all triangles.
     let triangles = unsafe {
         assert_eq!(selvedge_simulation_sizes(handle, &raw mut sizes), Status::Ok);
         let mut triangles = vec![[0; 3]; sizes.triangle_count];
@@ -166,7 +166,7 @@ fn a_simulation_goes_as_in_rust_bit_for_bit_and_goes_on_from_rusts_checkpoint() 
 
     let resumed = in_c(1);
     let kept = simulation.checkpoint().unwrap();
-    // SAFETY: as long as it says.
+    // SAFETY: the array is as long as the count says.
     unsafe {
         assert_eq!(selvedge_simulation_resume(resumed, kept.as_ptr(), kept.len()), Status::Ok);
         let (mut bytes, mut count) = (ptr::null(), 0);
@@ -174,9 +174,9 @@ fn a_simulation_goes_as_in_rust_bit_for_bit_and_goes_on_from_rusts_checkpoint() 
             selvedge_simulation_checkpoint(resumed, &raw mut bytes, &raw mut count),
             Status::Ok
         );
-        // What was measured goes on as well.
+        // Measured times continue as well.
         assert_eq!(std::slice::from_raw_parts(bytes, count), kept);
-        // Its own bytes, while it shows them.
+        // The simulation reads its own bytes while it shows them.
         assert_eq!(selvedge_simulation_resume(resumed, bytes, count), Status::Ok);
     }
     for step in 201..=220 {
@@ -217,7 +217,7 @@ stiffness = 1000
     let mut handle = ptr::null_mut();
     let mut sizes = SizesRow::default();
     let mut edges = [[0; 2]; 10];
-    // SAFETY: a text that ends, places for the handle and the sizes, and as many edges as there are.
+    // SAFETY: the text ends with a zero, there are places for the handle and the sizes, and there is room for all edges.
     unsafe {
         assert_eq!(
             selvedge_simulation_new(rope.as_ptr(), ptr::null(), 1, &raw mut handle),

@@ -8,7 +8,7 @@ use crate::world::{Inserted, Mesh, WorldHandle};
 
 /// Inserts a mesh that rests at these positions. `*mesh` receives its number.
 ///
-/// `groups` says which meshes it can collide with, itself included; NULL: with all. Triangles and positions are copied. Edges and
+/// `groups` says which meshes it can collide with, itself included; NULL means all. Triangles and positions are copied. Edges and
 /// points of ropes, hair and particles are triangles that name a vertex twice or three times, as for a detector.
 ///
 /// # Safety
@@ -64,7 +64,7 @@ pub unsafe extern "C" fn selvedge_world_contacts_f64(
 /// `*found` says whether there is one. If not, the whole step is free, and `*contact` stays unchanged.
 ///
 /// # Safety
-/// The conditions of selvedge_world_contacts_f64 hold; `found` and `contact` point to one value each.
+/// The conditions are those of selvedge_world_contacts_f64; `found` and `contact` point to one value each.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn selvedge_world_earliest_f64(
     world: *mut WorldHandle,
@@ -83,7 +83,7 @@ pub unsafe extern "C" fn selvedge_world_earliest_f64(
 /// Decides whether such a step is certainly free of contact.
 ///
 /// # Safety
-/// The conditions of selvedge_world_contacts_f64 hold; `is_free` points to one value.
+/// The conditions are those of selvedge_world_contacts_f64; `is_free` points to one value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn selvedge_world_is_free_f64(
     world: *mut WorldHandle,

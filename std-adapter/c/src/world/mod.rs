@@ -224,7 +224,7 @@ pub extern "C" fn selvedge_world_set_pair_limit(world: *mut WorldHandle, limit: 
     })
 }
 
-/// Sets the most memory that the contacts of a step may take, as for a detector. UINT64_MAX is no limit.
+/// Limits the memory of the contacts of a step, as for a detector. UINT64_MAX is no limit.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_world_set_memory_limit(world: *mut WorldHandle, limit: u64) -> Status {
     on(world, |it| {
@@ -245,7 +245,7 @@ struct Inserted<S> {
 
 impl<S: Format> Inserted<S> {
     /// # Safety
-    /// The conditions of selvedge_world_insert_f64 hold.
+    /// The conditions are those of selvedge_world_insert_f64.
     unsafe fn into(self, world: *mut WorldHandle) -> Status {
         on_format::<S>(world, |finder, _| {
             let (triangles, count) = self.triangles;
@@ -291,7 +291,7 @@ pub extern "C" fn selvedge_world_remove(world: *mut WorldHandle, mesh: Mesh) -> 
     })
 }
 
-/// Sets which meshes this one can collide with from now on, itself included. NULL: with all.
+/// Sets which meshes this one can collide with from now on, itself included. NULL means all.
 ///
 /// # Safety
 /// `groups` points to one entry unless it is NULL.

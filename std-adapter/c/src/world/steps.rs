@@ -134,7 +134,7 @@ impl<S: Format> Asked<S> {
     /// Runs `question` with the motions.
     ///
     /// # Safety
-    /// The conditions of selvedge_world_contacts_f64 hold.
+    /// The conditions are those of selvedge_world_contacts_f64.
     unsafe fn ask(
         self,
         question: impl FnOnce(&mut Finder<S>, &mut Answers, &[(MeshHandle, MeshMotion<'_, [S; 3]>)]) -> Result<(), Failure>,
@@ -158,7 +158,7 @@ impl<S: Format> Asked<S> {
                 let mesh = mesh(bits)?;
                 let expected = finder.world.topology(mesh)?.vertex_count();
                 if count != expected {
-                    // Checked before any of them is read.
+                    // The count is checked before any number is read.
                     let (frame, found) = (Frame::Start, count);
                     let error = StepError::WrongLength { frame, found, expected };
                     return Err(WorldError::BadPositions { mesh, error }.into());

@@ -13,7 +13,7 @@ use std::ffi::CStr;
 use std::{ptr, slice};
 
 fn last_error() -> String {
-    // SAFETY: a text that ends, of this thread, which calls nothing meanwhile.
+    // SAFETY: the text ends with a zero and belongs to this thread, which calls nothing meanwhile.
     unsafe { CStr::from_ptr(selvedge_last_error()) }.to_str().unwrap().to_owned()
 }
 
@@ -126,14 +126,14 @@ for_c!(
     selvedge_world_is_free_f32
 );
 
-/// A list that the library shows.
+/// Returns a list that the library shows.
 fn list<T: Copy>(ask: impl FnOnce(OutPair<T>) -> Status) -> Vec<T> {
     let (mut start, mut count) = (ptr::null(), 0);
     let status = ask((&raw mut start, &raw mut count));
     assert_eq!(status, Status::Ok, "{}", last_error());
     match count {
         0 => Vec::new(),
-        // SAFETY: what the library says is there, until it is asked again.
+        // SAFETY: the list is valid until the next call.
         _ => unsafe { slice::from_raw_parts(start, count) }.to_vec(),
     }
 }
@@ -176,7 +176,7 @@ fn geometry(found: &WorldContactGeometry) -> WorldGeometryRow {
     }
 }
 
-/// Equal to the last bit: none of these is NaN, and every digit of a number is printed.
+/// Asserts equality to the last bit: none of the values is NaN, and every digit of a number is printed.
 fn same<T: PartialEq + std::fmt::Debug>(a: &[T], b: &[T]) {
     assert_eq!(a, b);
     assert_eq!(format!("{a:?}"), format!("{b:?}"), "but for the sign of a zero");
@@ -189,7 +189,7 @@ fn pose((rotation, origin): (DQuat, DVec3)) -> Pose {
     }
 }
 
-/// A sheet that folds onto itself, a plank that spins through it, and a floor that goes away.
+/// Moves a sheet that folds onto itself, a plank that spins through it, and a floor that goes away.
 fn a_story_is_told_as_in_rust<S: ForC>() {
     let mut handle = ptr::null_mut();
     // SAFETY: there is a place for it.
@@ -213,7 +213,7 @@ fn a_story_is_told_as_in_rust<S: ForC>() {
             filter: groups.filter,
         };
         let row = (*groups != Groups::ALL).then_some(row);
-        // SAFETY: as long as they say.
+        // SAFETY: the arrays are as long as the counts say.
         let from_c = unsafe { S::insert(handle, positions, triangles, row) };
         assert_eq!(from_c, made.to_bits());
         // SAFETY: the list is written to.
@@ -248,7 +248,7 @@ fn a_story_is_told_as_in_rust<S: ForC>() {
             4 => {
                 let groups = Groups::ALL;
                 world.set_groups(plank, groups).unwrap();
-                // SAFETY: no groups.
+                // SAFETY: there are no groups.
                 let status = unsafe { selvedge_world_set_groups(handle, plank.to_bits(), ptr::null()) };
                 assert_eq!(status, Status::Ok);
             }
@@ -287,7 +287,7 @@ fn a_story_is_told_as_in_rust<S: ForC>() {
 
         let mut contacts = Vec::new();
         world.contacts(&motions, &mut contacts).unwrap();
-        // SAFETY: frames of the mesh; lists are written to for as long as they last.
+        // SAFETY: these are frames of the mesh; lists are only written to while they live.
         let from_c = list(|out| unsafe { S::contacts(handle, (&deforming, &rigid), out) });
         same(
             &from_c,

@@ -49,7 +49,7 @@ fn is_made_of(header: &str, config: Config, sources: &[String], generated: &[&st
     }
     let mut made = Vec::new();
     builder.generate().unwrap().write(&mut made);
-    // Rust's heading for the duties of a caller.
+    // This is Rust's heading for the duties of a caller.
     let made = String::from_utf8(made)
         .unwrap()
         .replace(" * # Safety\n", " * The caller promises:\n");

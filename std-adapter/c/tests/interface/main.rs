@@ -1,4 +1,4 @@
-//! What C and C++ are given: the headers, and programs that use them.
+//! The headers, and programs in C and C++ that use them.
 
 mod header;
 #[cfg(unix)]

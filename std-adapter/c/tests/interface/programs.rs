@@ -1,6 +1,6 @@
-//! Programs in C and C++, built by the system's compilers with every warning an error, and run.
+//! Builds programs in C and C++ with the system's compilers, with every warning an error, and runs them.
 //!
-//! `check.sh` does more of it: both compilers, sanitizers, an installed library, CMake, pkg-config.
+//! `check.sh` checks more: both compilers, sanitizers, an installed library, CMake, pkg-config.
 
 use crate::sheet;
 use selvedge::{CollisionDetector, Scalar, Topology};
@@ -45,7 +45,7 @@ impl Language {
     }
 }
 
-/// The compiler that `CC` or `CXX` names, or the system's; `None` if there is none, which for C++ is well.
+/// Returns the compiler that `CC` or `CXX` names, or the system's. Returns `None` if there is none; only C++ may lack one.
 fn compiler(language: Language) -> Option<Command> {
     let (variable, default) = match language {
         Language::C => ("CC", "cc"),
@@ -60,7 +60,7 @@ fn compiler(language: Language) -> Option<Command> {
     None
 }
 
-/// Builds a program of this crate's, or of a folder outside of it.
+/// Builds a program of this crate, or of a folder outside of it.
 fn build(language: Language, source: &str) -> Option<PathBuf> {
     let mut compiler = compiler(language)?;
     let standard = match language {
@@ -88,7 +88,7 @@ fn succeed(command: &mut Command) -> Output {
     output
 }
 
-/// Frames as files, all numbers written so that they are read back as they are.
+/// Writes frames to files. All numbers read back with the same bits.
 fn write_frames(folder: &Path) -> Vec<PathBuf> {
     let write = |number| {
         let mut text = String::new();
@@ -105,7 +105,7 @@ fn write_frames(folder: &Path) -> Vec<PathBuf> {
     (0..5).map(write).collect()
 }
 
-/// What the examples are to print, but for the file's name, with times as their bits.
+/// Returns the expected output of the examples, without the file's name and with times as their bits.
 fn expected<S: Scalar>(narrowed: impl Fn(f64) -> S) -> Vec<String> {
     let frame = |number| -> Vec<[S; 3]> { sheet::frame(number).into_iter().map(|it| it.map(&narrowed)).collect() };
     let topology = Topology::new(sheet::frame(0).len(), sheet::triangles()).unwrap();
@@ -154,7 +154,8 @@ fn prints_what_rust_finds(language: Language) {
     assert!(String::from_utf8_lossy(&refused.stderr).contains("225 positions"));
 }
 
-/// What the flag's examples are to print, with coordinates as their bits, on a simulation of the scene that stands in the C one.
+/// Returns the expected output of the flag's examples, with coordinates as their bits, from a simulation of the scene in the C
+/// example.
 #[cfg(feature = "cloth")]
 fn flag_in_rust() -> Vec<String> {
     use selvedge_cloth::{Scene, Simulation};

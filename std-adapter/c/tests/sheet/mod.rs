@@ -1,6 +1,6 @@
-//! A sheet that is folded until its halves go through each other.
+//! A sheet that is folded until its halves pass through each other.
 
-/// Vertices along each side.
+/// The number of vertices along each side.
 const SIDE: u32 = 15;
 
 pub(crate) fn triangles() -> Vec<[u32; 3]> {
@@ -10,7 +10,7 @@ pub(crate) fn triangles() -> Vec<[u32; 3]> {
         .collect()
 }
 
-/// The halves stand upright, against each other, between the second and the third.
+/// Returns a frame. Between the second and the third the halves stand upright, against each other.
 pub(crate) fn frame(number: u32) -> Vec<[f64; 3]> {
     let angle = 1.41 + 0.08 * f64::from(number);
     let place = |index: u32| f64::from(2 * index) / f64::from(SIDE - 1) - 1.0;
