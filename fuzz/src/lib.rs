@@ -3,7 +3,7 @@
 //! Each target is an ordinary function of bytes in [`targets`] that panics if a promise is broken. `cargo fuzz run NAME` feeds it
 //! to libFuzzer; `cargo test` feeds it the kept inputs, on any compiler.
 
-// It is within the crate, because a test beside it would build the programs of all targets.
+// The tests are within the crate, because a test beside it would build the programs of all targets.
 #[cfg(test)]
 mod replay;
 pub mod targets;

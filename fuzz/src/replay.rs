@@ -20,7 +20,7 @@ fn replay(name: &str) {
         .expect("a target of this name");
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut paths = files(&root.join("corpus").join(name));
-    // Mesh files of every kind, which campaigns start from as well.
+    // These are mesh files of every kind, which campaigns start from as well.
     let zoo = files(&root.join("../std-adapter/files/tests/zoo"));
     paths.extend(zoo.into_iter().filter(|path| {
         path.extension()

@@ -6,8 +6,8 @@
 //! PAIRS is the number of pairs, by default a billion: `f32` and `f64`, random, adversarial and from scenes in equal parts. The
 //! scenes are a bending tube and the steps between the named meshes. The state is kept in FILE (by default `exact_campaign.json`
 //! in the folder for temporary files), and a run that was killed resumes from it. With `--shard I/N`, I from 1 to N, and
-//! `--seed`, it is one of N parts of the run, which `--example merge` joins. Exit status: 0 no claim is wrong, 1 one is, or a
-//! file is invalid, 2 the command line is invalid.
+//! `--seed`, it is one of N parts of the run, which `--example merge` joins. The exit status is 0 if no claim is wrong, 1 if one
+//! is or a file is invalid, and 2 if the command line is invalid.
 
 mod campaign;
 

@@ -4,8 +4,8 @@
 //! `cargo run --release -p selvedge-verification --example queries_truth -- FILE.csv…`
 //!
 //! A query is eight rows of a numerator and a denominator for x, y and z, then the truth. The name of the file's folder,
-//! `vertex-face` or `edge-edge`, is the kind. Prints each disagreement with its exact numbers. Exit status 1 if there is one, or
-//! the input is invalid.
+//! `vertex-face` or `edge-edge`, is the kind. The program prints each disagreement with its exact numbers. The exit status is 1
+//! if there is one, or the input is invalid.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use rug::{Integer, Rational};

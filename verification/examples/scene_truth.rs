@@ -3,8 +3,9 @@
 //! `cargo run --release -p selvedge-verification --example scene_truth -- \
 //!     START.ply END.ply PAIRS.json TRUTH.json [PAIRS.json TRUTH.json…]`
 //!
-//! `PAIRS.json` lists pairs of ids, `TRUTH.json` whether each pair collides. Ids number the vertices, then the edges by larger
-//! and then smaller vertex, then the triangles. Prints each disagreement. Exit status 1 if there is one, or the input is invalid.
+//! `PAIRS.json` lists pairs of ids, and `TRUTH.json` whether each pair collides. Ids number the vertices, then the edges by
+//! larger and then smaller vertex, then the triangles. The program prints each disagreement. The exit status is 1 if there is
+//! one, or the input is invalid.
 
 use indicatif::{ProgressBar, ProgressIterator, ProgressStyle};
 use selvedge::Mesh;

@@ -6,8 +6,8 @@
 //! Runs N steps (10,000 by default; after the scene's end its bodies and pins rest) and checks every state, or one in N with
 //! `--every`. Factors multiply the scene's time step and all its stiffnesses. Two ropes that pass through each other leave no
 //! trace in a state. So the paths of loose edges are checked as well, in all steps that were not cut into parts, which bend
-//! paths. Without `self_collision` the run must fail, which shows that it can. Exit status 1 if a state is invalid, a step failed,
-//! or the scene cannot be read.
+//! paths. Without `self_collision` the run must fail, which shows that it can. The exit status is 1 if a state is invalid, a step
+//! failed, or the scene cannot be read.
 
 use indicatif::{ProgressBar, ProgressIterator, ProgressStyle};
 use selvedge_cloth::glam::DVec3;
@@ -78,7 +78,7 @@ impl Options {
     }
 }
 
-/// Multiplies the number in a line `key = "number unit"` by a factor. Leaves the line unchanged if the factor is one.
+/// Multiplies the number in a line `key = "number unit"` by a factor. A factor of one leaves the line unchanged.
 #[expect(clippy::float_cmp, reason = "exactly one by default")]
 fn scaled(line: &str, factor: f64) -> Result<String, Failure> {
     if factor == 1.0 {
@@ -95,11 +95,11 @@ fn scaled(line: &str, factor: f64) -> Result<String, Failure> {
 /// The findings of a run.
 #[derive(Clone, Copy, Debug, Default)]
 struct Findings {
-    /// Checked states.
+    /// The number of checked states.
     states: u64,
-    /// Steps with loose edges whose paths were checked.
+    /// The number of steps with loose edges whose paths were checked.
     paths: u64,
-    /// In metres per second.
+    /// The largest speed, in metres per second.
     largest_speed: f64,
 }
 
@@ -132,12 +132,11 @@ impl Findings {
     }
 }
 
-/// The number of steps that were cut into parts.
+/// Returns the number of steps that were cut into parts.
 fn cuts_so_far(simulation: &Simulation) -> u64 {
     simulation.contact_counts().map_or(0, |counts| counts.cuts)
 }
 
-/// Runs all steps.
 fn run(options: &Options) -> Result<(Simulation, Findings), Failure> {
     let mut simulation = options.load()?;
     let mut findings = Findings::default();
@@ -160,7 +159,7 @@ fn run(options: &Options) -> Result<(Simulation, Findings), Failure> {
         if step % 100 == 0 {
             bar.set_message(format!(", {} blocked", simulation.blocked_steps()));
         }
-        // The clock is late exactly if a step was blocked: lost time is not made up for.
+        // The clock is late exactly if a step was blocked, since lost time is not made up for.
         if (simulation.blocked_steps() > 0) != (simulation.lag() > 0.0) {
             return Err(format!("after step {step}: behind, but not reported as blocked").into());
         }

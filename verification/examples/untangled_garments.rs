@@ -2,8 +2,8 @@
 //!
 //! `cargo run --release -p selvedge-verification --example untangled_garments -- [--cells N] [--depths 1,2,3] [--only WORDS]`
 //!
-//! Prints a row for each garment at each depth, and how many end without an intersection. Exit status 1 if the oracle finds an
-//! intersection though the simulation starts, or finds none though the simulation is refused.
+//! Prints a row for each garment at each depth, and the number that end without an intersection. The exit status is 1 if the
+//! oracle finds an intersection though the simulation starts, or finds none though the simulation is refused.
 
 #[path = "../../std-adapter/cloth/tests/simulation/garments.rs"]
 mod garments;

@@ -52,7 +52,7 @@ pub fn time_of_impact<F: Factors, S: Format>(pair: &PairCase<S>, limits: &Limits
 pub enum Kernel {
     /// [`is_never_coplanar`](MovingTetrahedron::is_never_coplanar).
     NonCoplanarity,
-    /// [`have_disjoint_primitive_boxes`](PairPoints::have_disjoint_primitive_boxes); keeps EE.
+    /// [`have_disjoint_primitive_boxes`](PairPoints::have_disjoint_primitive_boxes), which keeps EE.
     Segment,
 }
 

@@ -30,7 +30,7 @@ impl CullingTest {
     ];
 }
 
-/// Returns all of them, none of which may cull a pair that touches.
+/// Returns all certified tests, none of which may cull a pair that touches.
 pub fn certified() -> impl Iterator<Item = CullingTest> {
     CullingTest::ALL.into_iter()
 }

@@ -18,7 +18,7 @@ pub mod minifloat;
 pub mod oracle;
 pub mod plain;
 
-/// The examples of the project's readme are tests.
+/// Runs the examples of the project's readme as tests.
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
 struct Readme;

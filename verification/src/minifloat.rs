@@ -15,7 +15,7 @@ pub const DOWNWARD: u32 = 1;
 pub const UPWARD: u32 = 2;
 /// Rounding towards zero.
 pub const TOWARDS_ZERO: u32 = 3;
-/// Added to a direction: subnormal results become zero, and subnormal operands count as zero.
+/// The flag that is added to a direction to flush subnormal numbers: such results become zero, and such operands count as zero.
 pub const FLUSHING: u32 = 4;
 
 /// A number of one sign bit, `E` exponent bits and `F` fraction bits, as in IEEE 754, with subnormal numbers, infinities and NaN.
@@ -40,8 +40,8 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Minifloat<E, F, ENVIRON
         "operations must be exact in f64"
     );
 
-    /// Returns the number nearest to `value`; of two, the one whose last bit is 0. It is infinite from half a step above the
-    /// largest number.
+    /// Returns the number nearest to `value`. Of two equally near ones, it is the one whose last bit is 0. It is infinite from
+    /// half a step above the largest number.
     #[must_use]
     pub fn nearest(value: f64) -> Self {
         let () = Self::FITS;
@@ -52,7 +52,7 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Minifloat<E, F, ENVIRON
         let shift = const { 1.5 * power_of_two(52) } * Self::step(value);
         let rounded = (value + shift) - shift;
         if rounded.abs() <= Self::LARGEST {
-            // Keeps the sign of zero.
+            // This keeps the sign of zero.
             Self(rounded.copysign(value))
         } else {
             Self(f64::INFINITY.copysign(value))
@@ -83,7 +83,7 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Minifloat<E, F, ENVIRON
         if Self::FLUSHES { number.flushed() } else { number }
     }
 
-    /// Returns the operand as an operation sees it.
+    /// Returns the value of the operand in an operation.
     fn operand(self) -> f64 {
         if Self::FLUSHES { self.flushed().0 } else { self.0 }
     }
@@ -177,14 +177,15 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Neg for Minifloat<E, F,
 
 impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Rounding for Minifloat<E, F, ENVIRONMENT> {
     const UNIT_ROUNDOFF: Self = Self(1.0 / (2 << F) as f64);
-    /// As derived for `coplanarity`: 512·λ if subnormal numbers are flushed. Else only products lose, each at most a smallest
-    /// subnormal number e. That is 18·M + 6 times e in 3k₁, and (1 + M)²·32·e is more, by far enough for terms of second order.
+    /// The derivation is that of `coplanarity`: 512·λ if subnormal numbers are flushed. Otherwise only products lose, each at
+    /// most a smallest subnormal number e. That is 18·M + 6 times e in 3k₁, and (1 + M)²·32·e is more, by far enough for terms of
+    /// second order.
     const UNDERFLOW: Self = if Self::FLUSHES {
         Self(512.0 / (1_u64 << -Self::LOWEST_NORMAL) as f64)
     } else {
         Self(32.0 / (1_u64 << -Self::MIN_EXPONENT) as f64)
     };
-    /// Rounded to nearest, an overflow is infinite and the pair is kept, so no limit is needed. Else volumes must stay below the
+    /// An overflow to nearest is infinite and the pair is kept, so no limit is needed. Otherwise volumes must stay below the
     /// largest number: 18·L³ < 2⁵·L³.
     const LARGEST_EDGE: Self = if Self::DIRECTION == TO_NEAREST {
         Self(f64::INFINITY)
@@ -192,24 +193,24 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Rounding for Minifloat<
         assert!(Self::HIGHEST_NORMAL >= 4, "the smallest limit is 1");
         Self((1_u64 << ((Self::HIGHEST_NORMAL - 4) / 3)) as f64)
     };
-    /// Squares of normals, 3·(8·x²)² < 2⁸·x⁴, stay below the largest number, and so does all else: `verification/gappa/range.g`. To
-    /// nearest too: this is the time of impact's only guard.
+    /// Squares of normals, 3·(8·x²)² < 2⁸·x⁴, stay below the largest number, and so does everything else:
+    /// `verification/gappa/range.g`. The limit also holds to nearest, since it is the time of impact's only guard.
     const LARGEST_EXTENT: Self = {
         assert!(Self::HIGHEST_NORMAL >= 7, "the smallest limit is 1");
         Self((1_u64 << ((Self::HIGHEST_NORMAL - 7) / 4)) as f64)
     };
-    /// As `corners.g` requires: 20u·μ ≥ 7λ, with a margin for terms of second order.
+    /// The limit that `corners.g` requires: 20u·μ ≥ 7λ, with a margin for terms of second order.
     const EXTENT_UNDERFLOW: Self = Self(0.5 * Self::SMALLEST_NORMAL / Self::UNIT_ROUNDOFF.0);
-    /// 3λ is at most u times this number.
+    /// A number whose product with u is at least 3λ.
     const SAFE_SQUARE: Self = Self(4.0 * Self::SMALLEST_NORMAL / Self::UNIT_ROUNDOFF.0);
-    /// The square of this number is at least 3λ.
+    /// A number whose square is at least 3λ.
     const LENGTH_UNDERFLOW: Self = Self(2.0 / (1_u64 << (-Self::LOWEST_NORMAL / 2)) as f64);
     const ZERO: Self = Self(0.0);
     const HALF: Self = Self(0.5);
     const ONE: Self = Self(1.0);
     const INFINITY: Self = Self(f64::INFINITY);
 
-    /// Rounded up if the format has too few bits for it.
+    /// Returns a small integer, rounded up if the format has too few bits for it.
     fn small(count: u8) -> Self {
         let nearest = Self::nearest(count.into());
         if nearest.0 < f64::from(count) {
@@ -303,7 +304,7 @@ mod tests {
         assert_eq!(all[120].value(), 1.0 / 512.0);
     }
 
-    /// By definition, this is the closest number, or the even one of two that are equally close.
+    /// This is the closest number by definition, or the even one of two that are equally close.
     #[test]
     fn sums_and_products_of_all_numbers_are_rounded_to_nearest_even() {
         let all = Small::all();
@@ -339,7 +340,7 @@ mod tests {
         }
     }
 
-    /// By definition, this is the last number before, or the first one after.
+    /// This is the last number before, or the first one after, by definition.
     fn rounds_in_its_direction<const ENVIRONMENT: u32>() {
         type Directed<const ENVIRONMENT: u32> = Minifloat<4, 3, ENVIRONMENT>;
         let flushes = ENVIRONMENT & FLUSHING != 0;

@@ -36,7 +36,7 @@ fn check<S: Format>(case: &MeshCase<S>, threads: usize) {
 
     let found: Vec<_> = step.contacts.iter().map(|contact| (contact.kind, contact.pair)).collect();
     let found = once(&found);
-    // The oracle is slow, so it decides 16 pairs of a mesh; other targets try single pairs.
+    // The oracle is slow, so it decides 16 pairs of a mesh. Other targets test single pairs.
     let excluded: Vec<_> = overlapping.difference(&found).collect();
     for &&(kind, pair) in excluded.iter().step_by(1 + excluded.len() / 16) {
         let contact = collides(&question(case, &topology, kind, pair));
@@ -49,7 +49,7 @@ fn check<S: Format>(case: &MeshCase<S>, threads: usize) {
 
 type PrimitivePair = (PairKind, [u32; 2]);
 
-/// The smaller edge of two first.
+/// Puts the smaller edge of two first.
 fn in_order((kind, mut pair): PrimitivePair) -> PrimitivePair {
     if kind == PairKind::EdgeEdge {
         pair.sort_unstable();

@@ -37,7 +37,7 @@ fn check<S: Format>(case: &PairCase<S>) {
     assert_eq!(verdicts(&case.reordered(order)), [expected; 2], "{case:?}");
 }
 
-/// After floating point, and in whole numbers alone.
+/// Returns the verdict that tries floating point first, and the one in whole numbers alone.
 fn verdicts<S: Format>(case: &PairCase<S>) -> [ContactVerdict; 2] {
     let pair = case.pair();
     let in_whole_numbers = match touches(&pair) {

@@ -10,27 +10,27 @@ const FORMATS: [FileFormat; 4] = [
     FileFormat::Ply(PlyEncoding::BigEndian),
 ];
 
-/// OBJ files; see `check`.
+/// Reads OBJ files; see `check`.
 pub fn obj(data: &[u8]) {
     check(data, FileFormat::Obj);
 }
 
-/// PLY files, in the encoding that the bytes declare; see `check`.
+/// Reads PLY files, in the encoding that the bytes declare; see `check`.
 pub fn ply(data: &[u8]) {
     check(data, FileFormat::Ply(PlyEncoding::default()));
 }
 
-/// STL files, text or binary; see `check`.
+/// Reads STL files, text or binary; see `check`.
 pub fn stl(data: &[u8]) {
     check(data, FileFormat::Stl);
 }
 
-/// OFF files; see `check`.
+/// Reads OFF files; see `check`.
 pub fn off(data: &[u8]) {
     check(data, FileFormat::Off);
 }
 
-/// glTF, text or binary, without other files: see `check`. Its animation is read, or refused, as well.
+/// Reads glTF, text or binary, without other files; see `check`. Its animation is read or refused as well.
 pub fn gltf(data: &[u8]) {
     check(data, FileFormat::Gltf);
     match animation::read_bytes(data, "".as_ref(), &animation::Choice::default()) {
@@ -45,8 +45,8 @@ pub fn gltf(data: &[u8]) {
     }
 }
 
-/// A file is refused with a readable message, or read as a mesh whose triangles exist and whose coordinates are finite. Written
-/// in any format, that mesh is read back bit for bit. With its loose edges and points it is read, or refused, as well.
+/// A file is refused with a readable message, or read as a mesh whose triangles exist and whose coordinates are finite. In any
+/// format, a written mesh reads back bit for bit. The file is also read, or refused, with its loose edges and points.
 fn check(data: &[u8], format: FileFormat) {
     match read_bytes_with_loose_features(data, format) {
         Ok(loose) => {
@@ -82,7 +82,7 @@ fn check(data: &[u8], format: FileFormat) {
     }
 }
 
-/// The bits of the coordinates, so that the sign of zero counts.
+/// Returns the bits of the coordinates, so that the sign of zero counts.
 fn bits(mesh: &Mesh) -> Vec<[u64; 3]> {
     let bits = |position: &selvedge::glam::DVec3| position.to_array().map(f64::to_bits);
     mesh.positions.iter().map(bits).collect()

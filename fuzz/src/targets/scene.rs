@@ -3,9 +3,9 @@ use selvedge_cloth::{Scene, Simulation};
 use std::path::Path;
 use toml::de::{DeTable, DeValue};
 
-/// Larger cloth and bodies are read, but not simulated.
+/// The largest number of triangles that are simulated. Larger scenes are only read.
 const LARGEST: usize = 500;
-/// Numbers of cells and similar counts from here on are left out: they would only take time and memory.
+/// The number of cells, and of similar counts, from which on scenes are skipped, since they only take time and memory.
 const FINEST: u64 = 13;
 
 /// A scene file is refused with a readable message that names line and column, or it makes a scene in which everything is finite

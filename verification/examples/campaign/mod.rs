@@ -1,4 +1,4 @@
-//! Shared by the long runs: their options, a state that survives a kill, and a progress bar.
+//! The common part of the long runs: their options, a state that survives a kill, and a progress bar.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use selvedge_verification::campaign::{Findings, Progress, Shard, StateFile, read};
@@ -89,7 +89,6 @@ where
     }
 }
 
-/// Prints the failure.
 pub(crate) fn failed(failure: &dyn Display) -> ExitCode {
     eprintln!("{failure}");
     ExitCode::FAILURE

@@ -1,4 +1,4 @@
-//! Whether what is called a contact comes as near as the documentation of the time of impact says, of many pairs.
+//! Checks on many pairs that every reported contact comes as near as the documentation of the time of impact says.
 
 use super::Random;
 use rug::Rational;
@@ -10,11 +10,11 @@ use selvedge_core::verification::exact::touches;
 use selvedge_verification::generator::{Choices, Format, PairCase};
 use selvedge_verification::oracle::{collides, within, within_at};
 
-/// Where pairs come from: those that slide, and all that the tests' generator makes.
+/// The sources of pairs: those that slide, and all that the tests' generator makes.
 const SOURCES: [&str; 2] = ["sliding", "generated"];
 
-/// Prints a table of `count` pairs of each source and format. Returns how many answers break a promise: alarms beyond the documented
-/// distance, and pairs that are called apart but touch.
+/// Prints a table of `count` pairs of each source and format. Returns the number of results that break a promise: alarms beyond
+/// the documented distance, and pairs that are excluded but touch.
 pub(crate) fn alarms(count: u64, seed: u64) -> u64 {
     println!(
         "source    scalar    pairs   contacts  within tolerance, error, last resort, other | asked of the oracle | beyond the promise, missed | rounds: mean, most, over 20"
@@ -106,7 +106,7 @@ fn judge<S: Format>(case: &PairCase<S>, limits: &Limits<S>, counts: &mut Counts)
     }
 }
 
-/// Whether the pair comes as near as `reason` says.
+/// Returns whether the pair comes as near as `reason` says.
 fn comes_near<S: Format>(case: &PairCase<S>, limits: &Limits<S>, time: S, reason: Reason, by_oracle: &mut u64) -> bool {
     let (tolerance, separation) = (limits.tolerance.to_f64(), limits.separation.to_f64());
     let (corners, sizes) = corners_at(case, time.to_f64());
@@ -129,7 +129,8 @@ fn comes_near<S: Format>(case: &PairCase<S>, limits: &Limits<S>, time: S, reason
         2.0_f64.powi(-500)
     };
     let bound = near + roundoffs * S::UNIT_ROUNDOFF.to_f64() * (lengths + sizes) + vanishing;
-    // What is computed here is off by less than 32u, u of f64, of the sizes; only what is within that of the bound is in doubt.
+    // The error of the result is less than 32u of the sizes, with u of f64. So only a result within that error of the bound is in
+    // doubt.
     if distance_at_most(&corners) + 16.0 * f64::EPSILON * sizes <= bound {
         return true;
     }
@@ -141,7 +142,7 @@ fn comes_near<S: Format>(case: &PairCase<S>, limits: &Limits<S>, time: S, reason
     )
 }
 
-/// The corners at a time, and their largest coordinates during the step, added up.
+/// Returns the corners at a time, and the sum of their largest coordinates during the step.
 fn corners_at<S: Format>(case: &PairCase<S>, time: f64) -> (Vec<DVec3>, f64) {
     let [first, second] = case.sets();
     let mut corners = Vec::with_capacity(4);
@@ -159,8 +160,8 @@ fn corners_at<S: Format>(case: &PairCase<S>, time: f64) -> (Vec<DVec3>, f64) {
     (corners, largest.element_sum())
 }
 
-/// The distance from the origin of some point of the hull of three corners, or of the four of a parallelogram: the closest, but for rounding
-/// and where the hull is thin.
+/// Returns the distance from the origin of a point of the hull of three corners, or of the four of a parallelogram. It is the
+/// closest point, up to rounding and except on thin hulls.
 fn distance_at_most(corners: &[DVec3]) -> f64 {
     let mut least = f64::INFINITY;
     let mut consider = |point: DVec3| least = least.min(point.length());

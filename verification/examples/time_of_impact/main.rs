@@ -1,10 +1,10 @@
-//! Whether the certified time of impact keeps its promises on many random pairs, and what pairs that slide cost.
+//! Checks that the certified time of impact keeps its promises on many random pairs, and measures the cost of pairs that slide.
 //!
 //! `cargo run --release -p selvedge-verification --example time_of_impact -- alarms COUNT [SEED]`
 //! `cargo run --release -p selvedge-verification --example time_of_impact -- sliding COUNT PLOT.svg`
 //!
-//! `alarms` makes COUNT pairs that slide, and as many that the tests' generator makes, in each format. It demands that every contact comes as
-//! near as the documentation says, and that no pair that is called apart touches. Exit status 1 if one breaks a promise.
+//! `alarms` makes COUNT pairs that slide, and as many by the tests' generator, in each format. Every contact must come as near as
+//! the documentation says, and no excluded pair may touch. The exit status is 1 if a promise is broken.
 //!
 //! `sliding` measures COUNT pairs of each kind at each of several distances. It prints a table and draws a plot.
 
@@ -44,12 +44,12 @@ fn main() -> ExitCode {
     }
 }
 
-/// Marsaglia's xorshift: numbers that look random, the same each time.
+/// Reproducible pseudo-random numbers by Marsaglia's xorshift.
 struct Random(u64);
 
 impl Random {
     const fn new(seed: u64, stream: u64) -> Self {
-        // Not zero, which the generator would never leave.
+        // A state of zero is excluded, since the generator would never leave it.
         Self((seed ^ stream << 40).wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
     }
 

@@ -1,4 +1,4 @@
-//! What pairs that slide past each other cost, by their distance: a table and a plot.
+//! Measures the cost of pairs that slide past each other, by their distance, as a table and a plot.
 
 use super::Random;
 use selvedge_core::PairKind;
@@ -11,13 +11,13 @@ use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
 
-/// Distances are 2 to the power of minus these.
+/// The negated exponents of the distances, which are powers of two.
 const EXPONENTS: std::ops::RangeInclusive<i32> = 2..=32;
 /// The size of a panel, and the room around it.
 const SIZE: [f64; 2] = [330.0, 230.0];
 const ROOM: [f64; 2] = [70.0, 60.0];
 
-/// At one distance.
+/// The costs at one distance.
 struct Cost {
     exponent: i32,
     nanoseconds: f64,
@@ -72,7 +72,7 @@ fn cost(kind: PairKind, exponent: i32, count: u64) -> Cost {
     }
 }
 
-/// Two panels: time and rounds, upwards, against the distance, from far to near.
+/// Draws two panels: time and rounds, upwards, against the distance, from far to near.
 fn svg(costs: &[(&str, Vec<Cost>); 2]) -> String {
     let [width, height] = [2.0 * (SIZE[0] + ROOM[0]), SIZE[1] + 2.0 * ROOM[1]];
     let mut svg = format!(

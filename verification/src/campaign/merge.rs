@@ -31,9 +31,9 @@ pub enum Refusal {
     Unfinished {
         /// Its file.
         file: PathBuf,
-        /// Finished chunks.
+        /// The number of finished chunks.
         done: u64,
-        /// Chunks of the shard.
+        /// The number of chunks of the shard.
         chunks: u64,
         /// The command that it was last started with.
         command: String,
@@ -96,7 +96,7 @@ pub fn merge<F: Findings>(mut shards: Vec<(PathBuf, Progress<F>)>) -> Result<Pro
             });
         }
     }
-    // Skips empty shards, of which several may begin at one place.
+    // Empty shards come first, of which several may begin at one place.
     shards.sort_by_key(|(_, shard)| (shard.range.start, shard.range.end));
     is_tiled(&shards)?;
     let mut shards = shards.into_iter().map(|(_, shard)| shard);

@@ -80,11 +80,11 @@ pub struct Progress<F> {
     pub command: String,
     /// The chunks of this shard.
     pub range: Range<u64>,
-    /// Finished chunks.
+    /// The finished chunks.
     pub done: Chunks,
-    /// The digest of their findings.
+    /// The digest of the findings.
     pub digest: Digest,
-    /// Their findings.
+    /// The findings.
     pub found: F,
 }
 

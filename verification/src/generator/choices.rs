@@ -1,7 +1,7 @@
 //! Decisions read from bytes.
 
-/// A stream of decisions. Every question has an answer, however few bytes there are: once they are used up, each answer is the
-/// first one, which by convention is the simplest.
+/// A stream of decisions. Every question has an answer, even with few bytes: when they are used up, each answer is the first one,
+/// which by convention is the simplest.
 #[derive(Clone, Copy, Debug)]
 pub struct Choices<'a> {
     rest: &'a [u8],

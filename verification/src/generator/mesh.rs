@@ -53,7 +53,7 @@ impl<S: Format> MeshCase<S> {
     /// Returns the topology.
     ///
     /// # Panics
-    /// Never: there is a triangle, and its vertices exist.
+    /// It never panics: there is a triangle, and its vertices exist.
     #[must_use]
     pub fn topology(&self) -> Topology {
         Topology::new(self.positions.len(), self.triangles.clone()).expect("indices are in range")
@@ -102,7 +102,7 @@ fn positions<S: Format>(vertices: usize, choices: &mut Choices<'_>) -> Vec<[[S; 
             // All are in one plane.
             3 => [S::exact(choices.within(5), 0), S::exact(choices.within(5), 0), S::ZERO],
             4 | 5 => std::array::from_fn(|_| fraction(choices)),
-            // As the first, at another scale.
+            // The point is like the first, at another scale.
             6 => std::array::from_fn(|_| S::exact(choices.within(9), scale)),
             _ => std::array::from_fn(|_| finite(choices)),
         };

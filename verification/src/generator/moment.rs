@@ -53,7 +53,7 @@ impl<S: Format> Moment<S> {
             format: PhantomData,
         };
         if choices.once_in(4) {
-            // Far from the origin: uses all remaining bits.
+            // Far from the origin it uses all remaining bits.
             let room = (1 << S::PRECISION) - 1 - moment.largest();
             let scale = choices.pick(&[1, 2, 16, 1024]);
             moment.offset = std::array::from_fn(|_| choices.pick(&[0, room, -room, room / 2 + 1]) / scale);

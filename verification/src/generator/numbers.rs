@@ -5,7 +5,7 @@ use selvedge_core::Scalar;
 
 /// The properties of a number format that the generator needs.
 pub trait Format: Scalar {
-    /// Significant bits, the leading one included.
+    /// The number of significant bits, the leading one included.
     const PRECISION: u32;
     /// Two to this power is the smallest positive number.
     const MIN_EXPONENT: i32;
@@ -57,7 +57,7 @@ pub trait Format: Scalar {
         number
     }
 
-    /// Returns the number itself if it is finite, else the largest of its sign, or 0 for NaN.
+    /// Returns the number itself if it is finite, or the largest of its sign, or 0 for NaN.
     #[must_use]
     fn made_finite(self) -> Self {
         if Scalar::is_finite(self) {

@@ -4,19 +4,19 @@ use super::numbers::fraction;
 use super::{Choices, Format, PairCase};
 use selvedge_core::PairKind;
 
-/// Binary digits after the point of most coordinates.
+/// The number of binary digits after the point in most coordinates.
 const EIGHTHS: i32 = 3;
 
 impl<S: Format> PairCase<S> {
-    /// Chooses a pair of about unit size of which a point of one set begins and ends its way beside a corner, a side or the face of the
-    /// other set, as near as a distance between 2⁻¹⁰ and 2⁻²⁶; in some pairs a second point does so too.
+    /// Chooses a pair of about unit size. A point of one set begins and ends its way beside a corner, a side or the face of the
+    /// other set, at a distance between 2⁻¹⁰ and 2⁻²⁶. In some pairs a second point does so too.
     #[must_use]
     pub fn choose_sliding(kind: PairKind, choices: &mut Choices<'_>) -> Self {
         let distance = choices.pick(&[10, 12, 14, 17, 20, 23, 26]);
         Self::choose_sliding_at(kind, distance, choices)
     }
 
-    /// Chooses one at a distance of at most 2 to the power of −`distance` along each axis.
+    /// Chooses such a pair at a distance of at most 2 to the power of −`distance` along each axis.
     #[must_use]
     pub fn choose_sliding_at(kind: PairKind, distance: i32, choices: &mut Choices<'_>) -> Self {
         let mut points = [[[S::ZERO; 3]; 2]; 4];
@@ -24,7 +24,7 @@ impl<S: Format> PairCase<S> {
             *coordinate = S::exact(choices.within(8), -EIGHTHS);
         }
         if choices.once_in(4) {
-            // A short way.
+            // The way is short.
             for [start, end] in &mut points {
                 *end = std::array::from_fn(|axis| start[axis] + S::exact(1, -4) * (end[axis] - start[axis]));
             }

@@ -30,7 +30,7 @@ enum Place {
 }
 
 /// The number of bits to which [`sign`](Signs::sign) narrows an interval before a greatest common divisor decides whether the
-/// value is zero. Affects speed alone.
+/// value is zero. It affects speed alone.
 const BITS_BEFORE_GCD: u32 = 48;
 
 impl AlgebraicTime {
@@ -109,7 +109,7 @@ impl AlgebraicTime {
         }
     }
 
-    /// Halves the interval at least; near the root the number of known bits doubles.
+    /// Halves the interval at least. Near the root the number of known bits doubles.
     ///
     /// This is quadratic interval refinement (J. Abbott 2006): the secant shows which of `2^pace` parts of the interval should
     /// hold the root. If that part holds it, the next step uses twice the pace.
@@ -380,7 +380,7 @@ mod tests {
     use crate::oracle::geometry::Ring;
     use proptest::prelude::*;
 
-    /// Products of small factors: with roots at both ends, in between and outside, single, repeated, or without a root.
+    /// Generates products of small factors, with roots at both ends, in between and outside, single, repeated, or without a root.
     fn polynomials() -> impl Strategy<Value = Polynomial> {
         let factor = prop::collection::vec(-4..=4, 2..=4);
         let factors = prop::collection::vec(factor, 1..=3);

@@ -1,7 +1,7 @@
 //! Exact predicates on points, segments and triangles, all of them closed and possibly degenerate.
 //!
-//! They are written once over a ring with signs. It is instantiated with integers, for things at rest, and with polynomials in
-//! the time, for things in motion, whose signs are taken at one algebraic time.
+//! They are written once over a ring with signs. It is instantiated with integers, for points at rest, and with polynomials in
+//! the time, for points in motion, whose signs are taken at one algebraic time.
 
 use super::polynomial::Polynomial;
 use rug::Integer;
@@ -106,7 +106,7 @@ pub(crate) fn is_zero<R>(signs: &mut impl Signs<R>, vector: &Point<R>) -> bool {
 
 /// Returns whether x is on the closed segment p q. If p = q, this means that x is that point.
 pub(crate) fn point_on_segment<R: Ring>(signs: &mut impl Signs<R>, x: &Point<R>, [p, q]: [&Point<R>; 2]) -> bool {
-    // That is: not outside the ball with diameter p q, and on the line.
+    // This means that x is not outside the ball with diameter p q, and that it is on the line.
     let (from_p, from_q) = (subtract(x, p), subtract(x, q));
     signs.sign(&dot(&from_p, &from_q)).is_le() && is_zero(signs, &cross(&from_p, &from_q))
 }

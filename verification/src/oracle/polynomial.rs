@@ -6,7 +6,7 @@ use std::cmp::Ordering;
 /// A polynomial with integer coefficients, by powers of the variable.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Polynomial {
-    /// The coefficients, lowest power first; the last one is not zero. Empty for the zero polynomial.
+    /// The coefficients, lowest power first. The last one is not zero; the zero polynomial has none.
     coefficients: Vec<Integer>,
 }
 
@@ -269,7 +269,7 @@ mod tests {
 
     #[test]
     fn remainder_keeps_its_sign_under_a_negative_leading_coefficient() {
-        // t² = (−t)(−2t + 1)/2 …: remainder of t² by 1 − 2t is 1/4 > 0.
+        // t² = (−t)(−2t + 1)/2 …: the remainder of t² by 1 − 2t is 1/4 > 0.
         assert_eq!(polynomial(&[0, 0, 1]).remainder(&polynomial(&[1, -2])), polynomial(&[1]));
     }
 

@@ -133,11 +133,11 @@ impl Question {
 /// A point, line or plane of one side against one of the other. They are near if the closest points of their hulls are unique,
 /// within the two features, and not farther apart than the separation.
 struct FeaturePair<R> {
-    /// Has the sign of the distance of the hulls minus the separation.
+    /// A number with the sign of the distance of the hulls minus the separation.
     excess: R,
-    /// The closest points are within the features if none of these is negative.
+    /// Numbers that are all nonnegative if and only if the closest points are within the features.
     inside: Vec<R>,
-    /// Positive if the hulls have their full dimension (a line has two points, …), otherwise zero.
+    /// A number that is positive if the hulls have their full dimension (a line has two points, …), otherwise zero.
     extent: Option<R>,
 }
 
@@ -166,13 +166,13 @@ fn features<R: Ring>(kind: PairKind, points: &[Point<R>; 4], squared: &R) -> Vec
         let area = cross(&along, &from_p);
         let extent = dot(&along, &along);
         FeaturePair {
-            // Area = length · height.
+            // The area is length · height.
             excess: dot(&area, &area).difference(&squared.product(&extent)),
             inside: vec![dot(&along, &from_p), dot(&along, &subtract(q, x))],
             extent: Some(extent),
         }
     };
-    // For two lines, or a plane and a point: `normal` is perpendicular to both, `between` joins them.
+    // For two lines, or a plane and a point, `normal` is perpendicular to both, and `between` joins them.
     let across = |normal: &Point<R>, between: &Point<R>, inside: &dyn Fn(&R) -> Vec<R>| {
         let extent = dot(normal, normal);
         let height = dot(normal, between);

@@ -228,7 +228,7 @@ fn an_index_or_a_class_that_is_none_leaves_no_stray() {
 
 #[test]
 fn an_index_that_names_no_vertex_keeps_its_pair_and_no_other() {
-    // Two resting pairs far apart. The second names a missing vertex.
+    // Two resting pairs are far apart, and the second names a missing vertex.
     let far = |z: f64| VertexRow::new(([0.0, 0.0, z], [0.0, 0.0, z]).into());
     let rows = [far(9.0), far(0.0)];
     for (name, level) in available_levels() {

@@ -1,4 +1,4 @@
-//! Box tests never cull a pair that touches, cull exactly what their definition says, and keep what is not finite.
+//! Box tests never cull a pair that touches, cull exactly the pairs of their definition, and keep numbers that are not finite.
 
 use proptest::prelude::*;
 use rug::Rational;
@@ -176,8 +176,8 @@ fn a_path_that_meets_the_swept_box_is_kept_f32() {
     check(40_000, pairs::<f32>(PairKind::VertexFace), a_path_that_meets_the_box_is_kept);
 }
 
-/// Found by search without the test's underflow term, which culled both: their cross products are subnormal, and a rounded
-/// difference carries one over a rounding boundary.
+/// A search without the test's underflow term, which culled both, found these pairs. Their cross products are subnormal, and a
+/// rounded difference carries one over a rounding boundary.
 #[test]
 fn a_tiny_path_that_meets_the_box_is_kept_by_the_underflow_term_alone() {
     let resting = |position: [f32; 3]| [position; 2];
@@ -215,7 +215,7 @@ fn a_tiny_path_that_meets_the_box_is_kept_by_the_underflow_term_alone() {
     assert!(!verdict(SegmentBox, &in_f64).is_culled());
 }
 
-/// Found by search with a quarter of the test's rounding bound, which culled it.
+/// A search with a quarter of the test's rounding bound, which culled it, found this pair.
 #[test]
 fn a_path_that_meets_the_box_by_less_than_its_rounding_error_is_kept() {
     let pair = PairCase::<f32>::new(
@@ -242,7 +242,7 @@ fn a_path_through_the_border_of_the_box_is_kept<S: Format>(
 ) -> Result<(), TestCaseError> {
     let number = |whole: i64| S::exact(whole, -3);
     let [corner, direction] = [corner, direction].map(|x| x.map(i64::from));
-    // At most 4 / 4 of the way along each side.
+    // The point is at most 4 / 4 of the way along each side.
     let through: [i64; 3] = std::array::from_fn(|axis| 4 * corner[axis] + i64::from(size[axis]) * i64::from(place[axis] % 5));
     let path: [[S; 3]; 2] = [-i64::from(times[0]), i64::from(times[1])]
         .map(|time| std::array::from_fn(|axis| number(through[axis] + time * direction[axis])));
@@ -277,7 +277,7 @@ proptest! {
     }
 }
 
-/// Numbers up to 8 on a grid of 2⁻¹⁰. If the path misses the box enlarged by 2⁻⁷ on all sides, then on a cross axis of the box
+/// Numbers go up to 8 on a grid of 2⁻¹⁰. If the path misses the box enlarged by 2⁻⁷ on all sides, then on a cross axis of the box
 /// itself s > 2⁻⁷(|d_j| + |d_k|). The error bound is at most 4u·32(|d_j| + |d_k|) + η, which is far less if d is not zero.
 /// Otherwise a box axis separates.
 fn a_path_clearly_past_the_box_is_culled<S: Format>() {

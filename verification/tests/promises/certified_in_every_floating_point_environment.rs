@@ -1,4 +1,4 @@
-//! Nothing certified culls a pair that touches (or is coplanar), in any rounding direction, with subnormal numbers kept or
+//! No certified test culls a pair that touches (or is coplanar), in any rounding direction, with subnormal numbers kept or
 //! flushed. The compiled code runs with the control register set accordingly.
 //!
 //! Random tests do not show that each constant is needed; the named pairs do.
@@ -66,8 +66,8 @@ fn nothing_culls<S: Format>(pair: &PairCase<S>, touches: bool) -> Result<(), Tes
     Ok(())
 }
 
-/// A pair of the generator, scaled so that differences or products of two or of three are subnormal, or beyond the limit from
-/// which overflow is possible.
+/// Makes a pair of the generator, scaled so that differences or products of two or of three are subnormal, or beyond the limit
+/// from which overflow is possible.
 fn at_the_limits<S: Format>(meeting: Meeting, choices: &mut Choices<'_>) -> PairCase<S> {
     let kind = choices.pick(&[PairKind::VertexFace, PairKind::EdgeEdge]);
     let pair = Moment::<S>::choose(kind, meeting, choices).pair();
@@ -100,7 +100,6 @@ fn scaled<S: Format>(x: S, exponent: i32) -> S {
     S::from_f64(steps.iter().fold(x.to_f64(), |x, &step| x * 2.0_f64.powi(step)))
 }
 
-/// A test for each format.
 macro_rules! in_both_formats {
     ($name:ident, $property:ident) => {
         mod $name {
@@ -159,7 +158,7 @@ fn environments_are_really_set() {
         assert_eq!(below < 1.0, goes_down, "{name}");
         let result = environment.run(&[f32::MIN_POSITIVE, 0.5], product);
         assert_eq!(result == 0.0, name.contains("flush"), "{name}");
-        // A subnormal operand.
+        // One operand is subnormal.
         let doubled = environment.run(&[subnormal, 2.0], product);
         assert_eq!(doubled == 0.0, name.contains("denormals"), "{name}");
     }
@@ -185,7 +184,7 @@ impl Factors for AnEighth {
     const UNIT_ROUNDOFF: f64 = 0.125;
 }
 
-/// A touching pair that a kernel would cull in an environment if it were not for one of its constants.
+/// Checks that a kernel culls this touching pair in an environment if one of its constants is altered.
 fn is_culled_but_for<F: Factors, S: Format>(kernel: Kernel, environment: Environment, kind: PairKind, points: [[[S; 3]; 2]; 4]) {
     if !Environment::all().contains(&environment) {
         return;
@@ -201,7 +200,7 @@ fn at_rest<S: Format>(points: [[S; 3]; 4]) -> [[[S; 3]; 2]; 4] {
     points.map(|position| [position; 2])
 }
 
-// All of these were found by search, then simplified.
+// A search found all of these pairs, which were then simplified.
 
 #[test]
 fn without_the_underflow_term_flushing_would_cull_a_tiny_touching_pair_f32() {

@@ -1,4 +1,4 @@
-//! The closest points of a pair at rest, against a grid of points of both.
+//! The closest points of a pair at rest agree with a grid of points of both.
 
 use proptest::prelude::*;
 use selvedge_core::PairKind;

@@ -1,4 +1,4 @@
-//! Coherent motion: a detector that follows pairs from step to step gives the answers of one that has seen no step before.
+//! A detector that follows pairs from step to step gives the results of one that has not seen earlier steps.
 
 use proptest::prelude::*;
 use selvedge::PairKind;
@@ -44,7 +44,7 @@ fn steps<S: Format>(mesh: &MeshCase<S>) -> Vec<MeshCase<S>> {
     steps.extend((0..6).map(|k| glide(f64::from(k) / 32.0, f64::from(k + 1) / 32.0)));
     steps.push(glide(5.0 / 32.0, 8.0 / 32.0));
     steps.push(glide(5.0 / 32.0, 6.0 / 32.0));
-    // At rest, then moving, cut short.
+    // The mesh is at rest, then moving, then cut short.
     steps.push(glide(6.0 / 32.0, 6.0 / 32.0));
     steps.push(glide(6.0 / 32.0, 16.0 / 32.0));
     steps.push(glide(7.0 / 32.0, 8.0 / 32.0));
@@ -121,12 +121,12 @@ fn are_followed<S: Format>(mesh: &MeshCase<S>, compared: &Cell<[usize; 2]>, sepa
         prop_assert!(keys.is_sorted(), "in order");
         are_those_of_a_new_one(&step, &topology, [&by_pair(&found), &by_pair(&expected)], &limits, compared)
             .map_err(|error| TestCaseError::fail(format!("step {number}: {error}")))?;
-        // The same step with other queries: no result is later than the first time that is certainly within the tolerance.
+        // The same step is used in other queries: no result is later than the first time that is certainly within the tolerance.
         let is_certain = |contact: &&Contact<S>| {
             let question = step.pair(&topology, (contact.kind, contact.pair)).question();
             within(&question, limits.separation.to_f64() + limits.tolerance.to_f64())
         };
-        // In the order of their times, because the oracle is the slowest part.
+        // The loop follows the order of times, because the oracle is the slowest part.
         let mut in_time: Vec<_> = found.iter().collect();
         in_time.sort_by(|a, b| a.time.to_f64().total_cmp(&b.time.to_f64()));
         let first = in_time.into_iter().find(is_certain);
@@ -313,7 +313,7 @@ fn what_rests_changes_nothing_for_what_moves() {
     });
 }
 
-/// Lengths and positions at the limits of the format: nothing is excluded, and no overflow causes a panic.
+/// With lengths and positions at the limits of the format no pair is excluded, and no overflow causes a panic.
 #[test]
 fn enormous_lengths_exclude_nothing() {
     let triangle = [DVec3::ZERO, DVec3::X, DVec3::Y];
@@ -346,7 +346,7 @@ fn enormous_lengths_exclude_nothing() {
     }
 }
 
-/// A different query from that of the step before: another distance, then all vertices, then no coherent mode.
+/// The step has a different query from the one before: another distance, then all vertices, then no coherent mode.
 #[test]
 fn what_is_asked_may_change_from_step_to_step() {
     let scene = BendingTube::new(4);

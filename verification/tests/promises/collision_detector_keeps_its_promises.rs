@@ -1,4 +1,4 @@
-//! The detector's answers, step by step, against the exact oracle and against each other.
+//! The detector's results agree, step by step, with the exact oracle and with each other.
 
 use proptest::prelude::*;
 use selvedge::PairKind::{self, EdgeEdge, VertexFace};
@@ -61,7 +61,7 @@ pub(crate) fn pairs_of(topology: &Topology) -> Vec<MeshPair> {
     of_kind(VertexFace, vertex_face).chain(of_kind(EdgeEdge, edge_edge)).collect()
 }
 
-/// Runs every query whose answer the oracle knows.
+/// Runs every query whose result the oracle knows.
 fn no_question_misses_a_contact<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
     let topology = mesh.topology();
     let (start, end) = (mesh.frame(0), mesh.frame(1));
@@ -153,8 +153,8 @@ fn no_pair_that_comes_within_the_separation_is_missed() {
     });
 }
 
-/// Positions that are `f32` numbers are examined in `f32` first, where a number may not exist: two triangles that never are
-/// coplanar were once taken to be free.
+/// Positions that are `f32` numbers are examined in `f32` first. A missing number in `f32` must not make two triangles count as
+/// free that are never coplanar.
 #[test]
 fn a_separation_beyond_the_numbers_of_f32_excludes_nothing() {
     let triangle = [DVec3::ZERO, DVec3::X, DVec3::Y];
@@ -303,7 +303,7 @@ fn a_callers_pool_changes_nothing() {
     assert!(contacts(Threads::EachCore).0 == expected);
 }
 
-/// Vectors of glam and arrays of three give the same answers, bit for bit.
+/// Vectors of glam and arrays of three give the same results, bit for bit.
 #[test]
 fn positions_are_vectors_or_arrays() {
     fn answers<S: Scalar, P: Position<Scalar = S>>(topology: &Topology, [start, end]: [&[P]; 2]) -> String {

@@ -1,4 +1,4 @@
-//! Points, weights, distance and normal of a contact, against rational numbers.
+//! Points, weights, distance and normal of a contact agree with rational numbers.
 
 use crate::support::at;
 use crate::support::environment::Environment;
@@ -113,7 +113,7 @@ fn a_pair_that_was_apart_before_it_touches_has_a_normal() {
     assert!(all > 200 && 10 * with > 9 * all, "{with} of {all}");
 }
 
-/// On a mesh, all near pairs are found, and a contact's geometry is that of its pair, whatever the numbers of the pairs.
+/// On a mesh all near pairs are found, and a contact's geometry is that of its pair, in any numbering of the pairs.
 #[test]
 fn near_pairs_are_all_within_the_distance_and_none_is_missed() {
     let scene = BendingTube::new(4);

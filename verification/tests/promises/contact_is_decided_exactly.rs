@@ -89,7 +89,7 @@ fn of_bits(kind: PairKind, axes: usize, index: usize) -> PairCase<f64> {
     PairCase::new(kind, points)
 }
 
-/// All pairs of points of a square, which are coplanar throughout.
+/// The pairs are all those of points of a square, which are coplanar throughout.
 #[test]
 fn verdicts_are_the_oracles_on_every_pair_in_a_square() {
     for (kind, index) in KINDS.iter().flat_map(|&k| (0..1 << 16).map(move |i| (k, i))) {
@@ -99,7 +99,7 @@ fn verdicts_are_the_oracles_on_every_pair_in_a_square() {
     }
 }
 
-/// Every 257th pair of points of a cube, of 16,777,216 of each kind.
+/// The pairs are every 257th of points of a cube, of 16,777,216 of each kind.
 #[test]
 fn verdicts_are_the_oracles_on_pairs_in_a_cube() {
     for kind in KINDS {
@@ -225,7 +225,7 @@ property!(
     }
 );
 
-// Beyond each verdict being right, this checks which pairs floating point decides; that may differ.
+// Each verdict is right in any case. This also checks which pairs floating point decides; that may differ.
 property!(
     verdicts_are_the_same_in_every_floating_point_environment,
     600,

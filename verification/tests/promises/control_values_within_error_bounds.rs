@@ -1,4 +1,4 @@
-//! The coplanarity cubic: its control values are those of the right polynomial, and rounding errors stay within the proven
+//! The control values of the coplanarity cubic are those of the right polynomial, and rounding errors stay within the proven
 //! bounds.
 
 use proptest::prelude::*;
@@ -139,7 +139,7 @@ proptest! {
         prop_assert_eq!(27 * k3, volume_at_third(&points, 3));
     }
 
-    /// The paper, equation (14): 2n̂ = n₀ + n₁ − (v_b − v_a)×(v_c − v_a), and its control values 2C + F and 2D + E.
+    /// The paper's equation (14) is 2n̂ = n₀ + n₁ − (v_b − v_a)×(v_c − v_a), and its control values are 2C + F and 2D + E.
     #[test]
     fn the_blossom_is_the_papers_expression_without_rounding(points in whole_points(1 << 30)) {
         let [a, b, c, p] = exact(&points);
@@ -153,7 +153,7 @@ proptest! {
         prop_assert_eq!(k2, p1.dot(twice_middle) + p0.dot(n1));
     }
 
-    /// Small numbers, so that zeros and every pattern of signs are common.
+    /// The numbers are small, so that zeros and every pattern of signs are common.
     #[test]
     fn without_rounding_the_filter_culls_exactly_when_all_control_values_have_one_sign(points in whole_points(3)) {
         let tetrahedron = tetrahedron(&points);
@@ -169,7 +169,7 @@ proptest! {
         prop_assert_eq!(culled, tetrahedron(&points).is_never_coplanar());
     }
 
-    /// The same four points in the paper's order (equations 5 to 11).
+    /// The same four points are in the paper's order (equations 5 to 11).
     #[test]
     fn an_edge_pair_is_the_tetrahedron_k_u_v_l(points in whole_points(1 << 20)) {
         let points = points.map(|ends| ends.map(|position| position.map(|x| x as f64)));
@@ -224,7 +224,7 @@ fn exact_control_values<S: Format>(pair: &PairCase<S>) -> [ExactControlValue; 4]
     values
 }
 
-/// Half of the smallest subnormal number: the most that a product loses by underflow.
+/// Returns half of the smallest subnormal number: the most that a product loses by underflow.
 fn lost_by_underflow<S: Format>() -> Rational {
     rational(S::exact(1, S::MIN_EXPONENT)) / 2_u32
 }
@@ -252,7 +252,7 @@ struct Compared {
     largest: Rational,
 }
 
-/// Returns nothing if the pair is outside the range in which the bounds hold.
+/// Returns `None` if the pair is outside the range in which the bounds hold.
 fn compared<S: Format>(pair: &PairCase<S>) -> Option<Compared> {
     let tetrahedron = pair.tetrahedron();
     if !is_in_range(tetrahedron.largest_by_axis().largest()) {
@@ -317,7 +317,7 @@ fn signs_are_certain(
     Ok(())
 }
 
-/// The bounds of k₀ and k₃, and four times as much for the other two.
+/// Returns the bounds of k₀ and k₃, and four times as much for the other two.
 fn bounds_by_magnitudes<S: Format>(pair: &PairCase<S>) -> [Rational; 4] {
     let outer = error_bound_by_magnitudes(pair.tetrahedron().largest_by_axis());
     let inner = S::small(4) * outer;
@@ -325,7 +325,7 @@ fn bounds_by_magnitudes<S: Format>(pair: &PairCase<S>) -> [Rational; 4] {
 }
 
 property!(
-    /// The promise on which the filter relies, for each of the four values alone.
+    /// The filter relies on this promise for each of the four values alone.
     a_control_value_beyond_its_bound_has_the_exact_sign,
     15_000,
     pairs_of_any_kind(),
@@ -366,13 +366,13 @@ fn is_documented<S: Format>(bound: &Rational, relative: Rational, absolute: &Rat
     Ok(())
 }
 
-/// (1 + M)²·η.
+/// Returns (1 + M)²·η.
 fn underflow_term<S: Format>(largest: &Rational) -> Rational {
     (Rational::from(largest) + 1_u32).square() * rational(S::UNDERFLOW)
 }
 
 property!(
-    /// Eᵢ = Cᵢ·P̂ᵢ + (1 + M)²·η with C = 16u, 20u.
+    /// The bounds are Eᵢ = Cᵢ·P̂ᵢ + (1 + M)²·η with C = 16u, 20u.
     error_bounds_are_the_documented_ones,
     4_000,
     pairs_of_any_kind(),
@@ -396,7 +396,7 @@ property!(
 );
 
 property!(
-    /// 96u times the product of the three largest magnitudes + (1 + M)²·η.
+    /// The bound is 96u times the product of the three largest magnitudes + (1 + M)²·η.
     error_bounds_by_magnitudes_are_the_documented_ones,
     4_000,
     pairs_of_any_kind(),

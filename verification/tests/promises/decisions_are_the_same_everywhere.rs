@@ -1,9 +1,9 @@
-//! Every answer is the same, bit for bit, on every machine and in every version: each test compares a digest of the answers to
-//! fixed questions.
+//! Every result is the same, bit for bit, on every machine and in every version: each test compares a digest of the results of
+//! fixed queries.
 //!
-//! The other promises say what an answer must not be. Within these, a test could become less sharp, or a time earlier, without a
-//! failure; here it fails. An intended change changes a digest, and the failure prints the new ones. Put them in place of the old
-//! ones, and explain in the commit what became sharper, or less sharp, and why.
+//! The other promises exclude wrong results. Within them, a test could become less sharp, or a time earlier, without a failure;
+//! here it fails. An intended change changes a digest, and the failure prints the new ones. Replace the old ones, and explain in
+//! the commit which results became sharper or less sharp, and why.
 
 use fnv::FnvHasher;
 use selvedge::simd::available_levels;
@@ -30,7 +30,7 @@ use selvedge_verification::culling::CullingTest;
 use selvedge_verification::generator::{Format, PairCase};
 use std::hash::Hasher;
 
-/// FNV-1a.
+/// The hash FNV-1a.
 #[derive(Default)]
 struct Digest(FnvHasher);
 
@@ -62,7 +62,7 @@ impl Digest {
     }
 }
 
-/// A pair of integers so small that values are often equal, and often zero.
+/// Makes a pair of integers so small that values are often equal, and often zero.
 fn on_a_grid<S: Format>(kind: PairKind, index: usize) -> PairCase<S> {
     let mut coordinate = 0;
     let mut next = || {
@@ -74,8 +74,8 @@ fn on_a_grid<S: Format>(kind: PairKind, index: usize) -> PairCase<S> {
     PairCase::new(kind, [(); 4].map(|()| [(); 2].map(|()| [(); 3].map(|()| next()))))
 }
 
-/// Random and adversarial pairs. One in sixteen has a coordinate that is not finite or huge. Others are so large or small that
-/// products nearly overflow or underflow, or are on a grid.
+/// Makes random and adversarial pairs. One in sixteen has a coordinate that is not finite or huge. Others are so large or small
+/// that products nearly overflow or underflow, or are on a grid.
 fn cases<S: Format>(kind: PairKind, count: usize) -> Vec<PairCase<S>> {
     let mut cases = sample(Source::Random, kind, 1, count);
     cases.append(&mut sample(Source::Adversarial, kind, 2, count));
@@ -219,7 +219,8 @@ fn boxes() {
     );
 }
 
-/// The moving boxes of a pair's four points, in a block with empty lanes between, against each of them, on every instruction set.
+/// The comparison of the moving boxes of a pair's four points, in a block with empty lanes between, with each of them, on every
+/// instruction set.
 struct Blocks;
 
 struct Near<'a>(&'a MovingBlock, &'a MovingBox<f32>, Mask);
@@ -485,11 +486,11 @@ fn exact_verdicts() {
     );
 }
 
-/// The places where answers change: how far the first point must move, and which separation is too large. On a grid, values are
+/// The places where results change: how far the first point must move, and which separation is too large. On a grid, values are
 /// exactly equal to their bounds there.
 struct Thresholds;
 
-/// Bisects until nothing lies between. Returns `None` if both ends have the same answer.
+/// Bisects until no number lies between. Returns `None` if both ends have the same result.
 fn threshold<S: Format>(mut low: S, mut high: S, holds: impl Fn(S) -> bool) -> Option<S> {
     let at_low = holds(low);
     if at_low == holds(high) {

@@ -1,12 +1,12 @@
-//! The billion-pair campaign, in small: no certified claim is wrong, the false culls of an unsafe filter are found, and the
-//! findings depend on neither threads nor interruptions.
+//! In a small billion-pair campaign no certified claim is wrong, the false culls of an unsafe filter are found, and the findings
+//! depend on neither threads nor interruptions.
 
 use selvedge::simd::best_level;
 use selvedge_verification::campaign::Findings;
 use selvedge_verification::campaign::exact::{Claim, ClaimCounts, Progress, Scenes, run};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// A vertex that falls through a face, and two edges that cross.
+/// Makes a vertex that falls through a face, and two edges that cross.
 fn scenes() -> Scenes {
     let rests = |position: [f64; 3]| [position; 2];
     let falls = |[x, y, z]: [f64; 3]| [[x, y, z + 0.7], [x, y, z - 0.6]];

@@ -229,7 +229,7 @@ property!(
     |pair| is_right_to_a_relative_2_to_the_minus_60(pair)
 );
 
-/// Found by the property above: the face turns so that one of the normals between start and end is zero.
+/// The property above found this pair: the face turns so that one of the normals between start and end is zero.
 #[test]
 fn never_within_is_right_where_a_middle_normal_is_zero_and_its_control_value_is_not() {
     let pair = PairCase::<f64>::new(
@@ -275,13 +275,13 @@ fn the_unit_of_large_powers_of_two_is_their_own() {
     let pair = PairCase::new(PairKind::VertexFace, [[[0.0, 0.0, 1.0]; 2], a, b, c]);
     assert!(never_within(&pair, 1.0.down(), UNKNOWN));
     assert!(!never_within(&pair, 1.0, UNKNOWN));
-    // The same with another unit for each axis.
+    // The second pair has another unit for each axis.
     let pair = pair.with_axes([2, 0, 1]);
     assert!(never_within(&pair, 1.0.down(), UNKNOWN));
     assert!(!never_within(&pair, 1.0, UNKNOWN));
 }
 
-/// A vertex at the smallest height above a face of the largest size: 2,098 and 277 bits along each axis.
+/// A vertex is at the smallest height above a face of the largest size: 2,098 and 277 bits along each axis.
 fn decides_the_largest_spread_there_is<S: Format>() {
     let (small, large) = (S::ZERO.up(), S::LARGEST);
     let corner = |x: S, y: S| [[x, y, -small]; 2];

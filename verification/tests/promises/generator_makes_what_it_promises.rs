@@ -1,4 +1,4 @@
-//! The generator of the tests' inputs: exact where it promises to be, and varied.
+//! The generator of the tests' inputs is exact as promised, and varied.
 
 use proptest::prelude::*;
 use selvedge_core::PairKind;
@@ -49,7 +49,7 @@ fn any_bytes_make_a_pair_of_finite_coordinates() {
     });
 }
 
-/// Returns the share of `cases` pairs of either kind, in thousandths.
+/// Returns the share of `cases` pairs of either kind that `of` selects, in thousandths.
 fn share<S: Format>(cases: u32, of: impl Fn(&PairCase<S>) -> bool) -> u32 {
     let (all, found) = (Cell::new(0), Cell::new(0));
     check(cases, pairs_of_any_kind::<S>(), |pair| {

@@ -1,4 +1,4 @@
-//! Intersections of a mesh at rest, against exact triangles, pair by pair and all together.
+//! The intersections of a mesh at rest are those of exact triangles, pair by pair and all together.
 
 use proptest::prelude::*;
 use selvedge::glam::{DVec3, Vec3};
@@ -70,8 +70,8 @@ fn truth(topology: &Topology, positions: &[Point]) -> Truth {
     truth
 }
 
-/// Checks that all edges and faces that meet are found, and no others. Of vertices and faces, and of edges, only touching ones
-/// are found, and some if any touch.
+/// Checks that all edges and faces that meet are found, and no others. The vertices and faces, and the edges, that are found do
+/// touch, and some are found if any touch.
 fn intersections_are_those_of_exact_triangles<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
     let topology = mesh.topology();
     let positions = points(mesh);
@@ -87,7 +87,7 @@ fn intersections_are_those_of_exact_triangles<S: Format>(mesh: &MeshCase<S>) -> 
     prop_assert!(others.is_subset(&truth.touching), "{:?} of {:?}", others, truth.touching);
     prop_assert_eq!(found.is_empty(), truth.edge_face.is_empty() && truth.touching.is_empty());
     prop_assert_eq!(detector.has_intersections(&mesh.frame(0)), Ok(!found.is_empty()));
-    // Two triangles that share more than the hull of their common vertices.
+    // These are two triangles that share more than the hull of their common vertices.
     let triangles = mesh_self_intersections(&positions, topology.triangles());
     prop_assert!(triangles.is_empty() || !found.is_empty(), "{:?}", triangles);
     if topology.triangles().iter().all(|&corners| has_area(&positions, corners)) {
@@ -106,7 +106,7 @@ property!(intersections_are_those_of_exact_triangles, 150, meshes(), |mesh: Mesh
     intersections_are_those_of_exact_triangles(mesh)
 });
 
-/// Two sheets of `n` by `n` squares that wave through each other.
+/// Makes two sheets of `n` by `n` squares that wave through each other.
 fn tangled_sheets(n: u32) -> (Topology, Vec<DVec3>) {
     let at = |index: u32| f64::from(index) / f64::from(n);
     let rows = (0..=n).flat_map(|j| (0..=n).map(move |i| (at(i), at(j))));
@@ -163,7 +163,7 @@ fn triangles_of_a_large_mesh_that_intersect_are_those_of_the_pairs_found() {
     assert_eq!(triangles, expected);
 }
 
-/// Two triangles with a common edge, opened by that height.
+/// Makes two triangles with a common edge, opened by that height.
 fn hinge(opened: f32) -> [Vec3; 4] {
     [
         Vec3::ZERO,
@@ -182,7 +182,7 @@ fn neighbours_intersect_only_when_they_are_folded_flat() {
     assert_eq!(detector.topology().edges()[1..], [[0, 2], [1, 2], [0, 3], [1, 3]]);
     let folded = intersections(&mut detector, &hinge(0.0));
     assert_eq!(folded, [Intersection::EdgeEdge { edges: [2, 3] }]);
-    // Flat, but not folded.
+    // The hinge is flat, but not folded.
     let mut open = hinge(0.0);
     open[3].y = -5.0;
     assert_eq!(intersections(&mut detector, &open), []);
@@ -197,7 +197,7 @@ fn resting_vertices_among_themselves_are_not_asked_about() {
         .set_moving(Some(&vec![false; positions.len()]))
         .expect("one for each vertex");
     assert_eq!(intersections(&mut detector, &positions), []);
-    // All triangles of the first sheet: everything else is tested against nothing but the sheet.
+    // All triangles of the first sheet move, so all others are tested against nothing but the sheet.
     let half: Vec<_> = (0..positions.len()).map(|vertex| vertex < positions.len() / 2).collect();
     detector.set_moving(Some(&half)).expect("one for each vertex");
     assert!(!all.is_empty() && intersections(&mut detector, &positions) == all);

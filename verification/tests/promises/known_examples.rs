@@ -1,4 +1,4 @@
-//! Well-known examples, each with its exact answer: every certified test keeps pairs that touch, in `f32` and `f64`.
+//! Well-known examples with their exact results: every certified test keeps pairs that touch, in `f32` and `f64`.
 
 use rug::Rational;
 use selvedge::PairKind::{EdgeEdge, VertexFace};
@@ -158,7 +158,7 @@ fn vertex_and_face_move_together_in_contact() {
 
 #[test]
 fn a_vertex_falls_onto_a_face_of_no_area() {
-    // A segment from (0, 0, 0) to (2, 0, 0).
+    // The segment goes from (0, 0, 0) to (2, 0, 0).
     let segment = [0.0, 1.0, 2.0].map(|x| resting([x, 0.0, 0.0]));
     let vertex = [[0.5, 0.0, 1.0], [0.5, 0.0, -1.0]];
     touches_first_at(&vertex_face(vertex, segment), (1, 2));

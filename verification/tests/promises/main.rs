@@ -1,8 +1,8 @@
-//! Every promise of `selvedge-core` and `selvedge` against the exact oracle, and the oracle against brute force. There is a
-//! module for each promise.
+//! Checks every promise of `selvedge-core` and `selvedge` against the exact oracle, and the oracle against brute force. There is
+//! a module for each promise.
 //!
 //! All are one program, because each program would compile the lane kernels and the oracle again. `cargo test -p
-//! selvedge-verification --test promises box_tests` runs the modules whose names contain that.
+//! selvedge-verification --test promises box_tests` runs the modules whose names contain `box_tests`.
 
 #[macro_use]
 mod support;

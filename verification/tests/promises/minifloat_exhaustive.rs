@@ -1,10 +1,11 @@
-//! The certified filter on numbers of 4 to 9 significant bits, in every floating-point environment, on every input of a grid.
+//! Runs the certified filter on numbers of 4 to 9 significant bits, in every floating-point environment, on every input of a
+//! grid.
 //!
 //! # Proven precisions
-//! The constants 16u and 20u cover 7 and 9 roundings of 2u each, as any direction may have. That requires u ≤ 2⁻⁸ for k₀ and k₃,
-//! and u ≤ 2⁻⁹ for 3k₁ and 3k₂. Those by magnitudes, 96u and 384u, are proven for u ≤ 2⁻¹⁰. To nearest, where a rounding is at
-//! most u, 16u and 20u suffice for u ≤ 2⁻⁵. [`the_constants_suffice_for_the_precisions_that_are_documented`] recomputes this;
-//! `f32` has u = 2⁻²⁴. So the grids have 5 or 6 bits to nearest, and 9 bits in the other environments.
+//! The constants 16u and 20u cover 7 and 9 roundings of 2u each, as any direction may have. This requires u ≤ 2⁻⁸ for k₀ and k₃,
+//! and u ≤ 2⁻⁹ for 3k₁ and 3k₂. The bounds by magnitudes, 96u and 384u, are proven for u ≤ 2⁻¹⁰. If rounding is to nearest, a
+//! rounding is at most u, and 16u and 20u suffice for u ≤ 2⁻⁵. [`the_constants_suffice_for_the_precisions_that_are_documented`]
+//! recomputes this; `f32` has u = 2⁻²⁴. So the grids have 5 or 6 bits to nearest, and 9 bits in the other environments.
 //!
 //! No input may have a wrong sign. The tests also assert how close the grids come to the bounds, so they would detect constants
 //! that are a fraction of these.
@@ -126,14 +127,14 @@ fn every_tetrahedron_on_a_grid_of_three_values_with_6_bits() {
     assert!(seen.certain > 0 && seen.worst > 0.05, "{seen:?}");
 }
 
-/// Subnormal numbers: products underflow.
+/// The numbers are subnormal, so products underflow.
 #[test]
 fn every_tetrahedron_on_a_grid_of_tiny_values_with_5_bits() {
     let seen = at_rest::<4, 4, TO_NEAREST>(&numbers([-0.1875, 0.003_906_25, 0.156_25]));
     assert!(seen.worst > 0.01, "{seen:?}");
 }
 
-/// `worst` is how close an input must come.
+/// An input must come at least as close as `worst`.
 fn every_tetrahedron_with_9_bits<const ENVIRONMENT: u32>(grid: [f64; 3], worst: f64) {
     let seen = at_rest::<5, 8, ENVIRONMENT>(&numbers(grid));
     assert!(seen.culled > 0 && seen.worst > worst, "{seen:?}");
@@ -147,7 +148,7 @@ fn every_tetrahedron_on_a_grid_of_three_values_with_9_bits_in_every_direction() 
     every_tetrahedron_with_9_bits::<TOWARDS_ZERO>(grid, 0.11);
 }
 
-/// About the smallest normal number, 2⁻¹⁴: differences and products are flushed.
+/// The numbers are about the smallest normal number, 2⁻¹⁴, so differences and products are flushed.
 #[test]
 fn every_tetrahedron_on_a_grid_of_tiny_values_with_9_bits_where_they_are_flushed() {
     let grid = [-1.0 / 16_384.0, 1.5 / 16_384.0, 1.0];
@@ -190,7 +191,7 @@ fn every_motion_around_a_point_at_rest_on_a_grid_of_three_values_with_5_bits() {
     every::<_, 9>(&grid, |[b, c, d, e, f, g, h, i, j]| {
         ends.push([[zero; 3], [b, c, d], [e, f, g], [h, i, j]]);
     });
-    // 3⁹ ends, 3¹⁸ motions.
+    // There are 3⁹ ends and 3¹⁸ motions.
     assert_eq!(ends.len(), 19_683);
     let seen = every_motion_between(&ends);
     assert!(seen.culled > 0, "{seen:?}");
@@ -205,14 +206,14 @@ fn every_motion_of_four_points_on_grids_of_two_values_with_5_bits() {
         every::<_, 12>(&grid, |x| {
             ends.push(std::array::from_fn(|point| std::array::from_fn(|axis| x[3 * point + axis])));
         });
-        // 2¹² ends, 2²⁴ motions.
+        // There are 2¹² ends and 2²⁴ motions.
         assert_eq!(ends.len(), 4096);
         let seen = every_motion_between(&ends);
         assert!(seen.culled > 0, "{seen:?}");
     }
 }
 
-/// The middle value of all 2¹⁸ motions, culled or not.
+/// The test covers the middle value of all 2¹⁸ motions, culled or not.
 #[test]
 fn every_middle_control_value_on_grids_of_two_values_with_6_bits() {
     type Number = Minifloat<4, 5>;

@@ -1,4 +1,4 @@
-//! The broad phase of moving boxes against its definition, on small degenerate meshes and on a late step of a bending tube.
+//! The broad phase of moving boxes agrees with its definition, on small degenerate meshes and on a late step of a bending tube.
 
 use proptest::prelude::*;
 use selvedge::PairKind::{self, EdgeEdge, VertexFace};
@@ -205,7 +205,7 @@ fn a_separation_widens_boxes_by_no_more_than_it_has_to() {
         let refused = broad_phase.set_separation(bad);
         assert!(matches!(refused, Err(StepError::BadLimit { .. })), "{bad}");
     }
-    // It is unchanged.
+    // The mesh is unchanged.
     update(&mut broad_phase, &mesh);
     assert_eq!(candidates(&mut broad_phase).len(), 15);
 }
@@ -257,14 +257,14 @@ fn instruction_sets_and_threads_change_nothing() {
     }
 }
 
-/// Triangles that change places: the hierarchies degrade, are built again, and then cost as much as at first. The candidates are
+/// When triangles change places, the hierarchies degrade, are built again, and then cost as much as at first. The candidates are
 /// right throughout.
 #[test]
 fn degraded_hierarchies_are_built_anew() {
     const SIDE: usize = 60;
     let triangles = (0..3600).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
     let topology = Topology::new(3 * SIDE * SIDE, triangles).expect("indices are in range");
-    // A grid of triangles that overlap their neighbours. The triangle at each place changes its number.
+    // Triangles on a grid overlap their neighbours. The triangle at each place changes its number.
     let frame = |step: usize| -> Vec<DVec3> {
         let corners = |triangle: usize| {
             let place = triangle * step % (SIDE * SIDE);

@@ -1,4 +1,4 @@
-//! The oracle's contacts and separations of primitive pairs in motion, against clipping and against stepping.
+//! The oracle's contacts and separations of primitive pairs in motion agree with clipping and with stepping.
 
 use crate::support::distance::{SLACK, advance, distance};
 use crate::support::{at, common_part};
@@ -21,7 +21,7 @@ fn grid_pair() -> impl Strategy<Value = Pair> {
     pair_of((-1..=1).prop_map(f64::from).boxed())
 }
 
-/// The same in a plane: the points are coplanar throughout.
+/// Makes pairs of few values in a plane: the points are coplanar throughout.
 fn flat_pair() -> impl Strategy<Value = Pair> {
     (pair_of((-2..=2).prop_map(f64::from).boxed()), 0..3_usize).prop_map(|(mut pair, axis)| {
         pair.start.iter_mut().chain(&mut pair.end).for_each(|p| p[axis] = 1.0);
@@ -29,7 +29,7 @@ fn flat_pair() -> impl Strategy<Value = Pair> {
     })
 }
 
-/// On a line, so that every triangle and every pair of edges is degenerate.
+/// Makes pairs on a line, so that every triangle and every pair of edges is degenerate.
 fn straight_pair() -> impl Strategy<Value = Pair> {
     pair_of((-3..=3).prop_map(f64::from).boxed()).prop_map(|mut pair| {
         let on_line = |p: &mut [f64; 3]| *p = [p[0], 1.0 - p[0], 2.0 * p[0]];
@@ -38,7 +38,7 @@ fn straight_pair() -> impl Strategy<Value = Pair> {
     })
 }
 
-/// Grid values; some are one unit in the last place off, tiny or huge.
+/// Makes pairs of grid values; some are one unit in the last place off, tiny or huge.
 fn rough_pair() -> impl Strategy<Value = Pair> {
     let whole = (-2..=2).prop_map(f64::from);
     let coordinate = prop_oneof![

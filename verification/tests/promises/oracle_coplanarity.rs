@@ -1,4 +1,4 @@
-//! Coplanarity of four moving points, against the extremes of the volume.
+//! The coplanarity of four moving points agrees with the extremes of the volume.
 
 use proptest::prelude::*;
 use rug::Integer;
@@ -30,21 +30,21 @@ fn by_extremes(start: &[[i32; 3]; 4], end: &[[i32; 3]; 4]) -> bool {
             i128::from(relative(start) * (1 - t) + relative(end) * t)
         };
         let [a, b, c] = [1, 2, 3].map(|i| [at(i, 0), at(i, 1), at(i, 2)]);
-        // The rule of Sarrus.
+        // This is the rule of Sarrus.
         a[0] * b[1] * c[2] + a[1] * b[2] * c[0] + a[2] * b[0] * c[1]
             - a[2] * b[1] * c[0]
             - a[1] * b[0] * c[2]
             - a[0] * b[2] * c[1]
     };
     let [v0, v1, v2, v3] = [0, 1, 2, 3].map(volume);
-    // Newton's interpolation, times 6.
+    // This is Newton's interpolation, times 6.
     let (d1, d2, d3) = (v1 - v0, v2 - 2 * v1 + v0, v3 - 3 * v2 + 3 * v1 - v0);
     let (c0, c1, c2, c3) = (6 * v0, 6 * d1 - 3 * d2 + 2 * d3, 3 * d2 - 3 * d3, d3);
     let mut extremes = vec![v0.cmp(&0), v1.cmp(&0)];
     if c3 != 0 {
         let d = c2 * c2 - 3 * c1 * c3;
         for s in [1, -1].into_iter().filter(|_| d >= 0) {
-            // Critical at t = (−c2 + s·√d) / (3·c3), where 27·c3²·K(t) is as below.
+            // The critical times are t = (−c2 + s·√d) / (3·c3), where 27·c3²·K(t) is as below.
             let after_start = sign(-c2, s, d) == c3.cmp(&0);
             let before_end = sign(-c2 - 3 * c3, s, d) == 0.cmp(&c3);
             if after_start && before_end {
@@ -53,7 +53,7 @@ fn by_extremes(start: &[[i32; 3]; 4], end: &[[i32; 3]; 4]) -> bool {
             }
         }
     } else if c2 != 0 {
-        // Critical at t = −c1 / (2·c2), where 4·c2·K(t) = 4·c2·c0 − c1².
+        // The critical time is t = −c1 / (2·c2), where 4·c2·K(t) = 4·c2·c0 − c1².
         if (0..=2 * c2.abs()).contains(&(-c1 * c2.signum())) {
             extremes.push(((4 * c2 * c0 - c1 * c1) * c2.signum()).cmp(&0));
         }
@@ -85,7 +85,7 @@ proptest! {
     }
 }
 
-/// A tetrahedron over a fixed face, with its apex at height `from` and then `to`.
+/// Returns whether a tetrahedron over a fixed face with its apex at height `from`, then `to`, is ever flat.
 fn apex_moves(from: f64, to: f64) -> bool {
     let face = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     let with_apex = |z| [face[0], face[1], face[2], [0.25, 0.25, z]];

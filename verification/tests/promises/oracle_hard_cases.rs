@@ -212,8 +212,8 @@ fn times_have_the_order_of_their_numbers() {
     assert_eq!(sorted, [half, root, three_quarters]);
 }
 
-/// A case on which the oracle did not end: two edges in one plane, of which one comes down from the largest number. The times
-/// that are compared are next to each other at the end of the step. One added its bits one by one while the other doubled them.
+/// Two edges are in one plane, and one comes down from the largest number. The times that are compared are next to each other at
+/// the end of the step. The search must not add the bits of one by one while those of the other double.
 #[test]
 fn times_next_to_one_another_at_the_end_of_the_step_are_told_apart() {
     let (x, y, z) = (-9_007_199_254_740_967.0, 4_503_599_627_370_484.0, -9_007_199_254_740_967.0);

@@ -1,4 +1,4 @@
-//! The oracle's triangle intersections at rest, against clipping.
+//! The oracle's triangle intersections at rest agree with clipping.
 
 use crate::support::{common_part, contains, point};
 use proptest::prelude::*;
@@ -55,7 +55,8 @@ proptest! {
         );
     }
 
-    /// Triangles that touch, are coplanar, or are one unit in the last place off; large, small, and beyond the range of signs.
+    /// The triangles touch, are coplanar, or are one unit in the last place off; they are large, small, and beyond the range of
+    /// signs.
     #[test]
     fn signs_of_volumes_agree_with_integers_wherever_they_answer(
         a in triangle(), mut b in triangle(), shared in shared(),

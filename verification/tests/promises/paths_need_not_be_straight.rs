@@ -1,4 +1,4 @@
-//! On arcs and polylines: positions, deviations and times of impact against numbers of 256 bits, which stand for exact ones.
+//! Positions, deviations and times of impact on arcs and polylines agree with numbers of 256 bits, which stand for exact ones.
 
 use crate::support::environment::Environment;
 use crate::support::geometry::Truth;
@@ -101,7 +101,7 @@ impl Pose {
         self.turned(&minus(&place(start), &self.centre), &self.sine)
     }
 
-    /// Returns where the point is that started at `start`.
+    /// Returns the position of the point that started at `start`.
     fn at(&self, start: DVec3) -> Place {
         plus(&self.moved, &self.turned_from(start))
     }
@@ -180,7 +180,7 @@ fn is_as_told(moment: &Moment, (position, velocity): &(Place, Place)) -> Result<
     Ok(())
 }
 
-/// On a straight path and on a polyline. At a knot the velocity is that of the piece that leads there.
+/// The promise holds on a straight path and on a polyline. At a knot the velocity is that of the piece that leads there.
 #[test]
 fn a_point_on_straight_pieces_is_where_it_is_said_to_be_and_as_fast() {
     check(300, turning(), |case| {
@@ -219,7 +219,7 @@ fn deviates(piece: &Piece, [from, to]: [f64; 2], at: impl Fn(f64) -> Place) -> R
         if time > to {
             continue;
         }
-        // The exact share of the time.
+        // This is the exact share of the time.
         let share = (float(time) - float(from)) / (float(to) - float(from));
         let rest = float(1.0) - &share;
         let straight = plus(
@@ -395,8 +395,8 @@ fn no_contact_of_bodies_in_screw_motion_is_missed() {
     assert!(all > 2_000 && 10 * late > all, "{late} of {all}");
 }
 
-/// Polylines that are straight, but for the rounding of a knot: what is called a contact comes within three tolerances, and the rounding of
-/// knots and places, far less than 2⁻⁴⁰.
+/// If a polyline is straight up to the rounding of a knot, a contact comes within three tolerances, and the rounding of knots and
+/// places, far less than 2⁻⁴⁰.
 fn comes_near_on_polylines(case: &PairCase<f64>) -> Result<(), TestCaseError> {
     let knots = case.points.map(|ends| {
         let [start, end] = ends.map(DVec3::from);
@@ -417,11 +417,12 @@ fn what_slides_on_polylines_and_is_called_a_contact_comes_near() {
     check(2000, sliding_pairs::<f64>(), comes_near_on_polylines);
 }
 
-/// The case of parry's issue 317: a plank that spins fast hits a box beside it. The plank is clear of the box when the step
-/// begins and when it ends, and would be on the straight paths of its corners.
+/// This is the case of parry's issue 317: a plank that spins fast hits a box beside it. The plank is clear of the box when the
+/// step begins and when it ends, and would be on the straight paths of its corners.
 #[test]
 fn a_plank_that_spins_hits_the_box_beside_it() {
-    // Half a turn from the x axis, so that the ends of the plank change places and its straight paths lead through the middle.
+    // The plank starts half a turn from the x axis, so that its ends change places and its straight paths lead through the
+    // middle.
     let plank = RigidMotion::new(DVec3::ZERO, DVec3::Z, PI, DVec3::ZERO).expect("numbers in range");
     let tip = [DVec3::new(2.0, -0.1, 0.0), DVec3::new(2.0, 0.1, 0.0)].map(|corner| plank.path(corner));
     let post = [DVec3::new(0.0, 1.5, -1.0), DVec3::new(0.0, 1.5, 1.0)].map(Motion::resting);

@@ -1,4 +1,4 @@
-//! The campaign of bodies in screw motion, in small: no time is late, late ones would be found, and most are sharp.
+//! In a small campaign of bodies in screw motion no time is late, late ones would be found, and most are sharp.
 
 use selvedge_verification::campaign::Findings;
 use selvedge_verification::campaign::screw_motions::{MotionPaths, Progress, run};

@@ -22,7 +22,7 @@ use selvedge_verification::generator::{
 };
 use selvedge_verification::oracle::{Pair, within, within_at};
 
-/// A pair, and some decisions besides.
+/// A pair, and some decisions as well.
 #[derive(Clone, Debug)]
 struct Question<S: Format> {
     pair: PairCase<S>,
@@ -171,7 +171,7 @@ property!(a_bound_of_the_distance_is_not_above_it, 600, pairs_of_any_kind(), |pa
     });
     let bound = at_start.map_or(0.0, S::to_f64);
     prop_assert!(is_at_least(&question, 0, bound), "{bound}");
-    // The stored values in `f32`: from one end, from both, and from the one before.
+    // The stored values in `f32` come from one end, from both, and from the one before.
     let at_end = largest_of_all(pair, |pair| {
         let (error, [start, end]) = (error_of(pair), ends(pair));
         let stored = directions.iter().flat_map(|&direction| {
@@ -315,7 +315,8 @@ struct Course<S: Format> {
     position: S::Vector,
 }
 
-/// The first two points of a pair: on the path of the first for some steps, then perhaps on that of the second.
+/// Makes the course of the first two points of a pair: on the path of the first for some steps, then perhaps on that of the
+/// second.
 fn course_of<S: Format>(question: &Question<S>) -> Option<Course<S>> {
     let [first, second, ..] = question.pair.motions();
     let choice = |bits: u32, count: u32| question.choice >> bits & (count - 1);
@@ -341,7 +342,7 @@ fn course_of<S: Format>(question: &Question<S>) -> Option<Course<S>> {
     let largest = largest_coordinate(&[origin, end]);
     let part = S::from_f64([0.0, 1.0, 100.0, -1.0, -1.7][choice(9, 8) as usize % 5]);
     let is_certain = |stray: S| course::is_certain(course::room(stray, part * stray), largest);
-    // The least certain distance.
+    // This is the least certain distance.
     let powers = S::MIN_EXPONENT / 2..S::MAX_EXPONENT / 2;
     let stray = powers.map(|power| S::exact(1, power)).find(|&stray| is_certain(stray))?;
     let spare = part * stray;
@@ -352,7 +353,7 @@ fn course_of<S: Format>(question: &Question<S>) -> Option<Course<S>> {
     let mut position = middle.map(|x| x + room);
     for (axis, sign) in [choice(12, 2), choice(13, 2), choice(14, 2)].into_iter().enumerate() {
         position[axis] = if sign == 0 { middle[axis] + room } else { middle[axis] - room };
-        // As far out as is still within.
+        // The point is as far out as is still within.
         let inwards = if sign == 0 { -1 } else { 1 };
         position[axis] = position[axis].nudged(-3 * inwards);
         for _ in 0..8 {
@@ -394,7 +395,7 @@ property!(
             for axis in 0..3 {
                 let on_course = Rational::from(&end[axis] - &origin[axis]) * &share + &origin[axis];
                 let strayed = Rational::from(&position[axis] - &on_course).abs();
-                // 2·strayed ≤ stray + spare/√3.
+                // The condition is 2·strayed ≤ stray + spare/√3.
                 let more = strayed * 2_u32 - exact(course.stray);
                 let (spare, squared) = (exact(course.spare), Rational::from(more.square_ref()) * 3_u32);
                 let is_within = match (more > 0, spare > 0) {
@@ -492,7 +493,7 @@ property!(
         let kept = largest_of_all(pair, |pair| {
             largest_accepted(|separation| are_boxes_apart(pair, separation, S::ONE))
         });
-        // From a separation that the pair keeps to one that the boxes of all its points are far within.
+        // The factors lead from a separation that the pair keeps to one that the boxes of all its points are far within.
         for factor in [0.75, 1.0, 3.0, 300.0] {
             let separation = kept.unwrap_or(S::ONE) * S::from_f64(factor);
             let smaller = largest_of_all(pair, |pair| {
@@ -562,7 +563,7 @@ property!(
         let near = Rational::from((1, 1 << 22));
         let least_normal = exact(f32::MIN_POSITIVE.into());
         for value in pair.coordinates().map(|x| x.to_f64().abs()) {
-            // Unchanged, and as a time of the step.
+            // The value is used unchanged, and as a time of the step.
             for value in [value, value / (1.0 + value), value * 1e-200] {
                 for environment in Environment::all() {
                     let (up, down, same) = environment.run(&value, |&value| {
@@ -607,7 +608,7 @@ property!(
             .next()
             .expect("there are coordinates");
         let nearest = f64::from(value as f32);
-        // Near a number of `f32` and half-way to the next, where rounding to nearest changes direction.
+        // The numbers are near a number of `f32` and half-way to the next, where rounding to nearest changes direction.
         let about = [
             value,
             value / (1.0 + value),
@@ -642,7 +643,8 @@ fn only_what_is_beyond_a_right_angle_is_wide_open<S: Format>() {
     let open = std::cell::Cell::new([0; 2]);
     check(1500, pairs_of_any_kind::<S>(), |pair| {
         let points = pair.points.map(|[start, _]| start);
-        // At a right angle up to rounding: the last corner is perpendicular to the first triangle, turned a little.
+        // The triangles are at a right angle up to rounding: the last corner is perpendicular to the first triangle, turned a
+        // little.
         let [v, u, a, _] = points.map(|point| DVec3::from(point.map(S::to_f64)));
         let upright = v + (u - v).cross(a - v).normalize_or_zero() * (a - v).length();
         let turned = upright - (a - v) * f64::from(S::UNIT_ROUNDOFF.to_f64() as f32) * 3.0;

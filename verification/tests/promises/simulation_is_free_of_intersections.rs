@@ -1,4 +1,4 @@
-//! Every state that a simulation accepts is exactly free of intersections: of cloth with itself and with bodies, ropes included.
+//! Every state that a simulation accepts is exactly free of intersections of cloth with itself and with bodies, ropes included.
 
 use proptest::prelude::*;
 use selvedge_cloth::effects::{BodyContact, Friction, RopeBend, RopeStretch, SelfCollision, Stretch, Thickness};
@@ -67,7 +67,7 @@ fn a_sheet_that_is_folded_twice_is_free() {
     run(&mut simulation, 3000, 300);
 }
 
-/// Double the time step, and stiffness over six orders of magnitude.
+/// The time step is doubled, and stiffness varies over six orders of magnitude.
 #[test]
 fn stiff_and_soft_cloth_in_long_steps_is_free() {
     for factor in [1e-3, 1.0, 1e3] {
@@ -86,7 +86,7 @@ fn stiff_and_soft_cloth_in_long_steps_is_free() {
 
 #[test]
 fn a_tube_twisted_three_turns_is_free() {
-    // In a fifth of the time, so that the folds close within the test.
+    // The scene runs in a fifth of the time, so that the folds close within the test.
     let faster = |text: String| text.replace("time = \"10 s\"", "time = \"2 s\"");
     let mut simulation = load("twist.toml", faster);
     run(&mut simulation, 2000, 250);
@@ -122,15 +122,15 @@ fn a_hem_pulled_through_folds_at_high_speed_is_free() {
     assert!(counts.violated > 1000, "the pass had something to do");
 }
 
-/// The violent and the twisted scene with their stiffness times a factor.
+/// Multiplies the stiffness of the violent and the twisted scene by a factor.
 fn stiffened(text: &str, factor: f64) -> String {
     let text = text.replace("\"300 N/m\"", &(300.0 * factor).to_string());
     let text = text.replace("\"100 N/m\"", &(100.0 * factor).to_string());
     text.replace("\"10 uN m\"", &(10e-6 * factor).to_string())
 }
 
-/// Cloth that is coarser, thicker and a thousand times as stiff jams between the pins: thousands of pairs are repaired, and vertices are
-/// truncated. The pins never wait, and hardly a step is cut.
+/// Cloth that is coarser, thicker and a thousand times as stiff jams between the pins: thousands of pairs are repaired, and
+/// vertices are truncated. The pins never wait, and hardly a step is cut.
 #[test]
 fn stiff_cloth_that_is_jammed_between_pins_is_free_and_does_not_stop_them() {
     let change = |text: String| {
@@ -161,7 +161,7 @@ fn whole_scene(name: &str, milliseconds: u64, factor: f64, every: u64) {
             simulation.blocked_steps(),
             simulation.lag()
         );
-        // The clock is late exactly if a step was blocked: lost time is not made up for.
+        // The clock is late exactly if a step was blocked, since lost time is not made up for.
         assert_eq!(simulation.blocked_steps() > 0, simulation.lag() > 0.0);
     }
 }
@@ -188,7 +188,7 @@ fn violent_and_twisted_scenes_in_double_steps_and_with_other_stiffness_are_free(
     }
 }
 
-/// Shows that the tests above can fail: the same sleeve without the certified effects.
+/// The same sleeve without the certified effects shows that the tests above can fail.
 #[test]
 fn without_self_collision_the_sleeve_passes_through_itself() {
     let without = |text: String| text.replace("[effects.self_collision]\nthickness = \"3 mm\"\n", "");
@@ -203,7 +203,7 @@ fn without_self_collision_the_sleeve_passes_through_itself() {
     assert!(crossed > 0);
 }
 
-/// Ropes through these points, thrown at each other, at a sheet and at a ball.
+/// Makes ropes through these points, thrown at each other, at a sheet and at a ball.
 fn thrown(ropes: &[([DVec3; 3], DVec3)], is_kept: bool) -> Scene {
     let sheet = Cloth::sheet(DVec3::new(-0.1, -0.1, -0.05), [DVec3::X * 0.2, DVec3::Y * 0.2], [6, 6], 0.2);
     let mut scene = Scene::new(sheet.expect("a sheet").named("sheet"), 2e-3);
@@ -232,7 +232,7 @@ fn thrown(ropes: &[([DVec3; 3], DVec3)], is_kept: bool) -> Scene {
     scene
 }
 
-/// The number of paths that were examined, and the intersections on them or after them.
+/// Returns the number of paths that were examined, and the intersections on them or after them.
 fn judge(simulation: &mut Simulation, steps: u64) -> (u64, Vec<String>) {
     let (mut judged, mut found) = (0, Vec::new());
     let cuts = |simulation: &Simulation| simulation.contact_counts().map_or(0, |counts| counts.cuts);
@@ -276,7 +276,7 @@ proptest! {
     }
 }
 
-/// Shows that the test above can fail.
+/// This shows that the test above can fail.
 #[test]
 fn without_self_collision_ropes_pass_through_each_other() {
     let rope = |axis: DVec3, z: f64, speed: f64| {

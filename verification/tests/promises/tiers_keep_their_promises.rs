@@ -1,4 +1,4 @@
-//! The promises of each tier for one pair at a time: what it never culls, and which of two tiers culls more.
+//! The promises of each tier for one pair at a time: the pairs that it never culls, and which of two tiers culls more.
 
 use crate::support::distance::distance;
 use crate::support::rationals::{InRationals, separations};

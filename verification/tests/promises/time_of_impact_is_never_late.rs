@@ -81,7 +81,7 @@ fn answer<S: Format>(pair: &PairCase<S>, tolerance: S, separation: S) -> (Impact
     time_of_impact_and_work(&pair.pair(), &limits)
 }
 
-/// Answers the same question as for many pairs: rounds in lanes, then the pair alone from where it is. The same pair is there
+/// Answers the same question as for many pairs: rounds in lanes, then the pair alone from the reached time. The same pair occurs
 /// three times, so that there are unused lanes, too.
 fn answer_in_sweeps<S: Format>(pair: &PairCase<S>, tolerance: S, separation: S, level: Level) -> Impact<S> {
     let limits = Limits { tolerance, separation };
@@ -147,8 +147,8 @@ fn tolerance<S: Format>(pair: &PairCase<S>, choices: &mut Choices<'_>) -> S {
     choices.pick(&[S::ZERO, S::ONE]) * size(pair) * S::exact(1, -exponent)
 }
 
-/// Chooses no separation half of the time. Else it is a part of the pair's size, or exactly the distance of two of its points
-/// along an axis, which for simple pairs is how close they come.
+/// Chooses no separation half of the time. Otherwise it is a part of the pair's size, or exactly the distance of two of its
+/// points along an axis, which for simple pairs is how close they come.
 fn separation<S: Format>(pair: &PairCase<S>, choices: &mut Choices<'_>) -> S {
     match choices.below(8) {
         0..4 => S::ZERO,
@@ -234,7 +234,7 @@ property!(is_never_later_than_the_exact_time_in_sweeps, 6_000, questions, |quest
     is_not_late_in_sweeps(question)
 });
 
-/// The time is known without the oracle.
+/// The time of contact is known without the oracle.
 fn finds_what_touches<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
     let pair = moment.pair();
     let time = moment.time();
@@ -250,7 +250,7 @@ property!(finds_every_pair_that_touches, 80_000, touching_pairs, |moment| {
     finds_what_touches(moment)
 });
 
-/// The same in every environment of a thread.
+/// The time holds in every environment of a thread.
 fn finds_what_touches_in_every_environment<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
     let pair = moment.pair();
     let time = moment.time();
@@ -304,8 +304,8 @@ property!(
     |question| excludes_only_what_stays_apart(question)
 );
 
-/// Found by the test above: with subnormal numbers flushed, a subnormal separation compared as zero. The vertex comes within it
-/// of a corner that sinks away from below, and was found apart.
+/// The test above found this pair. If subnormal numbers are flushed, a subnormal separation must not compare as zero: the vertex
+/// comes within it of a corner that sinks away from below.
 #[test]
 fn a_subnormal_separation_counts_where_subnormal_numbers_are_taken_for_zero() {
     let y = |y: f64| DVec3::new(0.0, y, 0.0);
@@ -324,7 +324,7 @@ fn a_subnormal_separation_counts_where_subnormal_numbers_are_taken_for_zero() {
     }
 }
 
-/// Coplanar at some time, which is often a contact or a near miss.
+/// The pair is coplanar at some time, which is often a contact or a near miss.
 fn is_not_late_when_coplanar<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
     let pair = moment.pair();
     is_not_late(&Question {
@@ -338,7 +338,7 @@ property!(is_not_late_for_coplanar_pairs, 12_000, coplanar_pairs, |moment| {
     is_not_late_when_coplanar(moment)
 });
 
-/// What the module's documentation says of the distance, for each reason.
+/// The distance is what the module's documentation says for each reason.
 fn comes_near<S: Format>(question: &Question<S>) -> Result<(), TestCaseError> {
     let Impact::Possible { time, reason } = question.answer().0 else {
         return Ok(());
@@ -353,13 +353,13 @@ fn comes_near<S: Format>(question: &Question<S>) -> Result<(), TestCaseError> {
             prop_assert!(collides(&question.pair.question()).is_some(), "never touches");
             return Ok(());
         }
-        // Nothing is promised that a few thousand cases could refute.
+        // A few thousand cases cannot refute any promise for these reasons.
         Reason::LastResort | Reason::OutOfRange | Reason::NotFinite => return Ok(()),
     };
     let sizes: Rational = near.clone() + x + y + z;
     let rounding = sizes * roundoffs * exact(S::UNIT_ROUNDOFF);
     let vanishing = Rational::from(1) >> if S::NAME == "f32" { 60 } else { 500 };
-    // To a floating-point number, and not below.
+    // The bound is rounded up to a floating-point number.
     let bound: Rational = near + rounding + vanishing;
     let bound = bound.to_f64().next_up();
     prop_assert!(
@@ -373,7 +373,7 @@ property!(comes_as_near_as_its_reason_says, 12_000, questions, |question| {
     comes_near(question)
 });
 
-/// A pair that slides, without a separation or with one that it nearly keeps.
+/// Generates a pair that slides, without a separation or with one that it nearly keeps.
 fn sliding_questions<S: Format>() -> impl Strategy<Value = Question<S>> + Clone {
     from_choices(|choices| {
         let kind = choices.pick(&[PairKind::VertexFace, PairKind::EdgeEdge]);
@@ -403,7 +403,7 @@ property!(is_not_late_in_sweeps_where_it_slides, 3_000, sliding_questions, |ques
     is_not_late_in_sweeps(question)
 });
 
-/// 6,000 pairs that slide in `f64`: what they are called, how many rounds they take in the mean and at most.
+/// The test counts the results of 6,000 pairs that slide in `f64`, and their mean and largest numbers of rounds.
 #[test]
 fn pairs_that_slide_take_few_rounds() {
     let (mut rounds, mut most, mut last_resorts) = (0, 0, 0);
@@ -505,7 +505,7 @@ fn confirms_many<S: Format>() {
         asked.set(asked.get() + 1);
         confirms_only_contacts(pair, Environment::DEFAULT, &confirmed)
     });
-    // Typically three in a hundred are confirmed.
+    // About three in a hundred are confirmed.
     let (confirmed, asked) = (confirmed.get(), asked.get());
     assert!(confirmed > asked / 100, "{confirmed} of {asked}");
 }

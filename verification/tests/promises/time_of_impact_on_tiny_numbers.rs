@@ -1,5 +1,5 @@
-//! The source of the time of impact on numbers of 9 and 11 significant bits, in every floating-point environment. What its
-//! certificates prove holds in exact arithmetic, and bounds that are too small are detected.
+//! The source of the time of impact runs on numbers of 9 and 11 significant bits, in every floating-point environment. The claims
+//! of its certificates hold in exact arithmetic, and bounds that are too small are detected.
 //!
 //! Rounding errors are a large part of such numbers, so grids of a few values come close to every bound. The tests assert how
 //! close, and that something is proven at all.
@@ -20,7 +20,7 @@ use selvedge_verification::generator::{Choices, Format, Meeting, Moment, PairCas
 use selvedge_verification::minifloat::{DOWNWARD, FLUSHING, Minifloat, TO_NEAREST, TOWARDS_ZERO, UPWARD, every};
 use selvedge_verification::oracle::collides;
 
-/// Random numbers by `SplitMix64`.
+/// Pseudo-random numbers by `SplitMix64`.
 struct Random(u64);
 
 impl Random {
@@ -133,8 +133,8 @@ fn numbers<const F: u32, const ENVIRONMENT: u32, const N: usize>(values: [f64; N
     })
 }
 
-/// Every direction and every motion of a vertex on a grid of three values, over a face that is one point. (Corners count one by
-/// one, since the direction's certificate is about each alone.)
+/// Tries every direction and every motion of a vertex on a grid of three values, over a face that is one point. (Corners count
+/// one by one, since the direction's certificate is about each alone.)
 fn every_constant_direction<const ENVIRONMENT: u32>(grid: [f64; 3], point: [f64; 3]) -> Seen {
     let grid: [Number<8, ENVIRONMENT>; 3] = numbers(grid);
     let times: [Number<8, ENVIRONMENT>; 3] = numbers([0.0, 0.25, 0.806_640_625]);
@@ -149,7 +149,7 @@ fn every_constant_direction<const ENVIRONMENT: u32>(grid: [f64; 3], point: [f64;
     seen
 }
 
-/// Smaller steps than those of the grid, so that differences are rounded.
+/// A point with smaller steps than those of the grid, so that differences are rounded.
 const POINT: [f64; 3] = [0.313_476_562_5, -0.156_738_281_25, 0.078_369_140_625];
 
 #[test]
@@ -164,11 +164,12 @@ fn every_constant_direction_on_a_grid_of_three_values_with_9_bits() {
     for seen in &all {
         assert!(seen.proven > 1000 && seen.until > 100, "{seen:?}");
     }
-    // Rounded to nearest. On this grid no nonpositive value is computed as positive when everything is rounded down.
+    // These are the findings to nearest. On this grid no nonpositive value is computed as positive when everything is rounded
+    // down.
     assert!(all[0].worst > 0.005, "{all:?}");
 }
 
-/// About the smallest normal number, 2⁻¹⁴: differences and products are flushed.
+/// The numbers are about the smallest normal number, 2⁻¹⁴, so differences and products are flushed.
 #[test]
 fn every_constant_direction_on_a_grid_of_tiny_values_where_they_are_flushed() {
     let grid = [-1.0 / 16_384.0, 1.5 / 16_384.0, 1.0];
@@ -183,7 +184,7 @@ fn every_constant_direction_on_a_grid_of_tiny_values_where_they_are_flushed() {
     }
 }
 
-/// Coordinates that often coincide, and else are a few steps or a few quarters apart.
+/// Chooses coordinates that often coincide, and otherwise are a few steps or a few quarters apart.
 fn random_points<const F: u32, const ENVIRONMENT: u32>(random: &mut Random) -> Points<Number<F, ENVIRONMENT>> {
     let grid: [Number<F, ENVIRONMENT>; 9] = numbers([-2.0, -1.0, -0.75, 0.0, 0.25, 0.501_953_125, 0.994_140_625, 1.0, 1.75]);
     let offsets: [Number<F, ENVIRONMENT>; 3] = numbers([0.0, 0.001_953_125, -0.023_437_5]);
@@ -191,7 +192,7 @@ fn random_points<const F: u32, const ENVIRONMENT: u32>(random: &mut Random) -> P
     [(); 4].map(|()| [(); 2].map(|()| [(); 3].map(|()| coordinate())))
 }
 
-/// A turning direction, from that of the closest corner at one time to that at another, checked at seventeen times in between.
+/// Checks a turning direction, from that of the closest corner at one time to that at another, at seventeen times in between.
 fn random_turning_directions<const ENVIRONMENT: u32>() -> u64 {
     let mut random = Random(u64::from(ENVIRONMENT));
     let times: [Number<8, ENVIRONMENT>; 2] = numbers([0.125, 0.75]);
@@ -211,7 +212,7 @@ fn random_turning_directions<const ENVIRONMENT: u32>() -> u64 {
         let [before, after] = directions.map(|direction| units(direction.w));
         for corner in exact_corners(PairKind::EdgeEdge, &points) {
             for step in 0..=16 {
-                // The time in 128ths: from 1/8 to 3/4 is five eighths of 16 times 8.
+                // The time is in 128ths: from 1/8 to 3/4 is five eighths of 16 times 8.
                 let time = 16 + 5 * step;
                 let w = std::array::from_fn(|k| before[k] * (16 - step) + after[k] * step);
                 assert!(exact_product(w, corner, time, 128) > 0, "{points:?} {step}");
@@ -233,7 +234,7 @@ fn random_turning_directions_with_9_bits() {
     }
 }
 
-/// A direction on a curve, whose control points are those of the corners' middles at three times, checked at seventeen times.
+/// Checks a direction on a curve, whose control points are those of the corners' middles at three times, at seventeen times.
 fn random_curving_directions<const ENVIRONMENT: u32>() -> u64 {
     let mut random = Random(u64::from(ENVIRONMENT));
     let times: [Number<8, ENVIRONMENT>; 3] = numbers([0.125, 0.437_5, 0.75]);
@@ -252,7 +253,7 @@ fn random_curving_directions<const ENVIRONMENT: u32>() -> u64 {
         let [before, doubled, after] = curve.map(|direction| units(direction.w));
         for corner in exact_corners(PairKind::EdgeEdge, &points) {
             for step in 0..=16 {
-                // The time in 128ths: from 1/8 to 3/4 is five eighths of 16 times 8.
+                // The time is in 128ths: from 1/8 to 3/4 is five eighths of 16 times 8.
                 let (time, rest) = (16 + 5 * step, 16 - step);
                 let w = std::array::from_fn(|k| before[k] * rest * rest + doubled[k] * rest * step + after[k] * step * step);
                 assert!(exact_product(w, corner, time, 128) > 0, "{points:?} {step}");
@@ -408,13 +409,14 @@ fn random_times_of_impact_with_9_bits_are_never_late() {
 struct Unchanged;
 impl Factors for Unchanged {}
 
-/// 0.02u instead of 20u, 0.064u instead of 64u. (A twentieth did not fail on twenty thousand pairs, to nearest.)
+/// Factors that give 0.02u instead of 20u, and 0.064u instead of 64u. (A twentieth did not fail on twenty thousand pairs, to
+/// nearest.)
 struct AThousandth;
 impl Factors for AThousandth {
     const UNIT_ROUNDOFF: f64 = 0.001;
 }
 
-/// Returns how many pairs that touch at a known time have a later time of impact, or none, with the bounds times `F`.
+/// Returns the number of pairs that touch at a known time and have a later time of impact, or none, with the bounds times `F`.
 fn late_with_bounds_times<F: Factors, S: Format>() -> u32 {
     let mut random = Random(1);
     let mut late = 0;

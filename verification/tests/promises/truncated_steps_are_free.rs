@@ -1,5 +1,4 @@
-//! Truncation: the truncated step is free of contact by exact arithmetic, whatever step is wanted, and points are held back only
-//! if needed.
+//! A truncated step is free of contact by exact arithmetic, for any wanted step, and points are held back only if needed.
 
 use super::collision_detector_keeps_its_promises::pairs_of;
 use proptest::prelude::*;
@@ -110,8 +109,8 @@ fn what_is_left_of_a_step_is_free_but_for_what_is_in_contact_at_the_start_and_re
     assert!(met.get().into_iter().all(|steps| steps > 10), "{:?}", met.get());
 }
 
-/// The lemma, on the function itself: each point may move by any part of its share, whatever the others do. It also holds from
-/// wherever the direction keeps the pair apart, where the shares are those of displacements from a base.
+/// The lemma holds for the function itself: each point may move by any part of its share, in any combination. It also holds from
+/// any state in which the direction keeps the pair apart, where the shares are those of displacements from a base.
 #[test]
 fn a_pair_keeps_its_separation_for_all_smaller_shares() {
     let (held, from_a_base) = (Cell::new(0), Cell::new(0));
@@ -132,7 +131,7 @@ fn a_pair_keeps_its_separation_for_all_smaller_shares() {
         let points = |of: [[f64; 3]; 4]| of.map(|point| DVec3::from(point) * scale);
         let (mut start, mut wanted, mut before) = (points(start), points(wanted), points(before));
         let kind = if is_edges { PairKind::EdgeEdge } else { PairKind::VertexFace };
-        // Apart at first, in most cases.
+        // Most cases start apart.
         let direction = DVec3::from(direction).normalize_or_zero();
         for corner in 0..if is_edges { 2 } else { 1 } {
             start[corner] += direction * scale;

@@ -113,12 +113,12 @@ property!(
         .try_for_each(|order| same(all_but([CertifiedNonCoplanarity]), pair, &pair.reordered(order)))
 );
 
-/// Multiples of 2⁻¹⁰ up to 16 in magnitude. A permanent of them is at least 2⁻³⁰, or zero; then the value is zero, too, and its
-/// sign is never certain. With u = 2⁻²⁴ the bound is at least 2⁻⁵⁰, of which the last bit is worth 2⁻⁷³, and (1 + M)²·η < 2⁻¹⁰⁶
-/// vanishes in it. This holds all the more scaled by 2¹². Scaled by 2⁻¹², the last bit is worth 2⁻¹⁰⁹, and M < 1 makes the other
-/// term less than 2⁻¹¹⁵. The segment test's products are larger.
+/// Chooses multiples of 2⁻¹⁰ up to 16 in magnitude. A permanent of them is at least 2⁻³⁰, or zero; then the value is zero, too,
+/// and its sign is never certain. With u = 2⁻²⁴ the bound is at least 2⁻⁵⁰, of which the last bit is worth 2⁻⁷³, and (1 + M)²·η <
+/// 2⁻¹⁰⁶ vanishes in it. This holds all the more scaled by 2¹². Scaled by 2⁻¹², the last bit is worth 2⁻¹⁰⁹, and M < 1 makes the
+/// other term less than 2⁻¹¹⁵. The segment test's products are larger.
 fn on_a_grid<S: Format>(kind: PairKind, choices: &mut Choices<'_>) -> PairCase<S> {
-    // Uses a few values only, or any: nearly coplanar pairs matter.
+    // Few values make nearly coplanar pairs, which matter; other cases use any.
     let limit = choices.pick(&[2, 64, 16_384]);
     let points = std::array::from_fn(|_| {
         std::array::from_fn(|_| {

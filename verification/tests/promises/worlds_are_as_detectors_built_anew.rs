@@ -12,7 +12,7 @@ use selvedge_verification::generator::side_of;
 use std::cell::Cell;
 use std::f64::consts::PI;
 
-/// Random numbers from a seed (SplitMix64).
+/// Pseudo-random numbers from a seed (SplitMix64).
 struct Random(u64);
 
 impl Random {
@@ -58,7 +58,7 @@ struct Model<S> {
     handle: MeshHandle,
     topology: Topology,
     shape: Vec<[S; 3]>,
-    /// Its positions at rest.
+    /// The positions at rest.
     at: Vec<[S; 3]>,
     groups: Groups,
 }
@@ -523,7 +523,7 @@ fn what_is_out_of_order_is_told_and_nothing_is_lost() {
         }
     ));
 
-    // Cut short, by the number of pairs and by another thread.
+    // The step is cut short by the number of pairs, and then by another thread.
     world.set_pair_limit(Some(1));
     let limit = StepError::TooManyPairs { limit: 1 };
     assert_eq!(world.contacts(&[falls], &mut Vec::new()), Err(WorldError::Step(limit)));
@@ -582,7 +582,7 @@ fn geometry_of_what_the_last_step_does_not_have_is_an_error() {
         let refused = world.contact_geometry(&at_no_time);
         assert!(matches!(refused, Err(WorldError::Step(StepError::BadTime { .. }))));
     }
-    // In another step the result is that step's: everything rests, one unit below.
+    // In another step the result is that of this step: everything rests, one unit below.
     world.contacts(&[], &mut Vec::new()).expect("in order");
     let at_rest = world.contact_geometry(&contact).expect("they are still there");
     assert_eq!((at_rest.geometry.speed, at_rest.geometry.distance[1] > 0.9), (0.0, true));
@@ -595,7 +595,7 @@ fn geometry_of_what_the_last_step_does_not_have_is_an_error() {
 fn pairs_that_rest_or_that_groups_exclude_are_not_looked_at() {
     let mut world = World::<DVec3>::new();
     let touching = |mesh: DVec3| CORNERS.map(|corner| corner + mesh);
-    // Two meshes that rest in one place, and a ghost that passes through both.
+    // Two meshes rest in one place, and a ghost passes through both.
     for _ in 0..2 {
         world.insert(triangle(), &CORNERS, Groups::new(1, 1)).expect("in order");
     }
@@ -716,14 +716,14 @@ fn turning_bodies_are_not_missed(seed: u64, count: &Cell<[usize; 3]>) -> Result<
         let own = found(kind, meshes, pair);
         prop_assert!(own.is_some_and(|own| own <= time), "{own:?} at {time}: {turns:?}");
     }
-    // Every other pair at some times.
+    // The loop checks every other pair at some times.
     let place = |mesh: MeshHandle, vertex: usize, time: f64| match mesh {
         own if own == a => turns[0].at(shapes[0][vertex], time),
         own if own == b => turns[1].at(shapes[1][vertex], time),
         _ => sheet_end[0][vertex].lerp(sheet_end[1][vertex], time),
     };
     let edges = world.topology(a).expect("it is there").edges().to_vec();
-    // The geometry of each contact, up to the rounding of the positions.
+    // The geometry of each contact is right up to the rounding of the positions.
     world.set_threads(Threads::Calling).expect("no threads");
     let told = told(&world, &contacts)?;
     for own in &told {
@@ -824,14 +824,14 @@ fn no_contact_of_bodies_that_turn_is_missed() {
 }
 
 /// Three pairs meet at one time, up to the last digits. A time on arcs may be some roundings before the same pair's time on
-/// straight pieces, after which later pairs are left out. So the earliest contact was not the first of all, and depended on
+/// straight pieces, after which later pairs are left out. The earliest contact must still be the first of all, on any number of
 /// threads.
 #[test]
 fn the_earliest_of_pairs_that_meet_at_nearly_one_time_is_the_first_of_all() {
     turning_bodies_are_not_missed(4_840_163_733_660_535_301, &Cell::new([0; 3])).unwrap_or_else(|error| panic!("{error}"));
 }
 
-/// Parry's issue 317, with whole meshes: straight paths would miss each other.
+/// This is parry's issue 317 with whole meshes: straight paths would miss each other.
 #[test]
 fn a_plank_that_spins_hits_the_post_beside_it() {
     let mut world = World::<[f32; 3]>::new();

@@ -1,4 +1,4 @@
-//! Compares what the provers read with what was accepted: `accepted.sha256` has a digest of each term.
+//! Compares the texts for the provers with the accepted ones. `accepted.sha256` has a digest of each term.
 //!
 //! The texts have thousands of lines, and are written again whenever a proof is checked. A digest notices each change as well as
 //! a kept copy would.
@@ -21,7 +21,7 @@ pub fn list() -> String {
     Prover::ALL.into_iter().flat_map(lines).map(|line| line + "\n").collect()
 }
 
-/// Checks that the current code gives the provers what was accepted.
+/// Checks that the current code gives the provers the accepted texts.
 ///
 /// # Errors
 /// Returns an error if it does not, or the list cannot be read. The message names the changed terms and says how to see and to
@@ -35,7 +35,7 @@ pub fn check(prover: Prover) -> Result<(), String> {
 /// Checks lines against a list, for [`check`].
 ///
 /// # Errors
-/// As for [`check`].
+/// Returns the errors of [`check`].
 pub fn compare(prover: Prover, given: &[String], list: &str) -> Result<(), String> {
     let of_prover = |line: &&str| {
         line.split_once("  ")

@@ -1,6 +1,7 @@
-//! Terms of Coq for what the certified filter and the box tests compute, written from core's kernels themselves.
+//! Terms of Coq for the computations of the certified filter and the box tests, written from core's kernels themselves.
 //!
-//! The proofs in `verification/proofs` are about these terms: what they compute, and what their signs prove.
+//! The proofs in `verification/proofs` are about these terms: the numbers that they compute, and the claims that their signs
+//! prove.
 
 use crate::Text;
 use crate::gappa::tetrahedron;
@@ -48,7 +49,7 @@ fn filter() -> String {
         let points = tetrahedron();
         let by_permanent = points.is_never_coplanar();
         let masks = [
-            // Where no lane needs the permanent, and where one does.
+            // The first case has no lane that needs the permanent, the second has one.
             ("by_permanent_alone", by_permanent),
             ("by_permanent", if_any(|| points.is_never_coplanar())),
         ];
@@ -110,7 +111,7 @@ fn exponent(power_of_two: f64) -> i32 {
     exponent as i32
 }
 
-/// The three numbers are the format's, by definition; the other two are core's constants.
+/// The three numbers are the format's by definition; the other two are core's constants.
 fn format<S: Scalar>(name: &str, [precision, least, greatest]: [i32; 3], text: &mut String) {
     assert_eq!(<S as Rounding>::UNIT_ROUNDOFF.to_f64(), f64::from(-precision).exp2());
     let underflow = exponent(S::UNDERFLOW.to_f64());

@@ -1,6 +1,6 @@
-//! Gappa scripts for what core's kernels compute, written from the kernels themselves.
+//! Gappa scripts for the computations of core's kernels, written from the kernels themselves.
 //!
-//! See `verification/gappa/README.md` for what is proven. In the scripts `@u@` and similar marks stand for a format's exponents.
+//! `verification/gappa/README.md` lists the proven claims. In the scripts `@u@` and similar marks stand for a format's exponents.
 
 use crate::Text;
 use crate::symbols::{Step, Trace, Traced, trace};
@@ -135,7 +135,7 @@ fn normal(name: &str, length: Traced, trace: &Trace) -> Text {
     }
     let mut goals = Vec::new();
     for (control_point, of_point) in components.iter().enumerate() {
-        // The middle one is doubled.
+        // The middle control point is doubled.
         let bound = if control_point == 1 { 120 } else { 60 };
         for &component in of_point {
             let (rounded, exact) = (rounded(component, trace), exact(component, trace));
@@ -303,7 +303,7 @@ fn exact(number: Traced, trace: &Trace) -> String {
     named(number, trace, str::to_uppercase, "T")
 }
 
-/// Returns what underflow in the steps adds. Inputs are computed values.
+/// Returns the error that underflow in the steps adds. Inputs are computed values.
 fn by_steps(number: Traced, trace: &Trace) -> String {
     named(number, trace, |_| "0".to_owned(), "q")
 }

@@ -1,4 +1,4 @@
-//! Traces of core's kernels, for proofs about what they compute. This crate is never published.
+//! Traces of core's kernels, for proofs about their computations. This crate is never published.
 //!
 //! | module | contents |
 //! |---|---|

@@ -1,4 +1,4 @@
-//! Writes what core's kernels compute for Gappa or Coq, or accepts it: see `usage` below.
+//! Writes the computations of core's kernels for Gappa or Coq, or accepts them: see `usage` below.
 
 use selvedge_traced::{Prover, accepted};
 use std::path::Path;
@@ -29,7 +29,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// The texts are written in any case, since they show what has changed.
+/// Writes the texts, which show the changes, and checks them.
 fn write(prover: Prover, folder: &Path) -> Result<(), String> {
     for (name, text) in prover.texts() {
         let path = folder.join(name);

@@ -1,4 +1,4 @@
-//! Core's kernels run on symbols, to see what they compute: which monomials, in how many rounded steps, in which order.
+//! Runs core's kernels on symbols, to show which monomials they compute, in how many rounded steps, in which order.
 //!
 //! The kernels are generic over [`Lanes`], so their source runs on [`Traced`] unchanged. The proofs in `verification/gappa` start
 //! from these traces, so they are about the code and not about a copy of it.
@@ -19,7 +19,7 @@ pub enum Traced {
     Underflow,
     /// The limit beyond which pairs are out of range.
     LargestEdge,
-    /// Where extents are out of range.
+    /// The limit beyond which extents are out of range.
     LargestExtent,
     /// μ.
     ExtentUnderflow,

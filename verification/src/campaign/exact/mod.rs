@@ -22,7 +22,7 @@ use selvedge_core::filter::Tier;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// The oracle confirms one in this many of the proven claims.
+/// The share of the proven claims that the oracle confirms: one in this many.
 pub const SAMPLE: u64 = 20_000;
 
 /// A test that claims something about a pair.
@@ -45,7 +45,7 @@ pub enum Claim {
 }
 
 impl Claim {
-    /// The certified ones.
+    /// The certified claims.
     pub const CERTIFIED: [Self; 6] = [
         Self::Filter,
         Self::Widened,
@@ -85,15 +85,15 @@ impl Claim {
 pub struct ClaimCounts {
     /// The number of claims.
     pub claims: u64,
-    /// Claims that exact signs prove.
+    /// The number of claims that exact signs prove.
     pub by_signs: u64,
-    /// Claims that an axis proves.
+    /// The number of claims that an axis proves.
     pub by_axis: u64,
-    /// Claims that integers prove.
+    /// The number of claims that integers prove.
     pub by_whole_numbers: u64,
-    /// Claims that the oracle decided or confirmed.
+    /// The number of claims that the oracle decided or confirmed.
     pub by_oracle: u64,
-    /// Wrong claims.
+    /// The number of wrong claims.
     pub wrong: u64,
     /// The first wrong claim: its chunk and the pair.
     pub example: Option<(u64, String)>,

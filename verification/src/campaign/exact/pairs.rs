@@ -36,8 +36,8 @@ pub struct Scenes {
 }
 
 impl fmt::Display for Scenes {
-    /// Writes the number of pairs and a digest of them. So machines whose scenes differ, by a file or by a rounding, do not share
-    /// a run.
+    /// Writes the number of pairs and a digest of them. Machines whose scenes differ, by a file or by a rounding, then do not
+    /// share a run.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let kinds = [&self.vertex_face, &self.edge_edge];
         let coordinates = kinds.into_iter().flatten().flatten().flatten().flatten();

@@ -63,7 +63,7 @@ impl Turned {
         }
     }
 
-    /// Returns where the point is that starts at `start`.
+    /// Returns the position of the point that starts at `start`.
     fn at(&self, start: DVec3) -> Box {
         let way = each(about(start), self.centre, |a, b| a - b);
         let along = times(self.axis, dot(self.axis, way));
@@ -95,7 +95,7 @@ pub(super) struct Case {
     starts: [DVec3; 4],
     /// The time at which they meet.
     pub(super) time: f64,
-    /// A bound on their distance at that time.
+    /// An upper bound of their distance at that time.
     pub(super) distance: f64,
     tolerance: f64,
 }

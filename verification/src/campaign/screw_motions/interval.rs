@@ -10,8 +10,8 @@ pub(super) struct Interval {
     pub(super) high: f64,
 }
 
-/// Widens two bounds that were rounded to nearest: the exact ones are between their neighbours. NaN, as of infinity minus
-/// infinity, becomes an infinite bound.
+/// Widens two bounds that were rounded to nearest: the exact ones are between their neighbours. A NaN, such as that of infinity
+/// minus infinity, becomes an infinite bound.
 fn outwards(low: f64, high: f64) -> Interval {
     let known = |bound: f64, unknown: f64| if bound.is_nan() { unknown } else { bound };
     Interval {
@@ -27,7 +27,7 @@ impl From<f64> for Interval {
 }
 
 impl Interval {
-    /// Encloses a number of more digits.
+    /// Encloses a number with more digits.
     fn of(x: &Float) -> Self {
         let nearest = x.to_f64();
         outwards(nearest, nearest)

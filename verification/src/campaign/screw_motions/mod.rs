@@ -31,13 +31,13 @@ pub enum MotionPaths {
 /// Counts of one kind of pair.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct MeetingCounts {
-    /// Pairs that meet.
+    /// The number of pairs that meet.
     pub cases: u64,
-    /// Pairs whose time is found in the last hundredth of the time until they meet.
+    /// The number of pairs whose time is found in the last hundredth of the time until they meet.
     pub sharp: u64,
-    /// Pairs that are found at the start of the step.
+    /// The number of pairs that are found at the start of the step.
     pub at_once: u64,
-    /// Pairs that are found too late, or not at all.
+    /// The number of pairs that are found too late, or not at all.
     pub missed: u64,
     /// The first missed pair: its chunk and the case.
     pub example: Option<(u64, String)>,
@@ -164,7 +164,7 @@ fn look_at(seed: u64, chunk: u64, cases: u64, paths: MotionPaths) -> [MeetingCou
 fn random(seed: u64, chunk: u64) -> TestRng {
     let mut bytes = [0; 16];
     bytes[..8].copy_from_slice(&seed.to_le_bytes());
-    // Never all zero: this generator would stay there.
+    // The seed is never zero, since this generator would stay there.
     bytes[8..].copy_from_slice(&(chunk + 1).to_le_bytes());
     let mut random = TestRng::from_seed(RngAlgorithm::XorShift, &bytes);
     // The first numbers of similar seeds are similar.

@@ -22,8 +22,7 @@ fn to_segment(x: DVec3, p: DVec3, q: DVec3) -> f64 {
     x.distance(p + along * part)
 }
 
-/// If the squared height of a triangle is less than this, only its edges are examined, since its points are then within 1e-9 of
-/// an edge.
+/// The squared height of a triangle below which only its edges are examined, since its points are then within 1e-9 of an edge.
 const THIN: f64 = 1e-18;
 
 fn vertex_face([x, a, b, c]: [DVec3; 4]) -> f64 {

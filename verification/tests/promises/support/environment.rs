@@ -34,7 +34,7 @@ impl Environment {
         }
     }
 
-    /// Returns all sixteen, or none, with a note, where the test cannot set them.
+    /// Returns all sixteen environments. Returns none, with a note, on processors where the test cannot set them.
     pub(crate) fn all() -> Vec<Self> {
         if cfg!(not(target_arch = "x86_64")) {
             eprintln!("skipped: floating-point environments are set on x86-64 only");
@@ -47,7 +47,7 @@ impl Environment {
 
     /// Returns `f(input)`, computed in this environment.
     ///
-    /// Processors other than x86-64 have only the default one.
+    /// Processors other than x86-64 have only the default environment.
     pub(crate) fn run<I: ?Sized, T>(self, input: &I, f: impl Fn(&I) -> T) -> T {
         let f: &dyn Fn(&I) -> T = &f;
         let (f, input) = (black_box(f), black_box(input));

@@ -1,5 +1,5 @@
-//! Shared by several modules. Here, a second way to decide contact at rest: convex sets clipped by half-spaces in rational
-//! arithmetic.
+//! Checks that several modules share. This file has a second way to decide contact at rest: convex sets clipped by half-spaces in
+//! rational arithmetic.
 //!
 //! The oracle decides by signs and never constructs a point; this constructs every corner of the common part.
 
@@ -11,7 +11,7 @@ pub(crate) mod widths;
 
 use rug::Rational;
 
-/// A property of pairs of format `S`, or of other inputs, with a test for each format.
+/// Defines a property of pairs of format `S`, or of other inputs, with a test for each format.
 macro_rules! property {
     ($(#[$about:meta])* $name:ident, $cases:expr, $strategy:expr, |$pair:ident| $property:expr) => {
         property!($(#[$about])* $name, $cases, $strategy, |$pair: PairCase| $property);

@@ -46,7 +46,7 @@ impl InRationals {
         };
         let volume = |[a, b, c, d]: [Point; 4]| match pair.kind {
             PairKind::VertexFace => dot(&minus(&a, &b), &cross(&minus(&c, &b), &minus(&d, &b))),
-            // a, b, c, p are the points k, u, v, l.
+            // The points a, b, c, p are k, u, v, l.
             PairKind::EdgeEdge => dot(&minus(&d, &c), &cross(&minus(&a, &c), &minus(&b, &c))),
         };
         let normal = |[a, b, c, d]: [Point; 4]| match pair.kind {
@@ -63,7 +63,7 @@ impl InRationals {
         let [inner_1, inner_2] = inner;
 
         let [n0, middle, n1] = [0, 1, 2].map(|half| normal(at(half, 2)));
-        // n(½) = (n₀ + h + n₁)/4.
+        // The middle normal is n(½) = (n₀ + h + n₁)/4.
         let four = Rational::from(4);
         let h = minus(&minus(&middle.map(|x| x * &four), &n0), &n1);
         let plus = |a: &Point, b: &Point| -> Point { std::array::from_fn(|axis| Rational::from(&a[axis] + &b[axis])) };
