@@ -1,5 +1,6 @@
 //! Measures every batched test and every filter tier, on tiles that stay in the first cache and on pairs gathered from a mesh of
-//! a million vertices. Run `cargo bench -p selvedge-benches --bench filters`; a word behind it selects, such as `gathered/f32`.
+//! a million vertices. Run `cargo bench -p selvedge-benches --bench filters`; a further word selects benchmarks, such as
+//! `gathered/f32`.
 //!
 //! Criterion's time per element is the time per pair.
 
@@ -49,7 +50,7 @@ impl<S: Scalar> Sheets<S> {
     }
 }
 
-/// A vertex of a sheet with edges of about one hundredth; the sheets are half as far apart.
+/// Returns a vertex of a sheet with edges of about one hundredth; the sheets are half as far apart.
 fn vertex<S: Scalar>(sheet: u8, i: f64, j: f64) -> VertexRow<S> {
     let sheet = f64::from(sheet);
     let height = 0.005 * sheet + 0.01 * (0.7 * i + 0.3 * sheet).sin();

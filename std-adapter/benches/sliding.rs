@@ -1,4 +1,4 @@
-//! The time of impact of pairs that slide past each other, by their distance.
+//! Measures the time of impact of pairs that slide past each other, by their distance.
 
 mod pairs;
 

@@ -1,4 +1,4 @@
-//! Pairs to measure with, the same on every machine.
+//! Pairs for measurements, the same on every machine.
 
 #![allow(dead_code, reason = "each bench uses a part")]
 
@@ -20,7 +20,7 @@ impl Random {
         z ^ z >> 31
     }
 
-    /// Between −`limit` and `limit`.
+    /// Returns a number between −`limit` and `limit`.
     fn within(&mut self, limit: f64) -> f64 {
         let unit = (self.word() >> 11) as f64 / (1_u64 << 53) as f64;
         limit * (2.0 * unit - 1.0)
@@ -31,7 +31,7 @@ impl Random {
     }
 }
 
-/// A pair from the start and the end of each point, rounded.
+/// Makes a pair from the start and the end of each point, rounded.
 fn vertex_face<S: Scalar>(points: [[[f64; 3]; 2]; 4]) -> PrimitivePair<S> {
     let rounded = |position: [f64; 3]| position.map(S::from_f64).into();
     PrimitivePair {
@@ -47,7 +47,7 @@ fn plus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|axis| a[axis] + b[axis])
 }
 
-/// Features of a centimetre in a cube of two metres, which move by up to a centimetre.
+/// Makes features of a centimetre in a cube of two metres, which move by up to a centimetre.
 pub(crate) fn cloth<S: Scalar>() -> Vec<PrimitivePair<S>> {
     let mut random = Random(1);
     let mut pair = || {
@@ -58,15 +58,15 @@ pub(crate) fn cloth<S: Scalar>() -> Vec<PrimitivePair<S>> {
     (0..COUNT).map(|_| pair()).collect()
 }
 
-/// All eight positions within rounding of one tilted plane.
+/// Makes pairs whose eight positions are within rounding of one tilted plane.
 pub(crate) fn nearly_coplanar<S: Scalar>() -> Vec<PrimitivePair<S>> {
     let mut random = Random(2);
     let pairs = std::iter::repeat_with(|| near_a_plane(&mut random, 0.0));
     pairs.filter(is_undecided).take(COUNT).collect()
 }
 
-/// The vertex lies a few units in the last place above the plane of the face. That is too little for floating point, but all four
-/// control values have one sign, so that all four must be computed.
+/// Makes pairs whose vertex lies a few units in the last place above the plane of the face. That is too little for floating
+/// point, but all four control values have one sign, so that all four must be computed.
 pub(crate) fn barely_above<S: Scalar>() -> Vec<PrimitivePair<S>> {
     let mut random = Random(3);
     let height = 4.0 * S::UNIT_ROUNDOFF.to_f64();
@@ -93,7 +93,7 @@ fn is_undecided<S: Scalar>(pair: &PrimitivePair<S>) -> bool {
     !non_coplanarity(pair).is_culled()
 }
 
-/// Coordinates of all sizes: each exponent is as likely as the others.
+/// Makes pairs with coordinates of all sizes: each exponent is as likely as the others.
 pub(crate) fn all_sizes<S: Scalar>() -> Vec<PrimitivePair<S>> {
     let mut random = Random(4);
     let largest = (1 << (S::EXPONENT_BITS - 1)) - 1;
@@ -116,8 +116,8 @@ pub(crate) fn all_sizes<S: Scalar>() -> Vec<PrimitivePair<S>> {
     (0..COUNT).map(|_| pair()).collect()
 }
 
-/// A point of one set begins and ends its way within 2 to the power of −`exponent` of a corner of the other, along each axis; all other
-/// coordinates are eighths.
+/// Makes pairs in which a point of one set begins and ends its way within 2 to the power of −`exponent` of a corner of the other,
+/// along each axis; all other coordinates are eighths.
 pub(crate) fn sliding<S: Scalar>(kind: PairKind, exponent: i32) -> Vec<PrimitivePair<S>> {
     let mut random = Random(5);
     let (mover, corner) = match kind {

@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         files => read(files)?,
     };
 
-    // 0: a thread for each core.
+    // With 0 there is a thread for each core.
     let mut detector = CollisionDetector::<f64>::new(topology);
     detector.set_threads(Threads::EachCore)?;
     let (mut contacts, mut end) = (Vec::new(), Vec::new());
@@ -55,7 +55,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The sum of all vertices' paths.
+/// Returns the sum of the lengths of all vertices' paths.
 fn motion(start: &[DVec3], end: &[DVec3]) -> f64 {
     start.iter().zip(end).map(|(from, to)| from.distance(*to)).sum()
 }

@@ -35,14 +35,14 @@ use selvedge_core::batch::LANES;
 /// nothing. Infinite bounds compare as numbers do.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SweptBox {
-    /// Least coordinate along each axis.
+    /// The least coordinate along each axis.
     pub lower: [f32; 3],
-    /// Greatest coordinate along each axis.
+    /// The greatest coordinate along each axis.
     pub upper: [f32; 3],
 }
 
-/// Lower bounds, then negated upper bounds, so that the bounds of a union are minima. Never NaN: that becomes negative infinity, which is
-/// unbounded.
+/// The lower bounds, then the negated upper bounds, so that the bounds of a union are minima. NaN becomes negative infinity,
+/// which is unbounded.
 type Bounds = [f32; 6];
 
 /// The neutral element of [`union`].
@@ -54,7 +54,7 @@ impl SweptBox {
         [x, y, z, -u, -v, -w].map(|bound| bound.max(f32::NEG_INFINITY))
     }
 
-    /// The middle along an axis; zero where it is not finite.
+    /// Returns the middle along an axis; zero if it is not finite.
     fn middle(&self, axis: usize) -> f32 {
         let middle = 0.5 * self.lower[axis] + 0.5 * self.upper[axis];
         if middle.is_finite() { middle } else { 0.0 }
@@ -65,17 +65,17 @@ fn union(a: &Bounds, b: &Bounds) -> Bounds {
     std::array::from_fn(|k| a[k].min(b[k]))
 }
 
-/// The greatest bounds that a box may have to overlap `bounds`.
+/// Returns the greatest bounds of a box that overlaps `bounds`.
 fn limits(bounds: &Bounds) -> Bounds {
     let [x, y, z, u, v, w] = *bounds;
     [-u, -v, -w, -x, -y, -z]
 }
 
-/// Up to sixteen neighbouring triangles.
+/// A group of up to sixteen neighbouring triangles.
 #[derive(Clone, Copy, Debug)]
 struct Leaf {
     triangles: [u32; LANES],
-    /// `bounds[k][lane]`; NaN, which is within no limits, in unused lanes.
+    /// The bounds, as `bounds[k][lane]`. Unused lanes have NaN, which is within no limits.
     bounds: [[f32; LANES]; 6],
 }
 
@@ -96,7 +96,7 @@ impl Leaf {
         all
     }
 
-    /// The lanes whose box is within `limits`, as bits.
+    /// Returns the lanes whose box is within `limits`, as bits.
     #[inline]
     fn within(&self, limits: &Bounds) -> u32 {
         let mut mask = 0;
@@ -118,9 +118,9 @@ struct Task {
     leaf_tests: u64,
 }
 
-/// Leaves in a task.
+/// The number of leaves in a task.
 const TASK: usize = 64;
-/// A tree is built again when it takes this many times as many tests as just after its build, for each triangle and pair.
+/// The factor by which tests for each triangle and pair exceed those just after the build when the tree is built again.
 const DEGRADED: f64 = 1.5;
 
 /// Finds the pairs of triangles whose swept boxes overlap; see the [module](self).
@@ -132,9 +132,9 @@ pub struct BroadPhase {
     /// half.
     nodes: Vec<Bounds>,
     tasks: Vec<Task>,
-    /// Where the pairs of each triangle end in the result.
+    /// The end of each triangle's pairs in the result.
     ends: Vec<usize>,
-    /// Tests for each triangle and pair: just after the build, and in the last step.
+    /// The tests for each triangle and pair, just after the build and in the last step.
     cost: Option<[f64; 2]>,
 }
 
@@ -193,7 +193,7 @@ impl BroadPhase {
         found().for_each(|pair| self.ends[pair[0] as usize] += 1);
         let mut total = 0;
         for end in &mut self.ends {
-            // Where the triangle's pairs begin, until they are written.
+            // Until the pairs are written this is where those of the triangle begin.
             total += std::mem::replace(end, total);
         }
         if pairs.capacity() < total {
@@ -259,7 +259,7 @@ impl Task {
                 continue;
             }
             for child in [2 * node + 1, 2 * node] {
-                // The last leaf below a node.
+                // This is the last leaf below a node.
                 let height = half.ilog2() - child.ilog2();
                 let last = ((child + 1) << height) - 1 - half;
                 if last >= own {
@@ -296,7 +296,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// The definition of the result.
+    /// Computes the result from its definition.
     fn by_definition(boxes: &[SweptBox]) -> Vec<[u32; 2]> {
         let is_apart =
             |a: &SweptBox, b: &SweptBox| (0..3).any(|axis| a.lower[axis] > b.upper[axis] || b.lower[axis] > a.upper[axis]);
@@ -312,7 +312,7 @@ mod tests {
         pairs
     }
 
-    /// Boxes on a coarse grid, so that many are equal, touch, or have no extent along an axis.
+    /// Generates boxes on a coarse grid, so that many are equal, touch, or have no extent along an axis.
     fn grid_box() -> impl Strategy<Value = SweptBox> {
         (prop::array::uniform3(-20i8..20), prop::array::uniform3(0i8..4)).prop_map(|(lower, extent)| SweptBox {
             lower: lower.map(f32::from),
@@ -320,7 +320,7 @@ mod tests {
         })
     }
 
-    /// Any bounds at all, in any order.
+    /// Generates boxes with any bounds, in any order.
     fn lawless_box() -> impl Strategy<Value = SweptBox> {
         let special = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, f32::MIN, 0.0, -0.0];
         let bound = move || prop_oneof![any::<f32>(), prop::sample::select(special.to_vec()), -2.0f32..2.0];
@@ -360,7 +360,7 @@ mod tests {
         }
     }
 
-    /// A square sheet of `side * side` boxes that touch their neighbours, in rows.
+    /// Makes a square sheet of `side * side` boxes that touch their neighbours, in rows.
     fn sheet(side: usize) -> Vec<SweptBox> {
         let corner = |index: usize| [(index % side) as f32, (index / side) as f32, 0.0];
         let swept = |lower: [f32; 3]| SweptBox {
@@ -385,7 +385,7 @@ mod tests {
     #[test]
     fn a_tree_that_has_degraded_is_built_again_and_costs_as_if_it_were_new() {
         let ordered = sheet(40);
-        // 7 has no divisor in common with 1600, so that this is a permutation, far from the identity.
+        // The numbers 7 and 1600 have no common divisor, so this is a permutation, far from the identity.
         let mixed: Vec<_> = (0..ordered.len()).map(|index| ordered[index * 7 % ordered.len()]).collect();
         let cost = |steps: &[&[SweptBox]]| {
             let mut broad_phase = BroadPhase::default();

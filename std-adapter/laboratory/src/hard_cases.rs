@@ -13,7 +13,7 @@ use std::sync::OnceLock;
 pub struct HardCase {
     /// The case's name.
     pub name: String,
-    /// Its size and place, in metres. `far` is 1e7 from the origin along each axis.
+    /// The size and place, in metres. `far` is 1e7 from the origin along each axis.
     pub placement: String,
     /// The pair.
     pub pair: PrimitivePair<f64>,

@@ -29,8 +29,8 @@ use std::fmt::Display;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-/// Why a file of queries could not be read or converted. The message names the file, the line and the column, where there are any, and
-/// the remedy.
+/// The reason why a file of queries could not be read or converted. The message names the file, the line and the column if there
+/// are any, and the remedy.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct QueryError(String);
@@ -68,7 +68,7 @@ pub struct SinglePrecision {
     pub rounded: usize,
 }
 
-/// Rows of a query: four points at the start of the step, four at its end.
+/// The number of rows of a query: four points at the start of the step, four at its end.
 const ROWS: usize = 8;
 
 /// Returns the kind that a path names, or `None`.
@@ -77,7 +77,7 @@ const ROWS: usize = 8;
 /// `vf` or `ee` before its extension, if no letter comes before these (`227vf.csv`, but not `knee.csv`).
 #[must_use]
 pub fn kind_of_path(path: &Path) -> Option<PairKind> {
-    // Made absolute so that `data.csv` inside `vertex-face` is recognised from there.
+    // The path is made absolute so that `data.csv` inside `vertex-face` is recognised from there.
     let absolute = std::path::absolute(path);
     let folder = absolute.as_deref().unwrap_or(path).parent();
     let folder = folder.and_then(Path::file_name).and_then(|name| name.to_str());
@@ -215,8 +215,8 @@ impl Row {
     }
 }
 
-/// Rounds a ratio of two decimal integers to the nearest `f64`, ties to even, and says whether that is exact. Zero is +0. An error is the
-/// number of the field and the reason.
+/// Rounds a ratio of two decimal integers to the nearest `f64`, ties to even. Also returns whether that is exact. Zero is +0. An
+/// error is the number of the field and the reason.
 fn rounded(numerator: &str, denominator: &str) -> Result<(f64, bool), (usize, String)> {
     let fields = [numerator, denominator];
     for (index, field) in fields.iter().enumerate() {
@@ -226,7 +226,8 @@ fn rounded(numerator: &str, denominator: &str) -> Result<(f64, bool), (usize, St
             return Err((index, format!("'{}' is no integer", excerpt(field, 24))));
         }
     }
-    // Without large integers: a numerator that f64 holds exactly, over a power of two of at most 2^63, is an exact quotient.
+    // Large integers are not needed here: a numerator that f64 holds exactly, over a power of two of at most 2^63, is an exact
+    // quotient.
     if let (Ok(num), Ok(den)) = (numerator.parse::<i64>(), denominator.parse::<u64>())
         && num.unsigned_abs() <= 1 << f64::MANTISSA_DIGITS
         && den.is_power_of_two()
@@ -295,12 +296,12 @@ mod tests {
         read_from(text.as_ref(), Path::new("queries.csv"), PairKind::VertexFace)
     }
 
-    /// One query of a vertex that falls through a triangle, without truth.
+    /// Writes one query of a vertex that falls through a triangle, without truth.
     fn fall() -> String {
         format!("1,4,1,4,1,2\n{FACE}1,4,1,4,-1,2\n{FACE}")
     }
 
-    /// The same with a truth for each row.
+    /// Writes the same query with a truth for each row.
     fn fall_with_truths(truths: [&str; 8]) -> String {
         let rows = fall();
         let rows = rows.lines().zip(truths);
@@ -416,7 +417,7 @@ mod tests {
             let value = f64::from_bits(bits);
             prop_assume!(value.is_finite());
             let exact = RBig::try_from(value).unwrap();
-            // Neither a common factor nor a sign below the line changes it.
+            // A common factor, or a sign below the line, does not change it.
             let scale = -IBig::from(scale);
             let (num, den) = (exact.numerator() * &scale, IBig::from(exact.denominator().clone()) * &scale);
             prop_assert_eq!(rounded(&num.to_string(), &den.to_string()), Ok((value + 0.0, true)));

@@ -20,7 +20,7 @@ fn allocations(pipeline: &mut Pipeline<f64>, frames: &[Vec<DVec3>]) -> Vec<u64> 
     frames.windows(2).map(|pair| step(&pair[0], &pair[1])).collect()
 }
 
-/// The mesh in waves that run along it.
+/// Returns the mesh in waves that run along it.
 fn waves(mesh: &Mesh, count: usize) -> Vec<Vec<DVec3>> {
     let frame = |index: usize| {
         let phase = index as f64 * 0.1;
@@ -43,7 +43,7 @@ fn a_sleeve_in_waves_allocates_in_its_first_step_only() {
     }
 }
 
-/// The same for the detector's questions, with the caller's buffers.
+/// The detector's methods allocate nothing either, with the caller's buffers.
 #[test]
 fn a_detector_allocates_in_its_first_step_only() {
     let mesh = sleeve(1).expect("a refinement in range");
@@ -71,7 +71,7 @@ fn a_detector_allocates_in_its_first_step_only() {
     assert_eq!(counted[1..], vec![0; frames.len() - 2]);
 }
 
-/// Bends the arm again and again, from where folds begin to meet. When the broad phase builds its tree again, a list may have to
+/// The arm bends again and again, from where folds begin to meet. When the broad phase builds its tree again, a list may have to
 /// grow once more, but seldom.
 #[test]
 fn the_arm_bent_again_and_again_hardly_allocates_after_the_first_time() {

@@ -168,8 +168,8 @@ impl Check {
         Ok(found)
     }
 
-    /// Returns the names of the coloured files, one for each mesh, if they are wanted. Refuses files that could not be written,
-    /// before long work.
+    /// Returns the names of the coloured files on request, one for each mesh. Refuses files that could not be written, before
+    /// long work.
     fn coloured_files(&self) -> Result<Vec<PathBuf>, Failure> {
         let Some(folder) = &self.ply else {
             return Ok(Vec::new());

@@ -4,10 +4,10 @@ use clap::builder::{PossibleValuesParser, RangedI64ValueParser, TypedValueParser
 use selvedge::simd::{Level, available_levels, best_level};
 use selvedge_laboratory::methods::Preset;
 
-/// No machine has more cores; each thread needs buffers of its own.
+/// The largest number of threads. No machine has more cores, and each thread needs buffers of its own.
 const MAX_THREADS: i64 = 1024;
 
-/// A sleeve of 13 million triangles, which fits into a large machine's memory.
+/// The largest refinement: a sleeve of 13 million triangles, which fits into a large machine's memory.
 const MAX_REFINEMENT: i64 = 10_000;
 
 /// The format of positions in the computation.
@@ -19,7 +19,7 @@ pub(crate) enum ScalarChoice {
     F64,
 }
 
-/// `--simd`.
+/// The option `--simd`.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct Simd {
     /// Compute with this instruction set instead of the machine's widest. Only the time changes
@@ -38,7 +38,7 @@ impl Simd {
     }
 }
 
-/// `--threads`.
+/// The option `--threads`.
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub(crate) struct Threads {
     /// Use this many threads; 0 means one for each core

@@ -47,7 +47,7 @@ pub(crate) fn say(message: fmt::Arguments<'_>) {
     let _ = writeln!(io::stderr().lock(), "{message}");
 }
 
-/// `1 coordinate was`, `2 coordinates were`.
+/// Writes `1 coordinate was` or `2 coordinates were`.
 pub(crate) fn coordinates_were(count: usize) -> String {
     match count {
         1 => "1 coordinate was".to_owned(),
@@ -76,7 +76,7 @@ impl OutputFiles {
         Self::check(&folder.join("file"))
     }
 
-    /// Writes a file, not yet under its name.
+    /// Writes a file under a temporary name.
     pub(crate) fn add(
         &mut self,
         path: PathBuf,
@@ -91,7 +91,7 @@ impl OutputFiles {
         Ok(())
     }
 
-    /// Writes the bytes of a file, not yet under its name.
+    /// Writes the bytes of a file under a temporary name.
     pub(crate) fn add_bytes(&mut self, path: PathBuf, bytes: &[u8]) -> Result<(), Failure> {
         self.add(path, |out| out.write_all(bytes))
     }
@@ -118,7 +118,7 @@ impl OutputFiles {
 fn temporary(path: &Path) -> Result<NamedTempFile, Failure> {
     temporary_file::beside(path).map_err(|error| match error.kind() {
         ErrorKind::NotFound => unwritable(path, "there is no such folder"),
-        // Without the temporary file's own name, which would not help the user.
+        // The error does not contain the temporary file's name, which would not help the user.
         kind => unwritable(path, io::Error::from(kind)),
     })
 }

@@ -19,23 +19,23 @@ pub(crate) struct Progress {
 }
 
 impl Progress {
-    /// Work whose share is reported by [`set`](Self::set).
+    /// Shows work whose share is reported by [`set`](Self::set).
     pub(crate) fn bar(message: &'static str) -> Self {
         Self::start(message, LENGTH, "{msg} {wide_bar} {percent} %, {eta} left")
     }
 
-    /// Work in this many steps, reported by [`set_steps`](Self::set_steps).
+    /// Shows work in this many steps, reported by [`set_steps`](Self::set_steps).
     pub(crate) fn steps(message: &'static str, steps: u64) -> Self {
         let template = "{msg} {wide_bar} {percent} %, step {pos}, {per_sec}, {eta} left";
         Self::start(message, steps, template)
     }
 
-    /// Work that ends when nothing remains of this many, reported by [`set_steps`](Self::set_steps).
+    /// Shows work that ends when nothing remains of this many, reported by [`set_steps`](Self::set_steps).
     pub(crate) fn shrinking(message: &'static str, most: u64) -> Self {
         Self::start(message, most, "{msg} {pos}, {elapsed}")
     }
 
-    /// Work of unknown length.
+    /// Shows work of unknown length.
     pub(crate) fn spinner(message: &'static str) -> Self {
         Self::start(message, LENGTH, "{spinner} {msg}, {elapsed}")
     }

@@ -156,7 +156,7 @@ impl Simulate {
         first.result.and(second.result).and(printed)
     }
 
-    /// Sets a scene up, and untangles it if the scene says so. If it is tangled in the end, the places are written and printed.
+    /// Sets a scene up, and untangles it if the scene says so. If tangles remain, the places are written and printed.
     fn set_up(&self, scene: Scene) -> Result<Simulation, Failure> {
         let name = scene.name.clone();
         let mut untangling = None;
@@ -215,7 +215,7 @@ impl Simulate {
             recorder.remark(sentence);
         }
         if let Err(failure) = &result {
-            // The frame in which it was blocked, or could not continue.
+            // In this frame it was blocked, or could not continue.
             recorder.frame(&simulation)?;
             recorder.remark(failure.to_string());
         }

@@ -3,7 +3,7 @@
 use crate::support::{ACCURACY, Run, Workplace, keys};
 use serde_json::Value;
 
-/// Small enough for a test.
+/// Arguments for a run that is short enough for a test.
 const SHORT: [&str; 7] = ["accuracy", "--only", "filters", "--pairs", "1500", "--repeat", "1"];
 
 fn rows(document: &Value) -> &Vec<Value> {
@@ -20,7 +20,7 @@ fn json_has_every_filter_on_every_set_and_backend() {
     let levels = selvedge::simd::available_levels();
     let sets = document["sets"].as_array().unwrap();
     assert_eq!(sets.len(), 6);
-    // The paper's filter, bare signs, three tiers for f32 and two for f64; on each level and one at a time.
+    // The filters are the paper's, bare signs, three tiers for f32 and two for f64, on each level and one at a time.
     let expected = 3 * (5 + 4) * (1 + levels.len());
     assert_eq!(rows(&document).len(), expected);
     for row in rows(&document) {
@@ -67,7 +67,7 @@ fn a_step_between_two_meshes_is_a_set_of_its_own() {
     let sets = document["sets"].as_array().unwrap();
     assert_eq!(sets.len(), 8);
     assert_eq!(sets[2]["set"], "start to end");
-    // All 15 pairs of two triangles.
+    // These are all 15 pairs of two triangles.
     assert_eq!((&sets[2]["vertex_face"], &sets[2]["edge_edge"]), (&6.into(), &9.into()));
     assert_eq!(sets[2]["drawn_from"], 15);
 }
@@ -109,7 +109,7 @@ fn elementary_tests_are_measured_at_every_tolerance_and_the_unsafe_ones_are_caug
     let document: Value = serde_json::from_str(&place.read("rows.json")).unwrap();
     assert_eq!(keys(&document), ["elementary"]);
     let document = &document["elementary"];
-    // Hard cases, arm, step, nearly coplanar pairs, in two formats.
+    // The sets are hard cases, arm, step and nearly coplanar pairs, in two formats.
     assert_eq!(document["sets"].as_array().unwrap().len(), 8);
     assert_eq!(rows(document).len(), 8 * 25);
     let mut wrong = 0.0;

@@ -1,5 +1,5 @@
-//! Input that cannot be used: one message that names the file and the place, the exit status, nothing left behind. Messages about the
-//! content of a mesh or of queries are tested where these are read.
+//! Invalid input gives one message that names the file and the place, and the exit status, and leaves no files. Messages about
+//! the content of a mesh or of queries are tested where these are read.
 
 use crate::support::{ABOVE, Workplace, moved_by};
 

@@ -100,7 +100,7 @@ fn neighbours_folded_flat_are_listed_by_their_edges() {
 fn the_mesh_in_colours_is_written_where_there_are_intersections_and_reads_back() {
     let place = Workplace::new();
     place.write("above.obj", ABOVE);
-    // A third triangle, far away: not red.
+    // A third triangle is far away, and not red.
     place.write("through.obj", moved_by(-1.05) + "v 9 9 9\nv 9 8 9\nv 8 9 9\nf 7 8 9\n");
     tangled(&place, &["check", "above.obj", "through.obj", "--ply", "out"]);
     assert_eq!(
@@ -214,7 +214,7 @@ fn what_cannot_be_read_or_written_is_refused_with_its_name() {
     refused(1, &["on.obj", "again/on.obj", "--ply", "out"], "would both be written");
 }
 
-/// A rope through a triangle, and a cloud of points, two of which coincide.
+/// A rope passes through a triangle, and two points of a cloud coincide.
 #[test]
 fn ropes_and_clouds_of_points_are_looked_at() {
     let place = Workplace::new();

@@ -3,7 +3,7 @@
 use crate::support::{Run, SHEET, Workplace, keys};
 use selvedge_laboratory::methods::Preset;
 
-/// Small enough for a test.
+/// Arguments for a run that is short enough for a test.
 const SHORT: [&str; 4] = ["--steps", "2", "--rounds", "1"];
 
 const REPORT: [&str; 4] = ["comparison.csv", "comparison.html", "comparison.md", "figure-3.png"];

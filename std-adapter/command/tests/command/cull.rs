@@ -20,7 +20,8 @@ fn json_has_the_mesh_the_stages_and_the_contacts() {
     let place = Workplace::with_step();
     let ours = place.json(&with(&["--json"]));
     has_the_mesh_the_stages_and_the_contacts(&ours, "selvedge", false);
-    // The small triangle's corners and the large face; its edges and the two slanted ones of the large triangle.
+    // The pairs are those of the small triangle's corners with the large face, and of its edges with the two slanted ones of the
+    // large triangle.
     assert_eq!(stage(&ours, "broad-phase")["vertex_face"], 3);
     assert_eq!(stage(&ours, "broad-phase")["edge_edge"], 6);
 

@@ -3,7 +3,7 @@
 use crate::support::{Workplace, keys};
 use serde_json::{Value, json};
 
-/// A vertex at (1/4, 1/4) that moves from z = 1/2 to `end`/2 over a resting triangle, with the given truth.
+/// Writes a query of a vertex at (1/4, 1/4) that moves from z = 1/2 to `end`/2 over a resting triangle, with the given truth.
 fn fall(end: i32, truth: &str) -> String {
     let face = ["0,1,0,1,0,1", "1,1,0,1,0,1", "0,1,1,1,0,1"];
     let mut rows = vec!["1,4,1,4,1,2".to_owned()];
@@ -24,7 +24,7 @@ fn method<'a>(document: &'a Value, method: &str, kind: &str) -> &'a Value {
 #[test]
 fn json_counts_answers_against_the_truth() {
     let place = Workplace::new();
-    // A hit, a miss, a hit whose truth says miss, and a miss whose truth says hit.
+    // The queries are a hit, a miss, a hit whose truth says miss, and a miss whose truth says hit.
     let text = [fall(-1, ",1"), fall(1, ",0"), fall(-1, ",0"), fall(1, ",1")].concat();
     place.write("fall-vf.csv", text);
     let document = place.json(&["queries", "fall-vf.csv", "--method", "selvedge", "--json"]);

@@ -148,7 +148,7 @@ fn the_report_needs_no_network_and_no_other_file() {
     let place = place();
     place.stdout(&["simulate", "sheet.toml", "--output", "out"]);
     let page = place.read("out/sheet.html");
-    // Another test shows that the page loads nothing; this one, that the command writes that page for this scene.
+    // Another test shows that the page loads nothing. This one shows that the command writes that page for this scene.
     assert!(page.contains("<h1>a &lt;/script&gt; sheet</h1>"));
     assert!(page.contains("body contact: thickness") && page.contains("self-collision"));
     let header = "<script id=\"recording\" type=\"application/json\">";
@@ -260,7 +260,7 @@ fn what_is_wrong_with_a_scene_is_said_with_its_place() {
     assert!(message.contains("sheet.checkpoint: cannot be read"), "{message}");
 }
 
-/// The sheet of `SHEET` through the upper part of its ball.
+/// Writes a scene with the sheet of `SHEET` through the upper part of its ball.
 fn tangled(start: &str) -> Workplace {
     let place = Workplace::new();
     let through = SHEET

@@ -20,7 +20,7 @@ f 1 2 3
 f 4 5 6
 ";
 
-/// The same, the small triangle moved by `z`.
+/// Returns the same triangles, with the small one moved by `z`.
 pub(crate) fn moved_by(z: f64) -> String {
     let mut lines: Vec<String> = ABOVE.lines().map(str::to_owned).collect();
     for (line, height) in lines[3..6].iter_mut().zip([1.0, 1.1, 1.2]) {
@@ -30,7 +30,7 @@ pub(crate) fn moved_by(z: f64) -> String {
     lines.join("\n") + "\n"
 }
 
-/// A scene: a sheet that falls on a ball, in 500 steps.
+/// A scene of a sheet that falls on a ball, in 500 steps.
 pub(crate) const SHEET: &str = r#"
 name = "a </script> sheet"
 time_step = "2 ms"
@@ -75,7 +75,7 @@ impl Workplace {
         }
     }
 
-    /// With `start.obj` and `end.obj`: the small triangle falls through the large one.
+    /// Makes a folder with `start.obj` and `end.obj`, in which the small triangle falls through the large one.
     pub(crate) fn with_step() -> Self {
         let place = Self::new();
         place.write("start.obj", ABOVE);
@@ -159,7 +159,7 @@ impl Workplace {
 pub(crate) struct Run {
     pub(crate) text: String,
     pub(crate) notes: String,
-    /// Every file and folder, as [`Workplace::listing`] has them.
+    /// The paths of all files and folders, as [`Workplace::listing`] returns them.
     pub(crate) listing: Vec<String>,
     files: BTreeMap<String, Vec<u8>>,
 }
@@ -192,23 +192,23 @@ impl Run {
         std::str::from_utf8(self.bytes(name)).unwrap()
     }
 
-    /// `selvedge`, without a subcommand.
+    /// Runs `selvedge` without a subcommand.
     pub(crate) fn of_main_job() -> &'static Self {
         static RUN: LazyLock<Run> = LazyLock::new(|| Run::new(&["--steps", "2", "--rounds", "1"]));
         &RUN
     }
 
-    /// `selvedge accuracy`, both parts; the document goes to `rows.json`.
+    /// Runs both parts of `selvedge accuracy`; the document goes to `rows.json`.
     pub(crate) fn of_accuracy() -> &'static Self {
         static RUN: LazyLock<Run> = LazyLock::new(|| Run::new(&[&ACCURACY[..], &["--json=rows.json"]].concat()));
         &RUN
     }
 }
 
-/// `selvedge accuracy`, both parts, short enough for a test.
+/// The arguments of both parts of `selvedge accuracy`, for a run that is short enough for a test.
 pub(crate) const ACCURACY: [&str; 4] = ["accuracy", "--pairs=300", "--repeat=1", "--budget=0.05"];
 
-/// The keys of a JSON object, in order.
+/// Returns the keys of a JSON object, in order.
 #[track_caller]
 pub(crate) fn keys(value: &Value) -> Vec<&str> {
     value.as_object().unwrap().keys().map(String::as_str).collect()

@@ -3,7 +3,7 @@
 use crate::support::{Run, Workplace};
 use std::process::Stdio;
 
-/// Lines of more than 80 columns.
+/// Returns lines of more than 80 columns.
 fn wide_lines(text: &str) -> Vec<&str> {
     text.lines().filter(|line| line.chars().count() > 80).collect()
 }

@@ -10,7 +10,7 @@
 //! * The number of rounds is inversely proportional to the first gap. The original does not limit it. Here [`ROUNDS`] is the
 //!   limit, and the time reached is returned.
 //!
-//! Written from the description. Each round computes positions from the time, instead of adding steps up.
+//! This is written from the description. Each round computes positions from the time, instead of adding steps up.
 
 use selvedge_core::elementary::{Impact, Reason};
 use selvedge_core::verification::advance::closest::closest;
@@ -80,7 +80,7 @@ fn advance<S: Scalar, const N: usize>(
     possible(time, Reason::LastResort)
 }
 
-/// The sum of the largest speeds of a point of each set, without their mean motion.
+/// Returns the sum of the largest speeds of a point of each set, without their mean motion.
 #[inline(always)]
 fn approach_speed<S: Scalar>(points: &PairPoints<S>, first_set: usize) -> S {
     let ([a0, b0, c0, d0], [a1, b1, c1, d1]) = (points.start, points.end);

@@ -31,21 +31,21 @@ pub struct AsComputed<S> {
 }
 
 impl<S: Scalar> AsComputed<S> {
-    /// A filter for pairs that never touch: the separation is zero.
+    /// Makes a filter for pairs that never touch: the separation is zero.
     #[must_use]
     pub const fn new() -> Self {
         Self { separation: S::ZERO }
     }
 
-    /// The same filter for pairs that must stay farther apart than `separation`. Accepts what [`Filter::with_separation`]
-    /// accepts.
+    /// Makes a filter for pairs that must stay farther apart than `separation`. It accepts the separations that
+    /// [`Filter::with_separation`] accepts.
     #[must_use]
     pub fn with_separation(self, separation: S) -> Option<Self> {
         let separation = Filter::new(Tier::Permanent).with_separation(separation)?.separation();
         Some(Self { separation })
     }
 
-    /// Culls `pair`, or keeps it. Either answer may be wrong.
+    /// Culls `pair`, or keeps it. Either result may be wrong.
     #[inline]
     pub fn verdict(&self, pair: &PrimitivePair<S>) -> Verdict {
         Verdict::culled_if(of_kind!(pair.kind, P => self.on::<P, S>(&pair.into()).culled))

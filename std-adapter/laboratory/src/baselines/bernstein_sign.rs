@@ -12,14 +12,14 @@
 //!   the leading coefficient of K and r has degree two. The sign of r at the root follows from the order of that root and the
 //!   roots of r. That order follows from the signs of K at the roots of r.
 //!
-//! In exact arithmetic that is a decision. The paper uses expansions where floating point is in doubt. Here rounding is ignored,
-//! to show what the classification costs alone and how often it then errs. The reduction suffers most: where K is nearly of lower
+//! In exact arithmetic this is a decision. The paper uses expansions if floating point is in doubt. Here rounding is ignored, to
+//! show the cost of the classification alone and how often it then errs. The reduction suffers most: if K is nearly of lower
 //! degree, c²·g and q·K nearly cancel. [`exact::touches`](selvedge_core::verification::exact::touches) decides exactly, by the
 //! same idea with quadratics in place of quartics.
 //!
-//! Where K is zero throughout there is no root. The pair then counts as touching unless an inside function is negative
-//! throughout. The inside functions are zero where the normal is, so degenerate pairs are false alarms rather than misses.
-//! Written from the paper's description.
+//! If K is zero throughout there is no root. The pair then counts as touching unless an inside function is negative throughout.
+//! The inside functions are zero where the normal is, so degenerate pairs are false alarms rather than misses. The code is
+//! written from the paper's description.
 
 use super::cubic::Cubic;
 use selvedge_core::PairKind;
@@ -108,7 +108,7 @@ fn contains_origin_at_root<S: Scalar, const N: usize>(corners: [Linear<S>; N], c
     })
 }
 
-/// Control values of the cross product of two linear polynomials.
+/// Returns control values of the cross product of two linear polynomials.
 #[inline(always)]
 fn cross<S: Scalar>([a0, a1]: &Linear<S>, [b0, b1]: &Linear<S>) -> [Vector<S>; 3] {
     let half = S::from_f64(0.5);
@@ -116,7 +116,7 @@ fn cross<S: Scalar>([a0, a1]: &Linear<S>, [b0, b1]: &Linear<S>) -> [Vector<S>; 3
     [a0.cross(*b0), between.scaled(half), a1.cross(*b1)]
 }
 
-/// Control values of the dot product of two quadratics.
+/// Returns control values of the dot product of two quadratics.
 #[inline(always)]
 fn dot<S: Scalar>([m0, m1, m2]: &[Vector<S>; 3], [n0, n1, n2]: &[Vector<S>; 3]) -> [S; 5] {
     let (half, four) = (S::from_f64(0.5), S::from_f64(4.0));
@@ -181,7 +181,7 @@ fn is_negative_by_reduction<S: Scalar>(quartic: &[S; 5], cubic: &[S; 4]) -> bool
     is_negative
 }
 
-/// The coefficients of 1, t, t² …, scaled to at most one.
+/// Returns the coefficients of 1, t, t² …, scaled to at most one.
 #[inline(always)]
 fn coefficients_of_cubic<S: Scalar>(&[k0, k1, k2, k3]: &[S; 4]) -> [S; 4] {
     let three = S::small(3);
@@ -193,7 +193,7 @@ fn coefficients_of_cubic<S: Scalar>(&[k0, k1, k2, k3]: &[S; 4]) -> [S; 4] {
     ])
 }
 
-/// The coefficients of 1, t, t² …, scaled to at most one.
+/// Returns the coefficients of 1, t, t² …, scaled to at most one.
 #[inline(always)]
 fn coefficients_of_quartic<S: Scalar>(&[b0, b1, b2, b3, b4]: &[S; 5]) -> [S; 5] {
     let (four, six) = (S::small(4), S::small(6));
@@ -219,17 +219,17 @@ fn normalised<S: Scalar, const N: usize>(mut coefficients: [S; N]) -> [S; N] {
     coefficients
 }
 
-/// The quartic modulo a polynomial of degree three or less, times a positive number.
+/// Returns the quartic modulo a polynomial of degree three or less, times a positive number.
 #[inline(always)]
 fn remainder<S: Scalar>(g: [S; 5], [c0, c1, c2, c3]: [S; 4]) -> [S; 3] {
     let [g0, g1, g2, g3, g4] = g;
     if c3 != S::ZERO {
-        // c3·g − g4·t·K has degree three. The same once more gives degree two, times c3².
+        // c3·g − g4·t·K has degree three. Repeating this gives degree two, times c3².
         let [h0, h1, h2, h3] = normalised([c3 * g0, c3 * g1 - g4 * c0, c3 * g2 - g4 * c1, c3 * g3 - g4 * c2]);
         return [c3 * h0 - h3 * c0, c3 * h1 - h3 * c1, c3 * h2 - h3 * c2];
     }
     if c2 != S::ZERO {
-        // t² is −(c0 + c1·t)/c2, from the highest power down.
+        // t² equals −(c0 + c1·t)/c2, which is applied from the highest power down.
         let (p, q) = (S::ZERO - c0 / c2, S::ZERO - c1 / c2);
         let g3 = g3 + g4 * q;
         let g2 = g2 + g4 * p + g3 * q;
@@ -240,7 +240,7 @@ fn remainder<S: Scalar>(g: [S; 5], [c0, c1, c2, c3]: [S; 4]) -> [S; 3] {
     [value, S::ZERO, S::ZERO]
 }
 
-/// The real roots of a quadratic; NaN or infinite where there are none.
+/// Returns the real roots of a quadratic, or NaN or infinite numbers without any.
 #[inline(always)]
 fn roots<S: Scalar>([r0, r1, r2]: [S; 3]) -> [S; 2] {
     let half = S::from_f64(0.5);

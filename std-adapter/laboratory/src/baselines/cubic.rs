@@ -55,7 +55,7 @@ fn do_cross<S: Scalar>([u, v, k, l]: [Vector<S>; 4]) -> bool {
     scale > S::ZERO && on_edge(along_first) && on_edge(along_second)
 }
 
-/// The position at `time`, rounded.
+/// Returns the position at `time`, rounded.
 #[inline(always)]
 fn at<S: Scalar>(motion: Motion<S>, time: S) -> Vector<S> {
     let [start, end] = [motion.start, motion.end].map(|position| Vector::from(position.into()));
@@ -92,7 +92,7 @@ impl<S: Scalar> Cubic<S> {
         }
     }
 
-    /// De Casteljau's rule.
+    /// Evaluates the cubic by de Casteljau's rule.
     #[inline(always)]
     fn at(&self, t: S) -> S {
         let mix = |a: S, b: S| (S::ONE - t) * a + t * b;
@@ -116,7 +116,7 @@ impl<S: Scalar> Cubic<S> {
         visit(from, S::ONE);
     }
 
-    /// The roots of the derivative in increasing order; NaN or infinite where there are none.
+    /// Returns the roots of the derivative in increasing order, or NaN or infinite numbers without any.
     #[inline(always)]
     fn extremes(&self) -> [S; 2] {
         let [k0, k1, k2, k3] = self.k;
@@ -129,8 +129,8 @@ impl<S: Scalar> Cubic<S> {
         if first < second { [first, second] } else { [second, first] }
     }
 
-    /// Returns the root on a monotone piece, by regula falsi (the Illinois rule), to a rounding error of [0, 1]. `None` without a
-    /// change of sign.
+    /// Returns the root on a monotone piece, by regula falsi (the Illinois rule), to a rounding error of [0, 1]. Returns `None`
+    /// without a change of sign.
     #[inline(always)]
     fn root_between(&self, mut from: S, mut to: S) -> Option<S> {
         let (mut low, mut high) = (self.at(from), self.at(to));

@@ -1,5 +1,5 @@
-//! Published filters and elementary tests, to compare certification with. Except [`nine_directions`], **they promise nothing**:
-//! each may cull a pair that touches, or miss a contact, as its own page says.
+//! Published filters and elementary tests, for comparison with certified ones. Except [`nine_directions`], **they promise
+//! nothing**: each may cull a pair that touches, or miss a contact, as its own page says.
 //!
 //! | baseline | what it is | what is not promised |
 //! |---|---|---|

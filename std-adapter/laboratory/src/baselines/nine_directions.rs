@@ -14,8 +14,8 @@
 //! * |Z| > g/16u: at most one operand of a sum of that size is flushed. The sums of the others are multiples of a step far above λ, or
 //!   differ by a normal operand, which is more than what was flushed.
 //!
-//! Coordinates need the gap as well: a compiler may add zero to them, to make one vector operation of comparisons of coordinates and of
-//! sums, and that flushes one side only.
+//! Coordinates need the gap as well. A compiler may add zero to them, to make one vector operation of comparisons of coordinates
+//! and of sums, and that flushes one side only.
 
 use selvedge_core::batch::PointsTest;
 use selvedge_core::verification::lanes::{Lanes, Rounding};
@@ -31,7 +31,7 @@ pub fn separated<S: Scalar>(pair: &PrimitivePair<S>) -> Verdict {
     Verdict::culled_if(of_kind!(pair.kind, P => NineDirections.on::<P, S>(&pair.into())))
 }
 
-/// [`separated`] for batches: [`ByPoints`](selvedge_core::batch::ByPoints).
+/// The test [`separated`] for batches: [`ByPoints`](selvedge_core::batch::ByPoints).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct NineDirections;
 
@@ -40,7 +40,7 @@ impl PointsTest for NineDirections {
     fn on<P: PairShape, L: Lanes>(self, points: &PairPoints<L>) -> L::Mask {
         macro_rules! along {
             ($p:ident => $value:expr) => {{
-                // A macro: a closure is not always inlined into code for a wider instruction set.
+                // This is a macro, since a closure is not always inlined into code for a wider instruction set.
                 macro_rules! ranges {
                     ($points:expr) => {{
                         let [a, b, c, d] = $points;
@@ -80,7 +80,7 @@ impl PointsTest for NineDirections {
 fn keep_order<L: Lanes>(start: [[L; 2]; 2], end: [[L; 2]; 2]) -> L::Mask {
     let [[low_0, high_0], [other_low_0, other_high_0]] = start;
     let [[low_1, high_1], [other_low_1, other_high_1]] = end;
-    // Both are powers of two: the quotient is exact.
+    // Both are powers of two, so the quotient is exact.
     let gap = low_0.splat(L::Scalar::UNDERFLOW) / low_0.splat(L::Scalar::UNIT_ROUNDOFF);
     (low_0.greater(other_high_0 + gap) & low_1.greater(other_high_1 + gap))
         | (other_low_0.greater(high_0 + gap) & other_low_1.greater(high_1 + gap))
@@ -94,7 +94,7 @@ pub struct Dop18<S> {
 }
 
 impl<S: Scalar> Dop18<S> {
-    /// The bounds of one moving point. Unbounded if a coordinate is NaN or infinite.
+    /// Returns the bounds of one moving point. They are unbounded if a coordinate is NaN or infinite.
     #[inline]
     #[must_use]
     pub fn swept(motion: &Motion<S>) -> Self {
@@ -117,7 +117,7 @@ impl<S: Scalar> Dop18<S> {
         dop
     }
 
-    /// The bounds of both together.
+    /// Returns the bounds of both together.
     #[inline]
     #[must_use]
     pub fn merged(&self, other: &Self) -> Self {
@@ -143,7 +143,7 @@ impl<S: Scalar> Dop18<S> {
     }
 }
 
-/// A point's values along the nine directions. Sums are rounded.
+/// Returns a point's values along the nine directions. Sums are rounded.
 #[inline(always)]
 fn along_nine_directions<S: Scalar>([x, y, z]: [S; 3]) -> [S; 9] {
     [x, y, z, x + y, x - y, x + z, x - z, y + z, y - z]

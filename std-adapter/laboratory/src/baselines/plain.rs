@@ -13,7 +13,7 @@ use selvedge_core::{PrimitivePair, Scalar, Verdict};
 
 /// Culls `pair` if A, B, 2C + F and 2D + E, as computed, all have the same strict sign.
 ///
-/// One deviation from the paper: if a value, or the sum of their magnitudes, overflows, the pair is kept.
+/// The filter deviates from the paper in one point: if a value, or the sum of their magnitudes, overflows, the pair is kept.
 #[inline(always)]
 pub fn non_coplanarity<S: Scalar>(pair: &PrimitivePair<S>) -> Verdict {
     Verdict::culled_if(of_kind!(pair.kind, P => has_one_sign::<P, S>(&pair.into())))
@@ -30,7 +30,7 @@ impl PointsTest for Plain {
     }
 }
 
-/// The same decision on any number of lanes.
+/// Makes the same decision on any number of lanes.
 #[inline(always)]
 #[must_use]
 pub fn has_one_sign<P: PairShape, L: Lanes>(points: &PairPoints<L>) -> L::Mask {

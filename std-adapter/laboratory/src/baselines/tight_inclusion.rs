@@ -12,9 +12,9 @@
 //!   too early.
 //! * Contact means that F is within the tolerance *on each axis*. The separation counts in the same way.
 //!
-//! Written from the description. It differs from the original in two ways. The search is depth-first, earlier half first, and
-//! cuts off what is later than the best time found, so that a short stack suffices. The error bound is that of the evaluation
-//! here, linear in the coordinates.
+//! The code is written from the description. It differs from the original in two ways. The search is depth-first, earlier half
+//! first, and cuts off boxes that are later than the best time found, so that a short stack suffices. The error bound is that of
+//! the evaluation here, linear in the coordinates.
 //!
 //! # Rounding
 //! F is evaluated from positions: those at t (1 − t, two products, a sum), weighted (1 − u − v, a product, two sums), and a
@@ -38,7 +38,8 @@ pub const CHECKS: u32 = 1_000_000;
 /// The largest number of open boxes: one for each halving that led to the present one, at most 52 along each of three axes.
 const OPEN: usize = 160;
 
-/// Returns the time from which the pair may be within the separation, on each axis. See the module for what is not promised.
+/// Returns the time from which the pair may be within the separation, on each axis. The module's documentation lists what is not
+/// promised.
 ///
 /// NaN, infinite and very large coordinates exclude nothing.
 ///
@@ -137,7 +138,7 @@ fn search<S: Scalar, P: PairShape>(points: &PairPoints<S>, limits: &Limits<S>) -
     earliest.map_or(Impact::Never, |(time, reason)| possible(time, reason))
 }
 
-/// The box of F's values at the eight corners of `cell`.
+/// Returns the box of F's values at the eight corners of `cell`.
 #[inline(always)]
 fn image_of<S: Scalar, P: PairShape>(points: &PairPoints<S>, cell: &Cell<S>) -> [Vector<S>; 2] {
     let ([t, u, v], [dt, du, dv]) = (cell.low, cell.size);

@@ -1,9 +1,9 @@
 //! The certified time of impact without its error bounds, as a baseline. **Not certified: it misses contacts.**
 //!
 //! Core's own source runs on numbers whose unit roundoff is declared to be zero. Every threshold that a computed value must
-//! exceed to prove something is then zero, except for η, which covers underflow. A direction is never corrected where its error
-//! would tilt it. Nothing else differs. The difference in time, in misses and in late times is what certification costs and what
-//! it prevents; `selvedge accuracy` shows it.
+//! exceed to prove something is then zero, except for η, which covers underflow. A direction is never corrected for its error.
+//! Nothing else differs. The difference in time is the cost of certification, and the difference in misses and late times is its
+//! benefit; `selvedge accuracy` shows both.
 
 use selvedge_core::elementary::{Impact, Limits};
 use selvedge_core::verification::altered::{self, Constants};

@@ -9,17 +9,18 @@ use selvedge_core::{PrimitivePair, Scalar};
 table! {
     /// A culling test on primitive pairs. See [`selvedge_core::boxes`] and [`selvedge_core::filter`].
     pub enum CullingTest of Stage {
-        /// Swept axis-aligned boxes of the two primitives, made for each pair. Exact.
+        /// Swept axis-aligned boxes of the two primitives, made for each pair. The test is exact.
         SweptBoxes = "swept_boxes": Stage::Boxes,
-        /// The same test with stored boxes. They are made once for every vertex, edge and face, and refitted each step. Exact.
+        /// The same test with stored boxes. They are made once for every vertex, edge and face, and refitted each step. The test
+        /// is exact.
         StoredSweptBoxes = "stored_swept_boxes": Stage::Boxes,
-        /// Swept 18-DOPs, stored for every vertex, edge and face and refitted each step. Exact.
+        /// Swept 18-DOPs, stored for every vertex, edge and face and refitted each step. The test is exact.
         StoredDop18 = "dop_18": Stage::Boxes,
-        /// VF: the vertex's path against the face's swept box; EE: swept boxes. Certified.
+        /// The vertex's path against the face's swept box for VF, and swept boxes for EE. The test is certified.
         SegmentBox = "segment_box": Stage::Boxes,
-        /// One of three coordinate axes keeps the two primitives in the same order. Exact.
+        /// One of three coordinate axes keeps the two primitives in the same order. The test is exact.
         RelativeBoxes = "relative_boxes": Stage::RelativeBoxes,
-        /// [`RelativeBoxes`](Self::RelativeBoxes) with the six diagonals as well. Exact.
+        /// [`RelativeBoxes`](Self::RelativeBoxes) with the six diagonals as well. The test is exact.
         RelativeBoxesNine = "relative_boxes_nine": Stage::RelativeBoxes,
         /// The three-axis subspace filter of Tang, Li, Wang 2010 as reconstructed. It is the computation of
         /// [`RelativeBoxes`](Self::RelativeBoxes), counted as a filter.
@@ -28,7 +29,7 @@ table! {
         SubspaceNine = "subspace_nine": Stage::Subspace,
         /// Four control values of one sign, as printed in the paper. **Not certified.**
         PlainNonCoplanarity = "non_coplanarity_plain": Stage::NonCoplanarity,
-        /// Four control values certainly of one sign. Certified.
+        /// Four control values certainly of one sign. The test is certified.
         CertifiedNonCoplanarity = "non_coplanarity": Stage::NonCoplanarity,
     }
 }
@@ -36,19 +37,19 @@ table! {
 table! {
     /// A place in the data flow where pairs are counted, and whether boxes are compared there.
     pub enum Stage of bool {
-        /// Candidate triangle pairs.
+        /// The candidate triangle pairs.
         BroadPhase = "broad-phase": false,
-        /// Their primitive pairs.
+        /// The primitive pairs of the candidates.
         Distribution = "distribution": false,
-        /// After the primitive box test.
+        /// The pairs after the primitive box test.
         Boxes = "boxes": true,
-        /// After relative boxes.
+        /// The pairs after relative boxes.
         RelativeBoxes = "relative-boxes": true,
-        /// After the subspace filter.
+        /// The pairs after the subspace filter.
         Subspace = "subspace": false,
-        /// After the non-coplanarity filter.
+        /// The pairs after the non-coplanarity filter.
         NonCoplanarity = "non-coplanarity": false,
-        /// After the elementary test: contacts.
+        /// The contacts, after the elementary test.
         Elementary = "elementary": false,
     }
 }
@@ -62,7 +63,7 @@ impl Stage {
 }
 
 impl CullingTest {
-    /// The stage of this test.
+    /// Returns the stage of this test.
     #[must_use]
     pub const fn stage(self) -> Stage {
         self.row()
@@ -81,7 +82,7 @@ impl CullingTest {
         self.run(Ask(pair))
     }
 
-    /// Hands the test to `with`: whether a pair is culled.
+    /// Passes the test to `with`: whether a pair is culled.
     #[inline(always)]
     pub(crate) fn run<S: Scalar, W: WithTest<S, bool>>(self, with: W) -> W::Outcome {
         match self {
@@ -96,7 +97,7 @@ impl CullingTest {
         }
     }
 
-    /// Hands the test to `with`, on lanes. Not for [`StoredDop18`](Self::StoredDop18), which has no lanes and culls nothing here.
+    /// Passes the test to `with`, on lanes. [`StoredDop18`](Self::StoredDop18) has no lanes and culls nothing here.
     #[inline(always)]
     pub(crate) fn run_lanes<S: Scalar>(self, with: impl WithLanes<S>) {
         match self {

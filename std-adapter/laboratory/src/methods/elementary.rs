@@ -8,15 +8,15 @@ use std::fmt;
 /// length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ElementaryTest {
-    /// [`selvedge_core::elementary::advance`] with the default tolerance. Certified: a contact's time is not after the exact one.
-    /// A pair within the tolerance, or too close for rounding to decide, may count as a contact.
+    /// The test [`selvedge_core::elementary::advance`] with the default tolerance. It is certified: a contact's time is not after
+    /// the exact one. A pair within the tolerance, or too close for rounding to decide, may count as a contact.
     TimeOfImpact,
-    /// The same, then [`selvedge_core::elementary::contact()`]: exactly the pairs that touch are contacts, and their times are
-    /// certified.
+    /// The same test, then [`selvedge_core::elementary::contact()`]: exactly the pairs that touch are contacts, and their times
+    /// are certified.
     Exact,
     /// [`TimeOfImpact`](Self::TimeOfImpact) with this tolerance.
     Certified(f64),
-    /// The same without error bounds. **Not certified.**
+    /// The same test without error bounds. **Not certified.**
     Uncertified(f64),
     /// [`tight_inclusion`], the bisection of Wang et al. 2021. It never misses.
     TightInclusion(f64),
@@ -30,7 +30,7 @@ pub enum ElementaryTest {
 }
 
 impl ElementaryTest {
-    /// The name in reports, without the tolerance.
+    /// Returns the name in reports, without the tolerance.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -45,7 +45,7 @@ impl ElementaryTest {
         }
     }
 
-    /// The tolerance, in units of length; `None` for the format's default, and for tests without one.
+    /// Returns the tolerance, in units of length; `None` for the format's default, and for tests without one.
     #[must_use]
     pub const fn tolerance(self) -> Option<f64> {
         match self {
@@ -70,7 +70,7 @@ impl ElementaryTest {
         self.run(Ask(pair))
     }
 
-    /// Hands the test to `with`: the [time](Self::time) of a pair.
+    /// Passes the test to `with`: the [time](Self::time) of a pair.
     #[inline(always)]
     pub(crate) fn run<S: Scalar, W: WithTest<S, Option<S>>>(self, with: W) -> W::Outcome {
         let limits = match self.tolerance() {

@@ -23,7 +23,7 @@ table! {
 }
 
 impl MeasuredFilter {
-    /// The tier of the certified filter, if it is one.
+    /// Returns the tier of the certified filter, if it is one.
     #[must_use]
     pub const fn tier(self) -> Option<Tier> {
         self.row()
@@ -35,7 +35,7 @@ impl MeasuredFilter {
         self.tier().is_some()
     }
 
-    /// Hands the filter to `with`: whether it culls a pair that stays farther apart than `separation`. [`Paper`](Self::Paper)
+    /// Passes the filter to `with`: whether it culls a pair that stays farther apart than `separation`. [`Paper`](Self::Paper)
     /// ignores the separation.
     #[inline(always)]
     pub(crate) fn run<S: Scalar, W: WithTest<S, bool>>(self, separation: S, with: W) -> W::Outcome {
@@ -52,7 +52,7 @@ impl MeasuredFilter {
         }
     }
 
-    /// Hands the filter to `with`, on lanes.
+    /// Passes the filter to `with`, on lanes.
     #[inline(always)]
     pub(crate) fn run_lanes<S: Scalar>(self, separation: S, with: impl WithLanes<S>) {
         match self.tier() {
@@ -63,13 +63,13 @@ impl MeasuredFilter {
     }
 }
 
-/// Without the separation if it is not a valid one.
+/// Makes the filter, without the separation if that is invalid.
 fn as_computed<S: Scalar>(separation: S) -> AsComputed<S> {
     let filter = AsComputed::new();
     filter.with_separation(separation).unwrap_or(filter)
 }
 
-/// Without the separation if it is not a valid one.
+/// Makes the filter, without the separation if that is invalid.
 fn tier_of<S: Scalar>(tier: Tier, separation: S) -> Filter<S> {
     let filter = Filter::new(tier);
     filter.with_separation(separation).unwrap_or(filter)

@@ -1,4 +1,4 @@
-//! **The table of methods**: what is measured, its name, and how it runs. Pipelines, studies and reports read it.
+//! **The table of methods**: their names, and how they run. Pipelines, studies and reports read it.
 //!
 //! | list | entries | used by |
 //! |---|---|---|
@@ -32,7 +32,7 @@ pub(crate) trait WithTest<S: Scalar, A> {
     /// The result.
     type Outcome;
 
-    /// Uses a test that answers `A`.
+    /// Uses a test that returns `A`.
     fn with(self, test: impl Fn(&PrimitivePair<S>) -> A) -> Self::Outcome;
 }
 
@@ -41,7 +41,7 @@ pub(crate) trait WithLanes<S: Scalar> {
     fn with(self, test: impl BatchTest<S>);
 }
 
-/// Applies a test to this pair.
+/// An application of a test to this pair.
 struct Ask<'a, S: Scalar>(&'a PrimitivePair<S>);
 
 impl<S: Scalar, A> WithTest<S, A> for Ask<'_, S> {

@@ -10,12 +10,13 @@ pub enum Source {
     /// Candidate triangle pairs, distributed.
     TrianglePairs(Redundancy),
     /// Hierarchies of moving boxes over vertices, edges and faces, which find each primitive pair once
-    /// ([`MovingBroadPhase`](selvedge::broad_phase::MovingBroadPhase)). Then come the certified stages of
-    /// [`CollisionDetector`](selvedge::CollisionDetector), whatever the tests, and exact verdicts for [`ElementaryTest::Exact`].
+    /// ([`MovingBroadPhase`](selvedge::broad_phase::MovingBroadPhase)). The certified stages of
+    /// [`CollisionDetector`](selvedge::CollisionDetector) follow, for any tests, and exact verdicts for
+    /// [`ElementaryTest::Exact`].
     MovingBoxes,
 }
 
-/// How a method that distributes triangle pairs avoids testing a primitive pair twice.
+/// The way in which a method that distributes triangle pairs avoids testing a primitive pair twice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Redundancy {
     /// It does not: each candidate triangle pair is distributed in full, duplicates included.
@@ -38,7 +39,7 @@ pub struct Stages {
 }
 
 impl Stages {
-    /// The stages after the broad phase of a method that distributes triangle pairs, in order.
+    /// Returns the stages after the broad phase of a method that distributes triangle pairs, in order.
     pub(crate) fn names(&self) -> impl Iterator<Item = Stage> {
         let tests = self.tests.iter().map(|test| test.stage());
         [Stage::Distribution].into_iter().chain(tests).chain([Stage::Elementary])
@@ -52,14 +53,14 @@ impl Stages {
 }
 
 table! {
-    /// A method by its name: author and year, or `selvedge`. In the order of the paper's references; ours come last.
+    /// A method by its name: author and year, or `selvedge`. The order is that of the paper's references; ours come last.
     pub enum Preset of Stages {
         /// Every primitive pair of every candidate triangle pair, duplicates included.
         Naive = "naive": published(Redundancy::Kept, &[]),
         /// The paper's *basic lower tailoring*: duplicates removed by two hash sets.
         Basic = "basic": published(Redundancy::HashSets, &[]),
-        /// Provot 1997: the elementary test alone. The same stages as [`Basic`](Self::Basic), whose
-        /// elementary test is Provot's; the paper names both.
+        /// Provot 1997: the elementary test alone. The stages are those of [`Basic`](Self::Basic), whose elementary test is
+        /// Provot's; the paper names both.
         Provot1997 = "provot_1997": published(Redundancy::HashSets, &[]),
         /// Hutter, Fuhrmann 2007: stored 18-DOPs.
         HutterFuhrmann2007 = "hutter_fuhrmann_2007": published(REPRESENTATIVES, &[CullingTest::StoredDop18]),
@@ -73,9 +74,9 @@ table! {
         TangC2011 = "tang_c_2011": published(REPRESENTATIVES, &[CullingTest::SubspaceNine]),
         /// Lv, He, Mi: the paper.
         Lv2014 = "lv_2014": published(REPRESENTATIVES, &[CullingTest::SegmentBox, CullingTest::PlainNonCoplanarity]),
-        /// Ours.
+        /// Our method.
         Selvedge = "selvedge": ours(ElementaryTest::TimeOfImpact),
-        /// Ours, with the exact verdict: exactly the pairs that touch are contacts.
+        /// Our method with the exact verdict: exactly the pairs that touch are contacts.
         SelvedgeExact = "selvedge_exact": ours(ElementaryTest::Exact),
     }
 }
@@ -99,7 +100,7 @@ const fn ours(elementary: ElementaryTest) -> Stages {
 }
 
 impl Preset {
-    /// The stages that the name stands for.
+    /// Returns the stages that the name stands for.
     #[must_use]
     pub const fn stages(self) -> Stages {
         self.row()

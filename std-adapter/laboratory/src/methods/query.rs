@@ -11,7 +11,7 @@ pub enum QueryMethod {
     Selvedge,
     /// A culling test alone.
     Culling(CullingTest),
-    /// An elementary test alone. For [`ElementaryTest::Exact`] only the verdict, without a time:
+    /// An elementary test alone. [`ElementaryTest::Exact`] gives only the verdict, without a time:
     /// [`elementary::contact`](mod@elementary::contact).
     Elementary(ElementaryTest),
 }
@@ -38,7 +38,7 @@ impl QueryMethod {
     /// The default tolerance of its authors.
     const TIGHT_INCLUSION: f64 = 1e-6;
 
-    /// The name on the command line and in reports.
+    /// Returns the name on the command line and in reports.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -64,7 +64,7 @@ impl QueryMethod {
         self.run(Ask(&pair))
     }
 
-    /// Hands the method to `with`: whether it keeps a pair.
+    /// Passes the method to `with`: whether it keeps a pair.
     pub(crate) fn run<S: Scalar, W: WithTest<S, bool>>(self, with: W) -> W::Outcome {
         match self {
             Self::Selvedge => {
@@ -80,7 +80,7 @@ impl QueryMethod {
 
 const SELVEDGE: Stages = Preset::Selvedge.stages();
 
-/// Inverts a culling test: whether it keeps a pair.
+/// The inverse of a culling test: whether it keeps a pair.
 struct Kept<W>(W);
 
 impl<S: Scalar, W: WithTest<S, bool>> WithTest<S, bool> for Kept<W> {

@@ -18,7 +18,7 @@ macro_rules! table {
             /// Every row, in order.
             pub const ALL: [Self; [$($name),+].len()] = [$(Self::$variant),+];
 
-            /// The name on the command line and in reports.
+            /// Returns the name on the command line and in reports.
             #[must_use]
             pub const fn name(self) -> &'static str {
                 match self {

@@ -3,7 +3,7 @@
 use selvedge::Topology;
 use selvedge_core::{FeatureEdge, FeatureTriangle, Features};
 
-/// The triangles of a mesh as distribution sees them: lists of vertices and edges, represented ones first.
+/// The triangles of a mesh for distribution: lists of vertices and edges, represented ones first.
 #[derive(Clone, Debug)]
 pub struct FeatureAssignment {
     triangles: Vec<FeatureTriangle<u32>>,
@@ -43,7 +43,7 @@ impl FeatureAssignment {
         Self::assign(topology, &mut |_| true)
     }
 
-    /// The triangles, in the mesh's order.
+    /// Returns the triangles, in the mesh's order.
     #[must_use]
     pub fn triangles(&self) -> &[FeatureTriangle<u32>] {
         &self.triangles
@@ -67,7 +67,7 @@ impl FeatureAssignment {
                         edge,
                         ends: topology.edges().get(edge as usize).copied().unwrap_or_default(),
                     }),
-                    // Never more than three of each.
+                    // There are never more than three of each.
                     features: Features::new(represented_vertices, represented_edges).unwrap_or_default(),
                 }
             })
@@ -81,7 +81,7 @@ enum Taken {
     Edge(u32),
 }
 
-/// Returns the same three items with those that `take` wants first, and the number of these.
+/// Returns the same three items with those that `take` selects first, and the number of these.
 fn first_taken(items: [u32; 3], mut take: impl FnMut(usize) -> bool) -> ([u32; 3], u8) {
     let taken = [take(0), take(1), take(2)];
     let mut order = [0, 1, 2];

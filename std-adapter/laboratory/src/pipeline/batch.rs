@@ -26,7 +26,7 @@ pub(super) struct StepInput<'a, S: Scalar> {
     pub(super) stages: Stages,
 }
 
-/// Survivors and seconds of one stage.
+/// The survivors and seconds of one stage.
 pub(super) type StageCounts = (PairCounts, f64);
 
 /// The primitive pairs distributed so far in this step, for [`Redundancy::HashSets`](crate::methods::Redundancy::HashSets).
@@ -36,7 +36,7 @@ pub(super) struct Distributed {
     pub(super) edge_edge: FxHashSet<[u32; 2]>,
 }
 
-/// Primitive pairs on their way through the stages. Each stage drops pairs in place and keeps their order.
+/// The primitive pairs on their way through the stages. Each stage drops pairs in place and keeps their order.
 #[derive(Clone, Debug)]
 pub(super) struct Batch<S> {
     pub(super) vertex_face: Vec<[u32; 2]>,
@@ -45,7 +45,7 @@ pub(super) struct Batch<S> {
     /// The vertices of each pair, and the masks that a batched test returns for them.
     indices: Vec<[u32; 4]>,
     masks: Vec<Mask>,
-    /// Counts of distribution, of each culling test, and of the elementary test.
+    /// The counts of distribution, of each culling test, and of the elementary test.
     pub(super) tallies: ArrayVec<StageCounts, 8>,
 }
 
@@ -116,7 +116,7 @@ impl<S: Scalar> Batch<S> {
         }
     }
 
-    /// Drops what `test` culls, sixteen pairs at a time.
+    /// Drops the pairs that `test` culls, sixteen at a time.
     fn keep_by_lanes(&mut self, step: &StepInput<'_, S>, test: impl BatchTest<S>) {
         for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
             let pairs = match kind {
@@ -191,7 +191,7 @@ impl<S: Scalar> WithTest<S, Option<S>> for AtWork<'_, S> {
     }
 }
 
-/// Like `Vec::retain`, without a branch on the outcome, which is hard to predict.
+/// Retains items like `Vec::retain`, without a branch on the outcome, which is hard to predict.
 fn keep_where(pairs: &mut Vec<[u32; 2]>, mut keep: impl FnMut([u32; 2]) -> bool) {
     let mut kept = 0;
     for read in 0..pairs.len() {

@@ -1,4 +1,4 @@
-//! Takes two frames of a mesh to the primitive pairs that may collide, and to those that do.
+//! Computes from two frames of a mesh the primitive pairs that may collide, and those that do.
 //!
 //! ```text
 //! triangles, positions at the start and at the end of the step
@@ -75,8 +75,8 @@ use std::sync::Arc;
 use std::time::Instant;
 use stored::Stored;
 
-/// Candidate triangle pairs in a batch. Their primitive pairs take at most a quarter of a megabyte, so that a batch stays in a
-/// core's own cache through all stages. Smaller batches gain nothing and read the clock more often.
+/// The number of candidate triangle pairs in a batch. Their primitive pairs take at most a quarter of a megabyte, so that a batch
+/// stays in a core's own cache through all stages. Smaller batches gain nothing and read the clock more often.
 const BATCH: usize = 2048;
 
 /// A method, set up for one mesh. [`step`](Self::step) runs it on one time step after another.
@@ -89,7 +89,7 @@ pub struct Pipeline<S: Scalar> {
     topology: Arc<Topology>,
     stages: Stages,
     route: Route<S>,
-    /// Threads for methods with triangle pairs; a detector has its own.
+    /// The threads for methods with triangle pairs; a detector has its own.
     threads: Workers,
     buffers: Buffers<S>,
     report: StepReport,
@@ -120,7 +120,7 @@ struct Buffers<S: Scalar> {
 }
 
 impl<S: Scalar> Pipeline<S> {
-    /// Prepares `stages` for a mesh, on `threads` threads. 0 means one for each core.
+    /// Prepares `stages` for a mesh, on `threads` threads; 0 means one for each core.
     ///
     /// With one thread everything runs on the calling thread, without a pool.
     ///
@@ -178,7 +178,7 @@ impl<S: Scalar> Pipeline<S> {
         })
     }
 
-    /// Sets whether the pairs that reach the elementary test are kept for [`candidates`](Self::candidates). Off by default.
+    /// Sets whether the pairs that reach the elementary test are kept for [`candidates`](Self::candidates). The default is false.
     pub const fn keep_candidates(&mut self, keep: bool) {
         self.buffers.keep_candidates = keep;
     }
@@ -230,7 +230,7 @@ impl<S: Scalar> Pipeline<S> {
         &self.buffers.contacts
     }
 
-    /// The pairs of the last step that reached the elementary test, if they are [kept](Self::keep_candidates).
+    /// Returns the pairs of the last step that reached the elementary test, if they are [kept](Self::keep_candidates).
     #[must_use]
     pub fn candidates(&self, kind: PairKind) -> &[[u32; 2]] {
         &self.buffers.candidates[kind as usize]
@@ -242,7 +242,7 @@ impl<S: Scalar> Pipeline<S> {
         &self.report
     }
 
-    /// The mesh's vertices, edges and triangles.
+    /// Returns the mesh's vertices, edges and triangles.
     #[must_use]
     pub fn topology(&self) -> &Topology {
         &self.topology
@@ -267,7 +267,7 @@ struct Distributor<'a> {
 }
 
 impl<S: Scalar> Buffers<S> {
-    /// Runs our own detector, and keeps its candidates if they are wanted.
+    /// Runs our own detector, and keeps its candidates on request.
     fn ask(&mut self, detector: &mut CollisionDetector<S>, start: &[S::Vector], end: &[S::Vector]) -> Result<(), StepError> {
         let [vertex_face, edge_edge] = &mut self.candidates;
         if self.keep_candidates {

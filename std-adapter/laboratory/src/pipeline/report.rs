@@ -12,12 +12,12 @@ pub struct StageReport {
     pub stage: Stage,
     /// The pairs that it passes on; for the elementary test, the contacts.
     pub survivors: PairCounts,
-    /// Seconds, summed over threads.
+    /// The seconds, summed over threads.
     pub seconds: f64,
 }
 
 impl StageReport {
-    /// A stage without counts.
+    /// Returns a stage without counts.
     pub(super) fn empty(stage: Stage) -> Self {
         Self {
             stage,
@@ -30,15 +30,15 @@ impl StageReport {
 /// One step.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StepReport {
-    /// Candidate triangle pairs: their swept boxes overlap. Zero for a method without them.
+    /// The number of candidate triangle pairs, whose swept boxes overlap. It is zero for a method without them.
     pub triangle_pairs: u64,
     /// The primitive pairs that the broad phase finds itself, for a method without triangle pairs.
     pub broad_phase_pairs: Option<PairCounts>,
-    /// Seconds of the broad phase: boxes, refit or build, traversal.
+    /// The seconds of the broad phase: boxes, refit or build, traversal.
     pub broad_phase_seconds: f64,
-    /// The stages after it, in order, up to the elementary test.
+    /// The stages after the broad phase, in order, up to the elementary test.
     pub stages: ArrayVec<StageReport, 8>,
-    /// Wall-clock seconds of the whole step.
+    /// The wall-clock seconds of the whole step.
     pub seconds: f64,
 }
 
@@ -103,7 +103,7 @@ impl StepReport {
         self.broad_phase_pairs.unwrap_or(survivors)
     }
 
-    /// Returns the contacts found.
+    /// Returns the contacts.
     #[must_use]
     pub fn contacts(&self) -> PairCounts {
         self.survivors(Stage::Elementary).unwrap_or_default()

@@ -47,7 +47,7 @@ impl<S: Scalar> BoundingVolume<S> for Dop18<S> {
     }
 }
 
-/// The volumes. Empty until refitted.
+/// The volumes, which are empty until they are refitted.
 #[derive(Clone, Debug)]
 pub(super) struct Stored<V> {
     vertices: Vec<V>,

@@ -1,4 +1,4 @@
-//! The broad phase's boxes, in `f32` whatever the format of the positions.
+//! The broad phase's boxes, in `f32` for either format of the positions.
 //!
 //! Boxes must overlap whenever the exact ones do. A coordinate x becomes fl₃₂(fl(x − m)), where m is a middle of the mesh. Both
 //! roundings are monotone: x ≤ y implies that x's image is at most y's. Two boxes overlap if each one's lower bound is at most
@@ -24,7 +24,7 @@ pub(super) fn map_boxes<S: Scalar>(mapped: &mut Vec<SweptBox>, boxes: &[Aabb<S>]
     });
 }
 
-/// The middle of all boxes; zero where that overflows.
+/// Returns the middle of all boxes; zero if that overflows.
 fn middle<S: Scalar>(boxes: &[Aabb<S>]) -> [f64; 3] {
     let all = boxes.iter().fold(Aabb::empty(), |all, swept| all.merged(swept));
     [0, 1, 2].map(|axis| {

@@ -2,7 +2,7 @@
 
 use super::recording::{Part, PartKind};
 
-/// Colours of the page's light theme, as linear light. A fifth cloth has the first one again.
+/// The colours of the page's light theme, as linear light. A fifth cloth has the first one again.
 pub(super) const CLOTHS: [[f64; 3]; 4] = [
     [0.046_1, 0.183, 0.467],
     [0.114, 0.330, 0.157],

@@ -9,7 +9,7 @@ use crate::methods::{Preset, Stage};
 use crate::study::{Comparison, ComparisonRow, MeanCounts};
 use maud::html;
 
-/// Headings of columns under headings of groups. All columns after the first hold numbers.
+/// The headings of columns under headings of groups. All columns after the first hold numbers.
 const COLUMNS: [(&str, &[&str]); 7] = [
     ("", &["Method"]),
     ("Distributed", &["VF", "EE"]),
@@ -22,8 +22,8 @@ const COLUMNS: [(&str, &[&str]); 7] = [
 /// The column with a bar beside each number.
 const FRAMES_PER_SECOND: usize = 8;
 
-/// A method's name, with a dagger if it is reconstructed, and its numbers: mean pairs a step after distribution, boxes and
-/// filters, contacts, frames a second, and the paper's numbers where it has them. A dash stands for a stage that the method
+/// Returns a method's name, with a dagger if it is reconstructed, and its numbers: mean pairs a step after distribution, boxes
+/// and filters, contacts, frames a second, and the paper's numbers if it has them. A dash stands for a stage that the method
 /// lacks.
 fn cells(row: &ComparisonRow) -> (String, Vec<String>) {
     let survivors = |wanted: fn(Stage) -> bool| {
@@ -180,7 +180,7 @@ pub(super) mod tests {
         }
     }
 
-    /// The paper's own numbers, and ours better than all of them.
+    /// Returns the paper's own numbers, with ours better than all of them.
     pub(in crate::report) fn comparison_like_the_papers() -> Comparison {
         let rows = Preset::ALL.into_iter().map(|preset| match paper_row(preset) {
             Some(paper) => row(
@@ -201,7 +201,7 @@ pub(super) mod tests {
         }
     }
 
-    /// The texts of all such elements of the page, whose markup must be without errors.
+    /// Returns the texts of all such elements of the page, whose markup must be without errors.
     fn texts(html: &str, selector: &str) -> Vec<String> {
         let page = Html::parse_document(html);
         assert!(page.errors.is_empty(), "{:?}", page.errors);
@@ -226,7 +226,7 @@ pub(super) mod tests {
         assert_eq!(texts(&html, ".lead"), [lead]);
         assert!(markdown.contains(lead) && markdown.starts_with("| Method | Distributed: VF | EE |"));
         assert_eq!(texts(&html, ".ours > th"), ["selvedge"]);
-        // Its name and seven numbers: it has no box test, and the paper's table lacks it.
+        // The row has its name and seven numbers: it has no box test, and the paper's table lacks it.
         assert_eq!(markdown.matches("| **").count(), 8);
         let paper = ["31", "137", "34.22", "1,122", "2,056", "12.70"];
         assert!(paper.iter().all(|number| cells.contains(number)));

@@ -11,7 +11,7 @@ use selvedge::Topology;
 use selvedge_core::Scalar;
 use std::io::{self, Write};
 
-/// Stages with a column of seconds, in the order of the data flow.
+/// The stages with a column of seconds, in the order of the data flow.
 const STAGES: [(Stage, &str); 6] = [
     (Stage::Distribution, "distribution_seconds"),
     (Stage::Boxes, "boxes_seconds"),
@@ -22,7 +22,7 @@ const STAGES: [(Stage, &str); 6] = [
 ];
 
 /// Writes a comparison, one row for each method. Counts are means per step, times are seconds per step. The last three columns
-/// have the paper's own numbers for the methods in its Table 1. Empty fields stand for what a method lacks.
+/// have the paper's own numbers for the methods in its Table 1. A field is empty if the method lacks the value.
 ///
 /// # Errors
 /// Returns the errors of `out`.
@@ -92,7 +92,7 @@ pub fn contacts_csv<S: Scalar>(topology: &Topology, contacts: &[Contact<S>], out
     for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
         for contact in contacts.iter().filter(|contact| contact.kind == kind) {
             let vertices = topology.vertices_of(kind, contact.pair);
-            // Exactly: the shortest text of an `f32`, read as an `f64`, may be later than the contact.
+            // The time is written as an `f64`: the shortest text of an `f32`, read as an `f64`, may be later than the contact.
             writer.serialize((kind.name(), vertices, contact.time.to_f64().to_string()))?;
         }
     }

@@ -10,7 +10,7 @@ use crate::study::{Comparison, ComparisonRow};
 pub struct Finding {
     /// The sentence, with the numbers that it rests on.
     pub text: String,
-    /// True if the numbers agree with the paper, or with what this project promises.
+    /// Whether the numbers agree with the paper, or with this project's promises.
     pub as_expected: bool,
 }
 
@@ -21,8 +21,8 @@ const PAPER_PAIRS: [(Preset, Preset); 3] = [
     (Preset::Lv2014, Preset::Tang2010),
 ];
 
-/// Compares candidates and speed with the paper's, our own method with the others, and contacts with the exact verdict. Leaves out methods
-/// that did not take part.
+/// Compares candidates and speed with the paper's, our own method with the others, and contacts with the exact verdict. Methods
+/// that did not take part are left out.
 #[must_use]
 pub fn findings(comparison: &Comparison) -> Vec<Finding> {
     let both = |(a, b): (Preset, Preset)| Some((comparison.row(a)?, comparison.row(b)?));
@@ -121,7 +121,7 @@ mod tests {
     use super::*;
     use crate::report::comparison::tests::comparison_like_the_papers;
 
-    /// The sentences that are not as expected, after `change` to the row of `preset`.
+    /// Returns the sentences that are not as expected, after `change` to the row of `preset`.
     fn unexpected(preset: Preset, change: impl FnOnce(&mut ComparisonRow)) -> Vec<String> {
         let mut comparison = comparison_like_the_papers();
         let mut rows = comparison.rows.iter_mut();

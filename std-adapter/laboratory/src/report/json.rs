@@ -1,5 +1,5 @@
-//! Builds what `--json` prints. Names are lower case with underscores, values lower case with hyphens; times are seconds unless
-//! the name says nanoseconds.
+//! Builds the documents of `--json`. Names are lower case with underscores, values lower case with hyphens; times are seconds
+//! unless the name says nanoseconds.
 
 use super::distributed;
 use super::findings::findings;
@@ -20,7 +20,7 @@ use selvedge::PairCounts;
 use selvedge_cloth::{TangledStart, TornEdge};
 use serde_json::{Value, json};
 
-/// One step, for `selvedge cull`.
+/// Returns one step, for `selvedge cull`.
 #[must_use]
 pub fn step(summary: &StepSummary) -> Value {
     let contacts = summary.report.contacts();
@@ -58,7 +58,7 @@ fn step_stages(report: &StepReport) -> Vec<Value> {
     [first].into_iter().chain(later).collect()
 }
 
-/// A stage of a step, or the mean of several.
+/// Returns a stage of a step, or the mean of several.
 fn stage(stage: Stage, [vertex_face, edge_edge]: [impl Into<Value>; 2], seconds: f64) -> Value {
     json!({
         "stage": stage.name(),
@@ -68,7 +68,7 @@ fn stage(stage: Stage, [vertex_face, edge_edge]: [impl Into<Value>; 2], seconds:
     })
 }
 
-/// A broad phase that finds triangle pairs.
+/// Returns a broad phase that finds triangle pairs.
 fn broad_phase(triangle_pairs: impl Into<Value>, seconds: f64) -> Value {
     json!({
         "stage": Stage::BroadPhase.name(),
@@ -77,7 +77,7 @@ fn broad_phase(triangle_pairs: impl Into<Value>, seconds: f64) -> Value {
     })
 }
 
-/// Every method on the same steps, for `selvedge compare`.
+/// Returns every method on the same steps, for `selvedge compare`.
 #[must_use]
 pub fn comparison(comparison: &Comparison) -> Value {
     json!({
@@ -134,7 +134,7 @@ fn comparison_stages(row: &ComparisonRow) -> Vec<Value> {
     [first].into_iter().chain(later).collect()
 }
 
-/// Each method's answers to queries, for `selvedge queries`.
+/// Returns each method's answers to queries, for `selvedge queries`.
 #[must_use]
 pub fn queries(scalar: &str, results: &[QueryResult]) -> Value {
     let methods = results.iter().map(|result| {
@@ -159,7 +159,7 @@ pub fn queries(scalar: &str, results: &[QueryResult]) -> Value {
     json!({"scalar": scalar, "methods": methods.collect::<Vec<_>>()})
 }
 
-/// The cost of a step with no effect, with the first one, with the first two, and so on.
+/// Returns the cost of a step with no effect, with the first one, with the first two, and so on.
 #[must_use]
 pub fn effects_one_by_one(costs: &[crate::study::EffectCost]) -> Value {
     let costs = costs
@@ -168,7 +168,7 @@ pub fn effects_one_by_one(costs: &[crate::study::EffectCost]) -> Value {
     costs.collect()
 }
 
-/// A simulation and its recording, for `selvedge simulate`.
+/// Returns a simulation and its recording, for `selvedge simulate`.
 ///
 /// Energies are in J; gravitational energy counts from the scene's origin. Stretch is relative to the length at rest. Both lists
 /// belong to the times in `seconds`.
@@ -223,12 +223,12 @@ pub fn simulation(simulation: &selvedge_cloth::Simulation, recording: &Recording
         "untangled": simulation.untangled().map(untangled_json),
         "tolerated": (simulation.tangled_start() == TangledStart::Tolerate)
             .then(|| json!({"crossings_at_end": simulation.crossings().len(), "pairs_at_end": simulation.tolerated_pairs()})),
-        // Contact effects certify every state. Without them nothing is known, hence null.
+        // Contact effects certify every state. Without them nothing is known, so the value is null.
         "intersections_at_end": simulation.is_certified().then_some(0),
     })
 }
 
-/// The times of measurements, in seconds.
+/// Returns the times of measurements, in seconds.
 fn measured_seconds(recording: &Recording) -> Vec<f64> {
     let steps = recording.measured_steps.iter();
     steps.map(|&step| recording.end_of(step)).collect()
@@ -259,7 +259,7 @@ fn energy(recording: &Recording) -> Value {
     energy
 }
 
-/// Cost against size, for `selvedge scaling`.
+/// Returns cost against size, for `selvedge scaling`.
 #[must_use]
 pub fn scaling(preset: Preset, threads: usize, points: &[ScalingPoint]) -> Value {
     let ratios = n_log_n_ratios(points);
@@ -286,7 +286,7 @@ pub fn scaling(preset: Preset, threads: usize, points: &[ScalingPoint]) -> Value
     })
 }
 
-/// Filters and their times, for `selvedge accuracy`: one row for each set, format, filter and instruction set.
+/// Returns filters and their times, for `selvedge accuracy`: one row for each set, format, filter and instruction set.
 #[must_use]
 pub fn accuracy(accuracy: &Accuracy) -> Value {
     let options = accuracy.options;
@@ -307,7 +307,7 @@ pub fn accuracy(accuracy: &Accuracy) -> Value {
     })
 }
 
-/// A set of pairs: the number of each kind, and further counts.
+/// Returns a set of pairs: the number of each kind, and further counts.
 fn pairs_of(name: &str, scalar: &str, pairs: [usize; 2], more: &[(&str, usize)]) -> Value {
     let [vertex_face, edge_edge] = pairs;
     let mut set = json!({
@@ -347,7 +347,7 @@ fn accuracy_rows(set: &AccuracySet) -> Vec<Value> {
     rows
 }
 
-/// Elementary tests, their times and errors: a part of `selvedge accuracy`.
+/// Returns elementary tests, their times and errors: a part of `selvedge accuracy`.
 #[must_use]
 pub fn elementary(accuracy: &ElementaryAccuracy) -> Value {
     let sets = accuracy.sets.iter().map(|set| {
@@ -382,7 +382,7 @@ pub fn elementary(accuracy: &ElementaryAccuracy) -> Value {
     })
 }
 
-/// Every method's answers to the hard cases, for `selvedge hard-cases`.
+/// Returns every method's answers to the hard cases, for `selvedge hard-cases`.
 #[must_use]
 pub fn hard_cases(scalar: &str, results: &[HardResult]) -> Value {
     let cases = results.iter().map(|result| {

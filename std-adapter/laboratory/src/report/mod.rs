@@ -1,6 +1,6 @@
 //! Turns results of studies and simulations into tables, CSV, JSON, plots, pictures, a page that works offline, and animated
-//! glTF. Functions return text or bytes, or write to what the caller passes; none opens a file. The same data gives the same
-//! bytes on every machine.
+//! glTF. Functions return text or bytes, or write to the caller's stream; they open no files. The same data gives the same bytes
+//! on every machine.
 //!
 //! A [`Recorder`] turns a simulation into a [`Recording`], which reports read.
 
@@ -38,24 +38,24 @@ pub use tangles::{coloured_ply, crossing_triangles, intersecting_triangles, star
 use crate::methods::Stage;
 use crate::study::{ComparisonRow, MeanCounts, ScalingPoint};
 
-/// The primitive pairs of a method before any culling test, if it distributes triangle pairs.
+/// Returns the primitive pairs of a method before any culling test, if it distributes triangle pairs.
 fn distributed(row: &ComparisonRow) -> Option<MeanCounts> {
     let stage = row.stages.iter().find(|stage| stage.stage == Stage::Distribution);
     stage.map(|stage| stage.survivors)
 }
 
-/// `693 vertices, 2,038 edges, 1,345 triangles`.
+/// Writes the size, such as `693 vertices, 2,038 edges, 1,345 triangles`.
 fn mesh_size(vertices: usize, edges: usize, triangles: usize) -> String {
     let [vertices, edges, triangles] = [vertices, edges, triangles].map(number::grouped);
     format!("{vertices} vertices, {edges} edges, {triangles} triangles")
 }
 
-/// An effect's name in ordinary spelling, without underscores.
+/// Returns an effect's name in ordinary spelling, without underscores.
 fn label(name: &str) -> String {
     name.replace("self_collision", "self-collision").replace('_', " ")
 }
 
-/// A value with its unit in print: `15 µN·m` for `15 uN m`.
+/// Writes a value with its unit in print: `15 µN·m` for `15 uN m`.
 fn printed(value: &str) -> String {
     value.replace("uN", "µN").replace("N m", "N·m").replace("m2", "m²")
 }
@@ -65,7 +65,7 @@ fn printable(text: &str) -> String {
     text.replace(|c: char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}'), "\u{fffd}")
 }
 
-/// Each size's time for a step divided by n log n, relative to the first size's. A cost of n log n gives 1 throughout.
+/// Returns each size's time for a step divided by n log n, relative to the first size's. A cost of n log n gives 1 throughout.
 fn n_log_n_ratios(points: &[ScalingPoint]) -> Vec<f64> {
     let cost = |point: &ScalingPoint| {
         let n = point.triangles as f64;

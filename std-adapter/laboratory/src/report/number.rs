@@ -3,7 +3,7 @@
 /// The sign for a missing value.
 pub(super) const ABSENT: &str = "–";
 
-/// A whole number with a comma between thousands: `1,345`.
+/// Writes a whole number with a comma between thousands: `1,345`.
 pub(super) fn grouped(number: impl ToString + Copy) -> String {
     let digits = number.to_string();
     let mut grouped = String::with_capacity(digits.len() * 4 / 3);
@@ -16,14 +16,14 @@ pub(super) fn grouped(number: impl ToString + Copy) -> String {
     grouped
 }
 
-/// `1 step`, `1,500 steps`.
+/// Writes a count: `1 step`, `1,500 steps`.
 pub(super) fn counted(count: impl ToString + Copy, what: &str) -> String {
     let count = grouped(count);
     let s = if count == "1" { "" } else { "s" };
     format!("{count} {what}{s}")
 }
 
-/// `1st`, `22nd`, `1,500th`.
+/// Writes an ordinal: `1st`, `22nd`, `1,500th`.
 pub(super) fn ordinal(number: u64) -> String {
     let ending = match (number % 10, number % 100) {
         (1, tens) if tens != 11 => "st",
@@ -34,7 +34,7 @@ pub(super) fn ordinal(number: u64) -> String {
     format!("{}{ending}", grouped(number))
 }
 
-/// Any number with three significant digits, or all digits before the point, and no zeros at the end: `0.00123`, `1,345`.
+/// Writes any number with three significant digits, or all digits before the point, and no zeros at the end: `0.00123`, `1,345`.
 pub(super) fn few(number: f64) -> String {
     finite(number, |number| {
         let size = number.abs();
@@ -52,7 +52,7 @@ pub(super) fn few(number: f64) -> String {
     })
 }
 
-/// The magnitude of a number, with one digit: `3e-9`.
+/// Writes the magnitude of a number, with one digit: `3e-9`.
 pub(super) fn magnitude(number: f64) -> String {
     match number {
         0.0 => "0".to_owned(),
@@ -60,19 +60,19 @@ pub(super) fn magnitude(number: f64) -> String {
     }
 }
 
-/// A part of a whole as a percentage: `85.2 %`.
+/// Writes a part of a whole as a percentage: `85.2 %`.
 pub(super) fn percent(part: usize, whole: usize, decimals: usize) -> String {
     finite(100.0 * part as f64 / whole as f64, |share| {
         format!("{share:.decimals$}\u{a0}%")
     })
 }
 
-/// A share as a percentage with three significant digits.
+/// Writes a share as a percentage with three significant digits.
 pub(super) fn share(share: f64) -> String {
     finite(share, |share| format!("{}\u{a0}%", few(100.0 * share)))
 }
 
-/// A time in a suitable unit, with three digits: `12.3 ms`.
+/// Writes a time in a suitable unit, with three digits: `12.3 ms`.
 pub(super) fn time(seconds: f64) -> String {
     finite(seconds, |seconds| {
         let (number, unit) = in_unit(seconds);
@@ -85,18 +85,18 @@ pub(super) fn time(seconds: f64) -> String {
     })
 }
 
-/// A time in a simulation: `0.225 s`.
+/// Writes a time in a simulation: `0.225 s`.
 pub(super) fn moment(seconds: f64) -> String {
     finite(seconds, |seconds| format!("{} s", few(seconds)))
 }
 
-/// A time with its sign: `+12.3 ms`.
+/// Writes a time with its sign: `+12.3 ms`.
 pub(super) fn signed_time(seconds: f64) -> String {
     let sign = if seconds < 0.0 { "−" } else { "+" };
     format!("{sign}{}", time(seconds.abs()))
 }
 
-/// A round time, on an axis: `1 µs`, `10 ms`.
+/// Writes a round time, on an axis: `1 µs`, `10 ms`.
 pub(super) fn round_time(seconds: f64) -> String {
     match in_unit(seconds) {
         (number, unit) if (1e-3..1e6).contains(&number) => format!("{} {unit}", few(number)),

@@ -37,7 +37,7 @@ pub const fn paper_row(preset: Preset) -> Option<PaperRow> {
     })
 }
 
-/// A method's pairs and frame rate as printed, or empty texts.
+/// Returns a method's pairs and frame rate as printed, or empty texts.
 pub(super) fn printed(preset: Preset) -> [String; 3] {
     paper_row(preset).map_or_else(Default::default, |paper| {
         let frames_per_second = format!("{:.2}", paper.frames_per_second);

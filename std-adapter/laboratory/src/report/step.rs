@@ -27,19 +27,19 @@ pub struct StepSummary {
     pub preset: Preset,
     /// `"f32"` or `"f64"`.
     pub scalar: &'static str,
-    /// Threads that the step used.
+    /// The number of threads that the step used.
     pub threads: usize,
-    /// The mesh's vertices.
+    /// The number of the mesh's vertices.
     pub vertices: usize,
-    /// The mesh's edges.
+    /// The number of the mesh's edges.
     pub edges: usize,
-    /// The mesh's triangles.
+    /// The number of the mesh's triangles.
     pub triangles: usize,
-    /// Counts and times of the step.
+    /// The counts and times of the step.
     pub report: StepReport,
     /// The earliest contact, in [0, 1] of the step.
     pub earliest: Option<f64>,
-    /// Seconds of the first run of the step, which builds hierarchies and allocates buffers. The report may belong to a later
+    /// The seconds of the first run of the step, which builds hierarchies and allocates buffers. The report may belong to a later
     /// run.
     pub first_run_seconds: f64,
 }

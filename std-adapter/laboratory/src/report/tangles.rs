@@ -15,21 +15,21 @@ use std::io::{self, Write};
 /// The check of one mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeshCheck {
-    /// The mesh's name: its file.
+    /// The name of the mesh's file.
     pub name: String,
-    /// Its vertices.
+    /// The number of vertices.
     pub vertices: usize,
-    /// Its triangles, without loose edges and points.
+    /// The number of triangles, without loose edges and points.
     pub triangles: usize,
-    /// True if it is free of intersections: the file was read whole, and its mesh has none.
+    /// Whether it is free of intersections: the file was read whole, and its mesh has none.
     pub is_free: bool,
-    /// True if the mesh has intersections.
+    /// Whether the mesh has intersections.
     pub is_tangled: bool,
     /// The intersections with the vertices of both features; `None` if the check ended at the first one.
     pub intersections: Option<Vec<(Intersection, Vec<u32>)>>,
-    /// Duration of the check.
+    /// The duration of the check.
     pub seconds: f64,
-    /// What else there is to say about the file and its mesh.
+    /// Further facts about the file and its mesh.
     pub file: FileReport,
 }
 
@@ -38,11 +38,11 @@ pub struct MeshCheck {
 pub struct FileReport {
     /// The parts that were not read.
     pub notes: MeshNotes,
-    /// Properties of the mesh that stand in the way of a simulation.
+    /// Properties of the mesh that hinder a simulation.
     pub findings: Findings,
 }
 
-/// Names of the kinds of intersections, as in lists.
+/// The names of the kinds of intersections, as in lists.
 const KINDS: [&str; 3] = ["edge-face", "vertex-face", "edge-edge"];
 
 fn kind(intersection: &Intersection) -> usize {
@@ -54,7 +54,7 @@ fn kind(intersection: &Intersection) -> usize {
 }
 
 impl MeshCheck {
-    /// A check that found these intersections, all of the mesh's.
+    /// Makes a check with these intersections, all of the mesh's.
     #[must_use]
     pub fn from_intersections(name: String, topology: &Topology, intersections: &[Intersection], seconds: f64) -> Self {
         let with_corners = |own: &Intersection| (*own, corners(topology, own));
@@ -64,7 +64,7 @@ impl MeshCheck {
         }
     }
 
-    /// A check that found only whether the mesh is free of intersections.
+    /// Makes a check that shows only whether the mesh is free of intersections.
     #[must_use]
     pub fn from_verdict(name: String, topology: &Topology, is_free: bool, seconds: f64) -> Self {
         // The topology counts loose edges and points as faces, after the triangles.
@@ -82,7 +82,7 @@ impl MeshCheck {
         }
     }
 
-    /// Adds what is known about the file. A mesh of which something with an area was not read is not free.
+    /// Adds the facts about the file. A mesh is not free if something with an area was not read.
     #[must_use]
     pub fn with_file(self, file: FileReport) -> Self {
         Self {
@@ -98,7 +98,7 @@ impl MeshCheck {
         !self.is_free && !self.is_tangled
     }
 
-    /// The number of each kind, in the order of `KINDS`.
+    /// Returns the number of each kind, in the order of `KINDS`.
     fn counts(&self) -> [Option<usize>; 3] {
         let list = self.intersections.as_ref();
         let count = |wanted| list.map(|list| list.iter().filter(|(own, _)| kind(own) == wanted).count());
@@ -119,7 +119,7 @@ fn corners(topology: &Topology, intersection: &Intersection) -> Vec<u32> {
     }
 }
 
-/// A table with a row for each mesh, and the verdict on all of them.
+/// Returns a table with a row for each mesh, and the verdict on all of them.
 #[must_use]
 pub fn mesh_checks(checks: &[MeshCheck]) -> String {
     let rows = checks.iter().map(|check| {
@@ -154,7 +154,7 @@ pub fn mesh_checks(checks: &[MeshCheck]) -> String {
     format!("{}\n{reports}{verdict}\n", tables::table(header, rows))
 }
 
-/// What a user should know about a mesh besides its intersections: one line each.
+/// Writes facts about a mesh besides its intersections, one line each.
 fn report_lines(check: &MeshCheck) -> impl Iterator<Item = String> {
     let FileReport { notes, findings } = &check.file;
     let missing = notes
@@ -177,7 +177,7 @@ fn report_lines(check: &MeshCheck) -> impl Iterator<Item = String> {
     [missing, overlapping, findings].into_iter().flatten()
 }
 
-/// The report about one file as part of a document. Lists hold the first ten.
+/// Returns the report about one file as part of a document. Lists hold the first ten.
 fn file_json(file: &FileReport) -> Value {
     let FileReport { notes, findings } = file;
     let left_out = notes.left_out.iter();
@@ -205,7 +205,7 @@ fn file_json(file: &FileReport) -> Value {
     })
 }
 
-/// The document of `selvedge check --json`. Counts are null where the check ended at the first intersection.
+/// Returns the document of `selvedge check --json`. Counts are null if the check ended at the first intersection.
 #[must_use]
 pub fn mesh_checks_json(checks: &[MeshCheck]) -> Value {
     let meshes = checks.iter().map(|check| {
@@ -248,7 +248,7 @@ pub fn intersections_csv(checks: &[MeshCheck], out: impl Write) -> io::Result<()
     writer.flush()
 }
 
-/// Every intersection of every mesh as one document.
+/// Returns every intersection of every mesh as one document.
 #[must_use]
 pub fn intersections_json(checks: &[MeshCheck]) -> Value {
     let of_mesh = |check: &MeshCheck| {
@@ -341,7 +341,8 @@ pub fn crossing_triangles(tangled: &Tangled) -> Vec<bool> {
     tangled.mesh.triangles.iter().map(meets).collect()
 }
 
-/// The document of `selvedge simulate --json` for a scene that starts tangled. Vertices count from 0, the cloth's first, then the bodies'.
+/// Returns the document of `selvedge simulate --json` for a scene that starts tangled. Vertices count from 0, the cloth's first,
+/// then the bodies'.
 #[must_use]
 pub fn tangled_start_json(scene: &str, tangled: &Tangled) -> Value {
     let crossing = |crossing: &Crossing| {
@@ -362,7 +363,7 @@ pub fn tangled_start_json(scene: &str, tangled: &Tangled) -> Value {
     })
 }
 
-/// The result of untangling. Lengths are in metres, stretch is relative to lengths in the scene.
+/// Returns the result of untangling. Lengths are in metres, stretch is relative to lengths in the scene.
 pub(super) fn untangled_json(untangled: &Untangled) -> Value {
     json!({
         "crossings": untangled.crossings,
@@ -375,7 +376,7 @@ pub(super) fn untangled_json(untangled: &Untangled) -> Value {
     })
 }
 
-/// Sentences for readers about a tangled start: how it was untangled, and what is still tangled. None if the start was free.
+/// Writes sentences about a tangled start: how it was untangled, and which tangles remain. There are none if the start was free.
 #[must_use]
 pub fn start_sentences(simulation: &Simulation) -> Vec<String> {
     let left = simulation.crossings().len();

@@ -31,7 +31,7 @@ const FOLDS: Waves = Waves {
     reach: 0.14,
     slant: 0.9,
 };
-/// Slighter wrinkles that run around the whole sleeve.
+/// The wrinkles that run around the whole sleeve, lower than the folds.
 const WRINKLES: Waves = Waves {
     height: 0.006,
     length: 0.11,
@@ -71,7 +71,7 @@ impl ArmScene {
     /// The usual number of steps of the whole bend. There is one more frame.
     pub const STEPS: usize = 60;
 
-    /// The scene with a sleeve of 1,345 triangles times `refinement`.
+    /// Makes the scene with a sleeve of 1,345 triangles times `refinement`.
     ///
     /// # Errors
     /// Returns the errors of [`sleeve`].
@@ -81,19 +81,19 @@ impl ArmScene {
         Ok(Self { rest, topology })
     }
 
-    /// The sleeve before the arm bends.
+    /// Returns the sleeve before the arm bends.
     #[must_use]
     pub fn mesh(&self) -> &Mesh {
         &self.rest
     }
 
-    /// The sleeve's topology.
+    /// Returns the sleeve's topology.
     #[must_use]
     pub fn topology(&self) -> &Topology {
         &self.topology
     }
 
-    /// The number of frames: [`STEPS`](Self::STEPS) + 1.
+    /// Returns the number of frames: [`STEPS`](Self::STEPS) + 1.
     #[must_use]
     pub fn frame_count(&self) -> usize {
         Self::STEPS + 1
@@ -135,11 +135,11 @@ impl ArmScene {
 
 /// Waves along the sleeve that fade out on either side of the elbow.
 struct Waves {
-    /// From the middle to the crest.
+    /// The height from the middle to the crest.
     height: f64,
-    /// From crest to crest.
+    /// The distance from crest to crest.
     length: f64,
-    /// The distance from the elbow at which they end.
+    /// The distance from the elbow at which the waves end.
     reach: f64,
     /// The phase by which they run ahead on one flank of the sleeve and behind on the other, in radians.
     slant: f64,
@@ -154,7 +154,7 @@ impl Waves {
     }
 }
 
-/// 1 at 0, falling smoothly to 0 at ±1 and beyond.
+/// Returns 1 at 0, and falls smoothly to 0 at ±1 and beyond.
 fn fade(distance: f64) -> f64 {
     let inside = (1.0 - distance * distance).max(0.0);
     inside * inside
@@ -164,7 +164,7 @@ fn fade(distance: f64) -> f64 {
 fn wrinkle(rest: DVec3, time: f64) -> DVec3 {
     let along = rest.x - ELBOW;
     let radius = (rest.y * rest.y + rest.z * rest.z).sqrt();
-    // The point's place around the sleeve, as cosine and sine: 1 and 0 on the inner side.
+    // This is the point's place around the sleeve, as cosine and sine: 1 and 0 on the inner side.
     let (inner, flank) = (rest.y / radius, rest.z / radius);
 
     let on_inner_side = 0.25 * (1.0 + inner) * (1.0 + inner);
@@ -199,7 +199,7 @@ fn bend(point: DVec3, time: f64) -> DVec3 {
     DVec3::new(x - sine * point.y, y + cosine * point.y, point.z)
 }
 
-/// sin(x) / x, and 1 at 0.
+/// Returns sin(x) / x, and 1 at 0.
 fn sinc(x: f64) -> f64 {
     if x == 0.0 { 1.0 } else { sin(x) / x }
 }
@@ -211,7 +211,7 @@ mod tests {
     use selvedge::CollisionDetector;
     use std::hash::Hasher;
 
-    /// The exact number of places where the mesh passes through itself.
+    /// Counts exactly the places where the mesh passes through itself.
     fn intersections(topology: Topology, positions: &[DVec3]) -> usize {
         let mut intersections = Vec::new();
         let mut detector = CollisionDetector::<f64>::new(topology);
@@ -286,13 +286,13 @@ mod tests {
         assert_eq!(bend(shoulder, 1.0), shoulder);
         let forearm = bend(cuff, 1.0) - bend(elbow, 1.0);
         let expected = 0.2 * DVec3::new(BEND.cos(), BEND.sin(), 0.0);
-        // A few roundings of numbers below 1.
+        // The bound is a few roundings of numbers below 1.
         assert!(forearm.distance(expected) < 8.0 * f64::EPSILON, "{forearm}");
     }
 
     #[test]
     fn positions_are_the_same_bits_on_every_platform() {
-        // Over the bits of all coordinates in the last frame, from x86-64.
+        // The digest of the bits of all coordinates in the last frame is from x86-64.
         let scene = ArmScene::new(1).unwrap();
         let mut hash = FnvHasher::default();
         for coordinate in scene.frame(ArmScene::STEPS).iter().flat_map(DVec3::to_array) {

@@ -22,7 +22,7 @@ pub struct ArmFrames {
 }
 
 impl ArmFrames {
-    /// A sleeve of 1,345 triangles times `refinement`, bent in `steps` steps (at least one).
+    /// Makes a sleeve of 1,345 triangles times `refinement`, bent in `steps` steps (at least one).
     ///
     /// # Errors
     /// Returns the errors of [`ArmScene::new`].

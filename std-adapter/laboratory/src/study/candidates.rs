@@ -11,7 +11,7 @@ use std::error::Error;
 pub struct StepCandidates {
     /// The method.
     pub preset: Preset,
-    /// Vertex and face of each pair, as numbered by the topology.
+    /// The vertex and face of each pair, as numbered by the topology.
     pub vertex_face: Vec<[u32; 2]>,
     /// The two edges of each pair, as numbered by the topology.
     pub edge_edge: Vec<[u32; 2]>,
@@ -39,7 +39,7 @@ pub fn step_candidates(
     })
 }
 
-/// Returns the step in which `preset` leaves the most candidates; the earliest of several.
+/// Returns the step in which `preset` leaves the most candidates, or the earliest of several.
 ///
 /// # Errors
 /// Returns an error if threads cannot be started or a frame is not finite.

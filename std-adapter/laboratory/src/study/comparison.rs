@@ -7,12 +7,12 @@ use selvedge::PairCounts;
 use selvedge::PairKind;
 use std::error::Error;
 
-/// Means per step.
+/// The mean numbers of pairs per step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MeanCounts {
-    /// Vertex–face pairs a step.
+    /// The vertex–face pairs per step.
     pub vertex_face: f64,
-    /// Edge–edge pairs a step.
+    /// The edge–edge pairs per step.
     pub edge_edge: f64,
 }
 
@@ -23,7 +23,7 @@ pub struct MeanStage {
     pub stage: Stage,
     /// The pairs that it passes on.
     pub survivors: MeanCounts,
-    /// Its seconds a step, in the fastest round, summed over threads.
+    /// The seconds per step, in the fastest round, summed over threads.
     pub seconds: f64,
 }
 
@@ -32,24 +32,24 @@ pub struct MeanStage {
 pub struct ComparisonRow {
     /// The method.
     pub preset: Preset,
-    /// Candidate triangle pairs a step: the same for every method that has them, else zero.
+    /// The candidate triangle pairs per step: the same for every method that has them, otherwise zero.
     pub triangle_pairs: f64,
-    /// True if it has triangle pairs. Otherwise its broad phase finds primitive pairs: those of
+    /// Whether it has triangle pairs. Otherwise its broad phase finds primitive pairs: those of
     /// [`after_boxes`](Self::after_boxes).
     pub has_triangle_pairs: bool,
-    /// Seconds a step of the broad phase, in the fastest round.
+    /// The seconds of the broad phase per step, in the fastest round.
     pub broad_phase_seconds: f64,
-    /// The stages after it, up to the elementary test.
+    /// The stages after the broad phase, up to the elementary test.
     pub stages: Vec<MeanStage>,
     /// The pairs after the last box test. Without one, these are the pairs as distributed, or as the broad phase finds them.
     pub after_boxes: MeanCounts,
     /// The pairs that reach the elementary test: the paper's *candidate primitive pairs*.
     pub candidates: MeanCounts,
-    /// Contacts that the elementary test finds.
+    /// The contacts that the elementary test finds.
     pub contacts: MeanCounts,
-    /// Pairs that touch by the exact verdict, and are not among the contacts.
+    /// The pairs that touch by the exact verdict, and are not among the contacts.
     pub missed: MeanCounts,
-    /// Steps a second, culling and elementary tests together, in the fastest round.
+    /// The steps per second, culling and elementary tests together, in the fastest round.
     pub frames_per_second: f64,
 }
 
@@ -58,15 +58,15 @@ pub struct ComparisonRow {
 pub struct Comparison {
     /// The name of the motion.
     pub name: String,
-    /// The mesh's vertices.
+    /// The number of the mesh's vertices.
     pub vertices: usize,
-    /// The mesh's edges.
+    /// The number of the mesh's edges.
     pub edges: usize,
-    /// The mesh's triangles.
+    /// The number of the mesh's triangles.
     pub triangles: usize,
     /// The number of steps.
     pub steps: usize,
-    /// Threads that each method used.
+    /// The number of threads that each method used.
     pub threads: usize,
     /// The number of times that each method ran each step.
     pub rounds: usize,
@@ -75,7 +75,7 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// The row of a method, if it took part.
+    /// Returns the row of a method, if it took part.
     #[must_use]
     pub fn row(&self, preset: Preset) -> Option<&ComparisonRow> {
         self.rows.iter().find(|row| row.preset == preset)

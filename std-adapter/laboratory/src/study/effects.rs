@@ -12,7 +12,7 @@ pub struct EffectCost {
     pub added: Option<&'static str>,
     /// The number of steps. It is smaller than requested if the simulation was blocked.
     pub steps: u64,
-    /// Wall-clock seconds a step.
+    /// The wall-clock seconds per step.
     pub seconds: f64,
 }
 

@@ -3,13 +3,13 @@
 use selvedge::Topology;
 use selvedge::glam::DVec3;
 
-/// Steps of one mesh, each from one frame to another. A step need not begin where the last one ends.
+/// The steps of one mesh, each from one frame to another. A step need not begin where the last one ends.
 pub trait Frames {
-    /// The name of the motion in reports: a scene's name, or the files.
+    /// Returns the name of the motion in reports: a scene's name, or the files.
     fn name(&self) -> String;
-    /// The mesh.
+    /// Returns the mesh.
     fn topology(&self) -> &Topology;
-    /// The number of steps.
+    /// Returns the number of steps.
     fn step_count(&self) -> usize;
     /// Replaces `start` and `end` by the positions before and after a step, in the caller's length unit. The step is below
     /// [`step_count`](Self::step_count).
@@ -23,9 +23,9 @@ pub struct TwoFrames {
     pub name: String,
     /// The mesh.
     pub topology: Topology,
-    /// Positions at time 0.
+    /// The positions at time 0.
     pub start: Vec<DVec3>,
-    /// Positions at time 1.
+    /// The positions at time 1.
     pub end: Vec<DVec3>,
 }
 

@@ -10,7 +10,7 @@ use selvedge_core::{Motion, PrimitivePair, Scalar};
 pub enum HardAnswer {
     /// The method keeps a pair that touches or is not finite, or culls one that does not touch.
     Right,
-    /// The method keeps a pair that does not touch. That is allowed, since later tests look at it again.
+    /// The method keeps a pair that does not touch. That is allowed, since later tests examine it again.
     FalseAlarm,
     /// **Wrong**: the method culls a pair that touches or is not finite.
     Missed,
@@ -49,7 +49,7 @@ pub fn ask_hard_cases<S: Scalar>(name: &str, progress: &mut dyn FnMut(f64)) -> V
     results
 }
 
-/// The case's pair as `S`, if that changes none of its coordinates.
+/// Returns the case's pair as `S`, if that changes none of its coordinates.
 pub(super) fn exactly<S: Scalar>(case: &HardCase) -> Option<PrimitivePair<S>> {
     let convert = |position: DVec3| {
         let converted = position.to_array().map(S::from_f64);

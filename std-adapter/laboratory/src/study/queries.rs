@@ -33,11 +33,11 @@ pub struct QueryResult {
 /// A method's answers compared with the truth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TruthCounts {
-    /// Queries that collide.
+    /// The number of queries that collide.
     pub positives: usize,
-    /// Queries that do not collide, and that the method kept.
+    /// The number of queries that do not collide, and that the method kept.
     pub false_positives: usize,
-    /// Queries that collide, and that the method culled or missed. A certified method has none.
+    /// The number of queries that collide, and that the method culled or missed. A certified method has none.
     pub false_negatives: usize,
 }
 
@@ -46,11 +46,11 @@ pub struct TruthCounts {
 pub struct Nanoseconds {
     /// The mean.
     pub mean: f64,
-    /// Half of the queries take no longer.
+    /// The time that half of the queries do not exceed.
     pub median: f64,
-    /// 99 in 100 queries take no longer.
+    /// The time that 99 in 100 queries do not exceed.
     pub p99: f64,
-    /// The slowest query.
+    /// The time of the slowest query.
     pub max: f64,
 }
 
@@ -110,13 +110,13 @@ impl<S: Scalar> WithTest<S, bool> for Run<'_, S> {
 }
 
 impl Nanoseconds {
-    /// All are zero without times.
+    /// Computes the times. All are zero without any.
     fn from_times(mut times: Vec<f64>) -> Self {
         times.sort_by(f64::total_cmp);
         let Some(&max) = times.last() else {
             return Self::default();
         };
-        // Nearest rank: the smallest time that this percentage of all times does not exceed.
+        // The rank is the nearest: the smallest time that this percentage of all times does not exceed.
         let percentile = |percent: usize| times[(times.len() * percent).div_ceil(100).max(1) - 1];
         Self {
             mean: times.iter().sum::<f64>() / times.len() as f64,
@@ -127,14 +127,14 @@ impl Nanoseconds {
     }
 }
 
-/// Measures calls that are too short for the clock; see the module.
+/// A clock for calls that are too short for the system's clock.
 struct StopWatch {
     /// The repetitions of the last query: a good guess for the next.
     repeats: u32,
 }
 
 impl StopWatch {
-    /// A hundred times the cost of reading the clock, which is 20 ns or so.
+    /// The length of a run: a hundred times the cost of reading the clock, which is 20 ns or so.
     const RUN: Duration = Duration::from_micros(2);
     const RUNS: usize = 3;
 
@@ -169,7 +169,7 @@ mod tests {
     use selvedge::glam::DVec3;
     use selvedge_core::Motion;
 
-    /// A vertex that falls from z = 1 to z = `end` above the middle of a resting triangle.
+    /// Makes a query of a vertex that falls from z = 1 to z = `end` above the middle of a resting triangle.
     fn fall(end: f64, collides: Option<bool>) -> Query {
         let at = |z| DVec3::new(0.25, 0.25, z);
         let face = [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting);

@@ -8,11 +8,11 @@ use std::error::Error;
 /// One size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScalingPoint {
-    /// The mesh's triangles.
+    /// The number of the mesh's triangles.
     pub triangles: usize,
-    /// Seconds of setting up the pipeline, with feature assignment.
+    /// The seconds of setting up the pipeline, with feature assignment.
     pub setup_seconds: f64,
-    /// Seconds of the first step, which builds the hierarchy and allocates the buffers.
+    /// The seconds of the first step, which builds the hierarchy and allocates the buffers.
     pub first_step_seconds: f64,
     /// The fastest later run of the same step: counts, and time by stage.
     pub step: StepReport,

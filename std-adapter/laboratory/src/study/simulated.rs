@@ -63,9 +63,9 @@ impl SimulatedSteps {
         })
     }
 
-    /// The state after the chosen step `index`.
+    /// Returns the number of the state after the chosen step `index`.
     fn end(&self, index: usize) -> u64 {
-        // In 128 bits, since both may be large.
+        // The product is in 128 bits, since both may be large.
         let end = (index as u128 + 1) * u128::from(self.all) / u128::from(self.count.max(1));
         end as u64
     }

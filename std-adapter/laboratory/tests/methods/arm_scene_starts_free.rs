@@ -19,7 +19,7 @@ fn the_sleeve_refined_ten_times_starts_free_of_intersections() {
     assert_eq!(intersections_at_the_start(10), [[0; 2]; 0]);
 }
 
-/// Shows that the tests above can fail.
+/// This shows that the tests above can fail.
 #[test]
 fn the_sleeve_ends_in_itself() {
     let scene = ArmScene::new(1).expect("a refinement in range");

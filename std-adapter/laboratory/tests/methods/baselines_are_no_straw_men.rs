@@ -1,4 +1,4 @@
-//! The published methods are right where rounding does not matter; otherwise the comparison with them would be worthless.
+//! The published methods are right if rounding does not matter; otherwise the comparison with them would be worthless.
 
 use proptest::prelude::*;
 use selvedge_core::elementary::{Impact, Limits};
@@ -7,8 +7,8 @@ use selvedge_laboratory::baselines::{additive, bernstein_sign, cubic, tight_incl
 use selvedge_verification::generator::{PairCase, check};
 use selvedge_verification::oracle::collides;
 
-/// Coordinates anywhere from −1 to 1, all different: half of the pairs are coplanar at some time, one in twenty touch, and
-/// hardly any so closely that rounding to 53 bits could matter.
+/// Generates coordinates anywhere from −1 to 1, all different. Half of the pairs are coplanar at some time, one in twenty touch,
+/// and hardly any so closely that rounding to 53 bits could matter.
 fn any_pairs(kind: PairKind) -> impl Strategy<Value = PairCase<f64>> + Clone {
     let coordinate = || -1.0..1.0_f64;
     let position = move || [coordinate(), coordinate(), coordinate()];

@@ -1,4 +1,4 @@
-//! The hard cases of `selvedge hard-cases`: their answers are exact, and Selvedge's methods are right on all of them and on their
+//! The answers to the hard cases of `selvedge hard-cases` are exact, and Selvedge's methods are right on all of them and on their
 //! neighbours in the last place.
 
 use selvedge_core::Scalar;
@@ -40,7 +40,8 @@ fn answers_of_the_file_are_those_of_the_oracle() {
     }
 }
 
-/// Selvedge's methods, which must never cull a pair that touches. (Tight-Inclusion's bisection must not either, but it is slow.)
+/// Returns Selvedge's methods, which must never cull a pair that touches. (Tight-Inclusion's bisection must not either, but it is
+/// slow.)
 fn ours() -> impl Iterator<Item = QueryMethod> {
     let is_ours = |method: &QueryMethod| method.is_certified() && method.name() != "tight_inclusion";
     QueryMethod::ALL.into_iter().filter(is_ours)

@@ -1,5 +1,5 @@
-//! The laboratory's methods against the exact oracle of `selvedge-verification`, which needs GMP. GMP does not build with Microsoft's
-//! compiler, so there these tests are left out.
+//! Tests of the laboratory's methods against the exact oracle of `selvedge-verification`, which needs GMP. GMP does not build
+//! with Microsoft's compiler, so there these tests are left out.
 #![cfg(not(target_env = "msvc"))]
 
 mod arm_scene_starts_free;

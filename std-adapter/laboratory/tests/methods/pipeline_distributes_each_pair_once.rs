@@ -1,5 +1,5 @@
-//! The pipeline against its definition, over small degenerate meshes: no pair is lost, none is met twice, and every preset ends
-//! with the pairs that its own tests leave.
+//! The pipeline agrees with its definition, over small degenerate meshes: no pair is lost, none is met twice, and every preset
+//! ends with the pairs that its own tests leave.
 
 use proptest::prelude::*;
 use selvedge::PairCounts;
@@ -20,7 +20,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 const KINDS: [PairKind; 2] = [VertexFace, EdgeEdge];
 
-/// A pair of a mesh; the two edges of an edge–edge pair in ascending order.
+/// A pair of a mesh. The two edges of an edge–edge pair are in ascending order.
 type MeshPair = (PairKind, [u32; 2]);
 
 fn in_order(kind: PairKind, [a, b]: [u32; 2]) -> MeshPair {
@@ -167,7 +167,7 @@ fn every_overlapping_pair_is_distributed_exactly_once_f32() {
     check(600, meshes::<f32>(), every_overlapping_pair_is_distributed_exactly_once);
 }
 
-/// Ten million units from the origin, where the broad phase's `f32` has steps of 1.
+/// The mesh is ten million units from the origin, where the broad phase's `f32` has steps of 1.
 #[test]
 fn every_overlapping_pair_is_distributed_exactly_once_far_from_the_origin() {
     check(400, meshes::<f64>(), |mesh| {
@@ -201,8 +201,8 @@ fn an_exact_translation_leaves_the_same_candidates() {
     let compared = Cell::new(0);
     check(1000, meshes::<f64>(), |mesh| {
         let far = mesh.moved_by([1e7, -1e7, 1e7]);
-        // Only meshes of small numbers: 1e300 would come back, too, but without having moved. Within half of the distance the way
-        // back is exact (Sterbenz), so a mesh that comes back has lost nothing.
+        // Only meshes of small numbers count: 1e300 would come back, too, but without having moved. Within half of the distance
+        // the way back is exact (Sterbenz), so a mesh that comes back has lost nothing.
         let small = mesh.positions.iter().flatten().flatten().all(|x| x.abs() < 5e6);
         if small && far.moved_by([-1e7, 1e7, -1e7]) == *mesh {
             compared.set(compared.get() + 1);
@@ -274,7 +274,7 @@ fn every_preset_ends_with_what_its_own_tests_leave_f32() {
     check(150, meshes::<f32>(), every_preset_ends_with_what_its_own_tests_leave);
 }
 
-/// From the mesh to the contacts, against the exact oracle.
+/// The contacts agree with the exact oracle, from the mesh on.
 fn the_exact_preset_finds_the_pairs_that_collide_and_no_other<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
     let topology = mesh.topology();
     let colliding: BTreeSet<MeshPair> = all_pairs(&topology)
@@ -306,8 +306,8 @@ fn the_exact_preset_finds_the_pairs_that_collide_and_no_other_f32() {
     );
 }
 
-/// Another test is about the candidates of moving boxes; this one is about what happens to them after that. Times differ in the
-/// last bits from those of one pair alone, because several pairs advance side by side first.
+/// Another test is about the candidates of moving boxes; this one is about the later stages. Times differ in the last bits from
+/// those of one pair alone, because several pairs advance side by side first.
 fn moving_boxes_end_with_what_the_certified_tests_leave<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
     let topology = mesh.topology();
     let mut broad_phase = MovingBroadPhase::new(topology.clone());
@@ -354,7 +354,7 @@ fn moving_boxes_end_with_what_the_certified_tests_leave_f32() {
     check(150, meshes::<f32>(), moving_boxes_end_with_what_the_certified_tests_leave);
 }
 
-/// From the mesh to the candidates, against the exact oracle.
+/// The candidates agree with the exact oracle, from the mesh on.
 fn no_certified_preset_loses_a_pair_that_collides<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
     let topology = mesh.topology();
     let colliding: Vec<MeshPair> = all_pairs(&topology)
@@ -409,7 +409,7 @@ fn threads_change_nothing_f32() {
     check(40, meshes::<f32>(), threads_change_nothing);
 }
 
-/// Large enough for many batches, and for the broad phase to split its work.
+/// The mesh is large enough for many batches, and for the broad phase to split its work.
 #[test]
 fn threads_change_nothing_on_a_late_step_of_the_arm() {
     let scene = ArmScene::new(4).expect("a refinement in range");
@@ -434,7 +434,7 @@ fn threads_change_nothing_on_a_late_step_of_the_arm() {
     }
 }
 
-/// Buffers are reused, but nothing of a step may be left in the next.
+/// Buffers are reused, but no data of a step may remain in the next.
 #[test]
 fn an_earlier_step_changes_nothing() {
     check(100, meshes::<f64>(), |mesh| {

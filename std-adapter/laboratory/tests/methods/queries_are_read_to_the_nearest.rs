@@ -1,4 +1,4 @@
-//! Each coordinate of a query is the double nearest to its ratio, by rug's arithmetic, which shares nothing with the reader's.
+//! Each coordinate of a query is the double nearest to its ratio, by rug's arithmetic, which is independent of the reader's.
 
 use proptest::prelude::*;
 use rug::{Integer, Rational};
@@ -10,7 +10,7 @@ fn digits() -> impl Strategy<Value = Integer> {
     "-?[1-9][0-9]{0,320}".prop_map(|digits| digits.parse().expect("digits"))
 }
 
-/// Ratios of all sizes, and ratios at or beside the middle of two neighbouring doubles.
+/// Generates ratios of all sizes, and ratios at or beside the middle of two neighbouring doubles.
 fn ratios() -> impl Strategy<Value = Rational> {
     let of_any_size = (digits(), digits()).prop_map(Rational::from);
     let ties = (any::<f64>(), -1..=1, 1..400_u32).prop_filter_map("a finite number", |(x, side, bits)| {

@@ -6,16 +6,16 @@ use selvedge::Topology;
 use selvedge::glam::{DVec3, Vec3};
 use tiny_skia::{FillRule, Paint, Path, PathBuilder, Pixmap, Stroke, Transform};
 
-/// Red, green, blue.
+/// A colour as red, green and blue.
 type Colour = [u8; 3];
 
-/// Vertices of vertex–face pairs.
+/// The colour of vertices of vertex–face pairs.
 pub(super) const BLUE: Colour = [0, 78, 200];
-/// Faces of vertex–face pairs.
+/// The colour of faces of vertex–face pairs.
 pub(super) const YELLOW: Colour = [255, 214, 10];
-/// Edges of edge–edge pairs.
+/// The colour of edges of edge–edge pairs.
 pub(super) const GREEN: Colour = [0, 150, 60];
-/// The frame around a close-up.
+/// The colour of the frame around a close-up.
 pub(super) const FRAME: Colour = [60, 66, 74];
 const CLOTH: Colour = [196, 204, 214];
 const OUTLINE: Colour = [90, 100, 112];
@@ -23,7 +23,7 @@ const OUTLINE: Colour = [90, 100, 112];
 /// The opacity of faces. The rest of what lies behind shows through.
 const CLOTH_OPACITY: f32 = 0.5;
 const MARK_OPACITY: f32 = 0.8;
-/// Faces whose edges are shorter than this, in pixels, have no outlines, which would make all cloth grey.
+/// The shortest edges, in pixels, of faces with outlines. Shorter ones would make all cloth grey.
 const LEAST_OUTLINED: f32 = 4.0;
 
 /// The primitives with a candidate pair.
@@ -129,7 +129,7 @@ fn shapes(topology: &Topology, seen: &[Seen], marks: &Marks, edge_length: f32) -
     shapes.into_iter().map(|(_, _, shape)| shape).collect()
 }
 
-/// Widths of lines and dots, in pixels, to suit the size of the faces.
+/// The widths of lines and dots, in pixels, which suit the size of the faces.
 struct Pen {
     edge_length: f32,
     has_outlines: bool,
@@ -207,7 +207,7 @@ pub(super) fn draw_dot(picture: &mut Pixmap, at: Seen, radius: f32) {
     }
 }
 
-/// Lambert's law for a lamp at the viewer's left shoulder, the same for both sides of a face.
+/// Returns the brightness by Lambert's law for a lamp at the viewer's left shoulder, the same for both sides of a face.
 fn brightness(corners: [Seen; 3], marked: bool) -> f32 {
     let [a, b, c] = corners.map(|corner| Vec3::new(corner.x, -corner.y, corner.depth));
     let normal = (b - a).cross(c - a).normalize_or(Vec3::Z);

@@ -7,21 +7,21 @@ use crate::report::number::grouped;
 use crate::study::StepCandidates;
 use tiny_skia::{Color, PathBuilder, Pixmap, PixmapPaint, Rect, Transform};
 
-/// Width of a panel.
+/// The width of a panel.
 pub(super) const WIDTH: f32 = 800.0;
-/// The whole mesh, in the left panel.
+/// The room of the whole mesh, in the left panel.
 pub(super) const OVERVIEW: Room = Room {
     left: 40.0,
     top: 24.0,
     width: WIDTH - 80.0,
     height: 440.0,
 };
-/// The whole mesh, where there is no close-up.
+/// The room of the whole mesh without a close-up.
 pub(super) const OVERVIEW_ALONE: Room = Room {
     height: 780.0,
     ..OVERVIEW
 };
-/// The part with the right panel's marks, in the left panel.
+/// The room of the part with the right panel's marks, in the left panel.
 pub(super) const CLOSE_UP: Room = Room {
     left: 120.0,
     top: 490.0,

@@ -58,7 +58,7 @@ fn each_kind_of_pair_has_its_colours_in_its_panel_and_no_other() {
         (candidates(&[], &edge_edge), [false, false, true]),
         (candidates(&vertex_face, &edge_edge), [true, true, true]),
     ];
-    // Each in each panel, beside two others.
+    // Each mark is drawn in each panel, beside two others.
     for (place, (left, in_left)) in cases.iter().enumerate() {
         for (right, in_right) in [&cases[(place + 1) % 4], &cases[(place + 2) % 4]] {
             let picture = decoded(&figure_3(&topology, &positions, [left, right]).unwrap());
@@ -101,7 +101,7 @@ fn the_viewer_stands_on_the_side_to_which_the_arm_bends() {
     }
 }
 
-/// Coordinates of any size, many of them equal.
+/// Generates coordinates of any size, many of them equal.
 fn coordinate() -> impl Strategy<Value = f64> {
     prop_oneof![
         Just(0.0),

@@ -14,7 +14,7 @@ pub(super) struct View {
     towards_eye: DVec3,
     /// The middle of the mesh as seen, in units of `half_side`.
     middle: DVec2,
-    /// Pixels in a unit of `half_side`.
+    /// The number of pixels in a unit of `half_side`.
     pixels: f64,
     /// The place of `middle`, in pixels.
     target: DVec2,
@@ -23,11 +23,11 @@ pub(super) struct View {
 /// A point of the mesh in the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Seen {
-    /// Pixels from the left.
+    /// The distance from the left, in pixels.
     pub(super) x: f32,
-    /// Pixels from the top.
+    /// The distance from the top, in pixels.
     pub(super) y: f32,
-    /// Pixels towards the viewer.
+    /// The nearness to the viewer, in pixels.
     pub(super) depth: f32,
 }
 
@@ -40,7 +40,7 @@ pub(super) struct Room {
     pub(super) height: f32,
 }
 
-/// A close-up is at least this much larger than the overview; otherwise there is none.
+/// The least magnification of a close-up over the overview. Without it there is no close-up.
 const LEAST_MAGNIFICATION: f64 = 1.3;
 const LARGEST_MAGNIFICATION: f64 = 5.0;
 

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 #[error("an animation of {0} bytes does not fit into a glTF file, which holds 4 GiB; record fewer frames")]
 pub struct TooLarge(pub u64);
 
-/// Numbers of the format.
+/// The code of a number format.
 const UNSIGNED_INT: u32 = 5125;
 const FLOAT: u32 = 5126;
 const ARRAY_BUFFER: u32 = 34962;
@@ -62,7 +62,7 @@ impl Binary {
         self.add_accessor(view, FLOAT, "SCALAR", numbers.len(), bounds)
     }
 
-    /// Every number takes four bytes, so that every view begins at a multiple of four.
+    /// Adds a view. Every number takes four bytes, so that every view begins at a multiple of four.
     fn add_view(&mut self, bytes: impl Iterator<Item = u8>, target: Option<u32>) -> usize {
         let begin = self.bytes.len();
         self.bytes.extend(bytes);

@@ -21,13 +21,13 @@ use selvedge_cloth::vertex_normals;
 use selvedge_core::glam::{DQuat, DVec3};
 use serde_json::{Value, json};
 
-/// The weights take the square of the frames, and programs slow down with the number of targets.
+/// The largest number of frames. The weights take the square of it, and programs slow down with the number of targets.
 const MOST_FRAMES: usize = 600;
 
 /// Returns the bytes of a `.glb` file.
 ///
-/// Times begin at 0 with the first frame. Of more than 600 frames, evenly chosen ones and the last are written. The format's up
-/// direction is y: one node above all parts turns the scene's up direction there.
+/// Times begin at 0 with the first frame. If there are more than 600 frames, evenly chosen ones and the last are written. The
+/// format's up direction is y, so one node above all parts turns the scene's up direction there.
 ///
 /// # Errors
 /// Returns an error if the file would be larger than the format allows.
@@ -158,8 +158,8 @@ fn differences(to: &[[f32; 3]], from: &[[f32; 3]]) -> Vec<[f32; 3]> {
     pairs.map(|(a, b)| [a[0] - b[0], a[1] - b[1], a[2] - b[2]]).collect()
 }
 
-/// At the time of frame k the weight of target k − 1 is 1 and all others are 0; the first frame has no target. Rigid parts have
-/// their poses.
+/// Returns the animation. At the time of frame k the weight of target k − 1 is 1 and all others are 0; the first frame has no
+/// target. Rigid parts have their poses.
 fn animation(
     binary: &mut Binary,
     recording: &Recording,
@@ -199,10 +199,10 @@ fn animation(
     })
 }
 
-/// The look of a part, as on the page.
+/// The look of a part on the page.
 struct Material {
     name: &'static str,
-    /// Red, green, blue, as linear light.
+    /// The red, green and blue, as linear light.
     colour: [f32; 3],
     both_sides: bool,
 }

@@ -12,8 +12,8 @@ pub(super) struct Pose {
 /// The allowed error of a vertex, relative to the largest coordinate: several roundings of f32.
 const TOLERANCE: f64 = 2e-6;
 
-/// Returns the pose in each frame if all of them are rigid motions of the first. `None` if some are not, or if the part is too
-/// small or thin to decide.
+/// Returns the pose in each frame if all of them are rigid motions of the first. Returns `None` if some are not, or if the part
+/// is too small or thin to decide.
 pub(super) fn poses(frames: &[&[[f32; 3]]]) -> Option<Vec<Pose>> {
     let point = |frame: &[[f32; 3]], vertex: usize| DVec3::from(frame[vertex].map(f64::from));
     let first = frames.first().copied().filter(|first| !first.is_empty())?;
@@ -34,7 +34,7 @@ pub(super) fn poses(frames: &[&[[f32; 3]]]) -> Option<Vec<Pose>> {
     let mut poses = Vec::with_capacity(frames.len());
     for &frame in frames {
         let turned = DQuat::from_mat3(&(axes(frame)? * at_first)).normalize();
-        // Of the two quaternions of a rotation, takes the one nearer to the last, so that the animation takes the short way.
+        // A rotation has two quaternions; the one nearer to the last makes the animation take the short way.
         let rotation = if turned.dot(before) < 0.0 { -turned } else { turned };
         let translation = point(frame, a) - rotation * point(first, a);
         let size = all()

@@ -4,7 +4,7 @@ use ::gltf::animation::util::ReadOutputs;
 
 const CLOTH_AND_BALL: usize = 2;
 
-/// A triangle that falls and turns over a body that stays, `frames` frames.
+/// Records `frames` frames of a triangle that falls and turns over a body that stays.
 fn recording(frames: u64, up: DVec3) -> Recording {
     let about = About {
         name: "fall".to_owned(),
@@ -31,7 +31,7 @@ fn recording(frames: u64, up: DVec3) -> Recording {
     recorder.finish(None)
 }
 
-/// As a program would that opens it: parsed and validated.
+/// Parses and validates the file, as a program that opens it would.
 fn read_back(recording: &Recording) -> (::gltf::Document, Vec<u8>) {
     let ::gltf::Gltf { document, blob } = ::gltf::Gltf::from_slice(&binary(recording).unwrap()).expect("valid glTF");
     (document, blob.unwrap_or_default())
@@ -66,7 +66,7 @@ fn every_frame_reads_back_as_the_shape_with_one_target_at_its_time() {
         .collect();
     assert_eq!((times.len(), targets.len(), weights.len()), (7, 6, 42));
     for (k, frame) in recording.frames.iter().enumerate() {
-        // Steps of 0.02 s, five to a frame.
+        // Steps take 0.02 s, and five make a frame.
         assert!((f64::from(times[k]) - 0.1 * k as f64).abs() < 1e-6);
         let weights = &weights[6 * k..6 * (k + 1)];
         for (vertex, &expected) in frame.positions[..3].iter().enumerate() {
@@ -76,7 +76,7 @@ fn every_frame_reads_back_as_the_shape_with_one_target_at_its_time() {
                     .zip(weights)
                     .map(|(target, weight)| weight * target[vertex][axis]);
                 let found = rest[vertex][axis] + moved.sum::<f32>();
-                // A difference and a sum, each rounded once; nothing here is larger than 2.
+                // The position is a difference and a sum, each rounded once; nothing here is larger than 2.
                 assert!((found - expected[axis]).abs() <= 4.0 * f32::EPSILON, "frame {k}");
             }
         }
@@ -152,7 +152,7 @@ fn a_scene_of_nothing_is_valid() {
     assert_eq!((document.meshes().len(), blob.len()), (0, 0));
 }
 
-/// A body that turns by more than a whole turn and goes elsewhere, and one that breathes.
+/// One body turns by more than a whole turn and goes elsewhere, and one breathes.
 #[test]
 fn a_body_that_keeps_its_shape_is_an_animated_node_and_one_that_does_not_has_targets() {
     let corners = [DVec3::new(0.3, 0.1, 0.0), DVec3::X, DVec3::Y, DVec3::new(0.2, 0.3, 0.9)];
@@ -197,7 +197,7 @@ fn a_body_that_keeps_its_shape_is_an_animated_node_and_one_that_does_not_has_tar
             assert!(placed.distance(DVec3::from(now.map(f64::from))) < 1e-5, "frame {k}");
         }
     }
-    // From one frame to the next the short way.
+    // The rotation goes the short way from one frame to the next.
     let quaternions: Vec<DQuat> = rotations.iter().map(|q| DQuat::from_array(q.map(f64::from))).collect();
     assert!(quaternions.windows(2).all(|two| two[0].dot(two[1]) > 0.0));
 }

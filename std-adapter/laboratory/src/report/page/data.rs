@@ -1,4 +1,4 @@
-//! Packs the data that the page's scripts draw from.
+//! Packs the data for the page's scripts.
 //!
 //! Each block is a `<script>` element of a type that browsers do not run. `recording` is JSON. The others are base64 of
 //! little-endian arrays:
@@ -11,7 +11,7 @@
 //! | `values` | f32 | each series' values, one series after the other |
 //! | `measured` | f32 | each measure's values, one measure after the other |
 //!
-//! A position is thus off by at most half a 65,535th of the frame's extent, and by the rounding of f32.
+//! The error of a position is thus at most half a 65,535th of the frame's extent, and the rounding of f32.
 
 use super::measures::Shown;
 use crate::report::colours::cloth_colours;
@@ -25,7 +25,7 @@ use serde_json::{Value, json};
 /// The largest quantised coordinate.
 const FINEST: f64 = u16::MAX as f64;
 
-/// All blocks.
+/// Returns all blocks.
 pub(super) fn blocks(recording: &Recording) -> Markup {
     let triangles = recording.placed_parts().flat_map(|(first, part)| {
         let placed = move |vertex: &u32| first as u32 + vertex;
@@ -58,7 +58,7 @@ pub(super) fn blocks(recording: &Recording) -> Markup {
     }
 }
 
-/// The header, which describes the blocks.
+/// Returns the header, which describes the blocks.
 fn header(recording: &Recording, measures: &[Shown<'_>]) -> Value {
     let parts = recording
         .placed_parts()
@@ -106,7 +106,7 @@ fn header(recording: &Recording, measures: &[Shown<'_>]) -> Value {
     })
 }
 
-/// JSON text that cannot end the element around it.
+/// Returns JSON text that cannot end the element around it.
 fn inside_script(value: &Value) -> String {
     value.to_string().replace('<', "\\u003c")
 }

@@ -5,7 +5,7 @@ use crate::report::number::{few, moment};
 use crate::report::recording::{GRAVITATIONAL, Measure, MeasureKind, Recording};
 use maud::{Markup, html};
 
-/// A measure as the page shows it.
+/// A measure on the page.
 pub(in crate::report) struct Shown<'a> {
     pub(in crate::report) name: &'a str,
     pub(in crate::report) kind: MeasureKind,
@@ -44,7 +44,7 @@ impl<'a> Shown<'a> {
         }
     }
 
-    /// The values at the start, at most, and at the end.
+    /// Returns the values at the start, at most, and at the end.
     fn row(&self) -> (&str, [String; 3]) {
         let values = &self.values;
         let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);

@@ -109,7 +109,7 @@ pub fn html(recording: &Recording) -> String {
     document(&about.name, &body)
 }
 
-/// A complete page around a body.
+/// Returns a complete page around a body.
 pub(super) fn document(title: &str, body: &Markup) -> String {
     let page = html! {
         (DOCTYPE)
@@ -160,10 +160,10 @@ fn summary(recording: &Recording) -> String {
     summary
 }
 
-/// Events that mean trouble: steps that could not be made as they were.
+/// The events that mean trouble: steps that could not be made as they were.
 const TROUBLE: [&str; 3] = ["vertices held back", "times cut in half", "steps blocked"];
 
-/// The most important numbers.
+/// Returns the most important numbers.
 fn tiles(recording: &Recording) -> Markup {
     let effects = recording.series_of(|kind| kind == SeriesKind::Effect);
     let mut tiles = vec![(time(recording.duration()), "simulated".to_owned())];
@@ -196,7 +196,7 @@ fn tiles(recording: &Recording) -> Markup {
     }
 }
 
-/// The canvas and its controls, which do nothing until the script starts.
+/// Returns the canvas and its controls, which do nothing until the script starts.
 fn animation(recording: &Recording) -> Markup {
     let bodies = recording.parts.iter().any(|part| part.kind() == PartKind::Body);
     let last = recording.frames.len() - 1;

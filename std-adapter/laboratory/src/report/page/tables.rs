@@ -8,7 +8,7 @@ use maud::{Markup, html};
 /// A missing value, which every format shows as a dash.
 const NONE: f64 = f64::NAN;
 
-/// Pairs after each stage: each as a share of the previous stage.
+/// Returns the pairs after each stage, each as a share of the previous stage.
 pub(super) fn pairs(recording: &Recording) -> Markup {
     let mut before = NONE;
     let rows = recording.series_of(|kind| kind == SeriesKind::Pairs).map(|series| {
@@ -28,20 +28,20 @@ pub(super) fn pairs(recording: &Recording) -> Markup {
     )
 }
 
-/// Counts of events.
+/// Returns counts of events.
 pub(super) fn events(recording: &Recording) -> Markup {
     let rows = recording.series_of(|kind| kind == SeriesKind::Events);
     let rows = rows.map(|series| (&*series.name, counts(recording, series)));
     table(["event", "a step", "most in a step", "all steps"], rows)
 }
 
-/// Values for a step, most in a step, all steps.
+/// Returns values per step, the largest in a step, and for all steps.
 fn counts(recording: &Recording, series: &Series) -> [String; 3] {
     let a_step = series.total / recording.steps as f64;
     [few(a_step), few(series.largest), few(series.total)]
 }
 
-/// Effects, the stages that they share, and the rest of the wall-clock time.
+/// Returns effects, the stages that they share, and the rest of the wall-clock time.
 pub(super) fn times(recording: &Recording) -> Markup {
     let is_time = |kind| matches!(kind, SeriesKind::Effect | SeriesKind::Stage);
     let sum: f64 = recording.series_of(is_time).map(|series| series.total).sum();
@@ -79,7 +79,7 @@ pub(super) fn times(recording: &Recording) -> Markup {
     }
 }
 
-/// The cost of a step with no effect, with the first one, with the first two, and so on, with bars.
+/// Returns the cost of a step with no effect, with the first one, with the first two, and so on, with bars.
 pub(super) fn added_effects(recording: &Recording) -> Markup {
     let most = { recording.added.iter() }.fold(0.0, |most: f64, added| most.max(added.seconds));
     let mut before = NONE;
@@ -98,7 +98,7 @@ pub(super) fn added_effects(recording: &Recording) -> Markup {
     }
 }
 
-/// Quantities of the state.
+/// Returns quantities of the state.
 pub(super) fn gauges(recording: &Recording) -> Markup {
     let rows = recording.series.iter().filter_map(|series| {
         let SeriesKind::Gauge(unit) = series.kind else {
@@ -111,13 +111,13 @@ pub(super) fn gauges(recording: &Recording) -> Markup {
     table(["quantity", "least", "mean", "most", "unit"], rows)
 }
 
-/// Settings.
+/// Returns settings.
 pub(super) fn knobs(headings: [&str; 2], knobs: &[Knob]) -> Markup {
     let knobs = knobs.iter();
     html! { div.knobs { (table(headings, knobs.map(|knob| (&*knob.name, [&*knob.value])))) } }
 }
 
-/// A table whose rows begin with a name.
+/// Returns a table whose rows begin with a name.
 pub(super) fn table<'a, const H: usize, const N: usize, C: maud::Render>(
     headings: [&str; H],
     rows: impl Iterator<Item = (&'a str, [C; N])>,
@@ -133,12 +133,12 @@ pub(super) fn table<'a, const H: usize, const N: usize, C: maud::Render>(
     }
 }
 
-/// A table's header.
+/// Returns a table's header.
 fn head(columns: &[&str]) -> Markup {
     html! { thead { tr { @for column in columns { th scope="col" { (column) } } } } }
 }
 
-/// A share as a bar. A value that is not finite gives an empty bar.
+/// Returns a share as a bar. A value that is not finite gives an empty bar.
 pub(in crate::report) fn bar(share: f64) -> Markup {
     let share = if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 };
     html! { span.bar aria-hidden="true" style=(format!("--share:{share:.4}")) {} }

@@ -93,7 +93,7 @@ proptest! {
                     let [least, extent] = [bounds[6 * k + axis], bounds[6 * k + 3 + axis]].map(f64::from);
                     let share = f64::from(positions[21 * k + 3 * vertex + axis]) / 65535.0;
                     let decoded = least + share * extent;
-                    // The extent is an f32, rounded by a 2²⁴th at most; below all normal numbers, by their spacing.
+                    // The extent is an f32, rounded by a 2²⁴th at most, or by the spacing of numbers below all normal ones.
                     let allowed = extent * (0.5 / 65535.0 + 0.5_f64.powi(23)) + 2e-45;
                     prop_assert!((decoded - f64::from(position[axis])).abs() <= allowed);
                 }

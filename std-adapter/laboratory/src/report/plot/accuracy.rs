@@ -22,10 +22,10 @@ const LEGEND: [(Look, &str); 4] = [
 
 /// Plots accuracy against time, as an SVG picture with its own light background: one panel for each set of pairs and format.
 ///
-/// Right is time per pair, logarithmic and the same in all panels: sixteen pairs side by side on the best instruction set, unless
-/// the name says otherwise. Up is the share of pairs that the filter culls, among those that exact arithmetic culls; each line is
-/// ten times closer to all. Filters without a proof have no place on that axis. They are in a strip of their own, with the number
-/// of pairs that they cull without proof.
+/// The horizontal axis is time per pair, logarithmic and the same in all panels: sixteen pairs side by side on the best
+/// instruction set, unless the name says otherwise. The vertical axis is the share of pairs that the filter culls, among those
+/// that exact arithmetic culls; each line is ten times closer to all. Filters without a proof have no place on that axis. They
+/// are in a strip of their own, with the number of pairs that they cull without proof.
 #[must_use]
 pub fn accuracy_svg(accuracy: &Accuracy) -> String {
     let measured: Vec<_> = accuracy.sets.iter().map(|set| (set, measured(set))).collect();
@@ -58,7 +58,7 @@ pub fn accuracy_svg(accuracy: &Accuracy) -> String {
     plot.draw(&panels)
 }
 
-/// The instruction set of the plotted times.
+/// Returns the instruction set of the plotted times.
 fn best_backend(set: &AccuracySet) -> Option<&'static str> {
     Some(set.rows.last()?.best_time()?.backend)
 }
@@ -70,7 +70,7 @@ struct Measured<'a> {
     nanoseconds: f64,
 }
 
-/// Each filter's best time, and the permanent's time one by one.
+/// Returns each filter's best time, and the permanent's time one by one.
 fn measured(set: &AccuracySet) -> Vec<Measured<'_>> {
     let rows = set.rows.iter().flat_map(|row| {
         let is_permanent = row.filter == MeasuredFilter::Permanent;
@@ -149,7 +149,7 @@ mod tests {
     use roxmltree::Document;
     use std::time::Duration;
 
-    /// A set of 100,000 pairs of which 90,000 can be culled; every filter takes 3 ns in lanes and keeps `kept` of them.
+    /// Makes a set of 100,000 pairs of which 90,000 can be culled; every filter takes 3 ns in lanes and keeps `kept` of them.
     fn set(scalar: &'static str, cullable: usize, kept: usize) -> AccuracySet {
         let rows = MeasuredFilter::ALL.map(|filter| AccuracyRow {
             filter,

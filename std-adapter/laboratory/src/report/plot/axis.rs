@@ -2,7 +2,7 @@
 
 /// An axis on which equal factors are equally far apart.
 pub(super) struct LogAxis {
-    /// Logarithms to base ten.
+    /// The ends as logarithms to base ten.
     ends: [f64; 2],
     length: f64,
 }
@@ -18,7 +18,7 @@ impl LogAxis {
             ends = [ends[0].min(value.log10()), ends[1].max(value.log10())];
         }
         let [low, high] = if ends[0] <= ends[1] { ends } else { [0.0, 2.0] };
-        // So at least one power of ten has a name.
+        // With this at least one power of ten has a name.
         let ends = [(low - 0.12).min(low.round()), (high + 0.12).max(low.round() + 1.0)];
         Self { ends, length }
     }
@@ -51,9 +51,9 @@ impl LogAxis {
     }
 }
 
-/// An axis of shares, upwards: each line is ten times less than the last, and the top line is none.
+/// An axis of shares, upwards: each line is ten times less than the last, and the top line is zero.
 pub(super) struct TowardsNone {
-    /// Shares below this power of ten, except for none, are drawn as if they were this large.
+    /// The exponent below which shares, except for zero, are drawn as if they were this large.
     pub(super) smallest: i32,
     /// The distance between two lines.
     pub(super) step: f64,

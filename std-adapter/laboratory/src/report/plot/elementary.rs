@@ -19,7 +19,7 @@ const LEGEND: [(Look, &str); 4] = [
     (Look::UNSAFE, "unsafe: misses contacts, or finds them too late"),
 ];
 
-/// Tests without proof: their names in reports and in the plot.
+/// The tests without proof: their names in reports and in the plot.
 const UNSAFE: [(&str, &str); 4] = [
     ("without_bounds", "without bounds"),
     ("additive", "additive"),
@@ -39,9 +39,9 @@ fn look(method: ElementaryTest) -> Look {
 /// Plots the accuracy of the time of impact against time, as an SVG picture with its own light background: one panel for each set
 /// of pairs and format.
 ///
-/// Right is time per pair, logarithmic and the same in all panels. Up is the median error of a contact's time, ten times less
-/// from line to line. A line joins the tolerances of one test. Tests that may miss contacts, or find them too late, have no place
-/// on that axis. They are in a strip of their own, with their errors.
+/// The horizontal axis is time per pair, logarithmic and the same in all panels. The vertical axis is the median error of a
+/// contact's time, ten times less from line to line. A line joins the tolerances of one test. Tests that may miss contacts, or
+/// find them too late, have no place on that axis. They are in a strip of their own, with their errors.
 #[must_use]
 pub fn elementary_svg(accuracy: &ElementaryAccuracy) -> String {
     let rows = accuracy.sets.iter().flat_map(|set| &set.rows);
@@ -68,7 +68,7 @@ fn panel(set: &ElementarySet, axis: &LogAxis) -> Panel {
     let proven: Vec<_> = proven
         .filter_map(|row| Some((row, [axis.place(row.nanoseconds), ERRORS.place(row.early?)])))
         .collect();
-    // In the order of the set's rows: from the widest tolerance of a test to the tightest.
+    // The order is that of the set's rows: from the widest tolerance of a test to the tightest.
     let of_look = |wanted| proven.iter().filter(move |(row, _)| look(row.method) == wanted);
     let curves = [Look::CERTIFIED, Look::BISECTION].map(|look| Curve {
         points: of_look(look).map(|(_, at)| *at).collect(),
@@ -143,7 +143,7 @@ fn name_of_unsafe(name: &str, rows: &[&ElementaryRow], set: &ElementarySet) -> S
     )
 }
 
-/// The number of pairs that a test ran on, if not all.
+/// Writes the number of pairs that a test ran on, if not all.
 fn part_asked(asked: usize, set: &ElementarySet) -> String {
     if asked < set.vertex_face + set.edge_edge {
         format!(" ({} pairs)", grouped(asked))
@@ -152,7 +152,7 @@ fn part_asked(asked: usize, set: &ElementarySet) -> String {
     }
 }
 
-/// Lines across, with their names.
+/// Returns lines across, with their names.
 fn lines() -> impl Iterator<Item = (f64, String)> {
     let powers = (ERRORS.smallest..=0).rev().step_by(2);
     let named = powers.map(|power| {

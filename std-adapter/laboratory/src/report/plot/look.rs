@@ -23,15 +23,15 @@ pub(super) enum Shape {
 }
 
 impl Look {
-    /// Decides by rounded arithmetic and a bound.
+    /// Methods that decide by rounded arithmetic and a bound.
     pub(super) const CERTIFIED: Self = Self::new("#0072b2", Shape::Disc);
-    /// The same, one pair at a time.
+    /// The same methods, one pair at a time.
     pub(super) const ONE_AT_A_TIME: Self = Self::new("#0072b2", Shape::Ring);
-    /// Decides by exact arithmetic.
+    /// Methods that decide by exact arithmetic.
     pub(super) const EXACT: Self = Self::new("#007a58", Shape::Diamond);
-    /// Decides by bisection of time and parameters.
+    /// Methods that decide by bisection of time and parameters.
     pub(super) const BISECTION: Self = Self::new("#a8508a", Shape::Triangle);
-    /// Decides without proof.
+    /// Methods that decide without proof.
     pub(super) const UNSAFE: Self = Self::new("#d55e00", Shape::Cross);
 
     pub(super) const fn new(colour: &'static str, shape: Shape) -> Self {

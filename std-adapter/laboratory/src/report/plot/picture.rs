@@ -1,35 +1,35 @@
-//! Draws what all plots have in common: panels in two columns below a head. Each panel has a plot, names beside it, and a strip
+//! Draws the common parts of all plots: panels in two columns below a head. Each panel has a plot, names beside it, and a strip
 //! below for unsafe methods.
 
 use super::look::Look;
 use super::svg::{PAPER_WHITE, line, px, text};
 use maud::{Markup, PreEscaped, html};
 
-// Lengths in pixels, at the picture's own size.
+// Lengths are in pixels, at the picture's own size.
 const MARGIN: f64 = 24.0;
 const FONT_SIZE: f64 = 14.0;
 const SMALL: f64 = 12.5;
-/// The average width of a letter, at most, in the widest of the fonts below, for each pixel of font size.
+/// The largest mean width of a letter in the fonts below, for each pixel of font size.
 const LETTER: f64 = 0.54;
 const COLUMNS: usize = 2;
 const COLUMN_GAP: f64 = 30.0;
 const ROW_GAP: f64 = 16.0;
-/// The place of the legend, if there is one.
+/// The height of the legend, if there is one.
 const LEGEND: f64 = 92.0;
 
-/// Room in a panel for the names of lines.
+/// The width of the names of lines in a panel.
 const LEFT: f64 = 72.0;
-/// Room for the heading.
+/// The height of the heading.
 const TOP: f64 = 72.0;
-/// Distance from a plot to the names beside it.
+/// The distance from a plot to the names beside it.
 const NAME_GAP: f64 = 24.0;
 const NAME_SPACING: f64 = 18.0;
-/// Marks nearer to each other than this touch.
+/// The distance below which marks touch.
 const TOUCHING: f64 = 10.0;
 const STRIP_GAP: f64 = 12.0;
-/// Room below the strip for the axis, its numbers and its title.
+/// The height of the axis below the strip, with its numbers and its title.
 const FOOT: f64 = 46.0;
-/// Distance from the middle of a line of small letters down to its baseline.
+/// The distance from the middle of a line of small letters down to its baseline.
 const BASELINE: f64 = 4.5;
 
 const STYLE: &str = "\
@@ -47,15 +47,15 @@ pub(super) struct Plot<'a> {
     pub(super) legend: &'a [(Look, &'a str)],
     /// The size of each plot.
     pub(super) size: [f64; 2],
-    /// Places from the left, some with names.
+    /// The places from the left, some with names.
     pub(super) ticks: Vec<(f64, Option<String>)>,
     /// The title of the axis to the right.
     pub(super) across: &'a str,
     /// The title of the axis upwards.
     pub(super) upwards: &'a str,
-    /// Lines across, from the top down, with their names.
+    /// The lines across, from the top down, with their names.
     pub(super) lines: Vec<(f64, String)>,
-    /// Rows of the strip for unsafe methods.
+    /// The number of rows of the strip for unsafe methods.
     pub(super) strip_rows: usize,
 }
 
@@ -86,7 +86,7 @@ pub(super) struct Mark {
 
 /// A method without a place on the axis upwards.
 pub(super) struct StripRow {
-    /// Places from the left.
+    /// The places from the left.
     pub(super) places: Vec<f64>,
     pub(super) name: String,
 }
@@ -220,12 +220,12 @@ impl Plot<'_> {
         text("small", [self.names_from() - LEFT, y + BASELINE], name)
     }
 
-    /// The left end of the names of marks, from the panel's left.
+    /// Returns the left end of the names of marks, from the panel's left.
     fn names_from(&self) -> f64 {
         LEFT + self.size[0] + NAME_GAP
     }
 
-    /// The top of the strip, from the plot's top.
+    /// Returns the top of the strip, from the plot's top.
     fn strip_top(&self) -> f64 {
         self.size[1] + STRIP_GAP
     }
@@ -268,7 +268,7 @@ fn width_of(text: &str, size: f64) -> f64 {
     text.chars().count() as f64 * LETTER * size
 }
 
-/// Returns positions in ascending order, at least `spacing` apart, near the wanted ones (also ascending), the last not beyond
+/// Returns positions in ascending order, at least `spacing` apart, near the wanted ones (also ascending). The last is not beyond
 /// `end`.
 fn spread(wanted: &[f64], spacing: f64, end: f64) -> Vec<f64> {
     let mut places: Vec<f64> = Vec::with_capacity(wanted.len());

@@ -10,7 +10,7 @@ use crate::study::ScalingPoint;
 
 const SIZE: [f64; 2] = [600.0, 400.0];
 
-/// Okabe and Ito's colours; their yellow is too pale for a line.
+/// The colours of Okabe and Ito, without their yellow, which is too pale for a line.
 const STAGE_COLOURS: [(Stage, &str); 7] = [
     (Stage::BroadPhase, "#0072b2"),
     (Stage::Distribution, "#e69f00"),
@@ -87,7 +87,7 @@ struct Line {
     name: &'static str,
     colour: &'static str,
     is_reference: bool,
-    /// Triangles, ascending, and seconds.
+    /// The triangles, ascending, and the seconds.
     points: Vec<(f64, f64)>,
 }
 
@@ -122,7 +122,7 @@ fn lines(points: &[ScalingPoint]) -> Vec<Line> {
     lines
 }
 
-/// n log n through the first point with more than one triangle, since it is zero for one.
+/// Returns n log n through the first point with more than one triangle, since it is zero for one.
 fn reference(whole: &[(f64, f64)]) -> Line {
     let whole: Vec<_> = whole.iter().filter(|point| point.0 > 1.0).collect();
     let n_log_n = |n: f64| n * n.ln();
@@ -147,7 +147,7 @@ mod tests {
     use super::*;
     use crate::pipeline::{StageReport, StepReport};
 
-    /// Seconds of the broad phase, and of the boxes.
+    /// Returns a point with the seconds of the broad phase, and of the boxes.
     fn point(triangles: usize, [broad_phase, boxes]: [f64; 2]) -> ScalingPoint {
         let stage = StageReport {
             stage: Stage::Boxes,

@@ -7,7 +7,7 @@ pub(super) fn texts(svg: &str) -> Vec<String> {
     placed_texts(svg).into_iter().map(|(_, text)| text).collect()
 }
 
-/// Returns them with their places in their panels.
+/// Returns all texts with their places in their panels.
 pub(super) fn placed_texts(svg: &str) -> Vec<([f64; 2], String)> {
     let document = Document::parse(svg).unwrap();
     let number = |node: &Node<'_, '_>, name: &str| node.attribute(name).unwrap().parse().unwrap();

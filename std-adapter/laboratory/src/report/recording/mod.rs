@@ -51,7 +51,7 @@ use selvedge_core::glam::DVec3;
 
 /// A recorded simulation, for reports.
 ///
-/// It holds only what took part. An effect without a series appears in no table, chart or legend.
+/// It holds only the parts and effects that took part. An effect without a series appears in no table, chart or legend.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recording {
     /// The scene and its settings.
@@ -64,14 +64,14 @@ pub struct Recording {
     pub steps: u64,
     /// The number of the first recorded step. It is not 1 if the simulation resumed from a checkpoint.
     pub first_step: u64,
-    /// The number of steps whose mean each value of a series is. The last value may be of fewer.
+    /// The number of steps of which each value of a series is the mean. The last value may be of fewer.
     pub steps_per_value: u64,
-    /// Numbers of every step.
+    /// The numbers of every step.
     pub series: Vec<Series>,
     /// The steps after which measures were taken, in the order of time. These are all offered frames, thinned out evenly if there
     /// are many.
     pub measured_steps: Vec<u64>,
-    /// Quantities of the state.
+    /// The quantities of the state.
     pub measures: Vec<Measure>,
     /// The wall-clock time of the steps, in seconds, if it is known.
     pub wall_seconds: Option<f64>,
@@ -92,9 +92,9 @@ pub struct About {
     pub up: DVec3,
     /// The time step, in seconds.
     pub time_step: f64,
-    /// Properties of the fabric.
+    /// The properties of the fabric.
     pub fabric: Vec<Knob>,
-    /// Settings that trade time for accuracy.
+    /// The settings that trade time for accuracy.
     pub knobs: Vec<Knob>,
 }
 
@@ -103,7 +103,7 @@ pub struct About {
 pub struct Added {
     /// The effect added last, or "no effect" at first.
     pub name: String,
-    /// Seconds a step, with all effects up to this one.
+    /// The seconds per step, with all effects up to this one.
     pub seconds: f64,
 }
 
@@ -117,7 +117,7 @@ pub struct Knob {
 }
 
 impl Knob {
-    /// A setting and its value, with its unit.
+    /// Makes a setting from its name and its value, with its unit.
     #[must_use]
     pub fn new(name: impl Into<String>, value: impl Into<String>) -> Self {
         Self {
@@ -130,7 +130,7 @@ impl Knob {
 /// The kind of a [`Part`], which decides its look.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PartKind {
-    /// Thin, seen from both sides.
+    /// A thin surface that is seen from both sides.
     Cloth,
     /// An obstacle.
     Body,
@@ -146,7 +146,7 @@ pub struct Part {
 }
 
 impl Part {
-    /// A mesh of `vertex_count` vertices, which its triangles number from 0.
+    /// Makes a mesh of `vertex_count` vertices, which its triangles number from 0.
     ///
     /// # Panics
     /// Panics if a triangle names a vertex that does not exist.
@@ -165,25 +165,25 @@ impl Part {
         }
     }
 
-    /// Its name.
+    /// Returns the name.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Its kind.
+    /// Returns the kind.
     #[must_use]
     pub fn kind(&self) -> PartKind {
         self.kind
     }
 
-    /// The number of its vertices.
+    /// Returns the number of vertices.
     #[must_use]
     pub fn vertex_count(&self) -> usize {
         self.vertex_count
     }
 
-    /// Its triangles; vertices count from 0 in each part.
+    /// Returns the triangles; vertices count from 0 in each part.
     #[must_use]
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
@@ -202,15 +202,15 @@ pub struct RecordedFrame {
 /// The kind of a [`Series`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SeriesKind {
-    /// Pairs that a stage leaves, named after the stage, in the order of the data flow.
+    /// The pairs that a stage leaves. The series has the name of the stage; series are in the order of the data flow.
     Pairs,
     /// Other counts: pairs repaired, vertices held, steps cut.
     Events,
-    /// Seconds of an effect.
+    /// The seconds of an effect.
     Effect,
-    /// Seconds of a stage that several effects share.
+    /// The seconds of a stage that several effects share.
     Stage,
-    /// Wall-clock seconds of the whole step.
+    /// The wall-clock seconds of the whole step.
     Step,
     /// A quantity of the state, such as the least distance or the largest strain, in this unit. The unit is empty for a pure
     /// number.
@@ -224,7 +224,7 @@ pub struct Series {
     pub name: String,
     /// Its kind.
     pub kind: SeriesKind,
-    /// Means over [`steps_per_value`](Recording::steps_per_value) steps each.
+    /// The means over [`steps_per_value`](Recording::steps_per_value) steps each.
     pub values: Vec<f32>,
     /// The sum over all steps.
     pub total: f64,
@@ -243,7 +243,7 @@ pub enum MeasureKind {
     Energy,
     /// The energy that an effect stores, in J, named after the effect.
     EffectEnergy,
-    /// Lengths of edges relative to those at rest.
+    /// The lengths of edges relative to those at rest.
     Stretch,
 }
 
@@ -257,9 +257,9 @@ pub(super) const GRAVITATIONAL: &str = "gravitational";
 /// A quantity of the state that takes too long to compute in each step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measure {
-    /// Its name.
+    /// The name.
     pub name: String,
-    /// Its kind.
+    /// The kind.
     pub kind: MeasureKind,
     /// A value after each of the [`measured_steps`](Recording::measured_steps).
     pub values: Vec<f64>,
@@ -270,19 +270,19 @@ pub struct Measure {
 }
 
 impl Recording {
-    /// The cloth's vertices and the bodies'.
+    /// Returns the number of vertices of cloths and bodies.
     #[must_use]
     pub fn vertex_count(&self) -> usize {
         self.parts.iter().map(Part::vertex_count).sum()
     }
 
-    /// The time of a frame, in seconds.
+    /// Returns the time of a frame, in seconds.
     #[must_use]
     pub fn time(&self, frame: &RecordedFrame) -> f64 {
         self.end_of(frame.step)
     }
 
-    /// Returns the frame nearest to a time, in seconds: the first of two.
+    /// Returns the frame nearest to a time, in seconds, or the first of two equally near ones.
     ///
     /// # Panics
     /// Panics if the recording has no frames. A [`Recorder`] never makes such a recording.
@@ -295,13 +295,13 @@ impl Recording {
             .expect("a recording has frames")
     }
 
-    /// The simulated duration of the recorded steps, in seconds.
+    /// Returns the simulated duration of the recorded steps, in seconds.
     #[must_use]
     pub fn duration(&self) -> f64 {
         self.steps as f64 * self.about.time_step
     }
 
-    /// Each part with the number of its first vertex among all.
+    /// Returns each part with the number of its first vertex among all.
     pub fn placed_parts(&self) -> impl Iterator<Item = (usize, &Part)> {
         let mut next = 0;
         self.parts.iter().map(move |part| {
@@ -328,34 +328,34 @@ impl Recording {
         }
     }
 
-    /// The direction that is up, of length one.
+    /// Returns the direction that is up, of length one.
     pub(super) fn up(&self) -> DVec3 {
         self.about.up.try_normalize().unwrap_or(DVec3::Z)
     }
 
-    /// The measure of this name.
+    /// Returns the measure of this name.
     pub(super) fn measure(&self, name: &str) -> Option<&Measure> {
         self.measures.iter().find(|measure| measure.name == name)
     }
 
-    /// The measures of a kind, in their order.
+    /// Returns the measures of a kind, in their order.
     pub(super) fn measures_of(&self, wanted: MeasureKind) -> impl Iterator<Item = &Measure> {
         self.measures.iter().filter(move |measure| measure.kind == wanted)
     }
 
-    /// The time of a step's end, in seconds.
+    /// Returns the time of a step's end, in seconds.
     pub(super) fn end_of(&self, step: u64) -> f64 {
         step as f64 * self.about.time_step
     }
 
-    /// The times of the whole steps, if they were recorded.
+    /// Returns the times of the whole steps, if they were recorded.
     pub(super) fn step_times(&self) -> Option<&Series> {
         self.series_of(|kind| kind == SeriesKind::Step)
             .next()
             .filter(|_| self.steps > 0)
     }
 
-    /// The series of a kind, in their order.
+    /// Returns the series of a kind, in their order.
     pub(super) fn series_of(&self, wanted: impl Fn(SeriesKind) -> bool) -> impl Iterator<Item = &Series> {
         self.series.iter().filter(move |series| wanted(series.kind))
     }

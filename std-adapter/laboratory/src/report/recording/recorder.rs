@@ -8,7 +8,7 @@ use super::{About, Measure, MeasureKind, Part, RecordedFrame, Recording, Series,
 use selvedge_core::glam::DVec3;
 use selvedge_files::bytes::{Reader, put_block};
 
-/// This is more than a chart has pixels.
+/// The largest number of values of a series, which is more than a chart has pixels.
 const MOST_VALUES: usize = 2048;
 /// The limit of memory for positions, in bytes.
 const BUDGET: usize = 64 << 20;
@@ -31,11 +31,11 @@ pub struct Recorder {
     /// The recording so far, without frames and without values of measures.
     recording: Recording,
     frames: Thinned<[f32; 3]>,
-    /// A value of each measure.
+    /// The values of the measures.
     measured: Thinned<f64>,
     /// The last readings of the counters.
     readings: Vec<f64>,
-    /// For each series, the sums whose means become its values.
+    /// The sums whose means become the values of each series.
     sums: Vec<Vec<f64>>,
 }
 
@@ -207,8 +207,8 @@ impl Recorder {
         recording.steps += 1;
     }
 
-    /// Returns all that has been recorded as bytes, to continue after an interruption: see [`restore`](Self::restore). `seconds`
-    /// is the wall-clock time so far.
+    /// Returns the recording so far as bytes, to continue after an interruption: see [`restore`](Self::restore). `seconds` is the
+    /// wall-clock time so far.
     #[must_use]
     pub fn save(&self, seconds: f64) -> Vec<u8> {
         let recording = &self.recording;
@@ -248,9 +248,9 @@ impl Recorder {
         bytes
     }
 
-    /// Continues what another recorder of the same parts and series has [saved](Self::save), and returns its seconds. Counters
-    /// must have the readings of that time. Returns `None`, and changes nothing, if the bytes are damaged or belong to other
-    /// parts or series.
+    /// Continues a recording that another recorder of the same parts and series has [saved](Self::save), and returns its seconds.
+    /// Counters must have the readings of that time. Returns `None`, and changes nothing, if the bytes are damaged or belong to
+    /// other parts or series.
     #[must_use]
     pub fn restore(&mut self, bytes: &[u8]) -> Option<f64> {
         let mut restored = self.clone();

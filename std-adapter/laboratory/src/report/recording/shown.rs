@@ -14,7 +14,7 @@ pub(super) struct Shown {
 }
 
 impl Shown {
-    /// The geometry of one of a scene's cloths.
+    /// Makes the geometry of one of a scene's cloths.
     pub(super) fn new(scene: &Scene, index: usize) -> Self {
         let mesh = scene.cloths[index].mesh();
         Self {
@@ -32,7 +32,7 @@ impl Shown {
         self.tubes.as_ref().map_or(0, Tubes::vertex_count)
     }
 
-    /// The place of a cloth's vertex; the cloth has triangles.
+    /// Returns the place of a cloth's vertex; the cloth has triangles.
     pub(super) fn place_of(&self, vertex: u32) -> u32 {
         let is_copy = vertex as usize >= self.vertices;
         if is_copy {
@@ -42,7 +42,7 @@ impl Shown {
         }
     }
 
-    /// The number of vertices and the triangles of the cloth at the start.
+    /// Returns the number of vertices and the triangles of the cloth at the start.
     pub(super) fn mesh(&self, cloth: &Cloth) -> (usize, Vec<[u32; 3]>) {
         let mut triangles = cloth.mesh().triangles.clone();
         self.add_tubes(&mut triangles);

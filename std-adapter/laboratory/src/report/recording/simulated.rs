@@ -77,7 +77,7 @@ pub struct SimulationRecorder {
     copied: Vec<usize>,
     /// The geometry of the cloths, if any has loose edges.
     shown: Vec<Shown>,
-    /// The positions of all visible vertices then.
+    /// The positions of all visible vertices in the last frame.
     positions: Vec<DVec3>,
 }
 
@@ -166,15 +166,15 @@ impl SimulationRecorder {
         Ok(())
     }
 
-    /// Returns all that has been recorded as bytes. `seconds` is the wall-clock time so far.
+    /// Returns the recording so far as bytes. `seconds` is the wall-clock time so far.
     #[must_use]
     pub fn save(&self, seconds: f64) -> Vec<u8> {
         self.recorder.save(seconds)
     }
 
-    /// Continues what another recorder of the same simulation has [saved](Self::save), and returns its seconds. `simulation` must
-    /// have resumed from a checkpoint of the same step. Returns `None`, and changes nothing, if the bytes are damaged, or belong
-    /// to other series or another number of vertices.
+    /// Continues a recording that another recorder of the same simulation has [saved](Self::save), and returns its seconds.
+    /// `simulation` must have resumed from a checkpoint of the same step. Returns `None`, and changes nothing, if the bytes are
+    /// damaged, or belong to other series or another number of vertices.
     #[must_use]
     pub fn restore(&mut self, bytes: &[u8], simulation: &Simulation) -> Option<f64> {
         let mut restored = self.clone();
@@ -200,7 +200,7 @@ impl SimulationRecorder {
     }
 }
 
-/// All counters and times of a simulation, one for each series.
+/// Returns all counters and times of a simulation, one for each series.
 fn counters(simulation: &Simulation, seconds: f64) -> Vec<(&'static str, SeriesKind, f64)> {
     let effects = simulation.effects().iter();
     let mut counters: Vec<_> = effects
@@ -234,13 +234,13 @@ fn counters(simulation: &Simulation, seconds: f64) -> Vec<(&'static str, SeriesK
     counters
 }
 
-/// The readings, in the order of the series.
+/// Returns the readings, in the order of the series.
 fn readings(simulation: &Simulation, seconds: f64) -> Vec<f64> {
     let counters = counters(simulation, seconds).into_iter();
     counters.map(|(_, _, reading)| reading).collect()
 }
 
-/// All measures of a state; kinds of energy come first.
+/// Returns all measures of a state; kinds of energy come first.
 fn measures(simulation: &Simulation) -> Vec<(&'static str, MeasureKind, f64)> {
     let energy = simulation.energy();
     let kinds = [
@@ -261,7 +261,7 @@ fn measures(simulation: &Simulation) -> Vec<(&'static str, MeasureKind, f64)> {
     kinds.chain(effects).chain(stretch).collect()
 }
 
-/// The energy drop since the start. It is below zero if moving bodies and wind have added more than was lost.
+/// Returns the energy drop since the start. It is below zero if moving bodies and wind have added more than was lost.
 fn lost(recording: &Recording) -> Measure {
     let energies: Vec<_> = recording.measures_of(MeasureKind::Energy).collect();
     let total = |k: usize| -> f64 { energies.iter().map(|energy| energy.values[k]).sum() };

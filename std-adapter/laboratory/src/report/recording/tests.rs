@@ -16,7 +16,7 @@ fn triangle() -> Part {
     Part::new("cloth", PartKind::Cloth, 3, vec![[0, 1, 2]])
 }
 
-/// A triangle whose height is the number of its step.
+/// Returns a triangle whose height is the number of its step.
 fn positions(step: u64) -> [DVec3; 3] {
     [DVec3::ZERO, DVec3::X, DVec3::Y].map(|p| p + DVec3::Z * step as f64)
 }
@@ -200,7 +200,7 @@ fn a_measure_and_a_series_know_when_they_were_largest_also_after_an_interruption
 #[test]
 fn the_nearest_frame_to_a_time_is_found() {
     let recording = frames_of(5, 9);
-    // Steps of half a second.
+    // Steps take half a second.
     let times = [0.0, 0.2, 0.3, 1.0, 1.25, 1.9, 99.0];
     assert_eq!(times.map(|time| recording.frame_at(time)), [0, 0, 1, 2, 2, 4, 4]);
 }

@@ -1,8 +1,8 @@
-//! Thins out what is offered after steps: evenly spread over a run of unknown length, in bounded memory.
+//! Thins out entries that are offered after steps: evenly spread over a run of unknown length, in bounded memory.
 
 use selvedge_files::bytes::Reader;
 
-/// Values after a step.
+/// The values after a step.
 pub(super) type AfterStep<N> = (u64, Vec<N>);
 
 /// When the limit is reached, every other entry is dropped, and from then on every other one is skipped. The first is always
@@ -12,9 +12,9 @@ pub(super) struct Thinned<N> {
     kept: Vec<AfterStep<N>>,
     /// The limit, at least two.
     most: usize,
-    /// One in this many is kept, of those offered.
+    /// The number of offered entries of which one is kept.
     stride: u64,
-    /// The number offered so far.
+    /// The number of entries offered so far.
     offered: u64,
     /// The last entry offered, if it was not kept.
     skipped: Option<AfterStep<N>>,
@@ -52,7 +52,7 @@ impl<N> Thinned<N> {
             own.extend(values);
             return;
         }
-        // Reuses its memory.
+        // This reuses its memory.
         let (_, mut own) = self.skipped.take().unwrap_or_default();
         own.clear();
         own.extend(values);

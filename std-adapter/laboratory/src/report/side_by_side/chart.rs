@@ -15,7 +15,7 @@ const TOP: f64 = 8.0;
 struct Line {
     colour: usize,
     is_second: bool,
-    /// Seconds and values.
+    /// The seconds and values.
     points: Vec<[f64; 2]>,
 }
 

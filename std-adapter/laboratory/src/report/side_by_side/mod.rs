@@ -17,7 +17,7 @@ use base64::engine::general_purpose::STANDARD;
 use maud::{Markup, html};
 
 const PICTURE: [u32; 2] = [640, 400];
-/// Times of the pictures, relative to the shorter simulation's duration.
+/// The times of the pictures, relative to the shorter simulation's duration.
 const TIMES: [f64; 3] = [1.0 / 3.0, 2.0 / 3.0, 1.0];
 
 /// Returns the whole page. The first simulation is on the left, and has solid lines; the second has dashed ones.
@@ -57,7 +57,7 @@ pub fn html(first: &Recording, second: &Recording) -> Result<String, StillError>
     Ok(document(&format!("{} beside {}", names[0], names[1]), &body))
 }
 
-/// The scenes' names, made different if they are equal.
+/// Returns the scenes' names, made different if they are equal.
 fn names([first, second]: [&Recording; 2]) -> [String; 2] {
     let [one, other] = [first, second].map(|recording| recording.about.name.clone());
     if one == other {
@@ -91,7 +91,7 @@ fn pictures(both: [&Recording; 2], names: &[String; 2]) -> Result<Markup, StillE
     })
 }
 
-/// Both scene files, with the lines marked that the other lacks.
+/// Returns both scene files, and marks the lines that the other lacks.
 fn scenes(both: [&Recording; 2], names: &[String; 2]) -> Markup {
     let [first, second] = both.map(|recording| recording.about.scene.lines().collect::<Vec<_>>());
     let columns = [(&names[0], &first, &second), (&names[1], &second, &first)];

@@ -76,6 +76,6 @@ fn only_what_differs_is_marked() {
     let rows = texts(&page, "tbody tr");
     assert!(rows.contains(&"self-collision: thickness3 mm2 mm".to_owned()), "{rows:?}");
     assert!(!rows.iter().any(|row| row.starts_with("weight")));
-    // A dash stands for what one of them lacks.
+    // A dash stands for a value that one of them lacks.
     assert!(rows.contains(&"kinetic energy at the end2 J––".to_owned()), "{rows:?}");
 }

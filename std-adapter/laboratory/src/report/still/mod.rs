@@ -23,12 +23,12 @@ use tiny_skia::{Pixmap, PremultipliedColorU8};
 /// The default width and height of a still picture, in pixels.
 pub const STILL_SIZE: [u32; 2] = [1280, 800];
 
-/// Samples of a pixel along each side.
+/// The number of samples of a pixel along each side.
 const SAMPLES: usize = 2;
-/// Samples of the sun's view, along each side.
+/// The number of samples of the sun's view, along each side.
 const SHADOW: usize = 1024;
 
-/// Why there is no picture.
+/// The reason why there is no picture.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum StillError {

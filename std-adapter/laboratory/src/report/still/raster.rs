@@ -9,13 +9,13 @@ const NOTHING: u32 = u32::MAX;
 pub(super) struct Raster {
     width: usize,
     height: usize,
-    /// Nearness, and the triangle.
+    /// The nearness, and the triangle.
     samples: Vec<(f32, u32)>,
 }
 
 impl Raster {
-    /// `see` takes a point to a place in pixels, from the left and from the top, and a nearness that is linear there. Triangles
-    /// with a vertex that is out of sight (`None`) are left out.
+    /// Finds the nearest triangles. `see` maps a point to a place in pixels, from the left and from the top, and a nearness that
+    /// is linear there. Triangles with a vertex that is out of sight (`None`) are left out.
     pub(super) fn new(surface: &Surface, [width, height]: [usize; 2], see: impl Fn(DVec3) -> Option<[f64; 3]>) -> Self {
         let mut raster = Self {
             width,
@@ -65,7 +65,7 @@ impl Raster {
         (triangle != NOTHING).then_some(triangle as usize)
     }
 
-    /// The nearness of the nearest triangle: negative infinity without one, `None` outside the picture.
+    /// Returns the nearness of the nearest triangle: negative infinity without one, `None` outside the picture.
     pub(super) fn nearness(&self, x: isize, y: isize) -> Option<f64> {
         let [x, y] = [usize::try_from(x).ok()?, usize::try_from(y).ok()?];
         (x < self.width && y < self.height).then(|| f64::from(self.samples[y * self.width + x].0))

@@ -50,7 +50,7 @@ impl Light {
         }
     }
 
-    /// The share of sunlight at a point, over a few samples around its place.
+    /// Returns the share of sunlight at a point, over a few samples around its place.
     fn sunlight(&self, point: DVec3) -> f64 {
         let [x, y] = [self.across, self.along].map(|axis| ((point.dot(axis) + REACH) * self.scale).floor() as isize);
         let height = point.dot(self.sun);
@@ -68,7 +68,7 @@ impl Light {
         let flat = (b - a).cross(c - a);
         let faces_eye = flat.dot(ray.direction) < 0.0;
         let point = eye + ray.direction * ((a - eye).dot(flat) / ray.direction.dot(flat));
-        // Weights of the corners, as areas.
+        // These are the weights of the corners, as areas.
         let shares = [(b, c), (c, a), (a, b)].map(|(p, q)| (p - point).cross(q - point).dot(flat).max(0.0));
         let outward: DVec3 = vertices
             .iter()
@@ -102,8 +102,8 @@ impl Light {
         light.to_array().map(shown)
     }
 
-    /// The floor, or the sky behind it. `down` is the share of the picture's height. `beside` are rays one pixel to the right and
-    /// below.
+    /// Returns the colour of the floor, or of the sky behind it. `down` is the share of the picture's height. `beside` are rays
+    /// one pixel to the right and below.
     pub(super) fn on_floor(&self, stage: &Stage, ray: &Ray, beside: &[Ray; 2], eye: DVec3, down: f64) -> Colour {
         let [top, bottom] = SKY;
         let sky = [0, 1, 2].map(|k| top[k] + (bottom[k] - top[k]) * down);

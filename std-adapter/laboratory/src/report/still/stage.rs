@@ -7,20 +7,20 @@ use selvedge_core::glam::{DMat3, DVec3};
 
 /// The vertical field of view: tan 0.3.
 const HALF_FIELD: f64 = 0.309_336_249_609_623_25;
-/// Points of a frame that determine the view.
+/// The number of points of a frame that determine the view.
 const LOOKED_AT: usize = 400;
-/// Frames that determine the view.
+/// The number of frames that determine the view.
 const FRAMES: usize = 12;
 
 /// The scene over all frames.
 pub(super) struct Stage {
     turn: DMat3,
-    /// In the recording's own unit of length.
+    /// The middle, in the recording's own unit of length.
     middle: DVec3,
     radius: f64,
-    /// Points that must be in view.
+    /// The points that must be in view.
     sample: Vec<DVec3>,
-    /// True if the scene is deeper than wide, so that it is seen from its side.
+    /// Whether the scene is deeper than wide, so that it is seen from its side.
     is_deep: bool,
     /// The height of the floor, a little below all that moves.
     pub(super) floor: f64,
@@ -35,12 +35,12 @@ pub(super) struct Surface {
     pub(super) points: Vec<DVec3>,
     pub(super) normals: Vec<DVec3>,
     pub(super) triangles: Vec<[u32; 3]>,
-    /// For each triangle, the number of its colour if it belongs to a cloth.
+    /// The number of each triangle's colour, if it belongs to a cloth.
     pub(super) cloths: Vec<Option<usize>>,
 }
 
 impl Stage {
-    /// A stage for all of these. The first decides the direction up.
+    /// Makes a stage for all of these. The first decides the direction up.
     pub(super) fn new(recordings: &[&Recording]) -> Self {
         let up = recordings[0].up();
         // The axis that is least upright becomes horizontal.
@@ -96,7 +96,7 @@ impl Stage {
     }
 }
 
-/// 1, 2 or 5 times a power of ten, `rough` or the next above.
+/// Returns 1, 2 or 5 times a power of ten: `rough` or the next above.
 fn round_spacing(rough: f64) -> f64 {
     let power = libm::pow(10.0, libm::floor(libm::log10(rough)));
     let steps = [1.0, 2.0, 5.0, 10.0].map(|step| step * power);
@@ -108,9 +108,9 @@ pub(super) struct Camera {
     pub(super) eye: DVec3,
     right: DVec3,
     up: DVec3,
-    /// Towards the eye.
+    /// The direction towards the eye.
     back: DVec3,
-    /// Pixels in a unit, one unit away.
+    /// The number of pixels in a unit, one unit away.
     scale: f64,
     middle: [f64; 2],
 }
@@ -142,7 +142,8 @@ impl Camera {
         }
     }
 
-    /// Returns a place in pixels from the left and from the top, and the nearness, one over the depth. `None` behind the camera.
+    /// Returns a place in pixels from the left and from the top, and the nearness, one over the depth. Returns `None` behind the
+    /// camera.
     pub(super) fn see(&self, point: DVec3) -> Option<[f64; 3]> {
         let way = point - self.eye;
         let near = -1.0 / way.dot(self.back);

@@ -3,7 +3,7 @@ use crate::report::{About, Part, PartKind, Recorder};
 use selvedge_core::glam::DVec3;
 use tiny_skia::ColorU8;
 
-/// A square of cloth, 1 m wide and flat, above a larger one that is a body.
+/// Records a square of cloth, 1 m wide and flat, above a larger one that is a body.
 fn recording(up: DVec3, unit: f64) -> Recording {
     let about = About {
         name: "squares".to_owned(),

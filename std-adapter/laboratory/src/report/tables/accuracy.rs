@@ -67,7 +67,7 @@ fn body(set: &AccuracySet) -> String {
     table(header, rows)
 }
 
-/// `avx512` would make a wide column of short numbers.
+/// Splits a name, since `avx512` would make a wide column of short numbers.
 fn in_two_lines(backend: &str) -> String {
     match backend.find(|letter: char| letter.is_ascii_digit()) {
         Some(digit) if backend.len() > 4 => format!("{}\n{}", &backend[..digit], &backend[digit..]),
@@ -92,7 +92,7 @@ fn cells(set: &AccuracySet, row: &AccuracyRow, backends: &[&str]) -> Vec<String>
     cells
 }
 
-/// A count above zero never reads as 0.
+/// Writes a count per 100,000. A count above zero never reads as 0.
 fn per_100_000(part: usize, whole: usize) -> String {
     match 1e5 * part as f64 / whole as f64 {
         rate if part > 0 && rate < 0.1 => "< 0.1".to_owned(),
@@ -100,7 +100,7 @@ fn per_100_000(part: usize, whole: usize) -> String {
     }
 }
 
-/// Returns at most five letters.
+/// Writes at most five letters.
 fn nanoseconds(time: f64) -> String {
     match time {
         time if (999.5..9999.5).contains(&time) => format!("{time:.0}"),

@@ -92,7 +92,7 @@ pub fn simulation(simulation: &Simulation, recording: &Recording) -> String {
     text
 }
 
-/// The frame with the longest edges, and the slowest step.
+/// Names the frame with the longest edges, and the slowest step.
 fn at_worst(recording: &Recording) -> String {
     let mut text = String::new();
     if let (Some(most), Some(longest)) = (recording.measure(EDGES_99), recording.measure(LONGEST_EDGE)) {

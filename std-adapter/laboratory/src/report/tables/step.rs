@@ -53,7 +53,7 @@ pub fn step(summary: &StepSummary) -> String {
     )
 }
 
-/// The answer to the question.
+/// Returns the answer to the question.
 fn answer(summary: &StepSummary) -> String {
     let contacts = summary.report.contacts();
     match (summary.question, summary.earliest) {
@@ -75,7 +75,7 @@ fn answer(summary: &StepSummary) -> String {
     }
 }
 
-/// The guarantee behind the counts.
+/// Returns the guarantee behind the counts.
 fn promise(summary: &StepSummary) -> &'static str {
     let stages = summary.preset.stages();
     let tests_are_certified = stages.tests.iter().copied().all(CullingTest::is_certified);

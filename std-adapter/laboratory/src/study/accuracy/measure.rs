@@ -17,7 +17,7 @@ const CHUNK: usize = 2048;
 const TIMED: usize = 50_000;
 /// The number of pairs of each timed chunk that are also tested as tiles: 24 kB in `f64`, which stays in the first cache.
 const TILED: usize = 128;
-/// Repetitions of these, so that reading the clock does not matter.
+/// The number of repetitions of these, so that reading the clock does not matter.
 const TILED_PASSES: usize = 32;
 
 /// Runs every filter on `set` in the format `S`, `repeat` times.
@@ -73,7 +73,7 @@ pub(super) fn measure<S: Scalar>(
     })
 }
 
-/// Pairs of one kind, as the pipeline has them.
+/// The pairs of one kind, in the form of the pipeline.
 struct Pairs<'a, S> {
     kind: PairKind,
     rows: &'a [VertexRow<S>],
@@ -110,7 +110,7 @@ impl<S: Scalar> Pairs<'_, S> {
     }
 }
 
-/// Writes verdicts on pairs that are made from their rows one by one into masks.
+/// A writer of masks with the verdicts on pairs that are made from their rows one by one.
 struct OneByOne<'a, S: Scalar>(&'a Pairs<'a, S>, &'a mut [Mask]);
 
 impl<S: Scalar> WithTest<S, bool> for OneByOne<'_, S> {
@@ -128,7 +128,7 @@ impl<S: Scalar> WithTest<S, bool> for OneByOne<'_, S> {
     }
 }
 
-/// Writes verdicts on pairs that are gathered sixteen at a time, or on tiles of them, into masks.
+/// A writer of masks with the verdicts on pairs that are gathered sixteen at a time, or on tiles of them.
 struct SideBySide<'a, S: Scalar>(Level, &'a Pairs<'a, S>, Option<&'a [Tile<S>]>, &'a mut [Mask]);
 
 impl<S: Scalar> WithLanes<S> for SideBySide<'_, S> {
@@ -145,7 +145,7 @@ impl<S: Scalar> WithLanes<S> for SideBySide<'_, S> {
 struct Measurement<S> {
     filter: MeasuredFilter,
     separation: S,
-    /// Seconds in all, for one pair at a time and for each instruction set.
+    /// The seconds in all, for one pair at a time and for each instruction set.
     backends: Vec<(Backend, f64)>,
     tiled_seconds: f64,
     tiled: usize,
@@ -187,7 +187,7 @@ impl<S: Scalar> Measurement<S> {
         })
     }
 
-    /// Counts what the filter culls, one pair at a time, compared with exact arithmetic.
+    /// Counts the culled pairs, one at a time, and compares them with exact arithmetic.
     fn count(&mut self, pairs: &Pairs<'_, S>, exact: &[Mask]) -> Vec<Mask> {
         let mut masks = vec![0; pairs.mask_count()];
         self.filter.run(self.separation, OneByOne(pairs, &mut masks));

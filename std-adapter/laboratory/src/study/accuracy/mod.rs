@@ -41,8 +41,8 @@ pub struct AccuracyOptions {
     pub repeat: u32,
     /// The seed of random pairs.
     pub seed: u64,
-    /// The distance that pairs must exceed to be culled, in the unit of the positions; rounded to the format in use. Neither
-    /// negative nor infinite.
+    /// The distance that pairs must exceed to be culled, in the unit of the positions, rounded to the format in use. It is
+    /// neither negative nor infinite.
     pub separation: f64,
     /// The approximate time limit of one elementary test on one set in one format. It always runs on sixteen pairs. Filters
     /// ignore it.
@@ -54,7 +54,7 @@ pub struct AccuracyOptions {
 pub struct Accuracy {
     /// The options.
     pub options: AccuracyOptions,
-    /// Each set in `f32`, then in `f64`.
+    /// The sets, each in `f32`, then in `f64`.
     pub sets: Vec<AccuracySet>,
 }
 
@@ -65,15 +65,15 @@ pub struct AccuracySet {
     pub name: String,
     /// `"f32"` or `"f64"`.
     pub scalar: &'static str,
-    /// Vertex–face pairs.
+    /// The number of vertex–face pairs.
     pub vertex_face: usize,
-    /// Edge–edge pairs.
+    /// The number of edge–edge pairs.
     pub edge_edge: usize,
     /// The number of pairs before sampling.
     pub drawn_from: usize,
     /// The number of timed pairs; all were counted.
     pub timed: usize,
-    /// Pairs that exact arithmetic culls.
+    /// The number of pairs that exact arithmetic culls.
     pub cullable: usize,
     /// A row for each filter, in the order of [`MeasuredFilter::ALL`]. The paper's is missing with a separation. In `f64` the
     /// widened tier is missing, which equals the permanent there.
@@ -85,24 +85,24 @@ pub struct AccuracySet {
 pub struct AccuracyRow {
     /// The filter.
     pub filter: MeasuredFilter,
-    /// Pairs that it culls.
+    /// The number of pairs that it culls.
     pub culled: usize,
-    /// Pairs that it keeps although exact arithmetic culls them.
+    /// The number of pairs that it keeps although exact arithmetic culls them.
     pub kept_cullable: usize,
-    /// Pairs that it culls without proof, although exact arithmetic does not.
+    /// The number of pairs that it culls without proof, although exact arithmetic does not.
     pub false_culls: usize,
-    /// One pair at a time first, then each instruction set, the plainest first.
+    /// The times for one pair at a time, then on each instruction set, the simplest first.
     pub times: Vec<BackendTime>,
-    /// Nanoseconds a pair for tiles in the first cache, on the best instruction set.
+    /// The nanoseconds per pair for tiles in the first cache, on the best instruction set.
     pub in_first_cache: Option<f64>,
 }
 
 /// The time of a pair on one backend.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BackendTime {
-    /// [`ONE_AT_A_TIME`](Self::ONE_AT_A_TIME), or the instruction set.
+    /// The name [`ONE_AT_A_TIME`](Self::ONE_AT_A_TIME), or the instruction set.
     pub backend: &'static str,
-    /// Nanoseconds a pair, gathered.
+    /// The nanoseconds per pair, gathered.
     pub nanoseconds: f64,
 }
 
@@ -112,19 +112,19 @@ impl BackendTime {
 }
 
 impl AccuracySet {
-    /// The number of pairs.
+    /// Returns the number of pairs.
     #[must_use]
     pub const fn pairs(&self) -> usize {
         self.vertex_face + self.edge_edge
     }
 
-    /// The row of a filter, if it was measured.
+    /// Returns the row of a filter, if it was measured.
     #[must_use]
     pub fn row(&self, filter: MeasuredFilter) -> Option<&AccuracyRow> {
         self.rows.iter().find(|row| row.filter == filter)
     }
 
-    /// A row's time on a backend relative to that of [`MeasuredFilter::Uncertified`] on the same backend.
+    /// Returns a row's time on a backend relative to that of [`MeasuredFilter::Uncertified`] on the same backend.
     #[must_use]
     pub fn over_uncertified(&self, time: BackendTime) -> Option<f64> {
         let uncertified = self.row(MeasuredFilter::Uncertified)?;
@@ -133,13 +133,13 @@ impl AccuracySet {
 }
 
 impl AccuracyRow {
-    /// The best instruction set's time.
+    /// Returns the best instruction set's time.
     #[must_use]
     pub fn best_time(&self) -> Option<BackendTime> {
         self.times.last().copied()
     }
 
-    /// Nanoseconds a pair on a backend.
+    /// Returns the nanoseconds per pair on a backend.
     #[must_use]
     pub fn time(&self, backend: &str) -> Option<f64> {
         let mut times = self.times.iter();
@@ -161,25 +161,25 @@ impl BackendsDisagree {
     }
 }
 
-/// One in this many steps of the arm scene is measured, the last one included.
+/// The number of steps of the arm scene of which one is measured. The last step is included.
 const ARM_STRIDE: usize = 5;
-/// Distances of the pairs far from the origin, in turn, in metres.
+/// The distances of the pairs far from the origin, in turn, in metres.
 const DISTANCES: [f64; 4] = [1e3, 1e4, 1e5, 1e6];
-/// Their direction, without a coordinate much smaller than the others.
+/// The direction to these pairs, without a coordinate much smaller than the others.
 const DIRECTION: DVec3 = DVec3::new(0.7, -0.6, 0.39);
 /// The largest number of nearly coplanar pairs, which take half a kilobyte each.
 const MOST_GENERATED: usize = 200_000;
 
 /// The pairs that all studies of accuracy use.
 struct ScenePairs {
-    /// Sets of the arm, and of the caller's mesh.
+    /// The sets of the arm, and of the caller's mesh.
     scenes: Vec<PairSet>,
-    /// Pairs made in `f32`, and in `f64`.
+    /// The pairs made in `f32`, and in `f64`.
     near_coplanar: [PairSet; 2],
 }
 
 impl ScenePairs {
-    /// Each set as it is in `f32` and in `f64`.
+    /// Returns each set as it is in `f32` and in `f64`.
     fn in_each_format(&self) -> impl ExactSizeIterator<Item = [&PairSet; 2]> {
         let scenes = self.scenes.iter().map(|set| [set; 2]);
         let all: Vec<_> = scenes.chain([self.near_coplanar.each_ref()]).collect();

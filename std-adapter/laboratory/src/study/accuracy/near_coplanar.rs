@@ -1,6 +1,6 @@
-//! Makes pairs whose four points are coplanar at some time, but for a few units in the last place.
+//! Makes pairs whose four points are coplanar at some time, up to a few units in the last place.
 //!
-//! There are three kinds in turn, in the format that they are for:
+//! There are three kinds in turn, in the format of the set:
 //!
 //! 1. in one plane at the start, then apart: one control value is next to zero, the others are not;
 //! 2. the same, ending in one plane;
@@ -15,7 +15,7 @@ use selvedge_core::Scalar;
 
 /// The largest distance from the plane, in units in the last place.
 const NUDGE: i32 = 4;
-/// Sizes are powers of two up to this one, and down to its inverse.
+/// The largest exponent of the sizes, which are powers of two; the smallest is its negative.
 const LARGEST_EXPONENT: i32 = 10;
 
 impl PairSet {
@@ -44,7 +44,7 @@ impl PairSet {
     }
 }
 
-/// Four points a, b, c, p; at the start, p is nearly in the plane of the others.
+/// Makes four points a, b, c, p; at the start, p is nearly in the plane of the others.
 fn flat_at_start<S: Scalar>(random: &mut Rng) -> [[DVec3; 2]; 4] {
     let size = size(random);
     let corners = [(); 3].map(|()| rounded::<S>(size * in_cube(random)));
@@ -60,7 +60,7 @@ fn flat_at_start<S: Scalar>(random: &mut Rng) -> [[DVec3; 2]; 4] {
     [0, 1, 2, 3].map(|k| [start[k], rounded::<S>(end[k])])
 }
 
-/// Four points of one plane that moves.
+/// Makes four points of one plane that moves.
 fn flat_at_both_ends<S: Scalar>(random: &mut Rng) -> [[DVec3; 2]; 4] {
     let size = size(random);
     let [origin, along, across, translation] = [(); 4].map(|()| size * in_cube(random));
@@ -84,7 +84,7 @@ fn between(random: &mut Rng, low: f64, high: f64) -> f64 {
     low + (high - low) * random.f64()
 }
 
-/// The nearest point with coordinates in the format `S`.
+/// Returns the nearest point with coordinates in the format `S`.
 fn rounded<S: Scalar>(point: DVec3) -> DVec3 {
     DVec3::from_array(point.to_array().map(|number| S::from_f64(number).to_f64()))
 }
@@ -102,7 +102,7 @@ fn nudged<S: Scalar>(point: DVec3, random: &mut Rng) -> DVec3 {
 mod tests {
     use super::*;
 
-    /// The volume at an end of the step relative to that of a box around the points.
+    /// Returns the volume at an end of the step relative to that of a box around the points.
     fn flatness([a, b, c, p]: [DVec3; 4]) -> f64 {
         let size = [b - a, c - a, p - a].map(|edge| edge.abs().max_element());
         let size = size.into_iter().fold(0.0, f64::max);
@@ -112,8 +112,8 @@ mod tests {
     fn check<S: Scalar>() {
         let set = PairSet::near_coplanar::<S>(3, 3000);
         assert_eq!((set.vertex_face.len(), set.edge_edge.len()), (1500, 1500));
-        // A point is off by at most 5 units in the last place of a coordinate. That coordinate may be about 7 times as large as
-        // an edge's largest component: 2⁸ roundoffs. In `f64` the check's own rounding is of that size.
+        // The error of a point is at most 5 units in the last place of a coordinate. That coordinate may be about 7 times as
+        // large as an edge's largest component: 2⁸ roundoffs. In `f64` the check's own rounding is of that size.
         let next_to_zero = 4096.0 * S::UNIT_ROUNDOFF.to_f64();
         for (index, points) in set.points.chunks_exact(4).enumerate() {
             let at = |end: usize| flatness([0, 1, 2, 3].map(|k| points[k][end]));

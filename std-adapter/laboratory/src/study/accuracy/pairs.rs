@@ -17,9 +17,9 @@ pub struct PairSet {
     pub name: String,
     /// The moving points, at the start and at the end of the step.
     pub points: Vec<[DVec3; 2]>,
-    /// Indices into `points`: vertex, face.
+    /// The vertex–face pairs, as indices into `points`: vertex, face.
     pub vertex_face: Vec<[u32; 4]>,
-    /// Indices into `points`: first edge, second edge.
+    /// The edge–edge pairs, as indices into `points`: first edge, second edge.
     pub edge_edge: Vec<[u32; 4]>,
     /// The number of pairs before sampling.
     pub drawn_from: usize,
@@ -36,7 +36,7 @@ impl PairSet {
         }
     }
 
-    /// The pairs of either kind.
+    /// Returns the pairs of either kind.
     pub(super) fn by_kind(&self) -> [(PairKind, &[[u32; 4]]); 2] {
         [
             (PairKind::VertexFace, &self.vertex_face),
@@ -101,7 +101,7 @@ impl PairSet {
         motions.map(VertexRow::new).collect()
     }
 
-    /// The number of pairs.
+    /// Returns the number of pairs.
     #[must_use]
     pub fn pairs(&self) -> usize {
         self.vertex_face.len() + self.edge_edge.len()

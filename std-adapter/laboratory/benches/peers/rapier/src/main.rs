@@ -1,11 +1,11 @@
-//! The sheet that falls on a ball, in Rapier: see `../sheet_on_ball.py`, which runs this and reads what it writes.
+//! Simulates the sheet that falls on a ball in Rapier. `../sheet_on_ball.py` runs this program and reads its output.
 //!
 //! ```text
 //! selvedge-peer-rapier CELLS RADIUS TIME_STEP SECONDS MOST_PROCESSOR_SECONDS FOLDER
 //! ```
 //!
-//! RADIUS is that of the sheet's particles, in metres. Writes `triangles.u32` and the positions of every 50 ms in `states.f32` (little
-//! endian) to the folder. Prints the number of steps, and their processor time.
+//! RADIUS is that of the sheet's particles, in metres. The program writes `triangles.u32` and the positions of every 50 ms in
+//! `states.f32` (little endian) to the folder. It prints the number of steps, and their processor time.
 
 use rapier3d::prelude::*;
 use std::error::Error;
@@ -17,10 +17,10 @@ const SIDE: f32 = 0.8;
 /// The mass of the sheet in kg: 150 g/m².
 const MASS: f32 = 0.096;
 const FRICTION: f32 = 0.3;
-/// Seconds between states.
+/// The interval between states, in seconds.
 const INTERVAL: f32 = 0.05;
 
-/// The processor time of this process, in seconds.
+/// Returns the processor time of this process, in seconds.
 fn processor_seconds() -> Result<f64, Box<dyn Error>> {
     let statistics = std::fs::read_to_string("/proc/self/schedstat")?;
     let nanoseconds: f64 = statistics.split(' ').next().unwrap_or_default().parse()?;
@@ -44,7 +44,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     world.insert(RigidBodyBuilder::fixed(), ball.friction(FRICTION));
     let spacing = SIDE / cells as f32;
     let mut material = SoftBodyMaterial::default();
-    // As stiff as the solver allows with steps of 1/240 s, and soft in bending.
+    // The sheet is as stiff as the solver allows with steps of 1/240 s, and soft in bending.
     material.edge_softness = SpringCoefficients::new(60.0, 1.0);
     material.bend_softness = SpringCoefficients::new(1.0, 1.0);
     let corner = Vector::new(-0.4, -0.4, 0.35);

@@ -62,7 +62,7 @@ pub const METHODS: [ElementaryTest; 3 * TOLERANCES.len() + 4] = {
 pub struct ElementaryAccuracy {
     /// The options. The separation is ignored.
     pub options: AccuracyOptions,
-    /// Each set in `f32`, then in `f64`.
+    /// The sets, each in `f32`, then in `f64`.
     pub sets: Vec<ElementarySet>,
 }
 
@@ -73,13 +73,13 @@ pub struct ElementarySet {
     pub name: String,
     /// `"f32"` or `"f64"`.
     pub scalar: &'static str,
-    /// Vertex–face pairs.
+    /// The number of vertex–face pairs.
     pub vertex_face: usize,
-    /// Edge–edge pairs.
+    /// The number of edge–edge pairs.
     pub edge_edge: usize,
-    /// Pairs that touch.
+    /// The number of pairs that touch.
     pub touching: usize,
-    /// Touching pairs with a known time.
+    /// The number of touching pairs with a known time.
     pub with_time: usize,
     /// A row for each test, in the order of [`METHODS`].
     pub rows: Vec<ElementaryRow>,
@@ -94,17 +94,17 @@ pub struct ElementaryRow {
     pub asked: usize,
     /// The number of these that touch.
     pub touching: usize,
-    /// Nanoseconds a pair, one at a time, gathered.
+    /// The nanoseconds per pair, one at a time, gathered.
     pub nanoseconds: f64,
-    /// Touching pairs that it calls free of contact.
+    /// The number of touching pairs that it calls free of contact.
     pub missed: usize,
-    /// Contacts whose time is after the exact one.
+    /// The number of contacts whose time is after the exact one.
     pub late: usize,
     /// The largest delay, in steps.
     pub latest: f64,
-    /// Pairs without contact that it does not call free of contact.
+    /// The number of pairs without contact that it does not call free of contact.
     pub false_alarms: usize,
-    /// The median error of early contact times, in steps. Late ones count as zero. `None` without a contact of known time.
+    /// The median error of early contact times, in steps. Late ones count as zero. It is `None` without a contact of known time.
     pub early: Option<f64>,
     /// The largest such error.
     pub earliest: f64,
@@ -184,7 +184,7 @@ fn of_hard_cases<S: Scalar>() -> Questions<S> {
     questions
 }
 
-/// The pairs whose swept boxes overlap.
+/// Returns the pairs whose swept boxes overlap.
 fn of_pairs<S: Scalar>(set: &PairSet) -> Questions<S> {
     let rows = set.rows::<S>();
     let mut pairs = Vec::new();

@@ -4,7 +4,7 @@ use selvedge_core::glam::DVec3;
 use std::sync::LazyLock;
 use std::time::Duration;
 
-/// Shared by the tests, since it takes seconds of exact arithmetic.
+/// The result that tests share, since it takes seconds of exact arithmetic.
 static MEASURED: LazyLock<ElementaryAccuracy> = LazyLock::new(|| measured(2000, Duration::from_millis(50)));
 
 fn measured(pairs: usize, budget: Duration) -> ElementaryAccuracy {

@@ -13,12 +13,12 @@ pub enum ExactAnswer {
     Never,
     /// It touches.
     Touches {
-        /// Bounds of the first time; `None` if they are not close.
+        /// The bounds of the first time; `None` if they are not close.
         first: Option<[f64; 2]>,
     },
 }
 
-/// Returns the exact answer and an enclosure of the first time: see the module's documentation.
+/// Returns the exact answer and an enclosure of the first time.
 ///
 /// A pair that is not finite counts as touching at an unknown time.
 #[must_use]
