@@ -50,7 +50,7 @@ pub fn distribute<I: Copy + PartialEq>(a: &FeatureTriangle<I>, b: &FeatureTriang
     for (from, face) in [(a, b), (b, a)] {
         for &vertex in from.vertices.iter().take(from.features.vertices()) {
             if !face.vertices.contains(&vertex) {
-                // Never full: at most 3 + 3. `push` would add a panic path.
+                // The vector is never full, with at most 3 + 3. `push` would add a panic path.
                 let _ = pairs.vertex_face.try_push([vertex, face.face]);
             }
         }
@@ -59,7 +59,7 @@ pub fn distribute<I: Copy + PartialEq>(a: &FeatureTriangle<I>, b: &FeatureTriang
         for second in b.edges.iter().take(b.features.edges()) {
             let share = |end| second.ends[0] == end || second.ends[1] == end;
             if !share(first.ends[0]) && !share(first.ends[1]) {
-                // Never full: at most 3 × 3.
+                // The vector is never full, with at most 3 × 3.
                 let _ = pairs.edge_edge.try_push([first.edge, second.edge]);
             }
         }

@@ -17,12 +17,12 @@
 pub struct Features(u8); // bits 0 and 1: vertices; bits 2 and 3: edges
 
 impl Features {
-    /// Represents nothing.
+    /// Features of a triangle that represents nothing.
     pub const NONE: Self = Self(0);
-    /// Represents all three vertices and all three edges.
+    /// Features of a triangle that represents all three vertices and all three edges.
     pub const ALL: Self = Self(0b1111);
 
-    /// Returns `None` if a count exceeds 3.
+    /// Makes features from both counts. Returns `None` if a count exceeds 3.
     #[must_use]
     pub const fn new(vertices: u8, edges: u8) -> Option<Self> {
         if vertices > 3 || edges > 3 {
@@ -31,14 +31,14 @@ impl Features {
         Some(Self(vertices | edges << 2))
     }
 
-    /// The number of vertices, 0 to 3.
+    /// Returns the number of vertices, 0 to 3.
     #[inline(always)]
     #[must_use]
     pub const fn vertices(self) -> usize {
         (self.0 & 0b11) as usize
     }
 
-    /// The number of edges, 0 to 3.
+    /// Returns the number of edges, 0 to 3.
     #[inline(always)]
     #[must_use]
     pub const fn edges(self) -> usize {
@@ -59,7 +59,7 @@ impl Features {
 pub struct FeatureEdge<I> {
     /// The edge's identity in the mesh.
     pub edge: I,
-    /// The vertices it joins.
+    /// The vertices that it joins.
     pub ends: [I; 2],
 }
 
@@ -74,7 +74,7 @@ pub struct FeatureTriangle<I> {
     pub vertices: [I; 3],
     /// Its edges, represented ones first.
     pub edges: [FeatureEdge<I>; 3],
-    /// The number of each that it represents.
+    /// The numbers of vertices and edges that it represents.
     pub features: Features,
 }
 

@@ -6,9 +6,9 @@ use core::str::FromStr;
 /// A kind of primitive pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum PairKind {
-    /// A vertex and a triangle: one point and three. Written `vertex-face`.
+    /// A vertex and a triangle, one point and three, written `vertex-face`.
     VertexFace,
-    /// Two edges: two points and two. Written `edge-edge`.
+    /// Two edges, two points and two, written `edge-edge`.
     EdgeEdge,
 }
 

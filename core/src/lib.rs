@@ -17,11 +17,11 @@
 //!
 //! # Guarantees
 //! * **No function of this crate misses a contact.** Decisions are certified or exact: they cover their own rounding, and never
-//!   cull a pair that touches at some time in [0, 1], whatever the input.
+//!   cull a pair that touches at some time in [0, 1], for any input.
 //! * That holds in every floating-point environment of IEEE 754 arithmetic: any rounding direction, flush-to-zero,
 //!   denormals-are-zero (see [`Rounding`](lanes::Rounding)). Verdicts may differ between environments; none of them is wrong.
 //! * A pair with NaN, infinite or overflowing coordinates is always kept.
-//! * No allocation, no `unsafe`, no panic, no dependence on `std`.
+//! * The crate has no allocation, no `unsafe`, no panic and no dependence on `std`.
 //!
 //! # Modules
 //! | module | what it does | guarantee |

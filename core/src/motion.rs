@@ -6,14 +6,14 @@ use crate::scalar::{Position, Scalar};
 /// A point that moves from `start` (time 0) to `end` (time 1) at constant velocity.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Motion<S: Scalar> {
-    /// Position at time 0.
+    /// The position at time 0.
     pub start: S::Vector,
-    /// Position at time 1.
+    /// The position at time 1.
     pub end: S::Vector,
 }
 
 impl<S: Scalar> Motion<S> {
-    /// A motion from `start` to `end`.
+    /// Makes a motion from `start` to `end`.
     #[inline]
     pub const fn new<P: Position<Scalar = S>>(start: P, end: P) -> Self
     where
@@ -22,7 +22,7 @@ impl<S: Scalar> Motion<S> {
         Self { start, end }
     }
 
-    /// A point that rests at `position`.
+    /// Makes a point that rests at `position`.
     #[inline]
     pub const fn resting<P: Position<Scalar = S>>(position: P) -> Self
     where
@@ -44,7 +44,7 @@ impl<S: Scalar> Motion<S> {
         let mut there = [S::ZERO; 3];
         for axis in 0..3 {
             let (from, to) = (from[axis], to[axis]);
-            // A weighted sum: a difference of the two could overflow.
+            // This is a weighted sum, since a difference of the two could overflow.
             let between = from * (S::ONE - time) + to * time;
             there[axis] = between.larger(from.smaller(to)).smaller(from.larger(to));
         }
@@ -55,7 +55,7 @@ impl<S: Scalar> Motion<S> {
         }
     }
 
-    /// The start and the end as arrays.
+    /// Returns the start and the end as arrays.
     #[inline(always)]
     pub(crate) fn ends(&self) -> [[S; 3]; 2] {
         [self.start.into(), self.end.into()]
@@ -64,7 +64,7 @@ impl<S: Scalar> Motion<S> {
     #[inline(always)]
     pub(crate) fn is_finite(&self) -> bool {
         let [[x, y, z], [u, v, w]] = self.ends();
-        // `&`, not `&&`: six tests without branches.
+        // `&` instead of `&&` makes six tests without branches.
         x.is_finite() & y.is_finite() & z.is_finite() & u.is_finite() & v.is_finite() & w.is_finite()
     }
 }
@@ -104,7 +104,7 @@ pub struct PrimitivePair<S: Scalar> {
 }
 
 impl<S: Scalar> PrimitivePair<S> {
-    /// A pair of a vertex and a triangle, given by its three vertices.
+    /// Makes a pair of a vertex and a triangle, given by its three vertices.
     #[inline(always)]
     #[must_use]
     pub const fn vertex_face(vertex: Motion<S>, [a, b, c]: [Motion<S>; 3]) -> Self {
@@ -113,7 +113,7 @@ impl<S: Scalar> PrimitivePair<S> {
         Self { kind, motions }
     }
 
-    /// A pair of two edges, each given by its two ends.
+    /// Makes a pair of two edges, each given by its two ends.
     #[inline(always)]
     #[must_use]
     pub const fn edge_edge([u, v]: [Motion<S>; 2], [k, l]: [Motion<S>; 2]) -> Self {

@@ -14,12 +14,12 @@ mod sealed {
 
 /// `f32` or `f64`: the format of a caller's positions, with its [`glam`] vector type.
 ///
-/// Sealed: the guarantees are verified for these two formats only.
+/// The trait is sealed: the guarantees are verified for these two formats only.
 pub trait Scalar: Number + Debug + Display + Default + Send + Sync + 'static + sealed::Sealed {
-    /// [`glam::Vec3`] or [`glam::DVec3`].
+    /// The vector type, [`glam::Vec3`] or [`glam::DVec3`].
     type Vector: Position<Scalar = Self>;
 
-    /// `"f32"` or `"f64"`.
+    /// The name, `"f32"` or `"f64"`.
     const NAME: &'static str;
     /// The stored bits of the significand, without the leading one: 23 or 52.
     const FRACTION_BITS: u32;
@@ -35,7 +35,7 @@ pub trait Scalar: Number + Debug + Display + Default + Send + Sync + 'static + s
     /// Rounds `value` towards zero by cutting off digits, in any rounding direction. The result is the largest finite number if
     /// `value` is beyond it, and zero below the normal numbers of `f32`. Infinity and NaN are kept.
     fn truncated(value: f64) -> Self;
-    /// Returns the least number above.
+    /// Returns the next larger number.
     fn next_up(self) -> Self;
     /// Returns the same number as `f64`, exactly, even in a thread that treats subnormal operands as zero.
     fn to_f64(self) -> f64;
@@ -50,7 +50,7 @@ pub trait Scalar: Number + Debug + Display + Default + Send + Sync + 'static + s
     fn in_format<F: Family>(value: F::Of<Self>) -> InFormat<F>;
 }
 
-/// Types that there are one of for each format.
+/// A family of types, one for each format.
 #[doc(hidden)]
 pub trait Family {
     /// The type for a format.
@@ -66,7 +66,7 @@ pub enum InFormat<F: Family> {
     Double(F::Of<f64>),
 }
 
-/// A position whose [`Scalar`] can be inferred: [`glam::Vec3`], [`glam::DVec3`], `[f32; 3]` or `[f64; 3]`. Sealed.
+/// A position whose [`Scalar`] can be inferred: [`glam::Vec3`], [`glam::DVec3`], `[f32; 3]` or `[f64; 3]`. The trait is sealed.
 pub trait Position:
     Copy + Debug + Default + PartialEq + Send + Sync + From<[Self::Scalar; 3]> + Into<[Self::Scalar; 3]> + sealed::Sealed
 {
@@ -151,7 +151,7 @@ fn widened(value: f32) -> f64 {
     }
 }
 
-/// [`Scalar::truncated`] for `f32`.
+/// Rounds like [`Scalar::truncated`] for `f32`.
 #[inline(always)]
 fn truncated(value: f64) -> f32 {
     const DROPPED: u32 = f64::MANTISSA_DIGITS - f32::MANTISSA_DIGITS;

@@ -11,7 +11,7 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// Returns [`Culled`](Self::Culled) if `proven`, else [`Kept`](Self::Kept).
+    /// Returns [`Culled`](Self::Culled) if `proven`, otherwise [`Kept`](Self::Kept).
     pub const fn culled_if(proven: bool) -> Self {
         if proven { Self::Culled } else { Self::Kept }
     }

@@ -1,1 +1,1 @@
-//! Only benches.
+//! This crate consists of benches.

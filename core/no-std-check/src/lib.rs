@@ -169,7 +169,7 @@ pub extern "C" fn verdicts_f64(points: &Points<f64>) -> u32 {
     vertex_face | edge_edge << 16
 }
 
-/// [`verdicts_f64`] in single precision.
+/// Returns the results of [`verdicts_f64`] in single precision.
 #[unsafe(no_mangle)]
 pub extern "C" fn verdicts_f32(points: &Points<f32>) -> u32 {
     let [vertex_face, edge_edge] = all_tests(points);

@@ -21,11 +21,11 @@ use fearless_simd::{Simd, f32x8, f32x16, f64x2, f64x4, f64x8};
 /// The result of one round for sixteen pairs. A pair in none of the three masks has advanced, and is still open.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Round {
-    /// Pairs that are certainly farther apart than the separation until the end of the requested time.
+    /// The pairs that are certainly farther apart than the separation until the end of the requested time.
     pub apart: Mask,
-    /// Pairs that are, at their unchanged time, within the tolerance of the separation.
+    /// The pairs that are, at their unchanged time, within the tolerance of the separation.
     pub near: Mask,
-    /// Pairs of which the lanes can prove no more; their times did not change.
+    /// The pairs of which the lanes can prove no more; their times did not change.
     pub stuck: Mask,
 }
 
@@ -36,8 +36,8 @@ pub struct RoundQuestion<S> {
     pub limits: Limits<S>,
     /// The time up to which pairs matter, at most 1.
     pub until: S,
-    /// True to use the signed volume as well. It costs half as much again, which pays for pairs that come close to contact. Only
-    /// with a separation of zero.
+    /// Whether to use the signed volume as well. It costs half as much again, which pays for pairs that come close to contact. It
+    /// requires a separation of zero.
     pub with_volume: bool,
 }
 

@@ -34,7 +34,7 @@ pub(super) trait Chunk: Lanes<Scalar: Scalar> {
 /// Loads the points of the pairs from `first` on. Returns `None` if an index is not in the rows.
 #[inline(always)]
 pub(super) fn points<L: Chunk>(token: L::Token, pairs: Sixteen<'_, L::Scalar>, first: usize) -> Option<PairPoints<L>> {
-    // A macro: a closure that is not inlined has none of the machine's instructions.
+    // This is a macro, since a closure that is not inlined has none of the machine's instructions.
     macro_rules! point {
         ($point:literal) => {
             match pairs {
@@ -159,7 +159,7 @@ mod vectors {
     /// 3 rounds    a0 b0 c0 d0 e0 f0 g0 h0     column 0
     /// ```
     ///
-    /// With rows of 2N numbers, each result holds two columns, 0 and 1 first.
+    /// If rows have 2N numbers, each result holds two columns, 0 and 1 first.
     #[inline(always)]
     fn two<V: Simd, T: SimdBase<V>>([a, b]: [T; 2]) -> [T; 2] {
         let (first, second) = a.interleave(b);

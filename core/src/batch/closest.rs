@@ -12,7 +12,7 @@ use fearless_simd::{Simd, f64x2, f64x4, f64x8};
 use glam::DVec3;
 
 /// Writes to `closest` the closest points of each pair, given its four points: the same bits as [`ClosestPoints::from_points`],
-/// except in NaN. Handles as many pairs as both slices have. Certifies nothing.
+/// except in NaN. Handles as many pairs as both slices have. The result is not certified.
 ///
 /// ```
 /// use selvedge_core::batch::{Level, closest_points};
@@ -70,7 +70,7 @@ fn all<P: PairShape, L: Chunk<Scalar = f64>>(token: L::Token, Sixteen(pairs): &S
     };
     for chunk in 0..LANES / L::WIDTH {
         let first = chunk * L::WIDTH;
-        // Macros: a closure that is not inlined has none of the machine's instructions.
+        // These are macros, since a closure that is not inlined has none of the machine's instructions.
         macro_rules! point {
             ($point:literal) => {
                 Vector::new(

@@ -44,7 +44,7 @@ pub trait Compares: Copy {
 pub trait Loop {
     /// The loop's result.
     type Output;
-    /// Runs it.
+    /// Runs the loop.
     fn run(self, lanes: impl Compares) -> Self::Output;
 }
 

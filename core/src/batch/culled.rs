@@ -26,7 +26,7 @@ mod sealed {
 }
 
 impl<S: Scalar> BatchTest<S> for Filter<S> {
-    /// The tier's bound decides side by side, and what it leaves open is decided one by one.
+    /// Decides by the tier's bound side by side, and pairs that the bound leaves open one by one.
     #[inline(always)]
     fn sixteen(self, level: Level, kind: PairKind, pairs: Sixteen<'_, S>, wanted: Mask) -> Option<Mask> {
         let Decision { mut culled, settled } = kernels::by_filter(level, kind, self.positive_separation(), pairs)?;
@@ -41,7 +41,7 @@ impl<S: Scalar> BatchTest<S> for Filter<S> {
     }
 }
 
-/// Writes which of the pairs that `indices` name `test` culls, sixteen to a mask. An index that is not in `rows` keeps the pair. Masks
+/// Writes which of the pairs in `indices` the test culls, sixteen to a mask. An index that is not in `rows` keeps the pair. Masks
 /// past the last pair are not changed; pairs past the last mask are ignored.
 ///
 /// The four indices of a pair are those of its vertices: vertex, face; or first edge, second edge. It is fastest where pairs that
@@ -105,8 +105,8 @@ mod shown {
         }
     }
 
-    /// Writes which of `pairs`, of either kind, `test` culls, sixteen to a mask. Masks past the last pair are not changed; pairs past
-    /// the last mask are ignored.
+    /// Writes which of `pairs`, of either kind, the test culls, sixteen to a mask. Masks past the last pair are not changed;
+    /// pairs past the last mask are ignored.
     pub fn culled<S: Scalar>(level: Level, test: impl BatchTest<S>, pairs: &[PrimitivePair<S>], masks: &mut [Mask]) {
         for (pairs, mask) in pairs.chunks(LANES).zip(masks) {
             *mask = 0;
@@ -124,7 +124,8 @@ mod shown {
         }
     }
 
-    /// Writes which pairs of `tiles` `test` culls, a mask for each tile: the fastest form for pairs that already lie side by side.
+    /// Writes which pairs of `tiles` the test culls, a mask for each tile. This is the fastest form for pairs that already lie
+    /// side by side.
     pub fn culled_from_tiles<S: Scalar>(
         level: Level,
         kind: PairKind,

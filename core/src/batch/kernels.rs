@@ -1,8 +1,8 @@
 //! The loops of tests over the chunks of sixteen pairs.
 //!
 //! There is one function for each level, format, kind of pair and kind of work, each with a loop at the width of the machine's
-//! registers: so the crate is compiled in seconds. One function with all of them, sixteen lanes wide, takes minutes and gigabytes.
-//! None of them is generic, except for tests that a caller brings, so they are compiled once, in this crate.
+//! registers. So the crate is compiled in seconds. One function with all of them, sixteen lanes wide, takes minutes and
+//! gigabytes. None of them is generic, except for tests of the caller, so they are compiled once, in this crate.
 
 use super::chunk::{Chunk, edge, points};
 use super::lane_test::VolumeTest;
@@ -49,14 +49,14 @@ pub(super) fn by_test<S: Scalar>(level: Level, kind: PairKind, test: Test, pairs
     in_format!(pairs, by_test(level, kind, test))
 }
 
-/// The same for a test that is compiled where it is called.
+/// Returns the same for a test that is compiled where it is called.
 #[cfg(feature = "verification")]
 #[inline(always)]
 pub(super) fn by_points<S: Scalar>(level: Level, kind: PairKind, test: impl PointsTest, pairs: Sixteen<'_, S>) -> Option<Mask> {
     in_format!(pairs, by_points(level, kind, test))
 }
 
-/// The same for a test of volumes.
+/// Returns the same for a test of volumes.
 #[cfg(feature = "verification")]
 #[inline(always)]
 pub(super) fn by_volume<S: Scalar>(

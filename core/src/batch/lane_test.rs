@@ -48,7 +48,7 @@ impl PointsTest for Test {
     }
 }
 
-/// A caller's test of points for batches, run by the code that runs [`Test`]: for a fair comparison of times.
+/// A caller's test of points for batches, run by the code that runs [`Test`], so that times compare.
 #[cfg(feature = "verification")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ByPoints<T>(pub T);

@@ -4,13 +4,13 @@ use crate::scalar::Scalar;
 
 /// A vertex's start and end in one row, `x₀ y₀ z₀ 0 x₁ y₁ z₁ 0`: one or two loads fetch all of it.
 ///
-/// Keep one row for each vertex of a mesh, in the order of its vertices.
+/// A mesh has one row for each vertex, in the order of its vertices.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(32))]
 pub struct VertexRow<S>(pub(super) [S; 8]);
 
 impl<S: Scalar> VertexRow<S> {
-    /// A row for a moving vertex.
+    /// Makes a row for a moving vertex.
     #[inline(always)]
     pub fn new(motion: Motion<S>) -> Self {
         let ([x, y, z], [u, v, w]) = (motion.start.into(), motion.end.into());
@@ -26,7 +26,7 @@ impl<S: Scalar> VertexRow<S> {
     }
 }
 
-/// Fewer than sixteen pairs, or some with indices out of range: a known pair stands in for the others.
+/// Fewer than sixteen pairs, or some with indices out of range. A known pair fills the other lanes.
 pub(super) struct Padded {
     pub(super) indices: [[u32; 4]; LANES],
     /// The lanes of pairs that are known.

@@ -1,4 +1,4 @@
-//! Sixteen pairs, wherever their points come from.
+//! Sixteen pairs, from any source of points.
 
 use super::mask::LANES;
 use super::rows::VertexRow;
@@ -30,7 +30,7 @@ impl<'a> Family for InEitherFormat<'a> {
 }
 
 impl<S: Scalar> Sixteen<'_, S> {
-    /// The pair in one lane. Its coordinates are NaN if there is no such pair.
+    /// Returns the pair in one lane. Its coordinates are NaN if there is no such pair.
     #[inline(always)]
     pub(super) fn pair(self, kind: PairKind, lane: usize) -> PrimitivePair<S> {
         let motions = match self {

@@ -12,8 +12,8 @@ use fearless_simd::Level;
 use fearless_simd::{Simd, f32x4, f32x8, f32x16};
 
 /// Writes to `strays` how far the points of each pair may stray: the same bits as [`Clearance::largest_stray`]. `classes` selects
-/// each pair's clearance. The value is less than zero where points may not stray, where an index is not in the rows, and where a
-/// class has no clearance. Handles as many pairs as all slices have.
+/// each pair's clearance. The value is less than zero if points may not stray, an index is not in the rows, or a class has no
+/// clearance. Handles as many pairs as all slices have.
 ///
 /// Rows hold positions rounded to the nearest `f32`, in any rounding direction.
 ///

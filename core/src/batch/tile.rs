@@ -10,13 +10,13 @@ use crate::scalar::Scalar;
 pub struct Tile<S>(pub(super) [[[[S; LANES]; 3]; 2]; 4]);
 
 impl<S: Scalar> Tile<S> {
-    /// A tile of sixteen unknown pairs: their coordinates are NaN, so that every test keeps them.
+    /// Makes a tile of sixteen unknown pairs: their coordinates are NaN, so that every test keeps them.
     #[must_use]
     pub fn unknown() -> Self {
         Self([[[[S::INFINITY * S::ZERO; LANES]; 3]; 2]; 4])
     }
 
-    /// A tile of the first sixteen of `pairs`, each given by its four points. If there are fewer, the other lanes are
+    /// Makes a tile of the first sixteen of `pairs`, each given by its four points. If there are fewer, the other lanes are
     /// [`unknown`](Self::unknown).
     ///
     /// ```

@@ -28,7 +28,7 @@ macro_rules! vectorized {
         run!(level.as_neon(), $narrow);
         #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
         run!(level.as_wasm_simd128(), $narrow);
-        // An instruction set without code of its own.
+        // This instruction set has no code of its own.
         let _ = level;
         $function::<$pair, $one>((), $($argument),*)
     }};

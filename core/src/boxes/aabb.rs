@@ -4,14 +4,14 @@ use crate::scalar::Scalar;
 /// An axis-aligned box. Touching boxes overlap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb<S> {
-    /// Smallest coordinates.
+    /// The smallest coordinates.
     pub lower: [S; 3],
-    /// Largest coordinates.
+    /// The largest coordinates.
     pub upper: [S; 3],
 }
 
 impl<S: Scalar> Aabb<S> {
-    /// The box of no points: it overlaps nothing finite. [`merged`](Self::merged) with another box, it gives that box.
+    /// Returns the box of no points: it overlaps nothing finite. [`merged`](Self::merged) with another box, it gives that box.
     #[must_use]
     pub fn empty() -> Self {
         Self {
@@ -20,7 +20,7 @@ impl<S: Scalar> Aabb<S> {
         }
     }
 
-    /// The box of all space.
+    /// Returns the box of all space.
     #[must_use]
     pub fn everything() -> Self {
         Self {
@@ -29,8 +29,8 @@ impl<S: Scalar> Aabb<S> {
         }
     }
 
-    /// Returns the smallest box that holds all of `motions` throughout the step. Exact: linear motion stays between its ends. The
-    /// result is all of space if a coordinate is NaN or infinite, so that it culls nothing.
+    /// Returns the smallest box that holds all of `motions` throughout the step. It is exact, since linear motion stays between
+    /// its ends. The result is all of space if a coordinate is NaN or infinite, so that it culls nothing.
     ///
     /// ```
     /// use selvedge_core::{boxes::Aabb, Motion};
@@ -72,7 +72,7 @@ impl<S: Scalar> Aabb<S> {
         }
     }
 
-    /// Returns whether the closed boxes share a point. Exact.
+    /// Returns whether the closed boxes share a point. This is exact.
     #[inline]
     #[must_use]
     pub fn overlaps(&self, other: &Self) -> bool {
@@ -84,7 +84,7 @@ impl<S: Scalar> Aabb<S> {
         !apart
     }
 
-    /// Returns whether the gap between the boxes, rounded, is at most `distance` along each axis. False if a gap is NaN.
+    /// Returns whether the gap between the boxes, rounded, is at most `distance` along each axis. It is false if a gap is NaN.
     #[inline]
     #[must_use]
     pub fn is_within(&self, other: &Self, distance: S) -> bool {

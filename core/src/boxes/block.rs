@@ -23,7 +23,7 @@ pub struct BoxBlock {
 }
 
 impl BoxBlock {
-    /// A block of [empty](Aabb::empty) boxes, which are at no finite distance from any box.
+    /// Returns a block of [empty](Aabb::empty) boxes, which are at no finite distance from any box.
     #[must_use]
     pub const fn empty() -> Self {
         const LOWER: [f32; LANES] = [f32::INFINITY; LANES];
@@ -33,7 +33,7 @@ impl BoxBlock {
         }
     }
 
-    /// Stores a box in lane `lane`. Does nothing from lane [`LANES`] on.
+    /// Stores a box in lane `lane`. It does nothing from lane [`LANES`] on.
     #[inline(always)]
     pub const fn set(&mut self, lane: usize, own: &Aabb<f32>) {
         if lane >= LANES {
@@ -86,7 +86,7 @@ impl BoxBlock {
         within
     }
 
-    /// The numbers of all lanes: lower corners, then upper corners.
+    /// Returns the numbers of all lanes: lower corners, then upper corners.
     #[cfg(not(unoptimised))]
     #[inline(always)]
     pub(crate) const fn rows(&self) -> &[[f32; LANES]; 6] {

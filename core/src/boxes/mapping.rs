@@ -68,13 +68,13 @@ pub struct Mapping {
     half: f64,
     /// The time of the step at which the end's boxes are taken.
     until: f64,
-    /// True if both boxes are the swept one.
+    /// Whether both boxes are the swept one.
     is_swept: bool,
 }
 
 impl Mapping {
-    /// A mapping for positions within `extent`. Boxes that are apart prove that their sets keep more than `separation` apart
-    /// until the time `until` in (0, 1], where the end's boxes are taken.
+    /// Makes a mapping for positions within `extent`. Boxes that are apart prove that their sets keep more than `separation`
+    /// apart until the time `until` in (0, 1], where the end's boxes are taken.
     ///
     /// Any `extent` is correct: it only decides where the images are. With `is_swept`, both boxes of a vertex are its swept box.
     #[must_use]
@@ -146,7 +146,7 @@ pub struct Inset {
 }
 
 impl Inset {
-    /// An inset for boxes made for `separation`. If one box of a pair is [drawn in](MovingBox::drawn_in) and apart from the
+    /// Makes an inset for boxes made for `separation`. If one box of a pair is [drawn in](MovingBox::drawn_in) and apart from the
     /// other, the pair keeps more than `smaller`.
     #[inline]
     #[must_use]
@@ -172,22 +172,22 @@ impl Inset {
     }
 }
 
-/// 2⁻⁶⁰.
+/// The smallest inset, 2⁻⁶⁰.
 const SHORTEST: f64 = 1.0 / (1_u64 << 60) as f64;
-/// 2⁻²².
+/// The relative widening of bounds, 2⁻²².
 const WIDENING: f64 = 1.0 / 4_194_304.0;
-/// 2⁻¹⁰⁰.
+/// The loss of flushed numbers, 2⁻¹⁰⁰.
 const FLUSHED: f64 = f64::from_bits((1023 - 100) << 52);
 
-/// Rounds a coordinate to `f32`. Monotone: images in strict order belong to coordinates in strict order, in every floating-point
-/// environment.
+/// Rounds a coordinate to `f32`. It is monotone: images in strict order belong to coordinates in strict order, in every
+/// floating-point environment.
 #[inline]
 #[must_use]
 pub fn image(coordinate: f64) -> f32 {
     f32::from_f64(coordinate)
 }
 
-/// Returns the middle of each axis where it is more than four times the mesh's size away from zero, and zero elsewhere.
+/// Returns the middle along each axis if it is more than four times the mesh's size away from zero; otherwise zero.
 fn origin<S: Scalar>(extent: &Aabb<f64>) -> [f64; 3] {
     let is_single = S::UNIT_ROUNDOFF.to_f64() > f64::EPSILON;
     let ([a, b, c], [d, e, f]) = (extent.lower, extent.upper);

@@ -66,7 +66,7 @@ use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
 use crate::verdict::Verdict;
 
-/// Culls `pair` if the swept boxes of its two sets do not overlap. Exact; touching boxes overlap.
+/// Culls `pair` if the swept boxes of its two sets do not overlap. This is exact; touching boxes overlap.
 ///
 /// NaN and infinite coordinates keep the pair. So do coordinates so large that their sum overflows.
 #[inline(always)]
@@ -75,11 +75,11 @@ pub fn swept_boxes<S: Scalar>(pair: &PrimitivePair<S>) -> Verdict {
 }
 
 impl<L: Lanes> PairPoints<L> {
-    /// The decision of [`swept_boxes`] on any number of lanes.
+    /// Makes the decision of [`swept_boxes`] on any number of lanes.
     #[inline(always)]
     #[must_use]
     pub fn have_disjoint_swept_boxes<P: PairShape>(&self) -> L::Mask {
-        // The ranges drop NaN, hence the last condition.
+        // The ranges drop NaN, so the last condition is needed.
         along_axes!(self, are_disjoint_intervals::<P, L>) & self.is_finite()
     }
 }

@@ -1,9 +1,9 @@
 //! Moving boxes: a set's box at the start of the step, and its box at the end.
 //!
-//! Two sets whose boxes are apart along one axis, *in the same order* at both ends of the step, are apart throughout: each
+//! Two sets whose boxes are apart along one axis, *in the same order* at both ends of the step, are apart throughout, since each
 //! coordinate moves linearly. This is the test of [relative boxes](super::relative) for sets of any number of points, and so for
-//! the nodes of a hierarchy. It culls whatever the overlap of swept boxes culls, and more, since it uses that the two move
-//! together. **Exact**: comparisons only.
+//! the nodes of a hierarchy. It culls every pair that the overlap of swept boxes culls, and more, since it uses that the two move
+//! together. It is **exact**, since it only compares.
 //!
 //! [`MovingBox`] is one box; [`MovingBlock`] is sixteen of them side by side.
 //!
@@ -39,7 +39,8 @@ pub struct MovingBox<S> {
 }
 
 impl<S: Scalar> MovingBox<S> {
-    /// The box of no points: apart from every bounded box. [`merged`](Self::merged) with another box, it gives that box.
+    /// Returns the box of no points, which is apart from every bounded box. [`merged`](Self::merged) with another box, it gives
+    /// that box.
     #[must_use]
     pub fn empty() -> Self {
         Self {
@@ -48,7 +49,7 @@ impl<S: Scalar> MovingBox<S> {
         }
     }
 
-    /// The box of one moving point. It is unbounded, and so apart from nothing, if a coordinate is NaN or infinite.
+    /// Returns the box of one moving point. It is unbounded, and so apart from nothing, if a coordinate is NaN or infinite.
     #[inline]
     #[must_use]
     pub fn from_motion(motion: &Motion<S>) -> Self {
@@ -88,7 +89,7 @@ impl<S: Scalar> MovingBox<S> {
         self.start.merged(&self.end)
     }
 
-    /// Returns whether all of one set stays above all of the other along one axis throughout the step. Exact.
+    /// Returns whether all of one set stays above all of the other along one axis throughout the step. This is exact.
     #[inline]
     #[must_use]
     pub fn is_apart_from(&self, other: &Self) -> bool {
@@ -140,7 +141,7 @@ pub struct MovingBlock {
 }
 
 impl MovingBlock {
-    /// A block of [empty](MovingBox::empty) boxes.
+    /// Returns a block of [empty](MovingBox::empty) boxes.
     #[must_use]
     pub const fn empty() -> Self {
         Self {
@@ -149,7 +150,7 @@ impl MovingBlock {
         }
     }
 
-    /// Stores a box in lane `lane`. Does nothing from lane [`LANES`](crate::batch::LANES) on.
+    /// Stores a box in lane `lane`. It does nothing from lane [`LANES`](crate::batch::LANES) on.
     #[inline]
     pub const fn set(&mut self, lane: usize, moving: &MovingBox<f32>) {
         self.start.set(lane, &moving.start);
@@ -188,7 +189,7 @@ impl MovingBlock {
         near
     }
 
-    /// The numbers of all lanes at the start, and at the end.
+    /// Returns the numbers of all lanes at the start, and at the end.
     #[cfg(not(unoptimised))]
     #[inline(always)]
     pub(crate) const fn rows(&self) -> (&[[f32; LANES]; 6], &[[f32; LANES]; 6]) {

@@ -1,8 +1,9 @@
 //! Relative boxes: the two sets keep the same order along a coordinate axis throughout the step.
 //!
-//! The difference of a coordinate of two points, one of each set, is linear in time. If it is positive at both ends of the step for
-//! every such pair of points, it is positive throughout, and the sets are apart. The test only compares coordinates, so it is **exact**
-//! and needs no error bound. It culls whatever swept boxes cull, and more: it uses that the two sets move together.
+//! The difference of a coordinate of two points, one of each set, is linear in time. If it is positive at both ends of the step
+//! for every such pair of points, it is positive throughout, and the sets are apart. The test only compares coordinates, so it is
+//! **exact** and needs no error bound. It culls every pair that swept boxes cull, and more, since it uses that the two sets move
+//! together.
 
 use crate::lanes::Lanes;
 use crate::motion::PrimitivePair;
@@ -12,7 +13,7 @@ use crate::verdict::Verdict;
 
 /// Culls `pair` if one coordinate axis keeps its two sets apart, in the same order, throughout the step.
 ///
-/// Exact. NaN and infinite coordinates keep the pair, and so do coordinates so large that their sum overflows.
+/// The test is exact. NaN and infinite coordinates keep the pair, and so do coordinates so large that their sum overflows.
 ///
 /// ```
 /// use selvedge_core::{boxes::{relative, swept_boxes}, glam::DVec3, Motion, Verdict, PrimitivePair};
@@ -31,11 +32,11 @@ pub fn three_axes<S: Scalar>(pair: &PrimitivePair<S>) -> Verdict {
 }
 
 impl<L: Lanes> PairPoints<L> {
-    /// The decision of [`three_axes`] on any number of lanes.
+    /// Makes the decision of [`three_axes`] on any number of lanes.
     #[inline(always)]
     #[must_use]
     pub fn are_apart_along_three_axes<P: PairShape>(&self) -> L::Mask {
-        // The ranges drop NaN, hence the last condition.
+        // The ranges drop NaN, so the last condition is needed.
         along_axes!(self, keep_order::<P, L>) & self.is_finite()
     }
 }

@@ -3,26 +3,21 @@
 //! A segment and a box are disjoint exactly if one of six axes separates them: the box's three axes, and their three cross
 //! products with the segment's direction.
 //!
-//! **Box axes** compare coordinates: exact.
+//! **Box axes** compare coordinates, which is exact.
 //!
 //! **Cross axes.** Let the axis be eᵢ × d, and j, k the other two coordinates. The box's corners x lie strictly on one side of
 //! the segment's line iff s(x) = (x_j − p_j)·d_k − (x_k − p_k)·d_j has one sign on all four corners of the box's projection. With
 //! L = lower − p and U = upper − p, its least value is min(L_j·d_k, U_j·d_k) − max(L_k·d_j, U_k·d_j). Its largest value has min
 //! and max exchanged. (The midpoint form of the textbooks cancels; this form has the small error of an orientation.)
 //!
-//! *Rounding* (any direction: 2u an operation). A product T of two rounded differences is computed as T̂ = T(1 + θ), so |T − T̂|
-//! ≤ ((1 − 2u)⁻³ − 1)·|T̂| ≤ 6.1u·|T̂|. The least and the greatest of two products move by no more than the larger of their
-//! errors, and the last subtraction is monotone. With Ŝ = Σ|T̂| over the four products, s > 0 follows from fl(s) > 6.1u·Ŝ +
+//! *Rounding* (any direction: 2u an operation). A product T of two rounded differences is computed as T̂ = T(1 + θ), so the error
+//! is at most ((1 − 2u)⁻³ − 1)·|T̂| ≤ 6.1u·|T̂|. The least and the greatest of two products move by no more than the larger of
+//! their errors, and the last subtraction is monotone. With Ŝ = Σ|T̂| over the four products, s > 0 follows from fl(s) > 6.1u·Ŝ +
 //! underflow. The test requires fl(s) > fl(8u·Ŝ + (1 + M)·η), M the largest magnitude of a difference; the bound is at least 8u(1
 //! − 2u)⁵·Ŝ.
 //!
 //! Where subnormal numbers are flushed, a difference is off by at most 3λ, a product by (6M + 1)·λ, and s by (12M + 3)·λ; η ≥
 //! 512·λ. Only M < [`Rounding::LARGEST_EDGE`] culls, so nothing overflows.
-//! |T − T̂| ≤ ((1 − 2u)⁻³ − 1)·|T̂| ≤ 6.1u·|T̂|. The least of two products and the greatest of two move by no more than
-//! the larger of theirs, and the last subtraction is monotone. So s > 0 follows from fl(s) > 6.1u·Ŝ + underflow,
-//! Ŝ = Σ|T̂| over the four products. The test asks for fl(s) > fl(8u·Ŝ + (1 + M)·η), M the largest magnitude of a difference:
-//! at least 8u(1 − 2u)⁵·Ŝ. Where subnormal numbers are flushed a difference is off by 3λ at most, a product by (6M + 1)·λ, and
-//! s by (12M + 3)·λ; η ≥ 512·λ. Only M < [`Rounding::LARGEST_EDGE`] culls, so that nothing overflows.
 //!
 //! Inequalities are strict: touching pairs are kept, and d = 0 gives 0 > η, which is false.
 
@@ -39,14 +34,14 @@ use crate::verdict::Verdict;
 /// Culls `pair` if the vertex's path misses the axis-aligned box that the face sweeps. Culls two edges if [their swept
 /// boxes](super::swept_boxes) do not overlap. (The paper, stage 1; its *disengaging shaft* is the separating axis.)
 ///
-/// Certified: never culls a pair whose path and box share a point. NaN, infinities and overflow keep the pair.
+/// The test is certified: it never culls a pair whose path and box share a point. NaN, infinities and overflow keep the pair.
 #[inline]
 pub fn primitive_boxes<S: Scalar>(pair: &PrimitivePair<S>) -> Verdict {
     Verdict::culled_if(of_kind!(pair.kind, P => PairPoints::from(pair).have_disjoint_primitive_boxes::<P>()))
 }
 
 impl<L: Lanes> PairPoints<L> {
-    /// The decision of [`primitive_boxes`] on any number of lanes.
+    /// Makes the decision of [`primitive_boxes`] on any number of lanes.
     #[inline(always)]
     #[must_use]
     pub fn have_disjoint_primitive_boxes<P: PairShape>(&self) -> L::Mask {
@@ -66,7 +61,7 @@ fn vertex_misses_face<L: Lanes>(points: &PairPoints<L>) -> L::Mask {
     path_misses([p, q], [lower, upper]) & points.is_finite()
 }
 
-/// Returns whether the path of `vertex` certainly misses `target`. False if a coordinate of the path is NaN or infinite.
+/// Returns whether the path of `vertex` certainly misses `target`. It is false if a coordinate of the path is NaN or infinite.
 #[inline]
 #[must_use]
 pub fn misses<S: Scalar>(vertex: &Motion<S>, target: &Aabb<S>) -> bool {
@@ -81,20 +76,20 @@ fn path_misses<L: Lanes>([start, end]: [Vector<L>; 2], [lower, upper]: [Vector<L
         | apart(start.y, end.y, lower.y, upper.y)
         | apart(start.z, end.z, lower.z, upper.z);
     let (lower, upper, along) = (lower - start, upper - start, end - start);
-    // No early exit between the three: they cost less than a branch.
+    // There is no early exit between the three: they cost less than a branch.
     by_axis
         | separates([lower.y, upper.y, along.y], [lower.z, upper.z, along.z])
         | separates([lower.z, upper.z, along.z], [lower.x, upper.x, along.x])
         | separates([lower.x, upper.x, along.x], [lower.y, upper.y, along.y])
 }
 
-/// A box axis: the path from `from` to `to` and the interval.
+/// Tests a box axis, given the path from `from` to `to` and the interval.
 #[inline(always)]
 fn apart<L: Lanes>(from: L, to: L, low: L, high: L) -> L::Mask {
     low.greater(from.larger(to)) | from.smaller(to).greater(high)
 }
 
-/// One cross axis: lower − p, upper − p and d along its two coordinates.
+/// Tests one cross axis, given lower − p, upper − p and d along its two coordinates.
 #[inline(always)]
 fn separates<L: Lanes>([lower_j, upper_j, d_j]: [L; 3], [lower_k, upper_k, d_k]: [L; 3]) -> L::Mask {
     let (left_a, left_b) = (lower_j * d_k, upper_j * d_k);
@@ -142,7 +137,7 @@ mod tests {
     #[test]
     fn a_path_that_is_not_finite_on_one_axis_is_kept() {
         for z in [f64::INFINITY, f64::NAN] {
-            // Misses the box in x and y alone.
+            // The path misses the box in x and y alone.
             let path = Motion::from(([0.0, 2.5, 0.0], [2.5, 0.0, z]));
             assert!(!misses(&path, &unit_box()));
         }

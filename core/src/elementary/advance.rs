@@ -109,7 +109,7 @@ pub const TURNS: u32 = 10;
 /// The largest number of times that the volume is clipped in one round.
 const CLIPS: u32 = 8;
 
-/// Returns the time from which the pair may be within the separation. Certified: see the [module](self).
+/// Returns the time from which the pair may be within the separation. It is certified: see the [module](self).
 #[inline]
 pub fn time_of_impact<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>) -> Impact<S> {
     impact_within(pair, limits, [S::ZERO, S::ONE])
@@ -128,7 +128,7 @@ pub fn time_of_impact_within<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits
     impact_within(pair, limits, [from, until])
 }
 
-/// Out of line: a program has one such function of 25 kB for each format, rather than one for each caller.
+/// It is out of line: a program has one such function of 25 kB for each format, instead of one for each caller.
 #[inline(never)]
 fn impact_within<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>, span: [S; 2]) -> Impact<S> {
     within(pair, limits, span).0

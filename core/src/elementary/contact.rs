@@ -38,15 +38,15 @@ use crate::scalar::Scalar;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[must_use = "a contact has to be dealt with"]
 pub enum ContactVerdict {
-    /// They share no point at any time.
+    /// The sets share no point at any time.
     Never,
-    /// They share a point at some time.
+    /// The sets share a point at some time.
     Happens,
     /// A coordinate is NaN or infinite, so there is no answer. The safe choice is to treat it as contact.
     Undefined,
 }
 
-/// Returns whether the pair touches at some time in [0, 1]. Exact: see the [module](self).
+/// Returns whether the pair touches at some time in [0, 1]. The result is exact: see the [module](self).
 #[inline]
 pub fn contact<S: Scalar>(pair: &PrimitivePair<S>) -> ContactVerdict {
     answer(pair, &time_of_impact(pair, &exactly())).0
@@ -80,7 +80,7 @@ pub fn contact_given_impact<S: Scalar>(pair: &PrimitivePair<S>, impact: &Impact<
     answer(pair, impact).0
 }
 
-/// Limits with neither tolerance nor separation.
+/// Returns limits with neither tolerance nor separation.
 const fn exactly<S: Scalar>() -> Limits<S> {
     Limits {
         tolerance: S::ZERO,

@@ -15,8 +15,8 @@ pub struct Limits<S> {
 }
 
 impl<S: Scalar> Default for Limits<S> {
-    /// Contact without a separation, with a tolerance of 2⁻³⁰ (`f64`, about 1e-9) or 2⁻²⁰ (`f32`, about 1e-6): for positions in
-    /// metres, a nanometre or a micrometre. A finer tolerance costs little more.
+    /// Returns the limits of contact without a separation, with a tolerance of 2⁻³⁰ (`f64`, about 1e-9) or 2⁻²⁰ (`f32`, about
+    /// 1e-6): for positions in metres, a nanometre or a micrometre. A finer tolerance costs little more.
     #[inline]
     fn default() -> Self {
         Self {
@@ -30,18 +30,18 @@ impl<S: Scalar> Default for Limits<S> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[must_use = "what is not excluded has to be dealt with"]
 pub enum Impact<S> {
-    /// Certainly never: at all times in [0, 1] they are farther apart than the separation.
+    /// Contact is excluded: at all times in [0, 1] the sets are farther apart than the separation.
     Never,
     /// Contact cannot be ruled out from `time` on. It certainly does not happen before.
     Possible {
         /// A time in [0, 1], no later than the first time at which the sets are within the separation, if there is one.
         time: S,
-        /// Why no later time is proven.
+        /// The reason why no later time is proven.
         reason: Reason,
     },
 }
 
-/// Why advancing stopped.
+/// The reason why advancing stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Reason {
     /// At the returned time, the sets are within the tolerance of the separation.

@@ -16,8 +16,8 @@ use crate::verdict::Verdict;
 
 /// Culls `pair` if its four points are certainly not coplanar at any time in [0, 1].
 ///
-/// Certified in every floating-point environment ([`Rounding`]). NaN, infinities and overflow keep the pair. Zero-length edges and
-/// zero-area triangles keep it as well, since their volume is zero.
+/// The filter is certified in every floating-point environment ([`Rounding`]). NaN, infinities and overflow keep the pair.
+/// Zero-length edges and zero-area triangles keep it as well, since their volume is zero.
 ///
 /// ```
 /// use selvedge_core::{filter::certified::non_coplanarity, glam::Vec3, PrimitivePair, Motion, Verdict};
@@ -33,15 +33,15 @@ pub fn non_coplanarity<S: Scalar>(pair: &PrimitivePair<S>) -> Verdict {
 }
 
 impl<L: Lanes> MovingTetrahedron<L> {
-    /// The decision on any number of lanes: true proves that the lane's points are never coplanar in [0, 1].
+    /// Makes the decision on any number of lanes. True proves that the lane's points are never coplanar in [0, 1].
     #[inline(always)]
     #[must_use]
     pub fn is_never_coplanar(&self) -> L::Mask {
         decide_beyond(self, None).culled
     }
 
-    /// The decision with a separation s on any number of lanes: `culled` proves that at no time in [0, 1] the vertex is within s
-    /// of the face's plane, or the line of one edge within s of the other's.
+    /// Makes the decision with a separation s on any number of lanes. `culled` proves that at no time in [0, 1] the vertex is
+    /// within s of the face's plane, or the line of one edge within s of the other's.
     ///
     /// The separation must be positive and finite. `None` means zero, and then the kind of the pair does not matter.
     #[inline(always)]
@@ -66,14 +66,15 @@ fn decide_beyond<L: Lanes>(tetrahedron: &MovingTetrahedron<L>, clearance: Option
     let largest = tetrahedron.largest_by_axis();
     let in_range = is_in_range(largest.largest());
 
-    // One bound for all four, the largest, so that the least and the greatest value decide.
+    // The largest bound serves all four, so that the least and the greatest value decide.
     let [k0, k1, k2, k3] = values.0;
     let inner = error_bound_by_magnitudes(largest) * largest.x.splat(L::Scalar::small(4));
     let inner = inner + zero_if_finite(values.0);
     let [_, bound, ..] = with_clearance([inner; 4], clearance);
     let least = k0.smaller(k1).smaller(k2.smaller(k3));
     let greatest = k0.larger(k1).larger(k2.larger(k3));
-    // The smallest magnitude if all values have one sign, else not positive. The other: positive only with both signs.
+    // This is the smallest magnitude if all values have one sign, otherwise it is not positive. The other is positive only with
+    // both signs.
     let of_one_sign = least.larger(-greatest);
     let of_both_signs = greatest.smaller(-least);
     let decided = of_one_sign.greater(bound) & in_range;

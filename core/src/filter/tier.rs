@@ -18,20 +18,22 @@ pub enum Tier {
     /// Bounds the rounding error by the permanent of each control value.
     #[default]
     Permanent,
-    /// [`Permanent`](Self::Permanent) in the pair's own format, then in `f64` where that does not decide. For `f64`
-    /// positions the same as `Permanent`.
+    /// Decides like [`Permanent`](Self::Permanent) in the pair's own format, then in `f64` if that does not decide. For `f64`
+    /// positions it is the same as `Permanent`.
     Widened,
-    /// The exact signs of the control values: [`Permanent`](Self::Permanent) first, integers where that does not decide.
+    /// Decides by the exact signs of the control values: [`Permanent`](Self::Permanent) first, then integers if that does not
+    /// decide.
     ///
     /// In a thread that flushes subnormal numbers it keeps a pair whose extent along an axis is subnormal.
     Exact,
 }
 
 impl Tier {
-    /// Every tier, the bluntest first.
+    /// Every tier, the least sharp first.
     pub const ALL: [Self; 3] = [Self::Permanent, Self::Widened, Self::Exact];
 
-    /// Returns the pairs that the tier looks at one by one, given those that its bound has culled or settled. One bit a pair.
+    /// Returns the pairs that the tier tests one by one, given those that its bound has culled or settled. There is one bit per
+    /// pair.
     #[inline(always)]
     pub(crate) fn open(self, culled: u16, settled: u16) -> u16 {
         match self {
@@ -43,9 +45,9 @@ impl Tier {
 
 /// A non-coplanarity filter: its [`Tier`], and the separation that pairs must keep.
 ///
-/// Certified in every floating-point environment ([`Rounding`](crate::lanes::Rounding)): a culled pair is at no time in [0, 1]
-/// coplanar, or within the separation. NaN and infinities keep the pair. So do coordinates whose differences exceed
-/// [`LARGEST_EDGE`](crate::lanes::Rounding::LARGEST_EDGE), except with [`Tier::Exact`].
+/// The filter is certified in every floating-point environment ([`Rounding`](crate::lanes::Rounding)): a culled pair is at no
+/// time in [0, 1] coplanar, or within the separation. NaN and infinities keep the pair. So do coordinates whose differences
+/// exceed [`LARGEST_EDGE`](crate::lanes::Rounding::LARGEST_EDGE), except with [`Tier::Exact`].
 ///
 /// ```
 /// use selvedge_core::filter::{Filter, Tier};
@@ -68,7 +70,7 @@ pub struct Filter<S> {
 }
 
 impl<S: Scalar> Filter<S> {
-    /// A filter of this tier with separation zero: it culls pairs that never touch.
+    /// Makes a filter of this tier with separation zero: it culls pairs that never touch.
     #[must_use]
     pub const fn new(tier: Tier) -> Self {
         Self {
@@ -77,8 +79,8 @@ impl<S: Scalar> Filter<S> {
         }
     }
 
-    /// The same filter for pairs that must stay farther apart than `separation`, in the unit of the positions. Returns `None` if
-    /// `separation` is negative, infinite or NaN.
+    /// Makes the same filter for pairs that must stay farther apart than `separation`, in the unit of the positions. Returns
+    /// `None` if `separation` is negative, infinite or NaN.
     ///
     /// A subnormal separation is [raised](Scalar::raised_to_normal) to the smallest normal number, so that it also counts in threads
     /// that treat subnormal numbers as zero.
@@ -90,19 +92,19 @@ impl<S: Scalar> Filter<S> {
         })
     }
 
-    /// The filter's tier.
+    /// Returns the filter's tier.
     #[must_use]
     pub const fn tier(&self) -> Tier {
         self.tier
     }
 
-    /// The distance that culled pairs exceed. Zero: they do not touch.
+    /// Returns the distance that culled pairs exceed. If it is zero, they do not touch.
     #[must_use]
     pub const fn separation(&self) -> S {
         self.separation
     }
 
-    /// The separation, or `None` if it is zero.
+    /// Returns the separation, or `None` if it is zero.
     #[inline(always)]
     pub(crate) fn positive_separation(&self) -> Option<S> {
         (self.separation > S::ZERO).then_some(self.separation)
@@ -129,7 +131,7 @@ impl<S: Scalar> Filter<S> {
         }
     }
 
-    /// Decides by the exact signs. Signs that rounding leaves certain are not computed again.
+    /// Decides by the exact signs. Signs that the rounded values prove are not computed again.
     fn culls_exactly(&self, pair: &PrimitivePair<S>) -> bool {
         if let Some(separation) = self.positive_separation() {
             return exact::is_never_within(pair, separation, exact::UNKNOWN);
@@ -148,7 +150,7 @@ impl<S: Scalar> Filter<S> {
 mod tests {
     use super::{Filter, Tier};
 
-    /// A lane that is culled, one that is settled, one that is both and one that is neither.
+    /// The lanes are one that is culled, one that is settled, one that is both and one that is neither.
     #[test]
     fn what_is_settled_or_culled_is_not_looked_at_again() {
         let open = |tier: Tier| tier.open(0b0101, 0b0110) & 0b1111;

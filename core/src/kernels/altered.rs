@@ -1,4 +1,4 @@
-//! Numbers with other rounding constants, to show what each constant is for.
+//! Numbers with other rounding constants, to show why each constant is needed.
 //!
 //! The kernels are generic over [`Lanes`], so their source runs on [`Altered`] unchanged.
 
@@ -15,7 +15,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 /// The constants of [`Altered`] numbers.
 pub trait Constants {
-    /// True if operations are declared free of rounding: the unit roundoff is zero.
+    /// Whether operations are declared free of rounding: the unit roundoff is zero.
     const IS_EXACT: bool = false;
 
     /// Alters a constant of [`Rounding`] where a kernel takes it by [`Lanes::splat`].
@@ -29,7 +29,7 @@ pub trait Constants {
 pub struct Altered<C, S>(pub S, PhantomData<C>);
 
 impl<C, S> Altered<C, S> {
-    /// The same number with the constants `C`.
+    /// Makes the same number with the constants `C`.
     #[inline(always)]
     pub const fn new(number: S) -> Self {
         Self(number, PhantomData)
@@ -37,7 +37,7 @@ impl<C, S> Altered<C, S> {
 }
 
 impl<C: Constants, S: Scalar> Altered<C, S> {
-    /// A pair's points in such numbers.
+    /// Returns a pair's points in such numbers.
     #[inline(always)]
     #[must_use]
     pub fn points(pair: &PrimitivePair<S>) -> PairPoints<Self> {

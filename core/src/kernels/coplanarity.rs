@@ -50,10 +50,10 @@
 //! makes a control value NaN, and the ordered comparisons that decide are then false.
 //!
 //! # Distance
-//! |K(t)| is the distance of p from the plane of a, b, c times |n(t)|, n = B × C. For edges (b, c) and (a, p), it is the distance of their lines times |n(t)|, n = (C − B) × P. In Bernstein form n has the control points n₀, h/2, n₁, built from the two factors, and lies in their hull: |n(t)| ≤ N, the largest of their lengths. If all kᵢ > s·N, or all are below −s·N, the pair stays farther apart than s throughout.
-//! distance of their lines times |n(t)|, n = (C − B) × P. In Bernstein form n has the control points n₀, h/2, n₁ (built from the
-//! two factors), and lies in their hull: |n(t)| ≤ N, the largest of their lengths. If all kᵢ > s·N, or all below −s·N, the
-//! pair stays farther apart than s throughout.
+//! |K(t)| is the distance of p from the plane of a, b, c times |n(t)|, n = B × C. For edges (b, c) and (a, p), it is the distance
+//! of their lines times |n(t)|, n = (C − B) × P. In Bernstein form n has the control points n₀, h/2, n₁, built from the two
+//! factors, and lies in their hull: |n(t)| ≤ N, the largest of their lengths. If all kᵢ > s·N, or all are below −s·N, the pair
+//! stays farther apart than s throughout.
 //!
 //! The computed length becomes a bound of N as follows. A component of C − B, rounded twice from rounded differences, is off by
 //! at most 8u·M; for VF a factor is off by less. A component of n₀ is off by 2·(8u + 4u + 8u)·M² = 40u·M², one of h/2 by as much
@@ -67,11 +67,11 @@ use crate::vector::Vector;
 /// A moving tetrahedron a b c p, given by its three edges from a, each at the start and at the end of the step.
 #[derive(Clone, Copy, Debug)]
 pub struct MovingTetrahedron<L> {
-    /// b − a at times 0 and 1.
+    /// The edge b − a at times 0 and 1.
     pub b: [Vector<L>; 2],
-    /// c − a at times 0 and 1.
+    /// The edge c − a at times 0 and 1.
     pub c: [Vector<L>; 2],
-    /// p − a at times 0 and 1.
+    /// The edge p − a at times 0 and 1.
     pub p: [Vector<L>; 2],
 }
 
@@ -83,10 +83,10 @@ pub struct ControlValues<L>(pub [L; 4]);
 /// The decision from control values and their error bounds, for each lane's pair. A pair in neither mask is undecided.
 #[derive(Clone, Copy, Debug)]
 pub struct Decision<M> {
-    /// Pairs whose values are all beyond their bounds, with one sign.
+    /// The pairs whose values are all beyond their bounds, with one sign.
     pub culled: M,
-    /// Pairs that no sharper bound can cull: two values are beyond their bounds with opposite signs, or all are zero since the
-    /// pair has no extent along an axis.
+    /// The pairs that no sharper bound can cull: two values are beyond their bounds with opposite signs, or all are zero since
+    /// the pair has no extent along an axis.
     pub settled: M,
 }
 
@@ -213,14 +213,14 @@ fn products<L: Lanes>([b0, b1]: [Vector<L>; 2], [c0, c1]: [Vector<L>; 2]) -> [Ve
 }
 
 impl<L: Lanes> ControlValues<L> {
-    /// Returns whether all four values are above `bounds`, or all four below their negatives. False with NaN.
+    /// Returns whether all four values are above `bounds`, or all four below their negatives. It is false with NaN.
     #[inline(always)]
     #[must_use]
     pub fn one_sign_beyond(&self, bounds: [L; 4]) -> L::Mask {
         let [k0, k1, k2, k3] = self.0;
         let [e0, e1, e2, e3] = bounds;
-        // Eight ordered comparisons rather than a smallest and a largest value: a comparison is false on NaN,
-        // while the vector minimum of most machines drops it.
+        // Eight ordered comparisons are used instead of a smallest and a largest value: a comparison is false on NaN, while the
+        // vector minimum of most machines drops it.
         let above = (k0.greater(e0) & k1.greater(e1)) & (k2.greater(e2) & k3.greater(e3));
         let below = ((-e0).greater(k0) & (-e1).greater(k1)) & ((-e2).greater(k2) & (-e3).greater(k3));
         above | below

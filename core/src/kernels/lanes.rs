@@ -15,8 +15,8 @@ use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 /// may count as zero. One set of constants serves all environments: doubling them for directed rounding costs neither time nor,
 /// on real scenes, culls.
 pub trait Rounding: Copy {
-    /// The unit roundoff u. A result rounded to nearest differs from the exact one by at most u times its magnitude, in any other
-    /// direction by at most 2u times, unless it is subnormal. 2⁻²⁴ for `f32`, 2⁻⁵³ for `f64`.
+    /// The unit roundoff u: 2⁻²⁴ for `f32`, 2⁻⁵³ for `f64`. A result rounded to nearest differs from the exact one by at most u
+    /// times its magnitude, in any other direction by at most 2u times, unless it is subnormal.
     const UNIT_ROUNDOFF: Self;
     /// η, a bound of what underflow can add to an error, as derived in [`coplanarity`](crate::coplanarity): 2⁻¹¹⁷ for `f32`,
     /// 2⁻¹⁰⁰⁰ for `f64`.
@@ -25,7 +25,7 @@ pub trait Rounding: Copy {
     /// numbers. It must itself be normal: many processors take a hundred cycles for a product with a subnormal operand. It costs
     /// culls only where volumes are that small: features of a few 10⁻¹² (`f32`) units of length.
     const UNDERFLOW: Self;
-    /// Pairs with a difference of two points' coordinates of at least this are kept: 2³⁰ for `f32`, 2²⁵⁰ for `f64`.
+    /// The difference of two points' coordinates from which on pairs are kept: 2³⁰ for `f32`, 2²⁵⁰ for `f64`.
     ///
     /// Below it, no intermediate result of the filters overflows: volumes stay below 18·2⁹⁰ (18·2⁷⁵⁰), squares of normals below
     /// 3·(8·2⁶⁰)², which is 2¹²⁷·⁶ (3·(8·2⁵⁰⁰)²). In rounding to nearest, overflow is infinite, and every test keeps infinite
@@ -34,10 +34,10 @@ pub trait Rounding: Copy {
     /// The largest differences of points along an axis for which the time of impact proves anything: 2²⁹ for `f32`, 2²⁵⁰ for
     /// `f64`. Products of four numbers of eight times this size do not overflow.
     const LARGEST_EXTENT: Self;
-    /// μ, added to the extent of a pair along each axis: 20u·μ exceeds the seven λ that flushing takes from a component. 2⁻¹⁰⁰
-    /// for `f32`, 2⁻⁹⁶⁰ for `f64`.
+    /// μ, which is added to the extent of a pair along each axis: 2⁻¹⁰⁰ for `f32`, 2⁻⁹⁶⁰ for `f64`. 20u·μ exceeds the seven λ
+    /// that flushing takes from a component.
     const EXTENT_UNDERFLOW: Self;
-    /// A sum of squares above this loses less than a part u of itself to flushing: 2⁻¹⁰⁰ for `f32`, 2⁻⁹⁰⁰ for `f64`.
+    /// The sum of squares above which less than a part u is lost to flushing: 2⁻¹⁰⁰ for `f32`, 2⁻⁹⁰⁰ for `f64`.
     const SAFE_SQUARE: Self;
     /// A bound of the length of a vector whose squares underflow: 2⁻⁶² for `f32`, 2⁻⁵¹⁰ for `f64`.
     const LENGTH_UNDERFLOW: Self;
@@ -82,11 +82,11 @@ pub trait Lanes:
     /// Returns the magnitude of each lane.
     #[must_use]
     fn abs(self) -> Self;
-    /// Returns the larger of two, lane by lane. Where one is NaN, the result may be either: only for magnitudes whose NaN is
+    /// Returns the larger of two, lane by lane. If one is NaN, the result may be either. Use it only for magnitudes whose NaN is
     /// noticed elsewhere.
     #[must_use]
     fn larger(self, other: Self) -> Self;
-    /// Returns the smaller of two, lane by lane. NaN as in [`larger`](Self::larger).
+    /// Returns the smaller of two, lane by lane. NaN is treated as in [`larger`](Self::larger).
     #[must_use]
     fn smaller(self, other: Self) -> Self;
     /// Returns `self > other`, lane by lane; false where either is NaN.

@@ -9,12 +9,12 @@ use crate::vector::Vector;
 
 /// Four points at the start and at the end of the step: the points of one set, then those of the other.
 ///
-/// VF: vertex, face. EE: first edge, second edge.
+/// VF is a vertex and a face; EE is the first and the second edge.
 #[derive(Clone, Copy, Debug)]
 pub struct PairPoints<L> {
-    /// Positions at time 0.
+    /// The positions at time 0.
     pub start: [Vector<L>; 4],
-    /// Positions at time 1.
+    /// The positions at time 1.
     pub end: [Vector<L>; 4],
 }
 
@@ -120,7 +120,7 @@ macro_rules! of_kind {
 impl<S: Scalar> From<&PrimitivePair<S>> for PairPoints<S> {
     #[inline(always)]
     fn from(pair: &PrimitivePair<S>) -> Self {
-        // Written out: `map` with a closure is not always inlined.
+        // The calls are written out, since `map` with a closure is not always inlined.
         let [a, b, c, d] = &pair.motions;
         let vector = |position: S::Vector| Vector::from(position.into());
         Self {
@@ -145,7 +145,7 @@ impl<L: Lanes> PairPoints<L> {
         MovingTetrahedron::from_points(P::volume_points(self.start), P::volume_points(self.end))
     }
 
-    /// Returns true only where all 24 coordinates are finite. Also false where their sum overflows.
+    /// Returns true only where all 24 coordinates are finite. It is also false where their sum overflows.
     ///
     /// A sum is NaN or infinite if a term is. Two dozen additions without a branch cost less than as many tests.
     #[inline(always)]

@@ -7,16 +7,16 @@ use core::ops::{Add, Sub};
 /// order written here: error bounds rely on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vector<L> {
-    /// First component.
+    /// The first component.
     pub x: L,
-    /// Second component.
+    /// The second component.
     pub y: L,
-    /// Third component.
+    /// The third component.
     pub z: L,
 }
 
 impl<L: Lanes> Vector<L> {
-    /// The vector with these components.
+    /// Makes the vector with these components.
     #[inline(always)]
     #[must_use]
     pub const fn new(x: L, y: L, z: L) -> Self {

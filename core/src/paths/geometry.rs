@@ -41,7 +41,7 @@ pub fn geometry(kind: PairKind, paths: [&dyn Path; 4], time: f64) -> Geometry {
             points,
             velocities: moments.map(|moment| moment.velocity - first.velocity),
             largest: largest_coordinate(&points),
-            // Rounded up.
+            // The error is rounded up.
             error: separation_of_pieces(0.0, error),
         }
     };

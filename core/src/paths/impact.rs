@@ -17,11 +17,11 @@ use crate::motion::PrimitivePair;
 
 /// The largest number of parts that are tested for one pair.
 const PARTS: u32 = 4096;
-/// Shorter parts are not cut.
+/// The length below which parts are not cut.
 const SHORTEST: f64 = 1.0 / 1_073_741_824.0;
 
-/// Returns from when on a pair on these paths may be within the separation. Certified: no contact is earlier, rounding and the
-/// bend of the paths included, as long as each path's [deviation](super::Piece::deviation) is correct.
+/// Returns the time from which on a pair on these paths may be within the separation. It is certified: no contact is earlier,
+/// rounding and the bend of the paths included, as long as each path's [deviation](super::Piece::deviation) is correct.
 ///
 /// `paths` are the points of the one set, then those of the other, as in a [`PrimitivePair`]. Runs at most 4096 straight tests.
 ///
@@ -57,7 +57,7 @@ pub fn separation_of_pieces(separation: f64, deviation: f64) -> f64 {
     (separation + deviation) * (1.0 + 16.0 * u())
 }
 
-/// Returns the largest values over the points of each side, added up; NaN if a value is NaN.
+/// Returns the sum of the largest values over the points of each side; NaN if a value is NaN.
 pub(super) fn of_both_sides(kind: PairKind, [a, b, c, d]: [f64; 4]) -> f64 {
     // A maximum may drop NaN.
     let unknown = 0.0 * (a + b + c + d);
@@ -68,7 +68,7 @@ pub(super) fn of_both_sides(kind: PairKind, [a, b, c, d]: [f64; 4]) -> f64 {
     first + second + unknown
 }
 
-/// The same for a part of the step, from its first time to its second: [`Impact::Never`] concerns that part only.
+/// Returns the same for a part of the step, from its first time to its second: [`Impact::Never`] concerns that part only.
 ///
 /// If the times are not in [0, 1], or do not ascend, nothing is excluded from time 0 on.
 pub(super) fn between(kind: PairKind, paths: [&dyn Path; 4], limits: &Limits<f64>, [mut from, end]: [f64; 2]) -> Impact<f64> {

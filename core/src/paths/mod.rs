@@ -35,7 +35,7 @@ use glam::DVec3;
 pub struct Piece {
     /// The motion from the point's position at the beginning of the part to that at its end, at constant velocity, both rounded.
     pub motion: Motion<f64>,
-    /// A bound of the point's distance from the motion, at any time of the part. Not finite if nothing is known.
+    /// An upper bound of the point's distance from the motion, at any time of the part. It is not finite if nothing is known.
     pub deviation: f64,
 }
 
@@ -44,7 +44,7 @@ pub struct Piece {
 pub struct Moment {
     /// The position.
     pub position: DVec3,
-    /// A bound of the true position's distance from it. Not finite if nothing is known.
+    /// An upper bound of the true position's distance from it. It is not finite if nothing is known.
     pub position_error: f64,
     /// The velocity, in lengths per step.
     pub velocity: DVec3,
@@ -77,7 +77,7 @@ impl Path for Motion<f64> {
             position: self.at(time),
             position_error: rounding(self),
             velocity: self.end - self.start,
-            // Along each axis within 2u of twice the larger coordinate: less than 7u of it in all.
+            // Along each axis the error is within 2u of twice the larger coordinate: less than 7u of it in all.
             velocity_error: rounding(self),
         }
     }

@@ -25,7 +25,7 @@ pub struct Polyline<'a> {
 }
 
 impl<'a> Polyline<'a> {
-    /// A path through `positions` at these `times`.
+    /// Makes a path through `positions` at these `times`.
     ///
     /// Returns `None` unless there are as many times as positions, times ascend strictly from 0 to 1, and all positions are
     /// finite.
@@ -58,7 +58,7 @@ impl<'a> Polyline<'a> {
                 let share = ((time - begin) / (end - begin)).clamp(0.0, 1.0);
                 Motion::<f64>::new(from, to).at(share)
             }
-            // At the last knot.
+            // This is at the last knot.
             (Some((_, last)), None) => last,
             _ => DVec3::NAN,
         }
@@ -78,13 +78,13 @@ impl Path for Polyline<'_> {
         let bent = bent.fold(0.0, f64::max);
         Piece {
             motion,
-            // The ends are off by at most one rounding error, and so is the place at the time of a knot. Two roundings.
+            // The ends are off by at most one rounding error, and so is the place at the time of a knot. There are two roundings.
             deviation: (bent + 2.0 * self.rounding) * (1.0 + 16.0 * u()),
         }
     }
 
     fn moment(&self, time: f64) -> Moment {
-        // At a knot, the piece that leads to it.
+        // At a knot, the piece that leads to it counts.
         let (velocity, lasts) = match self.knots(|knot| knot < time || knot == 0.0).into() {
             (Some((begin, from)), Some((end, to))) => ((to - from) / (end - begin), end - begin),
             _ => (DVec3::NAN, f64::NAN),
@@ -93,7 +93,7 @@ impl Path for Polyline<'_> {
             position: self.at(time),
             position_error: self.rounding,
             velocity,
-            // Three operations, of a way of at most 2B along each axis: 21u of it over the time, and the quotient.
+            // There are three operations, of a way of at most 2B along each axis: 21u of it over the time, and the quotient.
             velocity_error: self.rounding / lasts,
         }
     }

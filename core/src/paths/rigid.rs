@@ -37,11 +37,11 @@ use glam::{DQuat, DVec3};
 /// The largest angle of a step in radians, 2²⁰.
 const MOST: f64 = 1_048_576.0;
 
-/// 2π in two parts. The first has so few digits that its multiples are exact.
+/// The number 2π in two parts. The first has so few digits that its multiples are exact.
 const TURN: [f64; 2] = [6.283_185_306_936_502_5, 2.430_840_202_602_477e-10];
 
-/// The motion of a rigid body during the step: it turns about an axis at a constant rate, while the axis translates at a constant
-/// velocity.
+/// The motion of a rigid body during the step. It rotates about an axis at a constant rate, while the axis translates at a
+/// constant velocity.
 ///
 /// ```
 /// use selvedge_core::{glam::DVec3, paths::RigidMotion};
@@ -60,8 +60,8 @@ pub struct RigidMotion {
 }
 
 impl RigidMotion {
-    /// A motion that turns by `angle` radians about an axis through `centre` along `axis`, anticlockwise where the axis points at
-    /// the viewer, and translates by `translation`, in the unit of the positions. `axis` may have any length.
+    /// Makes a motion that rotates by `angle` radians about an axis through `centre` along `axis`, anticlockwise if the axis
+    /// points at the viewer, and translates by `translation`, in the unit of the positions. `axis` may have any length.
     ///
     /// Returns `None` if a number is not finite, if the axis has no length while the angle is not zero, or if the angle exceeds
     /// 2²⁰.
@@ -78,8 +78,8 @@ impl RigidMotion {
         })
     }
 
-    /// A motion from one pose to another, each given by a rotation and the position of the body's origin. The body turns the
-    /// short way about an axis through its origin, which moves straight.
+    /// Makes a motion from one pose to another, each given by a rotation and the position of the body's origin. The body rotates
+    /// the short way about an axis through its origin, which moves straight.
     ///
     /// The motion is exactly that of the rounded numbers computed from the poses, so it ends a few roundings from the second
     /// pose. Returns `None` if a number is not finite, or a quaternion is zero.
@@ -170,7 +170,7 @@ impl Path for Arc {
         let bent = if angle * angle > 16.0 { 2.0 } else { angle * angle * 0.125 };
         Piece {
             motion: Motion::new(self.at(from), self.at(to)),
-            // Eight roundings.
+            // There are eight roundings.
             deviation: (self.radius * bent + self.rounding) * (1.0 + 32.0 * u()),
         }
     }

@@ -49,7 +49,7 @@ impl Clearance {
         along_direction: f32::INFINITY,
     };
 
-    /// A clearance for points that must keep `distance`. No coordinate exceeds `largest` in magnitude
+    /// Makes a clearance for points that must keep `distance`. No coordinate exceeds `largest` in magnitude
     /// ([`largest_coordinate`](super::largest_coordinate)). Along a direction that is not an axis, `margin` times the distance is
     /// required in addition, zero or more; no proof depends on it.
     #[inline]
@@ -71,8 +71,9 @@ impl Clearance {
     /// the sets' middles. The result is less than zero if points may not stray at all.
     /// [`largest_strays_from_rows`](crate::batch::largest_strays_from_rows) computes it for many pairs.
     ///
-    /// Certified, in every floating-point environment, for positions that were rounded to the nearest `f32` in any rounding
-    /// direction. The stray that is compared with the result may also be rounded to `f32`, and may be the rounded mean of two.
+    /// The result is certified, in every floating-point environment, for positions that were rounded to the nearest `f32` in any
+    /// rounding direction. The stray that is compared with the result may also be rounded to `f32`, and may be the rounded mean
+    /// of two.
     ///
     /// ```
     /// use selvedge_core::{PairKind, glam::Vec3A, separation::clearance::Clearance};
@@ -104,7 +105,7 @@ impl Clearance {
             + largest * (f64::small(32) * f64::from(f32::UNIT_ROUNDOFF))
     }
 
-    /// Returns the required distance along an axis, and along a direction times its length, before anything strays.
+    /// Returns the required distance along an axis, and along a direction times its length, before any point strays.
     #[inline(always)]
     pub(crate) const fn asked(&self) -> [f32; 2] {
         [self.along_axis, self.along_direction]
@@ -141,8 +142,8 @@ pub(crate) fn largest_stray<P: PairShape, L: Lanes<Scalar = f32>>(points: &PairP
     by_axis.larger(by_direction) * gap.splat(1.0 - 1.0 / 131_072.0)
 }
 
-/// Returns by how much the first set of a pair is ahead of the second at both ends, and by how much it is behind, given the
-/// points' places on a line.
+/// Returns the distance by which the first set of a pair is ahead of the second at both ends, and that by which it is behind,
+/// given the points' places on a line.
 #[inline(always)]
 fn kept<P: PairShape, L: Lanes>(start: [L; 4], end: [L; 4]) -> [L; 2] {
     let [[low, high], [other_low, other_high]] = P::ranges(start);
@@ -167,8 +168,8 @@ pub fn nearness(distance: f64, largest: f64) -> f32 {
     }
 }
 
-/// Returns whether the boxes of a pair at rest come within `distance` of each other along each axis. False if all of a set is
-/// NaN.
+/// Returns whether the boxes of a pair at rest come within `distance` of each other along each axis. It is false if all of a set
+/// is NaN.
 #[inline(always)]
 #[must_use]
 pub fn are_boxes_within(kind: PairKind, points: [Vec3A; 4], distance: f32) -> bool {
@@ -182,7 +183,7 @@ fn narrowed(length: f64) -> f32 {
     length as f32
 }
 
-/// Returns by how much the first set of a pair is ahead of the second along each axis, and by how much it is behind.
+/// Returns the distance by which the first set of a pair is ahead of the second along each axis, and that by which it is behind.
 #[inline(always)]
 fn gaps(kind: PairKind, [a, b, c, d]: [Vec3A; 4]) -> [Vec3A; 2] {
     let (low, high, other_low, other_high) = match kind {

@@ -14,16 +14,16 @@ use glam::DVec3;
 pub struct ClosestPoints {
     /// The weights of the four points in [`way`](Self::way): those of the first set add up to 1, those of the second to −1.
     pub weights: [f64; 4],
-    /// Σ weightᵢ·xᵢ.
+    /// The shortest way, Σ weightᵢ·xᵢ.
     pub way: DVec3,
-    /// The direction of the way, of length one, perpendicular to the features of the closest points as far as rounding allows.
-    /// Zero where the sets touch.
+    /// The direction of the way, of length one, perpendicular to the features of the closest points as far as rounding allows. It
+    /// is zero if the sets touch.
     pub direction: DVec3,
 }
 
 impl ClosestPoints {
-    /// Computes the closest points of the pair with these four vertices. The result means nothing if a point is not finite, or if
-    /// products of four lengths overflow. [`closest_points`](crate::batch::closest_points) computes the same for many pairs.
+    /// Computes the closest points of the pair with these four vertices. The result has no meaning if a point is not finite, or
+    /// if products of four lengths overflow. [`closest_points`](crate::batch::closest_points) computes the same for many pairs.
     #[must_use]
     pub fn from_points(kind: PairKind, [p, q, r, s]: [DVec3; 4]) -> Self {
         let points = [vector(p), vector(q), vector(r), vector(s)];
@@ -60,7 +60,7 @@ impl<L: Lanes<Scalar = f64>> ClosestInLanes<L> {
     #[inline(always)]
     pub(crate) fn of<P: PairShape>(points: [Vector<L>; 4]) -> Self {
         let [p, q, r, s] = points;
-        // Differences first: they are small and nearly exact, wherever the pair is.
+        // Differences come first: they are small and nearly exact, wherever the pair is.
         let (weights, way, sides, count) = match P::KIND {
             PairKind::VertexFace => {
                 let weights = of_vertex_face(points);
@@ -103,7 +103,7 @@ fn upright<L: Lanes<Scalar = f64>>(way: Vector<L>, [first, second]: [Vector<L>; 
     let mut direction = chosen(is_near, normal.scaled(sign), straight);
     let is_on_side = is_near & !is_level;
     if L::any(is_on_side) {
-        // Removes the rest along each side.
+        // This removes the rest along each side.
         let mut left = way;
         let sides = [first, second, second - first];
         for place in 0..count {
@@ -118,7 +118,7 @@ fn upright<L: Lanes<Scalar = f64>>(way: Vector<L>, [first, second]: [Vector<L>; 
     direction
 }
 
-/// A thousandth of the pair's size, squared.
+/// The square of a thousandth of the pair's size.
 const NEAR: f64 = 1e-6;
 
 #[inline(always)]
@@ -204,7 +204,7 @@ fn is_finite<L: Lanes<Scalar = f64>>(number: L) -> L::Mask {
     number.splat(f64::INFINITY).greater(number.abs())
 }
 
-/// The nearest of the numbers from zero to one.
+/// Returns the nearest of the numbers from zero to one.
 #[inline(always)]
 fn clamped<L: Lanes<Scalar = f64>>(number: L) -> L {
     let (zero, one) = (number.splat(0.0), number.splat(1.0));
@@ -212,7 +212,7 @@ fn clamped<L: Lanes<Scalar = f64>>(number: L) -> L {
     L::select(not_less.greater(one), one, not_less)
 }
 
-/// Normalises a vector; zero where that is not possible.
+/// Normalises a vector. Returns zero if that is not possible.
 #[inline(always)]
 fn normalized<L: Lanes<Scalar = f64>>(way: Vector<L>) -> Vector<L> {
     let zero = way.x.splat(0.0);

@@ -21,7 +21,7 @@ use crate::scalar::{Position, Scalar};
 use crate::vector::Vector;
 
 /// Returns how far points may stray along each axis, for pairs with the [clearance](super::clearance) of `stray` to keep all of
-/// it but `spare`. In the unit of the positions; negative if they may not stray.
+/// it except `spare`. It is in the unit of the positions, and negative if they may not stray.
 #[inline]
 #[must_use]
 pub fn room<S: Scalar>(stray: S, spare: S) -> S {
@@ -35,8 +35,8 @@ pub fn room<S: Scalar>(stray: S, spare: S) -> S {
 }
 
 /// Returns whether a [room](room()) is certain despite rounding. `largest` is the
-/// [`largest_coordinate`](super::largest_coordinate) of all origins and ends of courses. False with NaN, and where points may not
-/// stray.
+/// [`largest_coordinate`](super::largest_coordinate) of all origins and ends of courses. It is false with NaN, and if points may
+/// not stray.
 #[inline]
 #[must_use]
 pub fn is_certain<S: Scalar>(room: S, largest: S) -> bool {
@@ -44,7 +44,7 @@ pub fn is_certain<S: Scalar>(room: S, largest: S) -> bool {
     largest <= S::LARGEST_EDGE && S::small(128) * rounding <= room
 }
 
-/// Returns where a point is expected, `time` after the origin of its course; rounded.
+/// Returns the position where a point is expected, `time` after the origin of its course; rounded.
 #[inline(always)]
 #[must_use]
 pub fn expected<P: Position>(origin: P, drift: P, time: P::Scalar) -> P {
@@ -60,17 +60,17 @@ pub fn joined<P: Position>(position: P, drift: P, elapsed: P::Scalar) -> P {
     P::from([x, y, z])
 }
 
-/// Returns whether a point is within its room of its expected position, along each axis. Certified where the room [is
-/// certain](is_certain). False with NaN.
+/// Returns whether a point is within its room of its expected position, along each axis. It is certified if the room [is
+/// certain](is_certain), and false with NaN.
 #[inline(always)]
 #[must_use]
 pub fn has_room<P: Position>(position: P, expected: P, room: P::Scalar) -> bool {
     let Vector { x, y, z } = (Vector::from(position.into()) - Vector::from(expected.into())).abs();
-    // Ordered comparisons: a largest component would drop NaN.
+    // The comparisons are ordered, since a largest component would drop NaN.
     x <= room && y <= room && z <= room
 }
 
-/// Returns the time `h` after `elapsed`, if a course of length `span` lasts until then. Steps that add up to the span but for
+/// Returns the time `h` after `elapsed`, if a course of length `span` lasts until then. Steps that add up to the span up to
 /// rounding end with it.
 #[inline]
 #[must_use]

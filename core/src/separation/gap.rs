@@ -1,8 +1,9 @@
 //! The gap of a pair along a direction: a lower bound of its distance, and a proof that lasts as long as the direction separates.
 //!
 //! For a fixed direction d and any points p of the first set and q of the second, d·(p(t) − q(t)) is linear in t. The gap is the
-//! least of these: by how much the first set is ahead of the second. If it exceeds m·|d| at the start and at the end of a step,
-//! the sets are more than m apart throughout. d may have any origin and rounding; directions longer than 1 + 2⁻²¹ are rejected.
+//! least of these: the distance by which the first set is ahead of the second. If it exceeds m·|d| at the start and at the end of
+//! a step, the sets are more than m apart throughout. d may have any origin and rounding; directions longer than 1 + 2⁻²¹ are
+//! rejected.
 //!
 //! # Rounding
 //! (Any direction: ε = 2u an operation.) Let no coordinate exceed B, and no component of d exceed 1.01. A dot product passes each
@@ -33,7 +34,7 @@ use crate::vector::Vector;
 pub struct GapError<S>(S);
 
 impl<S: Scalar> GapError<S> {
-    /// The error for points whose coordinates do not exceed `largest` in magnitude
+    /// Computes the error for points whose coordinates do not exceed `largest` in magnitude
     /// ([`largest_coordinate`](super::largest_coordinate)), in the unit of the positions. It is infinite, so that nothing is
     /// proven, if `largest` is NaN or too large.
     #[inline]
@@ -53,7 +54,7 @@ impl<S: Scalar> GapError<S> {
         Self(self.0.larger(other.0))
     }
 
-    /// The error as a length, in the unit of the positions.
+    /// Returns the error as a length, in the unit of the positions.
     #[inline(always)]
     #[must_use]
     pub const fn length(self) -> S {
@@ -61,7 +62,7 @@ impl<S: Scalar> GapError<S> {
     }
 }
 
-/// σ of the module's documentation.
+/// Returns σ of the module's documentation.
 #[inline(always)]
 fn slack<S: Scalar>() -> S {
     S::from_f64(1.0 + 1.0 / 1_048_576.0)
@@ -73,13 +74,14 @@ pub(super) fn threshold<S: Scalar>(separation: S, error: GapError<S>) -> S {
     separation * (slack::<S>() * slack::<S>()) + error.0
 }
 
-/// Returns by how much the first set is ahead of the second along a direction, as computed. It proves nothing by itself.
+/// Returns the distance by which the first set is ahead of the second along a direction, as computed. It proves nothing by
+/// itself.
 #[inline(always)]
 #[must_use]
 pub fn gap<P: Position>(kind: PairKind, points: [P; 4], direction: [P::Scalar; 3]) -> P::Scalar {
     let direction = Vector::from(direction);
     let [a, b, c, d] = points;
-    // Written out: `map` with a closure is not always inlined.
+    // The calls are written out, since `map` with a closure is not always inlined.
     let values = [
         direction.dot(Vector::from(a.into())),
         direction.dot(Vector::from(b.into())),
@@ -90,7 +92,7 @@ pub fn gap<P: Position>(kind: PairKind, points: [P; 4], direction: [P::Scalar; 3
     low - high
 }
 
-/// Returns whether a direction is no longer than σ allows. False with NaN.
+/// Returns whether a direction is no longer than σ allows. It is false with NaN.
 #[inline(always)]
 fn is_short<S: Scalar>(direction: [S; 3]) -> bool {
     let direction = Vector::from(direction);
@@ -100,7 +102,7 @@ fn is_short<S: Scalar>(direction: [S; 3]) -> bool {
 /// Returns a lower bound of the distance of two sets at rest, by a direction of length one from the second to the first. It is
 /// zero if the direction proves none.
 ///
-/// Certified, in every floating-point environment, whatever the direction.
+/// The result is certified, in every floating-point environment, for any direction.
 ///
 /// ```
 /// use selvedge_core::{PairKind, glam::DVec3, separation::gap::{GapError, distance_from_below}};
@@ -132,14 +134,14 @@ pub fn distance_from_below<P: Position>(kind: PairKind, points: [P; 4], directio
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeparatingDirection {
-    /// No longer than σ allows.
+    /// The direction, no longer than σ allows.
     direction: [f32; 3],
-    /// At most the distance.
+    /// The gap, at most the distance.
     gap: f32,
 }
 
 impl SeparatingDirection {
-    /// No known direction.
+    /// The value without a known direction.
     pub const NONE: Self = Self {
         direction: [0.0; 3],
         gap: f32::NEG_INFINITY,
@@ -163,7 +165,7 @@ impl SeparatingDirection {
         }
     }
 
-    /// Returns the direction: of length one but for rounding, or zero.
+    /// Returns the direction, which has length one up to rounding, or is zero.
     #[inline(always)]
     #[must_use]
     pub fn direction<P: Position>(&self) -> P {
@@ -176,7 +178,7 @@ impl SeparatingDirection {
         [S::from_f64(x.into()), S::from_f64(y.into()), S::from_f64(z.into())]
     }
 
-    /// Returns by how much the direction keeps the pair apart at `points`, as computed. It proves nothing.
+    /// Returns the distance by which the direction keeps the pair apart at `points`, as computed. It proves nothing.
     #[inline(always)]
     #[must_use]
     pub fn gap_at<P: Position>(&self, kind: PairKind, points: [P; 4]) -> P::Scalar {
@@ -215,8 +217,8 @@ impl SeparatingDirection {
         }
     }
 
-    /// Returns whichever proves more at `points`: this direction, whose gap must be valid there, or `direction`, from the second
-    /// set to the first.
+    /// Returns the direction that proves more at `points`: this one, whose gap must be valid there, or `direction`, from the
+    /// second set to the first.
     #[inline]
     #[must_use]
     pub fn or_better<P: Position>(self, kind: PairKind, direction: P, points: [P; 4], error: GapError<P::Scalar>) -> Self {
@@ -243,7 +245,7 @@ impl SeparatingDirection {
         Self::rounded(direction).keeps(kind, [start, end], separation, error)
     }
 
-    /// The same for this direction; its own gap does not matter.
+    /// Returns the same for this direction; its own gap does not matter.
     #[inline]
     #[must_use]
     pub fn keeps<P: Position>(
@@ -258,7 +260,7 @@ impl SeparatingDirection {
         (gap > threshold && self.gap_at(kind, start) > threshold).then(|| self.with_gap(gap - error.0))
     }
 
-    /// The same where the gap is valid at the start: only the end is computed.
+    /// Returns the same if the gap is valid at the start: only the end is computed.
     #[inline(always)]
     #[must_use]
     pub fn lasts<P: Position>(
@@ -277,5 +279,5 @@ impl SeparatingDirection {
     }
 }
 
-/// 2¹⁰⁰. Its inverse is the least stored gap.
+/// The number 2¹⁰⁰. Its inverse is the least stored gap.
 const LARGEST_GAP: f64 = 1_267_650_600_228_229_401_496_703_205_376.0;

@@ -4,7 +4,7 @@
 //! mostly rounding. So the normal does not come from that way alone: directions perpendicular to the features are tried as well.
 //! A direction is taken only if it **certainly kept the pair apart** at the time of contact, or as shortly before as can be shown
 //! ([`gap`](super::gap)). Up to the first contact, a normal therefore points from the second side to the first as they were
-//! before, however the vertices are numbered. At a time after a pair has passed through each other, it points as they lie then.
+//! before, in any numbering of the vertices. At a time after a pair has passed through each other, it points as they lie then.
 //!
 //! # Guarantees
 //! These hold for positions of at most 2¹⁰²⁰ in magnitude and a time in [0, 1], in every floating-point environment. B is the
@@ -23,7 +23,7 @@
 //!   weighing adds 12u·D, the difference of the two sides makes 48u·D of it, and the product with the normal at most 125u·D in
 //!   all.
 //! * A normal has length one within 16u, and **the two sides were certainly apart along it** at [`Geometry::separated_at`]. There
-//!   is no normal where none can be shown: for a pair that touches when the step begins, or is then nearer than rounding can
+//!   is no normal if none can be shown: for a pair that touches when the step begins, or is then nearer than rounding can
 //!   resolve.
 //!
 //! A time outside of [0, 1], or NaN, and positions that are not finite prove nothing: there is no normal, and the distance is
@@ -54,7 +54,7 @@ pub struct Geometry {
     /// The normal, from the second side to the first.
     pub normal: Option<DVec3>,
     /// A time in [0, time] at which the sides were certainly apart along the normal: the time of contact itself, or a little
-    /// before it. 0 without a normal.
+    /// before it. It is 0 without a normal.
     pub separated_at: f64,
     /// A lower and an upper bound of the distance of the two sides at the time of contact.
     pub distance: [f64; 2],
@@ -132,11 +132,11 @@ pub(crate) fn of_instants(kind: PairKind, time: Option<f64>, at: impl Fn(f64) ->
             ClosestPoints::from_points(kind, before.points)
         };
         let directions = [own.direction, across, -across].map(|direction| {
-            // Normalised again: the length of a tiny vector is not known to its last digit.
+            // It is normalised again, since the length of a tiny vector is not known to its last digit.
             let direction = direction.normalize_or_zero();
             (direction, before.distance_from_below(kind, direction))
         });
-        // Takes the direction with the largest gap.
+        // This takes the direction with the largest gap.
         let farther = |a: (DVec3, f64), b: (DVec3, f64)| if b.1 > a.1 { b } else { a };
         let (direction, gap) = directions.into_iter().fold((DVec3::ZERO, 0.0), farther);
         (gap > 0.0).then_some((direction, earlier))
@@ -175,7 +175,7 @@ impl Instant {
         if self.error == 0.0 {
             computed
         } else if computed > self.error {
-            // Two roundings.
+            // This has two roundings.
             (computed - self.error) * (1.0 - 8.0 * u())
         } else {
             0.0
@@ -183,7 +183,7 @@ impl Instant {
     }
 }
 
-/// Half the distance from 1 to the next number.
+/// Returns half the distance from 1 to the next number.
 const fn u() -> f64 {
     <f64 as Rounding>::UNIT_ROUNDOFF
 }
@@ -229,7 +229,7 @@ fn across(kind: PairKind, [p, q, r, s]: [DVec3; 4]) -> DVec3 {
         PairKind::VertexFace => (r - q, s - q),
         PairKind::EdgeEdge => (q - p, s - r),
     };
-    // Normalised first, so that their product is not zero where they are small.
+    // The sides are normalised first, so that their product is not zero if they are small.
     first
         .normalize_or_zero()
         .cross(second.normalize_or_zero())

@@ -22,7 +22,7 @@ use crate::vector::Vector;
 /// Returns true if two triangles with a common edge certainly have no common point beside the edge, because they open by more
 /// than a right angle. The first two `points` are the ends of the edge, the others the opposite corners.
 ///
-/// Certified, in every floating-point environment. False proves nothing.
+/// The result is certified, in every floating-point environment. False proves nothing.
 ///
 /// ```
 /// use selvedge_core::{glam::DVec3, separation::hinge::is_wide_open};

@@ -1,5 +1,5 @@
-//! Separations: lower bounds of the distance of two sets, and how long they hold. For callers that follow the same pairs from
-//! step to step.
+//! Separations: lower bounds of the distance of two sets, and how long they hold. Callers that follow the same pairs from step to
+//! step use them.
 //!
 //! | module | what it bounds | rounding |
 //! |---|---|---|
@@ -24,7 +24,7 @@ pub mod truncation;
 use crate::lanes::{Lanes, Rounding};
 use crate::scalar::{Position, Scalar};
 
-/// Returns the largest magnitude of any coordinate, or zero of no positions. It is infinite if a coordinate is NaN or infinite,
+/// Returns the largest magnitude of any coordinate, or zero without positions. It is infinite if a coordinate is NaN or infinite,
 /// or if their sum is, so that nothing that depends on it is proven.
 ///
 /// ```

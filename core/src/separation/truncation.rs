@@ -1,5 +1,5 @@
-//! Truncation: the way of each point of a pair that lets the pair keep its distance, whatever the others do. A step is truncated
-//! vertex by vertex, where a time of impact would cut it for the whole mesh.
+//! Truncation: the way of each point of a pair that lets the pair keep its distance, however far the others go. A step is
+//! truncated vertex by vertex, where a time of impact would cut it for the whole mesh.
 //!
 //! **The lemma.** Let x be where the four points start, y where they are wanted, and d a direction with |d| ≤ 1 along which the
 //! first set A is ahead of the second B by more than m at the start: min_A d·x − max_B d·x > m. Choose an offset o with max_B d·x
@@ -22,7 +22,7 @@
 //! that no point is held back. Otherwise the room is shared in proportion to how far each set goes towards the other.
 //!
 //! **Rounding.** The result has the ordinary certificate, of the stored positions: *no guarantee rests on the arithmetic here*.
-//! So that the certificate succeeds, m is the threshold of [`gap`](super::gap), plus once more the error that it allows for,
+//! So that the certificate succeeds, m is the threshold of [`gap`](super::gap), plus the error that it allows for once more,
 //! which covers the rounding of e. A share is at most [`PART`] of the room.
 //!
 //! Shares towards planes are due to Lan, Li and others, *Divide and Truncate* (2026), and Chen and others, *Offset Geometric
@@ -43,8 +43,8 @@ pub const PART: f64 = 127.0 / 128.0;
 /// pair keeps more than `separation` along `direction`. `direction` goes from the second set to the first and is no longer than
 /// one. Returns `None` if it keeps the pair no farther apart than that at the start.
 ///
-/// The shares of points that need not be held back are exactly 1. Shares are plain floating point, and never NaN: see the
-/// [module](self) for what is proven of them.
+/// The shares of points that need not be held back are exactly 1. Shares are plain floating point, and never NaN. The
+/// [module](self) has the proofs.
 ///
 /// ```
 /// use selvedge_core::{PairKind, glam::DVec3, separation::gap::GapError, separation::truncation::shares};
@@ -87,7 +87,7 @@ pub fn shares<P: Position>(
     };
     let mut shares = [one; 4];
     for corner in 0..4 {
-        // The distance of the point on its side of the plane, at both ends.
+        // These are the distances of the point on its side of the plane, at both ends.
         let [before, after] = [from, to].map(|values| {
             if corner < of_first {
                 values[corner] - offset - kept
@@ -105,8 +105,8 @@ pub fn shares<P: Position>(
     Some(shares)
 }
 
-/// Returns the [`shares`] along the direction that leaves most to the point which has least, with that direction; the first of
-/// equals. Returns `None` if none of the directions keeps the pair apart at the start.
+/// Returns the [`shares`] along the direction whose smallest share is largest, with that direction; the first of equals. Returns
+/// `None` if none of the directions keeps the pair apart at the start.
 ///
 /// ```
 /// use selvedge_core::{PairKind, glam::DVec3, separation::gap::GapError, separation::truncation::most_shares};

@@ -11,7 +11,7 @@ fn limits(separation: f64) -> Limits<f64> {
     }
 }
 
-/// A vertex over the middle of a resting face.
+/// Makes a vertex over the middle of a resting face.
 fn fall(from: f64, to: f64) -> PrimitivePair<f64> {
     let at = |z| DVec3::new(0.25, 0.25, z);
     PrimitivePair::vertex_face(Motion::new(at(from), at(to)), FACE.map(Motion::resting))
@@ -77,7 +77,8 @@ fn a_face_without_area_is_a_segment() {
 
 #[test]
 fn points_that_slide_past_each_other_need_few_rounds() {
-    // 1e-6 above the plane of the face and across it, which spins under it by half a turn (linearly: through its middle).
+    // The vertex is 1e-6 above the plane of the face and moves across it. The face spins under it by half a turn (linearly:
+    // through its middle).
     let turned = FACE.map(|corner| Motion::new(corner, DVec3::new(0.6, 0.6, 0.0) - corner));
     let pair = PrimitivePair::vertex_face(Motion::new(DVec3::new(-1.0, 0.3, 1e-6), DVec3::new(2.0, 0.2, 2e-6)), turned);
     let (impact, work) = time_of_impact_and_work(&pair, &limits(0.0));
@@ -85,7 +86,7 @@ fn points_that_slide_past_each_other_need_few_rounds() {
     assert!(work.rounds < ROUNDS / 2, "{work:?}");
 }
 
-/// An end of one edge travels at a distance of about `near` beside an end of the other.
+/// Makes edges of which an end of one travels at a distance of about `near` beside an end of the other.
 fn ends_that_slide(near: f64) -> PrimitivePair<f64> {
     let at = DVec3::new;
     PrimitivePair::edge_edge(
@@ -109,7 +110,7 @@ fn ends_that_slide_past_each_other_are_apart_however_near() {
     }
 }
 
-/// Both ends: the edges lie along one another, and turn by a right angle.
+/// The edges lie along one another at both ends, and turn by a right angle.
 #[test]
 fn edges_that_lie_along_one_another_are_apart_however_near() {
     for exponent in [10, 17, 24, 28] {
@@ -141,7 +142,7 @@ fn bad_input_excludes_nothing_and_says_why() {
 
 #[test]
 fn rest_in_contact_up_to_rounding_says_so() {
-    // A thousandth of the last place of the corners above the face, and staying there.
+    // The vertex stays above the face by a thousandth of the last place of the corners.
     let height = f64::EPSILON / 1000.0;
     let impact = time_of_impact(
         &fall(height, height),

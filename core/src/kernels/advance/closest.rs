@@ -1,7 +1,7 @@
 //! The point of the corners' hull that is closest to the origin, in plain floating point.
 //!
-//! No certificate relies on the accuracy of this point: they hold for any direction. The vector is only guaranteed to be, but for
-//! a few roundings, a point of the hull, so that its length is no less than the distance. Each weight lies in [0, 1] by the
+//! No certificate relies on the accuracy of this point: they hold for any direction. The vector is only guaranteed to be, up to a
+//! few roundings, a point of the hull, so that its length is no less than the distance. Each weight lies in [0, 1] by the
 //! comparisons that precede it. The method is Ericson's (Real-Time Collision Detection, 2005, 5.1.5 and 5.1.9).
 //!
 //! There are two versions. [`closest`] serves one pair: it returns at the first feature that has the point, and names it.
@@ -42,7 +42,7 @@ impl<S: Number> Closest<S> {
     /// their largest coordinate.
     ///
     /// The closest point itself is such a direction unless it is very near. Then its error, a few u times the extent h, tilts it
-    /// against its side or face by uh/d, where d/h is all the room there is. So where d² is below 2⁶uh², the direction is made
+    /// against its side or face by uh/d, where d/h is all the room there is. So if d² is below 2⁶uh², the direction is made
     /// perpendicular to the side, or replaced by the face's normal.
     #[inline(always)]
     pub fn direction<const N: usize>(&self, positions: &[Vector<S>; N], extent: S) -> Vector<S> {
@@ -80,7 +80,7 @@ impl<S: Number> Closest<S> {
 #[inline(always)]
 pub fn closest<S: Number, const N: usize>(corners: &[Vector<S>; N]) -> Closest<S> {
     let &[a, b, c, ..] = corners.as_slice() else {
-        // There are at least three.
+        // There are at least three corners.
         let nothing = Vector::new(S::ZERO, S::ZERO, S::ZERO);
         return at(nothing, Feature::Corner);
     };
@@ -145,7 +145,7 @@ fn in_parallelogram<S: Number>(a: Vector<S>, b: Vector<S>, c: Vector<S>) -> Clos
     let (first_squared, second_squared) = (first.dot(first), second.dot(second));
     let (along_first, along_second) = (first.dot(a), second.dot(a));
     let place = |s: S, t: S, feature| at((a + first.scaled(s)) - second.scaled(t), feature);
-    // Returns the quotient if it lies in [0, 1], else the nearer end; and true for an end. NaN becomes an end.
+    // Returns the quotient if it lies in [0, 1], otherwise the nearer end; and true for an end. NaN becomes an end.
     let clamped = |numerator: S, denominator: S| {
         if numerator > zero {
             if numerator < denominator {
@@ -171,14 +171,14 @@ fn in_parallelogram<S: Number>(a: Vector<S>, b: Vector<S>, c: Vector<S>) -> Clos
     if !t_is_end {
         return place(s, t, feature(s_is_end, false));
     }
-    // The closest point of the first line to an end of the second edge.
+    // This is the closest point of the first line to an end of the second edge.
     let s_numerator = if t > zero { across - along_first } else { -along_first };
     let (s, s_is_end) = clamped(s_numerator, first_squared);
     place(s, t, feature(s_is_end, true))
 }
 
-/// [`closest`], accurate also for a hull that is nearly a line: the nearest of the closest points of all sides and of the
-/// interior, whose height above the longest side is computed separately.
+/// Finds the closest point like [`closest`], accurately also for a hull that is nearly a line: the nearest of the closest points
+/// of all sides and of the interior, whose height above the longest side is computed separately.
 #[cold]
 pub(crate) fn closest_of_thin<S: Number, const N: usize>(corners: &[Vector<S>; N]) -> Closest<S> {
     let &[a, b, c, ref rest @ ..] = corners.as_slice() else {
@@ -243,7 +243,7 @@ pub(super) fn closest_by_selects<L: Lanes, const N: usize>(corners: &[Vector<L>;
     }
 }
 
-/// The weights of the interior, then those of each side and corner where it is closest.
+/// Returns the weights of the interior, then those of each side and corner where it is closest.
 #[inline(always)]
 fn in_triangle_by_selects<L: Lanes>(a: Vector<L>, b: Vector<L>, c: Vector<L>) -> Vector<L> {
     let zero = a.x.splat(L::Scalar::ZERO);
@@ -289,12 +289,12 @@ fn in_triangle_by_selects<L: Lanes>(a: Vector<L>, b: Vector<L>, c: Vector<L>) ->
     a - (ab.scaled(to_b * scale) + ac.scaled(to_c * scale))
 }
 
-/// As in [`in_parallelogram`].
+/// Returns the weights as in [`in_parallelogram`].
 #[inline(always)]
 fn in_parallelogram_by_selects<L: Lanes>(a: Vector<L>, b: Vector<L>, c: Vector<L>) -> Vector<L> {
     let zero = a.x.splat(L::Scalar::ZERO);
     let one = a.x.splat(L::Scalar::ONE);
-    // The quotient if it lies in [0, 1], else the nearer end; NaN becomes an end.
+    // The result is the quotient if it lies in [0, 1], otherwise the nearer end; NaN becomes an end.
     macro_rules! clamped {
         ($numerator:expr, $denominator:expr) => {{
             let (numerator, denominator) = ($numerator, $denominator);
@@ -319,7 +319,7 @@ mod tests {
     use super::{Feature, closest_of_thin};
     use crate::vector::Vector;
 
-    /// Corners on either side of the origin along x, 2⁻²⁸ high there, and 2⁻³⁴ above it.
+    /// The corners are on either side of the origin along x, 2⁻²⁸ high there, and 2⁻³⁴ above it.
     #[test]
     fn the_closest_point_of_a_thin_hull_is_found_to_the_last_digits() {
         let [thin, above] = [28, 34].map(|exponent| 0.5_f64.powi(exponent));

@@ -31,8 +31,8 @@ use crate::vector::Vector;
 /// The number of intervals that are tried, each eight times as long as the one before.
 const INTERVALS: u32 = 18;
 
-/// Returns an interval of time in [0, 1] in which the two sets certainly touch, if one around `near` can be proven. Certified, in
-/// every floating-point environment.
+/// Returns an interval of time in [0, 1] in which the two sets certainly touch, if one around `near` can be proven. It is
+/// certified, in every floating-point environment.
 ///
 /// The best `near` is the time that [`time_of_impact`](crate::elementary::advance::time_of_impact) returns. `None` proves
 /// nothing.
@@ -127,7 +127,7 @@ pub fn contains_origin<L: Lanes, const N: usize>(
             all_right = all_right & (-coefficient).greater(doubled_bound);
         }
     };
-    // Around the triangle, or around the parallelogram, whose second and third corner are opposite to each other.
+    // The turns go around the triangle, or around the parallelogram, whose second and third corner are opposite to each other.
     match (start.as_slice(), end.as_slice()) {
         ([a0, b0, c0], [a1, b1, c1]) => {
             turn([a0, a1], [b0, b1]);
@@ -152,7 +152,8 @@ mod tests {
     use crate::{Motion, PrimitivePair};
     use glam::DVec3;
 
-    /// Through the middle of a face with sides `a` and `b` in the plane z = 0, which it crosses at half of the step.
+    /// Makes a vertex that falls through the middle of a face with sides `a` and `b` in the plane z = 0, which it crosses at half
+    /// of the step.
     fn fall(a: f64, b: f64, height: f64) -> PrimitivePair<f64> {
         let at = |z| DVec3::new(a / 4.0, b / 4.0, z);
         PrimitivePair::vertex_face(

@@ -41,7 +41,7 @@ pub struct Corners<L, const N: usize> {
 }
 
 impl<L: Lanes> Corners<L, 3> {
-    /// The corners of a vertex and a face: a triangle.
+    /// Makes the corners of a vertex and a face: a triangle.
     #[inline(always)]
     #[must_use]
     pub fn of_vertex_face(points: &PairPoints<L>) -> Self {
@@ -52,7 +52,7 @@ impl<L: Lanes> Corners<L, 3> {
 }
 
 impl<L: Lanes> Corners<L, 4> {
-    /// The corners of two edges: a parallelogram, its second and third corner opposite to each other.
+    /// Makes the corners of two edges: a parallelogram, its second and third corner opposite to each other.
     #[inline(always)]
     #[must_use]
     pub fn of_edge_edge(points: &PairPoints<L>) -> Self {
@@ -90,7 +90,7 @@ impl<L: Lanes, const N: usize> Corners<L, N> {
     #[must_use]
     pub fn at(&self, time: L) -> [Vector<L>; N] {
         let rest = time.splat(L::Scalar::ONE) - time;
-        // A loop, because `array::map` with a closure is not always inlined.
+        // This is a loop, because `array::map` with a closure is not always inlined.
         let mut positions = [self.extent; N];
         for corner in 0..N {
             let [start, end] = self.ends[corner];

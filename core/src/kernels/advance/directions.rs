@@ -14,17 +14,17 @@ use crate::vector::Vector;
 pub struct Direction<L> {
     /// The direction, of any length.
     pub w: Vector<L>,
-    /// T + s·|w|.
+    /// The bar, T + s·|w|.
     pub bar: L,
 }
 
 /// The time until which a direction certainly keeps the pair apart.
 #[derive(Clone, Copy, Debug)]
 pub struct Proven<L: Lanes> {
-    /// Lanes, among the requested ones, in which it keeps the pair apart at the given time.
+    /// The lanes, among the requested ones, in which it keeps the pair apart at the given time.
     pub is_apart: L::Mask,
     /// The time until which those lanes stay apart, which may be the same or earlier; [`beyond`] the step if they do to its end.
-    /// Other lanes mean nothing.
+    /// Other lanes have no meaning.
     pub until: L,
 }
 
@@ -76,8 +76,8 @@ impl<L: Lanes, const N: usize> Corners<L, N> {
     /// errors in T allow for. So f(q) is positive (above s·|w|), and since f is positive at the time of `positions` too, it is so
     /// in between. The quotient passes through 4 roundings, its product with 1 − 32u through one more.
     ///
-    /// f₀ > f₁ is required: otherwise, where rounding gives f₁ ≤ T and f₀ ≤ f₁, the quotient means nothing. Where flushing makes
-    /// it 0/0, or rounding gives f₀ ≤ T, nothing is proven.
+    /// f₀ > f₁ is required: otherwise, if rounding gives f₁ ≤ T and f₀ ≤ f₁, the quotient has no meaning. If flushing makes it
+    /// 0/0, or rounding gives f₀ ≤ T, nothing is proven.
     #[inline(always)]
     #[must_use]
     pub fn apart_along(&self, direction: &Direction<L>, positions: &[Vector<L>; N], among: L::Mask) -> Proven<L> {
@@ -85,7 +85,7 @@ impl<L: Lanes, const N: usize> Corners<L, N> {
         let zero = bar.splat(L::Scalar::ZERO);
         let mut is_apart = among;
         let mut until = beyond(bar);
-        // No loop: with several lanes, the compiler would not unroll it.
+        // There is no loop: with several lanes, the compiler would not unroll it.
         macro_rules! corner {
             ($index:literal) => {
                 if let (Some(&[start, end]), Some(&position)) = (self.ends.get($index), positions.get($index)) {
@@ -167,8 +167,8 @@ pub fn are_apart_curving<L: Lanes, const N: usize>(
     are_apart
 }
 
-/// Returns the length of `w`, or more, but for 8 roundings: the sum of its components' magnitudes where their squares may
-/// underflow.
+/// Returns the length of `w`, or more, up to 8 roundings. If the squares of its components may underflow, it is the sum of their
+/// magnitudes.
 #[inline(always)]
 fn length_above<L: Lanes>(w: Vector<L>) -> L {
     let squared = w.dot(w);

@@ -12,11 +12,12 @@ pub mod volume;
 /// The work of one answer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work {
-    /// Rounds of advancing: at most [`ROUNDS`](crate::elementary::advance::ROUNDS), or
-    /// [`ROUNDS_WITH_SEPARATION`](crate::elementary::advance::ROUNDS_WITH_SEPARATION). Zero where relative boxes or the volume decide.
+    /// The rounds of advancing: at most [`ROUNDS`](crate::elementary::advance::ROUNDS), or
+    /// [`ROUNDS_WITH_SEPARATION`](crate::elementary::advance::ROUNDS_WITH_SEPARATION). It is zero if relative boxes or the volume
+    /// decide.
     pub rounds: u32,
-    /// Steps of clipping the signed volume: at most 1 before the first round, and 8 in each.
+    /// The steps of clipping the signed volume: at most 1 before the first round, and 8 in each.
     pub volume_steps: u32,
-    /// Attempts with a turning direction: at most [`TURNS`](crate::elementary::advance::TURNS) in each round.
+    /// The attempts with a turning direction: at most [`TURNS`](crate::elementary::advance::TURNS) in each round.
     pub turns: u32,
 }

@@ -21,7 +21,7 @@ pub struct RoundInput<L> {
     pub separation: Option<L>,
     /// The time up to which pairs matter, at most 1.
     pub until: L,
-    /// True to use the signed volume as well, where there is no separation.
+    /// Whether to use the signed volume as well, if there is no separation.
     pub with_volume: bool,
 }
 
@@ -30,11 +30,11 @@ pub struct RoundInput<L> {
 pub struct RoundResult<L: Lanes> {
     /// The time up to which the pair is proven to be apart.
     pub time: L,
-    /// Lanes that are certainly farther apart than the separation up to the time of interest.
+    /// The lanes that are certainly farther apart than the separation up to the time of interest.
     pub apart: L::Mask,
-    /// Lanes that are, at their unchanged time, within the tolerance of the separation.
+    /// The lanes that are, at their unchanged time, within the tolerance of the separation.
     pub near: L::Mask,
-    /// Lanes of which no more could be proven; their time did not change.
+    /// The lanes of which no more could be proven; their time did not change.
     pub stuck: L::Mask,
 }
 
@@ -64,7 +64,7 @@ fn round_of<L: Lanes, const N: usize>(
     let near = is_in_range & is_number & !is_beyond;
     let others = !near;
     if L::may_leave(others) {
-        // A near pair keeps its time, whatever the rest proves, and there are no other pairs.
+        // A near pair keeps its time, and there are no other pairs.
         return RoundResult {
             time,
             apart: others,

@@ -1,4 +1,4 @@
-//! Directions to try where sets slide past one another. All of this is heuristic: the [proofs](super::directions) hold for any
+//! Directions to try if sets slide past one another. All of this is heuristic: the [proofs](super::directions) hold for any
 //! direction, and decide.
 //!
 //! Between two times the corners move from `from` to `to`, and a direction turns from w₀ to w₁. Three ways to turn are tried:
@@ -27,7 +27,7 @@ fn longest<S: Number>() -> S {
     S::small(64) * S::small(64)
 }
 
-/// Returns the vector at unit length, but for rounding; NaN if its squares vanish.
+/// Returns the vector at unit length, up to rounding; NaN if its squares vanish.
 #[inline(always)]
 pub(crate) fn unit<S: Number>(v: Vector<S>) -> Vector<S> {
     v.scaled(S::ONE / v.dot(v).sqrt())
@@ -81,7 +81,7 @@ pub(crate) fn in_the_middle<S: Number, const N: usize>(positions: &[Vector<S>; N
         return None;
     };
     let nearer = |v: Vector<S>, w: Vector<S>| if v.dot(v) <= w.dot(w) { [v, w] } else { [w, v] };
-    // The nearest corner, and the two that its sides lead to.
+    // These are the nearest corner, and the two that its sides lead to.
     let [corner, first, second] = if let &[d] = rest {
         let ([inner, _], [outer, _]) = (nearer(a, d), nearer(b, c));
         let [least, _] = nearer(inner, outer);
@@ -119,7 +119,7 @@ pub(crate) fn balanced<S: Number, const N: usize>(
             most = most.smaller(x / -y);
         }
     }
-    // Twice as far from the bounds as needed, or in the middle between them.
+    // The scale is twice as far from the bounds as needed, or in the middle between them.
     let (double, half) = (S::small(2) * least, S::HALF * most);
     w1.scaled(if double > half {
         (least.smaller(limit) * most).sqrt()
@@ -168,7 +168,7 @@ fn is_short<S: Number>(w: &Vector<S>) -> bool {
     w.abs().largest() <= longest()
 }
 
-/// Returns the corners at the ends of a feature that is a side, else those that are farthest from each other.
+/// Returns the corners at the ends of a feature that is a side, otherwise those that are farthest from each other.
 fn side_of<S: Number, const N: usize>(positions: &[Vector<S>; N], feature: Feature) -> Option<[usize; 2]> {
     match feature {
         Feature::SideAb => return Some([0, 1]),

@@ -51,20 +51,20 @@ struct Normal<L> {
 /// One step of [clipping](SignedVolume::clipped).
 #[derive(Clone, Copy, Debug)]
 pub struct Clipped<L: Lanes> {
-    /// Lanes where the volume proves that the pair is apart to the end of the step.
+    /// The lanes in which the volume proves that the pair is apart to the end of the step.
     pub to_the_end: L::Mask,
-    /// Otherwise the time until which it proves that; no later than the given time if it proves nothing.
+    /// The time until which it proves that otherwise; no later than the given time if it proves nothing.
     pub until: L,
 }
 
 impl<L: Lanes> SignedVolume<L> {
-    /// The volume of the first three corners, with a separation if it is not zero.
+    /// Computes the volume of the first three corners, with a separation if it is not zero.
     #[inline(always)]
     #[must_use]
     pub fn new<const N: usize>(corners: &Corners<L, N>, separation: Option<L>) -> Self {
         let m = corners.extent;
         let &[p, b, c, ..] = corners.ends.as_slice() else {
-            // There are at least three corners. This value proves nothing.
+            // There are at least three corners, and this value proves nothing.
             let (values, error) = ([m.x.splat(L::Scalar::ZERO); 4], m.x.splat(L::Scalar::INFINITY));
             let normal = None;
             return Self { values, error, normal };
@@ -102,7 +102,7 @@ impl<L: Lanes> SignedVolume<L> {
         m0.greater(zero) & m1.greater(zero) & m2.greater(zero) & m3.greater(zero)
     }
 
-    /// Returns whether its values at two times certainly have opposite signs. Requires a separation of zero.
+    /// Returns whether its values at two times certainly have opposite signs. It requires a separation of zero.
     #[inline(always)]
     #[must_use]
     pub fn has_opposite_signs_at(&self, from: L, to: L) -> L::Mask {
@@ -127,7 +127,7 @@ impl<L: Lanes> SignedVolume<L> {
     /// addition through two. The hull of the whole rest is coarse. So where the part that is sixteen, or four, times as long has
     /// only positive control values, that part is taken instead.
     ///
-    /// `DIVIDES_FIRST`: see `first_zero_of_hull`.
+    /// The constant `DIVIDES_FIRST` is that of `first_zero_of_hull`.
     #[inline(always)]
     #[must_use]
     pub fn clipped<const DIVIDES_FIRST: bool>(&self, time: L) -> Clipped<L> {
@@ -218,8 +218,8 @@ fn third<L: Lanes>(like: L) -> L {
     like.splat(L::Scalar::ONE) / like.splat(L::Scalar::small(3))
 }
 
-/// Returns where the lower hull of the control polygon over [0, 1] first reaches zero, for a positive first value; [`beyond`] it
-/// if nowhere.
+/// Returns the place where the lower hull of the control polygon over [0, 1] first reaches zero, for a positive first value;
+/// [`beyond`] it if nowhere.
 ///
 /// The hull's lower side crosses zero on a line from one of the positive points before the first other point to a point that is
 /// not positive. Every such line crosses no earlier. (Lines from the first point alone are not enough.)
@@ -228,7 +228,7 @@ fn third<L: Lanes>(like: L) -> L {
 /// bits. One pair alone multiplies first, several side by side divide first: each keeps its results.
 #[inline(always)]
 fn first_zero_of_hull<L: Lanes, const DIVIDES_FIRST: bool>([b0, b1, b2, b3]: [L; 4]) -> L {
-    // Macros, because a closure is not always inlined.
+    // These are macros, because a closure is not always inlined.
     let (zero, one) = (b0.splat(L::Scalar::ZERO), b0.splat(L::Scalar::ONE));
     let (two, three) = (b0.splat(L::Scalar::small(2)), b0.splat(L::Scalar::small(3)));
     let third = third(b0);
@@ -261,8 +261,7 @@ fn first_zero_of_hull<L: Lanes, const DIVIDES_FIRST: bool>([b0, b1, b2, b3]: [L;
     first
 }
 
-/// Returns `first_zero`, or sixteen or four times as much where the part of the cubic before that has only positive control
-/// values.
+/// Returns `first_zero`, or sixteen or four times as much if the part of the cubic before that has only positive control values.
 #[inline(always)]
 fn looking_ahead<L: Lanes>(values: [L; 4], first_zero: L) -> L {
     let sixteen = first_zero.splat(L::Scalar::small(16)) * first_zero;
@@ -333,7 +332,7 @@ mod tests {
         near([1.0, 1.0, 1.0, 0.0], 1.0);
     }
 
-    /// The first zero of the hull, so small that it is no number any more.
+    /// The first zero of the hull is so small that it underflows.
     #[test]
     fn where_time_stands_still_nothing_is_proven() {
         let found = volume([5e-324, -1.0, -1.0, -1.0], 0.0).clipped::<false>(0.0);
@@ -342,9 +341,9 @@ mod tests {
 
     #[test]
     fn a_part_with_a_control_value_of_zero_is_not_taken() {
-        // The whole is no part that can be left.
+        // The whole step cannot be left out.
         assert_eq!(looking_ahead([1.0; 4], 1.0 / 16.0), 0.25);
-        // Control values of the first half: 1, 0, ½, …; 1, ½, 0, …; 1, ½, ½, 0.
+        // The control values of the first half are 1, 0, ½, …; 1, ½, 0, …; 1, ½, ½, 0.
         for values in [[1.0, -1.0, 3.0, 3.0], [1.0, 0.0, -1.0, 9.0], [1.0, 0.0, 1.0, -4.0]] {
             assert_eq!(looking_ahead(values, 1.0 / 32.0), 0.125, "{values:?}");
         }

@@ -10,14 +10,14 @@ use crate::scalar::Scalar;
 #[derive(Clone, Copy, Debug)]
 struct Term {
     significand: i64,
-    /// Biased by [`bias`]; [`u32::MAX`] for zero.
+    /// The exponent, biased by [`bias`]; [`u32::MAX`] for zero.
     exponent: u32,
 }
 
 /// Returns the bias, the difference of a biased exponent and the true one. Biased exponents are never negative: the smallest
 /// subnormal has 1.
 const fn bias<S: Scalar>() -> i32 {
-    // 127 + 23 or 1023 + 52.
+    // This is 127 + 23 or 1023 + 52.
     ((1 << (S::EXPONENT_BITS - 1)) - 1 + S::FRACTION_BITS) as i32
 }
 
@@ -29,7 +29,7 @@ struct Parts {
     is_finite: bool,
 }
 
-/// Takes a number apart by its encoding alone, so that no control register matters.
+/// Splits a number into its parts by its encoding alone, so that no control register matters.
 #[inline(always)]
 fn take_apart<S: Scalar>(number: S) -> Parts {
     let encoding = number.encoding();
@@ -71,9 +71,9 @@ pub(super) fn length<S: Scalar>(number: S) -> Option<Magnitude> {
 #[derive(Clone, Copy, Debug)]
 struct Axis {
     terms: [Term; 8],
-    /// The smallest exponent of them all, biased.
+    /// The smallest of their exponents, biased.
     unit: u32,
-    /// All coordinates are whole numbers of this many bits, times 2^`unit`.
+    /// The number of bits of the coordinates, which are whole numbers times 2^`unit`.
     bits: u32,
 }
 
@@ -117,7 +117,7 @@ pub(super) struct AlignedPair {
 }
 
 impl AlignedPair {
-    /// `None` if a coordinate is not finite.
+    /// Returns the coordinates, or `None` if one is not finite.
     #[inline(never)]
     pub(super) fn new<S: Scalar>(pair: &PrimitivePair<S>) -> Option<Self> {
         let points = PairPoints::from(pair);
@@ -128,7 +128,7 @@ impl AlignedPair {
             Axis::new([a.y, b.y, c.y, d.y, e.y, f.y, g.y, h.y])?,
             Axis::new([a.z, b.z, c.z, d.z, e.z, f.z, g.z, h.z])?,
         ];
-        // Any unit is valid where all coordinates are zero.
+        // Any unit is valid if all coordinates are zero.
         let unit = |axis: &Axis| i32::try_from(axis.unit).unwrap_or(0);
         let [x, y, z] = &axes;
         Some(Self {

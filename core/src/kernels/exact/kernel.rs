@@ -29,7 +29,7 @@ impl Width {
     /// Returns the narrowest sufficient width.
     #[inline(always)]
     pub(super) fn of(pair: &AlignedPair) -> Self {
-        // f64 ranges over 2,098 bits, f32 over 277.
+        // An f64 ranges over 2,098 bits, an f32 over 277.
         let bits = pair.bits();
         if bits <= bits_in::<1>() {
             Self::Words1
@@ -275,7 +275,7 @@ pub(super) fn control_values<A: Arithmetic>(kind: PairKind, coordinates: &[[A::O
 mod tests {
     use super::bits_in;
 
-    /// The smallest sufficient width is taken: more would only take longer.
+    /// The smallest sufficient width is taken, since a larger one would take longer.
     #[test]
     fn a_width_serves_for_all_its_bits_but_the_head_room() {
         assert_eq!([bits_in::<1>(), bits_in::<2>(), bits_in::<5>()], [61, 125, 317]);

@@ -5,7 +5,7 @@ use super::integer::Words;
 /// A bound of a non-negative number: `significand` · 2^`exponent`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Magnitude {
-    /// Zero, or its top bit is set.
+    /// The significand is zero, or its top bit is set.
     significand: u64,
     exponent: i32,
 }

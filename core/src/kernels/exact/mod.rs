@@ -50,7 +50,6 @@
 //! square kᵢ costs 3 · 2⁻⁶³ of its square. To round a component of nᵢ, square it and add twice costs 5 · 2⁻⁶³ (a square counts
 //! its operand's step twice). To square s and multiply costs 2 · 2⁻⁶³. So a pair is culled whenever |kᵢ| > s·|nᵢ|·(1 + 2⁻⁶⁰), and
 //! never when |kᵢ| ≤ s·|nᵢ| for some i. With s = 0 the answer is exact.
-//! |kᵢ| > s·|nᵢ|·(1 + 2⁻⁶⁰), and never when |kᵢ| ≤ s·|nᵢ| for some i. With s = 0 the answer is exact.
 
 mod aligned;
 mod contact;
@@ -79,14 +78,14 @@ pub enum Evidence {
     Crossing,
     /// Arithmetic in whole numbers.
     WholeNumbers,
-    /// None: the input is not finite.
+    /// There is no evidence, since the input is not finite.
     Nothing,
 }
 
 /// The known signs of the control values k₀, 3k₁, 3k₂, k₃.
 pub type KnownSigns = [Option<Ordering>; 4];
 
-/// No sign is known.
+/// Signs of which none is known.
 pub const UNKNOWN: KnownSigns = [None; 4];
 
 /// Returns the signs that rounded control values prove: those of values beyond `bounds`, their
@@ -124,7 +123,7 @@ pub fn certain_signs<S: Scalar>(values: &ControlValues<S>, bounds: [S; 4]) -> Kn
 
 /// Compares the control values k₀, 3k₁, 3k₂, k₃ of the pair's signed volume with zero.
 ///
-/// Exact, in every floating-point environment. Returns `None` if a coordinate is NaN or infinite.
+/// The result is exact, in every floating-point environment. It is `None` if a coordinate is NaN or infinite.
 ///
 /// ```
 /// use core::cmp::Ordering::{Equal, Greater, Less};
@@ -152,7 +151,7 @@ fn signs(pair: &AlignedPair) -> [Ordering; 4] {
     }
 }
 
-/// Out of line, so that a call pays for the stack of its own width only.
+/// It is out of line, so that a call pays for the stack of its own width only.
 #[inline(never)]
 fn signs_by<A: Arithmetic>(pair: &AlignedPair, arithmetic: &mut A) -> [Ordering; 4] {
     let coordinates = arithmetic.coordinates(pair);
@@ -167,8 +166,8 @@ fn signs_in_space(pair: &AlignedPair) -> [Ordering; 4] {
 /// Returns true exactly if all four control values are positive, or all four negative. True proves that the four points are not
 /// coplanar at any time in [0, 1].
 ///
-/// Exact, in every floating-point environment; false if a coordinate is NaN or infinite. Signs in `known` must be right, and are
-/// not computed again; pass [`UNKNOWN`] if there are none. Stops as soon as two signs differ.
+/// The result is exact, in every floating-point environment; false if a coordinate is NaN or infinite. Signs in `known` must be
+/// right, and are not computed again; pass [`UNKNOWN`] if there are none. The computation stops as soon as two signs differ.
 #[must_use]
 pub fn is_never_coplanar<S: Scalar>(pair: &PrimitivePair<S>, known: KnownSigns) -> bool {
     one_sign(pair, known, Magnitude::ZERO)
@@ -177,9 +176,9 @@ pub fn is_never_coplanar<S: Scalar>(pair: &PrimitivePair<S>, known: KnownSigns) 
 /// Returns true if all four control values are positive, or all four negative, and far enough from zero to prove that the vertex
 /// and the face's plane, or the two edges' lines, are more than `separation` apart at every time in [0, 1].
 ///
-/// Certified in every floating-point environment, and exact but for a relative 2⁻⁶⁰ of the separation (see the module's
-/// documentation). With `separation` 0 it is the same as [`is_never_coplanar`]. False if a coordinate is NaN or infinite, or if
-/// `separation` is NaN, infinite or negative.
+/// The result is certified in every floating-point environment, and exact up to a relative 2⁻⁶⁰ of the separation (see the
+/// module's documentation). With `separation` 0 it is the same as [`is_never_coplanar`]. It is false if a coordinate is NaN or
+/// infinite, or if `separation` is NaN, infinite or negative.
 ///
 /// A sign in `known` asserts that this control value has it and meets the condition of the module's documentation; it is not
 /// computed again.
@@ -219,7 +218,7 @@ fn one_sign<S: Scalar>(pair: &PrimitivePair<S>, known: KnownSigns, squared_separ
     AlignedPair::new(pair).is_some_and(|pair| one_sign.passes(&pair))
 }
 
-/// Stops at the first control value that does not have the others' strict sign, or is not beyond the separation.
+/// A judge that stops at the first control value that does not have the others' strict sign, or is not beyond the separation.
 struct OneSign {
     known: KnownSigns,
     common: Option<Ordering>,
@@ -250,7 +249,7 @@ impl OneSign {
         }
     }
 
-    /// Out of line, so that a call pays for the stack of its own width only.
+    /// It is out of line, so that a call pays for the stack of its own width only.
     #[inline(never)]
     fn passes_by<A: Arithmetic>(&mut self, pair: &AlignedPair, arithmetic: &mut A) -> bool {
         let coordinates = arithmetic.coordinates(pair);

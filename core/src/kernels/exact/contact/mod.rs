@@ -21,11 +21,11 @@
 //! # At some time
 //! Corners are linear in time, cross products quadratic, K cubic.
 //! * Start and end are tested first.
-//! * Where K is not zero throughout, contact in between is at one of its roots. Descartes' rule, the number of changes of sign
-//!   among its coefficients, shows if there is none, or exactly one. If there may be more, the roots of the derivative divide the
-//!   step into parts where K has at most one root: one where it changes sign from end to end. K may also be zero at those roots
+//! * If K is not zero throughout, contact in between is at one of its roots. Descartes' rule, the number of changes of sign among
+//!   its coefficients, shows if there is none, or exactly one. If there may be more, the roots of the derivative divide the step
+//!   into parts in which K has at most one root: one if it changes sign from end to end. K may also be zero at those roots
 //!   themselves, without changing sign.
-//! * Where K is zero throughout, the times of contact are a closed set. Its first time, if it is not 0, is a root of one of the
+//! * If K is zero throughout, the times of contact are a closed set. Its first time, if it is not 0, is a root of one of the
 //!   quadratics or linear polynomials of 2 and 3; all of them are tried.
 //!
 //! Both need signs of polynomials of degree at most three, at roots of polynomials of degree at most two: see `moment`. At a root
@@ -59,7 +59,8 @@ use moment::{Crossing, End, Moment, Root, sign_before_end};
 
 /// Returns whether the closed vertex and face, or the two closed edges, share a point at some time in [0, 1].
 ///
-/// Exact for all finite input, in every floating-point environment. Returns `None` if a coordinate is NaN or infinite.
+/// The result is exact for all finite input, in every floating-point environment. It is `None` if a coordinate is NaN or
+/// infinite.
 ///
 /// For most pairs, [`contact`](crate::elementary::contact()) returns the same answer sooner.
 ///
@@ -99,7 +100,7 @@ fn touches_aligned(pair: &AlignedPair) -> bool {
 
 /// Decides with coordinates of `N` words; `N2` = 2·`N`, `N3` = 3·`N`, and `WORDS` of space.
 ///
-/// Out of line, like the next, so that a call takes the stack of its own width only.
+/// It is out of line, like the next, so that a call takes the stack of its own width only.
 #[inline(never)]
 fn in_words<const N: usize, const N2: usize, const N3: usize, const WORDS: usize>(pair: &AlignedPair) -> bool {
     let mut arithmetic = Fixed::<N, N2, N3>;
@@ -132,7 +133,7 @@ fn is_never_zero(signs: [Ordering; 4]) -> bool {
     signs == [Ordering::Less; 4] || signs == [Ordering::Greater; 4]
 }
 
-/// Corners around the polygon, with the first again after the last. A triangle has one entry less, and its last is unused.
+/// The corners around the polygon, with the first again after the last. A triangle has one entry less, and its last is unused.
 type Around<T> = [T; 5];
 
 /// Returns each corner's coordinates at the start and at the end, along each axis.
@@ -240,7 +241,7 @@ impl<'a> Polygon<'a> {
         let mut space = space.scratch();
         let [k0, k1, k2, k3] = volume;
         let derivative = [k1, space.doubled(k2), space.tripled(k3)];
-        // 3K = s·K′ + this: where the derivative is zero, it has the volume's sign.
+        // The rest is defined by 3K = s·K′ + rest: where the derivative is zero, it has the volume's sign.
         let rest = [space.tripled(k0), space.doubled(k1), k2];
         let turning_points = Root::positive(&derivative, &mut space);
         let mut crossing = Crossing::between_ends(volume);

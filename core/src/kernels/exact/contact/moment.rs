@@ -141,7 +141,7 @@ impl<'a> Root<'a> {
         let [a, b, c] = quadratic;
         let root = |side| Some(Self { quadratic, side });
         match (a.sign(), b.sign(), c.sign()) {
-            // One change of sign, after which it stays positive.
+            // There is one change of sign, after which it stays positive.
             (Ordering::Less, ..) | (Ordering::Equal, Ordering::Less, _) => [None, root(Side::Upper)],
             (Ordering::Greater, Ordering::Less, Ordering::Greater) if !discriminant_sign(quadratic, space).is_lt() => {
                 [root(Side::Lower), root(Side::Upper)]
@@ -162,7 +162,7 @@ fn discriminant_sign([a, b, c]: [Words<'_>; 3], space: &mut Space<'_>) -> Orderi
 
 impl Moment for Root<'_> {
     fn sign(&self, polynomial: &[Words<'_>], space: &mut Space<'_>) -> Ordering {
-        // Common where corners move in a plane along an axis. Rounded numbers cannot show that a number is zero.
+        // This is common if corners move in a plane along an axis. Rounded numbers cannot show that a number is zero.
         if polynomial.iter().all(|coefficient| coefficient.is_zero()) {
             return Ordering::Equal;
         }
@@ -224,7 +224,7 @@ impl Root<'_> {
     /// Compares two roots.
     ///
     /// The sign of the other's quadratic here shows whether this root is between the other's two roots. If not, the sign of its
-    /// derivative shows on which side of both.
+    /// derivative shows on which side of both it is.
     pub(super) fn compare(&self, other: &Root<'_>, space: &mut Space<'_>) -> Ordering {
         let [_, b, c] = other.quadratic;
         let place = self.sign(&other.quadratic, space);
@@ -260,7 +260,7 @@ pub(super) struct Crossing<'a> {
 }
 
 impl<'a> Crossing<'a> {
-    /// The crossing of a cubic in the whole step.
+    /// Makes the crossing of a cubic in the whole step.
     pub(super) fn between_ends(cubic: [Words<'a>; 4]) -> Self {
         Self {
             cubic,
@@ -286,7 +286,7 @@ impl<'a> Crossing<'a> {
 }
 
 impl Moment for Crossing<'_> {
-    /// For a polynomial of degree at most two: its sign before the end, unless a root is in between.
+    /// Returns the sign of a polynomial of degree at most two: its sign before the end, unless a root is in between.
     fn sign(&self, polynomial: &[Words<'_>], space: &mut Space<'_>) -> Ordering {
         let mut space = space.scratch();
         let mut sign = sign_before_end(polynomial);
@@ -309,7 +309,7 @@ mod tests {
 
     #[test]
     fn roots_compare_as_the_numbers_that_they_are() {
-        // Each polynomial, from the constant term up, with its positive roots.
+        // The entries are a polynomial, from the constant term up, and its positive roots.
         let polynomials = [
             ([2, -3, 1], [Some(1), Some(2)]),
             ([10, -7, 1], [Some(2), Some(5)]),
@@ -344,7 +344,7 @@ mod tests {
         let whole = |x: i64| Integer::<1>::shifted(x, 0);
         let quadratic = [2, -3, 1].map(whole);
         let mut words = [0; 100];
-        // 5 + s and −5 + s at s = 1 and 2.
+        // The polynomials are 5 + s and −5 + s at s = 1 and 2.
         for root in Root::positive(&quadratic.each_ref().map(Whole::words), &mut Space::new(&mut words))
             .iter()
             .flatten()

@@ -127,7 +127,7 @@ mod tests {
                 let [a, b, c] = quadratic.map(i128::from);
                 let [l1, first, last] = terms(&mut BuiltIn, [a, b, c], polynomial);
                 let exact = [l1, first, last, value_at_quotient(&mut BuiltIn, [a, b], polynomial)];
-                // The scale's own power of two, by which the terms are too large.
+                // The scale has this power of two, by which the terms are too large.
                 let bits = |coefficients: &[i64]| {
                     let bits = coefficients.iter().map(|&x| whole(x).words().bits());
                     bits.max().unwrap_or(0).cast_signed()
@@ -162,7 +162,7 @@ mod tests {
                 }
             }
         }
-        // One more for the shift of the exact value.
+        // One more is for the shift of the exact value.
         assert!(
             largest[0] <= 19 && largest[1] <= 60 && largest[2] <= 385 && largest[3] <= 26,
             "{largest:?}"

@@ -37,7 +37,7 @@ use super::remainder::Ring;
 use crate::exact::integer::Words;
 use core::cmp::Ordering;
 
-/// Bits after the point.
+/// The number of bits after the point.
 const FRACTION: u32 = 56;
 
 /// A number times 2⁵⁶, rounded down.
@@ -60,7 +60,7 @@ impl Scale {
             Some(dropped) => coefficient.word_above(dropped),
             None => coefficient.word_above(0) << (FRACTION - self.0),
         };
-        // In [−2⁵⁶, 2⁵⁶) by the choice of the scale.
+        // The number is in [−2⁵⁶, 2⁵⁶) by the choice of the scale.
         Rounded(word.cast_signed())
     }
 }

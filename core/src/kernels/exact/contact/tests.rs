@@ -1,4 +1,4 @@
-//! The work of an answer. (`verification/` checks answers against the oracle.)
+//! Tests the work of a decision. (`verification/` checks decisions against the oracle.)
 
 extern crate std;
 
@@ -15,7 +15,7 @@ pub(super) fn count_a_sign() {
     SIGNS.set(SIGNS.get() + 1);
 }
 
-/// The most signs at roots that a pair took, out of many whose coordinates are whole numbers up to `limit`, of which those along
+/// Returns the most signs at roots that a pair took, out of many whose coordinates are whole numbers up to `limit`. Those along
 /// some axes are all zero, or the same at the start and at the end.
 fn most_signs(kind: PairKind, limit: u64) -> u32 {
     let mut state = 0x9E37_79B9_7F4A_7C15_u64;
@@ -62,7 +62,7 @@ fn most_signs(kind: PairKind, limit: u64) -> u32 {
 fn no_more_signs_are_taken_than_stated() {
     for limit in [1, 2, 5, 1000] {
         let most = [PairKind::VertexFace, PairKind::EdgeEdge].map(|kind| most_signs(kind, limit));
-        // Some, so that they are counted at all.
+        // Some signs are taken, so that they are counted at all.
         assert!(most.iter().all(|most| (10..=864).contains(most)), "{most:?}");
     }
 }

@@ -37,7 +37,7 @@ pub(super) const fn subtract_with_borrow(x: u64, y: u64, borrow: bool) -> (u64, 
     (whole, first | second)
 }
 
-/// Returns all ones if the number of these words is negative, else zero.
+/// Returns all ones if the number of these words is negative, otherwise zero.
 #[inline(always)]
 pub(super) fn sign_word(words: &[u64]) -> u64 {
     let top = words.last().copied().unwrap_or(0);
@@ -47,7 +47,7 @@ pub(super) fn sign_word(words: &[u64]) -> u64 {
 /// Returns the words without those above that only repeat the sign.
 #[inline(always)]
 pub(super) fn without_repeated_sign(mut words: &[u64]) -> &[u64] {
-    // Eights first: the compiler makes them a comparison of a few registers.
+    // Groups of eight come first: the compiler makes them a comparison of a few registers.
     while let Some((below, eight)) = words.split_last_chunk::<8>()
         && eight.iter().fold(0, |bits, word| bits | (word ^ sign_word(below))) == 0
     {

@@ -17,7 +17,7 @@ use limbs::{add_with_carry, multiply, multiply_significant_words, sign_word, sub
 
 /// A whole number of `N` words.
 ///
-/// Every result is taken modulo 2^(64·words). It is exact where it fits, which [`kernel`](super::kernel) shows.
+/// Every result is taken modulo 2^(64·words). It is exact if it fits, which [`kernel`](super::kernel) shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Integer<const N: usize>([u64; N]);
 
@@ -26,7 +26,7 @@ impl<const N: usize> Integer<N> {
     #[inline(always)]
     pub(super) fn shifted(significand: i64, shift: u32) -> Self {
         if N == 1 {
-            // The same with less work.
+            // This gives the same result with less work.
             return Self([(significand << (shift % 64)).cast_unsigned(); N]);
         }
         let mut words = [0; N];

@@ -4,7 +4,7 @@ use core::mem;
 
 /// Space for numbers. Each number keeps its words as long as the space lives; only [`scratch`](Self::scratch) gives words back.
 ///
-/// `contact` shows that there is enough.
+/// The module `contact` shows that there is enough.
 #[derive(Debug)]
 pub(in crate::kernels::exact) struct Space<'a>(&'a mut [u64]);
 
@@ -27,7 +27,7 @@ impl<'a> Space<'a> {
         taken
     }
 
-    /// Returns `significand` · 2^`shift`; zero needs no space, whatever the shift.
+    /// Returns `significand` · 2^`shift`. Zero needs no space.
     #[inline(never)]
     pub(in crate::kernels::exact) fn shifted(&mut self, significand: i64, shift: u32) -> Words<'a> {
         if significand == 0 {
@@ -111,7 +111,6 @@ impl<'a> Space<'a> {
         Words::new(words)
     }
 
-    /// Returns the product.
     #[inline(never)]
     pub(in crate::kernels::exact) fn times(&mut self, a: Words<'_>, b: Words<'_>) -> Words<'a> {
         match (a.0, b.0) {
@@ -139,7 +138,7 @@ impl<'a> Space<'a> {
     #[inline(never)]
     pub(in crate::kernels::exact) fn minor(&mut self, a: Words<'_>, b: Words<'_>, c: Words<'_>, d: Words<'_>) -> Words<'a> {
         if let (Some(a), Some(b), Some(c), Some(d)) = (a.single(), b.single(), c.single(), d.single()) {
-            // Less than 2¹²⁶ + 2¹²⁶: both products are at most 2¹²⁶, and none is −2¹²⁶.
+            // The result is less than 2¹²⁶ + 2¹²⁶: both products are at most 2¹²⁶, and none is −2¹²⁶.
             return self.double(a * d - b * c);
         }
         let words = self.take((a.0.len() + d.0.len()).max(b.0.len() + c.0.len()) + 1);

@@ -38,7 +38,7 @@ fn resized<const R: usize>(number: Words<'_>) -> Integer<R> {
 
 /// Runs `compute` in a space.
 fn in_space<const R: usize>(compute: impl for<'a> Fn(&mut Space<'a>) -> Words<'a>) -> Integer<R> {
-    // Not zero, so that no word is left to chance.
+    // The words are not zero, so that none is left to chance.
     resized(compute(&mut Space::new(&mut [0x5555; 100])))
 }
 
@@ -79,14 +79,14 @@ fn products_are_those_of_the_built_in_type() {
         let product: Integer<4> = integer(a).times(&integer(b));
         let Integer([low, high, ..]) = product;
         assert_eq!(Integer([low, high]), integer(a.wrapping_mul(b)), "{a} · {b}");
-        // All of it for smaller numbers: below.
+        // For smaller numbers all of it is compared below.
         let sign = a.signum() * b.signum();
         assert_eq!(product.sign(), sign.cmp(&0), "{a} · {b}");
         assert_eq!(
             in_space::<4>(|space| space.times(integer(a).words(), integer(b).words())),
             product
         );
-        // One word by one, and by two.
+        // One word is multiplied by one, and by two.
         let short = Integer([a as u64]);
         let of_short = i128::from((a as u64).cast_signed()) * i128::from((b as u64).cast_signed());
         assert_eq!(short.times::<1, 2>(&Integer([b as u64])), integer(of_short));
@@ -94,7 +94,7 @@ fn products_are_those_of_the_built_in_type() {
             (resized::<2>(short.words()).times(&integer(b)), short.times(&integer(b)));
         assert_eq!(resized::<4>(product.words()), expected, "{short:?} · {b}");
     }
-    // (2⁶⁴ − 1)·2¹⁰⁰ times −2¹²⁶, word by word.
+    // The product is (2⁶⁴ − 1)·2¹⁰⁰ times −2¹²⁶, word by word.
     let a: Integer<3> = shifted::<3>(1, 164).minus(&shifted(1, 100));
     let product: Integer<5> = a.times(&shifted::<2>(-1, 126));
     assert_eq!(product, shifted::<5>(1, 226).minus(&shifted(1, 290)));
@@ -116,7 +116,7 @@ fn wide_products_of_shifted_numbers_are_shifted_products() {
     }
 }
 
-/// Numbers with zeros below, or with repeated signs above, or with neither.
+/// Visits numbers with zeros below, or with repeated signs above, or with neither.
 fn for_each_number(visit: &dyn Fn(&Integer<6>)) {
     visit(&Integer::ZERO);
     for significand in [1, -1, 3, -3, i64::MAX, i64::MIN] {

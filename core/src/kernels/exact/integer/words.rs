@@ -27,7 +27,7 @@ impl Whole for Words<'_> {
 }
 
 impl<'a> Words<'a> {
-    /// The number of these words.
+    /// Returns the number of these words.
     #[inline(always)]
     pub(super) fn new(words: &'a [u64]) -> Self {
         Self(without_repeated_sign(words))
