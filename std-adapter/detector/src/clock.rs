@@ -2,6 +2,13 @@
 
 use std::time::Duration;
 
+#[cfg(all(feature = "timing", not(all(target_family = "wasm", target_os = "unknown"))))]
+use std::time::Instant;
+/// The standard library's clock panics in a browser.
+#[cfg(all(feature = "timing", target_family = "wasm", target_os = "unknown"))]
+use web_time::Instant;
+
+/// The moment at which something began.
 ///
 /// ```
 /// let clock = selvedge::clock::Clock::now();
@@ -11,7 +18,7 @@ use std::time::Duration;
 #[derive(Clone, Copy, Debug)]
 pub struct Clock {
     #[cfg(feature = "timing")]
-    begin: std::time::Instant,
+    begin: Instant,
 }
 
 impl Clock {
@@ -20,7 +27,7 @@ impl Clock {
     pub fn now() -> Self {
         Self {
             #[cfg(feature = "timing")]
-            begin: std::time::Instant::now(),
+            begin: Instant::now(),
         }
     }
 

@@ -16,8 +16,11 @@ pub mod bytes;
 #[doc(hidden)]
 pub mod excerpt;
 pub mod mesh;
+mod source;
 #[doc(hidden)]
 pub mod temporary_file;
+
+pub use source::FileSource;
 
 /// Runs the examples of the readme as tests.
 #[cfg(doctest)]

@@ -3,6 +3,7 @@
 use super::error::{SceneError, suggestion};
 use super::field::{Count, Field, ValueError};
 use selvedge_core::glam::DVec3;
+use selvedge_files::FileSource;
 use selvedge_files::excerpt::excerpt;
 use std::ops::Range;
 use std::path::Path;
@@ -13,6 +14,7 @@ use toml::de::{DeTable, DeValue};
 #[derive(Debug)]
 pub(crate) struct Source<'a> {
     pub(crate) path: &'a Path,
+    pub(crate) files: &'a FileSource,
     pub(crate) text: &'a str,
 }
 
@@ -254,6 +256,11 @@ impl<'a> Table<'a> {
     /// Returns the folder to which paths in the file are relative.
     pub(crate) fn folder(&self) -> &Path {
         self.source.path.parent().unwrap_or(Path::new("."))
+    }
+
+    /// Returns the source of the files that the scene names.
+    pub(crate) fn files(&self) -> &FileSource {
+        self.source.files
     }
 
     fn get(&self, key: &str) -> Option<&'a Value<'a>> {

@@ -5,6 +5,7 @@ use crate::effects::{self, Called, Effects, Gravity, Wrong};
 use crate::input::{SceneError, Source, Table};
 use crate::world::{Body, Cloth, SceneParts};
 use selvedge_core::glam::DVec3;
+use selvedge_files::FileSource;
 use std::path::Path;
 
 impl Scene {
@@ -24,11 +25,32 @@ impl Scene {
     /// # Errors
     /// Returns an error if the text contains an error. The message names file, line and column.
     pub fn parse(text: &str, path: &Path) -> Result<Self, SceneError> {
+        Self::parse_with_files(text, path, &FileSource::Disk)
+    }
+
+    /// Reads a scene from the text of a file like [`parse`](Self::parse), and the files that it names from `files`.
+    ///
+    /// ```
+    /// use selvedge_cloth::files::FileSource;
+    /// use selvedge_cloth::{Scene, WALKER};
+    ///
+    /// let [(name, text), rest @ ..] = WALKER;
+    /// let files = FileSource::Memory(rest.into_iter().map(|(name, bytes)| (name.into(), bytes.to_vec())).collect());
+    /// # if cfg!(feature = "gltf") {
+    /// let scene = Scene::parse_with_files(std::str::from_utf8(text)?, name.as_ref(), &files)?;
+    /// assert_eq!(scene.cloths.len(), 1);
+    /// # }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`parse`](Self::parse).
+    pub fn parse_with_files(text: &str, path: &Path, files: &FileSource) -> Result<Self, SceneError> {
         let root = toml::de::DeTable::parse(text).map_err(|error| {
             let span = error.span().unwrap_or(0..0);
             SceneError::at(path, text, &span, error.message().trim().replace('\n', ", "))
         })?;
-        let source = Source { path, text };
+        let source = Source { path, files, text };
         let root = Table::root(&source, root.get_ref());
         root.expect_keys(&[
             "name",

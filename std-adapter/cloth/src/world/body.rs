@@ -145,7 +145,7 @@ impl Body {
     fn read_frames(name: &str, table: &Table<'_>, time_step: f64) -> Result<Self, SceneError> {
         let files = table.required_text("files", "\"frames/body-####.ply\"")?;
         let rate = table.required_number(&RATE)?;
-        let read = mesh::read_sequence(&table.folder().join(files));
+        let read = mesh::read_sequence_from(table.files(), &table.folder().join(files));
         let MeshSequence {
             triangles, mut frames, ..
         } = read.map_err(|error| table.error("files", error.to_string()))?;
@@ -162,7 +162,7 @@ impl Body {
             animation: table.text("animation")?,
             at_rest: false,
         };
-        let figure = animation::read(&table.folder().join(file), &choice).map_err(|error| {
+        let figure = animation::read_from(table.files(), &table.folder().join(file), &choice).map_err(|error| {
             let key = match error.problem {
                 AnimationProblem::NoSuchNode { .. } | AnimationProblem::SeveralNodes { .. } => "node",
                 AnimationProblem::NoSuchAnimation { .. } | AnimationProblem::SeveralAnimations { .. } => "animation",

@@ -169,7 +169,7 @@ fn read_file(table: &Table<'_>, loose_features: bool) -> Result<(Mesh, Vec<[u32;
         positions,
         topology,
         notes,
-    } = mesh::read_with(&path, &options).map_err(|error| match &error {
+    } = mesh::read_from(table.files(), &path, &options).map_err(|error| match &error {
         MeshError::File {
             problem: FileProblem::NoSuchGroup { .. } | FileProblem::NoGroups,
             ..

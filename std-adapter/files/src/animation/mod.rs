@@ -30,6 +30,7 @@ mod track;
 pub use error::{AnimationError, AnimationProblem, Choices};
 pub use figure::Figure;
 
+use crate::FileSource;
 use crate::mesh::FileProblem;
 use std::path::Path;
 
@@ -52,8 +53,17 @@ pub struct Choice<'a> {
 /// or several; if it requires an extension that changes shapes; if a number is not finite, or a vertex names a joint or a vertex
 /// that does not exist. The message names the file, and the node, channel or vertex.
 pub fn read(path: &Path, choice: &Choice<'_>) -> Result<Figure, AnimationError> {
-    let bytes = std::fs::read(path).map_err(|error| AnimationError::of(path, FileProblem::from_read(error).into()))?;
-    read_bytes(&bytes, path, choice)
+    read_from(&FileSource::Disk, path, choice)
+}
+
+/// Reads a moving figure from a glTF file of any source, like [`read`].
+///
+/// # Errors
+/// Those of [`read`].
+pub fn read_from(source: &FileSource, path: &Path, choice: &Choice<'_>) -> Result<Figure, AnimationError> {
+    let bytes = source.read(path);
+    let bytes = bytes.map_err(|error| AnimationError::of(path, FileProblem::from_read(error).into()))?;
+    parse(&bytes, source.beside(path), choice).map_err(|problem| AnimationError::of(path, problem))
 }
 
 /// Reads such a figure from the bytes of a file. Paths in it are relative to the folder of `path`, which errors name. No input

@@ -25,9 +25,10 @@ pub use error::{FileProblem, FrameDifference, MeshError};
 pub use findings::{Findings, THIN};
 pub use notes::{FilePart, LeftOut, MeshNotes};
 pub use ply::PlyEncoding;
-pub use sequence::{MeshSequence, SequenceProblem, read_sequence};
+pub use sequence::{MeshSequence, SequenceProblem, read_sequence, read_sequence_from};
 pub use step::{MeshStep, read_step};
 
+use crate::FileSource;
 use crate::temporary_file;
 use parsed::Parsed;
 use selvedge::{Mesh, Topology, TopologyError};
@@ -86,7 +87,7 @@ pub struct MeshFile {
 /// not finite, a face with fewer than three vertices or one that does not exist, or no face at all. The message names the file
 /// and the line, element or vertex.
 pub fn read(path: &Path) -> Result<MeshFile, MeshError> {
-    let read = load(path, &ReadOptions::default()).and_then(Parsed::into_file);
+    let read = load(&FileSource::Disk, path, &ReadOptions::default()).and_then(Parsed::into_file);
     read.map_err(|problem| MeshError::file(path, problem))
 }
 
@@ -125,7 +126,15 @@ const WITH_LOOSE_FEATURES: ReadOptions<'static> = ReadOptions {
 /// Returns the errors of [`read`] and, on request, of [`read_with_loose_features`]. Also returns an error if the file has no such
 /// group or object.
 pub fn read_with(path: &Path, options: &ReadOptions<'_>) -> Result<LooseMesh, MeshError> {
-    let read = load(path, options).and_then(Parsed::into_loose);
+    read_from(&FileSource::Disk, path, options)
+}
+
+/// Reads the wanted parts of a mesh file of any source, like [`read_with`].
+///
+/// # Errors
+/// Those of [`read_with`].
+pub fn read_from(source: &FileSource, path: &Path, options: &ReadOptions<'_>) -> Result<LooseMesh, MeshError> {
+    let read = load(source, path, options).and_then(Parsed::into_loose);
     read.map_err(|problem| MeshError::file(path, problem))
 }
 
@@ -260,14 +269,15 @@ pub struct ReadOptions<'a> {
     pub weld: Option<f64>,
 }
 
-fn load(path: &Path, options: &ReadOptions<'_>) -> Result<Parsed, FileProblem> {
-    let metadata = std::fs::metadata(path).map_err(FileProblem::from_read)?;
-    if metadata.is_dir() {
+fn load(source: &FileSource, path: &Path, options: &ReadOptions<'_>) -> Result<Parsed, FileProblem> {
+    if let FileSource::Disk = source
+        && std::fs::metadata(path).map_err(FileProblem::from_read)?.is_dir()
+    {
         return Err(FileProblem::Folder);
     }
     let format = FileFormat::from_path(path).ok_or(FileProblem::UnknownExtension)?;
-    let bytes = std::fs::read(path).map_err(FileProblem::from_read)?;
-    parse_at(&bytes, path, format, options)
+    let bytes = source.read(path).map_err(FileProblem::from_read)?;
+    parse_at(&bytes, source.beside(path), format, options)
 }
 
 fn parse(bytes: &[u8], format: FileFormat, options: &ReadOptions<'_>) -> Result<Parsed, FileProblem> {

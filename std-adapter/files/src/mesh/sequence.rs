@@ -3,6 +3,7 @@
 use super::error::{FrameDifference, MeshError};
 use super::parsed::Parsed;
 use super::{FileFormat, ReadOptions, load};
+use crate::FileSource;
 use crate::excerpt::excerpt;
 use selvedge::Topology;
 use selvedge_core::glam::DVec3;
@@ -95,17 +96,25 @@ pub enum SequenceProblem {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn read_sequence(pattern: &Path) -> Result<MeshSequence, MeshError> {
-    let found = if pattern.is_dir() {
-        of_folder(pattern)
+    read_sequence_from(&FileSource::Disk, pattern)
+}
+
+/// Reads numbered files of any source, like [`read_sequence`].
+///
+/// # Errors
+/// Those of [`read_sequence`].
+pub fn read_sequence_from(source: &FileSource, pattern: &Path) -> Result<MeshSequence, MeshError> {
+    let found = if source.is_folder(pattern) {
+        of_folder(source, pattern)
     } else {
-        of_pattern(pattern)
+        of_pattern(source, pattern)
     };
     let files = found.map_err(|problem| MeshError::Sequence {
         pattern: pattern.to_owned(),
         problem,
     })?;
     let read = |path: &Path| {
-        let whole = load(path, &ReadOptions::default()).and_then(Parsed::whole);
+        let whole = load(source, path, &ReadOptions::default()).and_then(Parsed::whole);
         whole.map_err(|problem| MeshError::file(path, problem))
     };
     // There is a first file, since empty sequences were refused.
@@ -149,7 +158,7 @@ impl Names<'_> {
     }
 }
 
-fn of_pattern(pattern: &Path) -> Result<Vec<PathBuf>, SequenceProblem> {
+fn of_pattern(source: &FileSource, pattern: &Path) -> Result<Vec<PathBuf>, SequenceProblem> {
     let name = pattern.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     let first = name.find('#').ok_or(SequenceProblem::Pattern)?;
     let digits = name[first..].bytes().take_while(|&byte| byte == b'#').count();
@@ -165,11 +174,11 @@ fn of_pattern(pattern: &Path) -> Result<Vec<PathBuf>, SequenceProblem> {
         Some(folder) if folder != Path::new("") => folder,
         _ => Path::new("."),
     };
-    in_order(folder, &listing(folder)?, names)
+    in_order(folder, &listing(source, folder)?, names)
 }
 
-fn of_folder(folder: &Path) -> Result<Vec<PathBuf>, SequenceProblem> {
-    let mut all = listing(folder)?;
+fn of_folder(source: &FileSource, folder: &Path) -> Result<Vec<PathBuf>, SequenceProblem> {
+    let mut all = listing(source, folder)?;
     all.retain(|name| FileFormat::from_path(Path::new(name)).is_some());
     let Some(one) = all.first() else {
         return Err(SequenceProblem::NoFiles {
@@ -196,18 +205,11 @@ fn of_folder(folder: &Path) -> Result<Vec<PathBuf>, SequenceProblem> {
 }
 
 /// Returns the names of all files in a folder, in order.
-fn listing(folder: &Path) -> Result<Vec<String>, SequenceProblem> {
-    let failed = |error| SequenceProblem::Folder {
+fn listing(source: &FileSource, folder: &Path) -> Result<Vec<String>, SequenceProblem> {
+    source.names(folder).map_err(|error| SequenceProblem::Folder {
         folder: folder.to_owned(),
         error,
-    };
-    let mut names = Vec::new();
-    for entry in std::fs::read_dir(folder).map_err(failed)? {
-        // Names that are not text are skipped.
-        names.extend(entry.map_err(failed)?.file_name().into_string().ok());
-    }
-    names.sort_unstable();
-    Ok(names)
+    })
 }
 
 /// Returns the files with such names in the order of their numbers, without a gap.

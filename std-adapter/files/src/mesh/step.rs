@@ -1,6 +1,7 @@
 //! Two frames of one mesh: a time step from files.
 
 use super::error::{FrameDifference, MeshError};
+use crate::FileSource;
 use super::{MeshNotes, ReadOptions, load};
 use selvedge::{Topology, TopologyError};
 use selvedge_core::glam::DVec3;
@@ -25,7 +26,7 @@ pub struct MeshStep {
 /// # Errors
 /// Returns the errors of [`read`](super::read) for either file, or an error with both files and their first difference.
 pub fn read_step(start: &Path, end: &Path) -> Result<MeshStep, MeshError> {
-    let read = |path: &Path| match load(path, &ReadOptions::default()) {
+    let read = |path: &Path| match load(&FileSource::Disk, path, &ReadOptions::default()) {
         Ok(frame) if frame.faces.len() == 0 => Err(MeshError::file(path, TopologyError::NoTriangles.into())),
         Ok(frame) => Ok(frame),
         Err(problem) => Err(MeshError::file(path, problem)),

@@ -10,11 +10,11 @@ use rustc_hash::FxHashSet;
 use selvedge::Contact;
 use selvedge::PairCounts;
 use selvedge::PairKind;
+use selvedge::clock::Clock;
 use selvedge_core::batch::{BatchTest, LANES, Level, Mask, culled_from_rows};
 use selvedge_core::boxes::Aabb;
 use selvedge_core::distribution::distribute;
 use selvedge_core::{PrimitivePair, Scalar};
-use std::time::Instant;
 
 /// The input that all batches of a step share.
 #[derive(Clone, Copy)]
@@ -71,7 +71,7 @@ impl<S: Scalar> Batch<S> {
 
     /// Replaces the batch by the primitive pairs of `triangle_pairs`.
     pub(super) fn distribute(&mut self, triangle_pairs: &[[u32; 2]], assignment: &FeatureAssignment) {
-        let begin = Instant::now();
+        let begin = Clock::now();
         self.vertex_face.clear();
         self.edge_edge.clear();
         self.contacts.clear();
@@ -87,7 +87,7 @@ impl<S: Scalar> Batch<S> {
 
     /// Drops the pairs that were distributed before, and records the others. It counts as part of distribution.
     pub(super) fn keep_new(&mut self, distributed: &mut Distributed) {
-        let begin = Instant::now();
+        let begin = Clock::now();
         keep_where(&mut self.vertex_face, |pair| distributed.vertex_face.insert(pair));
         keep_where(&mut self.edge_edge, |[a, b]| {
             distributed.edge_edge.insert([a.min(b), a.max(b)])
@@ -102,7 +102,7 @@ impl<S: Scalar> Batch<S> {
     /// Runs the culling tests in order.
     pub(super) fn cull(&mut self, step: &StepInput<'_, S>) {
         for &test in step.stages.tests {
-            let begin = Instant::now();
+            let begin = Clock::now();
             self.cull_by(test, step);
             self.tallies.push((self.counts(), begin.elapsed().as_secs_f64()));
         }
@@ -171,7 +171,7 @@ impl<S: Scalar> WithTest<S, Option<S>> for AtWork<'_, S> {
 
     fn with(self, time: impl Fn(&PrimitivePair<S>) -> Option<S>) {
         let Self { batch, step } = self;
-        let begin = Instant::now();
+        let begin = Clock::now();
         let mut found = [0; 2];
         let lists = [
             (PairKind::VertexFace, &batch.vertex_face),

@@ -65,6 +65,7 @@ use selvedge::PairKind;
 use selvedge::Topology;
 use selvedge::check_frames;
 use selvedge::parallel::{self, Workers};
+use selvedge::clock::Clock;
 use selvedge::simd::{Level, best_level};
 use selvedge::{CollisionDetector, Criterion, Threads};
 use selvedge_core::batch::VertexRow;
@@ -72,7 +73,6 @@ use selvedge_core::boxes::Aabb;
 use selvedge_core::elementary::Limits;
 use selvedge_core::{Motion, Scalar};
 use std::sync::Arc;
-use std::time::Instant;
 use stored::Stored;
 
 /// The number of candidate triangle pairs in a batch. Their primitive pairs take at most a quarter of a megabyte, so that a batch
@@ -287,7 +287,7 @@ impl<S: Scalar> Buffers<S> {
         end: &[S::Vector],
         report: &mut StepReport,
     ) {
-        let begin = Instant::now();
+        let begin = Clock::now();
         self.rows.clear();
         let moving = start.iter().zip(end).map(|(&start, &end)| Motion::new(start, end));
         self.rows.extend(moving.map(VertexRow::new));
@@ -324,7 +324,7 @@ impl<S: Scalar> Buffers<S> {
         };
         // Volumes that only some methods store are refitted in the stage that uses them.
         for (test, report) in stages.tests.iter().zip(&mut report.stages[1..]) {
-            let begin = Instant::now();
+            let begin = Clock::now();
             match test {
                 CullingTest::StoredSweptBoxes => self.boxes.refit_edges(mesh),
                 CullingTest::StoredDop18 => {
