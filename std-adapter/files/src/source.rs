@@ -76,7 +76,11 @@ mod tests {
 
     fn leaves() -> FileSource {
         let leaf = |height| format!("v 0 0 {height}\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").into_bytes();
-        let files = [("leaf-1.obj", leaf(0)), ("leaf-2.obj", leaf(1)), ("frames/leaf-7.obj", leaf(2))];
+        let files = [
+            ("leaf-1.obj", leaf(0)),
+            ("leaf-2.obj", leaf(1)),
+            ("frames/leaf-7.obj", leaf(2)),
+        ];
         FileSource::Memory(files.into_iter().map(|(name, bytes)| (name.into(), bytes)).collect())
     }
 
@@ -91,7 +95,9 @@ mod tests {
 
     #[test]
     fn an_absent_file_is_an_error_that_names_it() {
-        let error = read_from(&leaves(), Path::new("leaf-3.obj"), &ReadOptions::default()).unwrap_err().to_string();
+        let error = read_from(&leaves(), Path::new("leaf-3.obj"), &ReadOptions::default())
+            .unwrap_err()
+            .to_string();
         assert_eq!(error, "leaf-3.obj: there is no such file");
     }
 }

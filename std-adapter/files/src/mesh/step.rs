@@ -1,8 +1,8 @@
 //! Two frames of one mesh: a time step from files.
 
 use super::error::{FrameDifference, MeshError};
-use crate::FileSource;
 use super::{MeshNotes, ReadOptions, load};
+use crate::FileSource;
 use selvedge::{Topology, TopologyError};
 use selvedge_core::glam::DVec3;
 use std::path::Path;
