@@ -206,7 +206,6 @@ fn all<P: PairShape, L: Chunk>(
     Some(all)
 }
 
-/// Runs one round in lanes.
 #[inline(always)]
 fn round<P: PairShape, L: Lanes>(points: &PairPoints<L>, time: L, question: &RoundQuestion<L::Scalar>) -> round::RoundResult<L>
 where

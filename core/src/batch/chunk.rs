@@ -16,14 +16,12 @@ pub(super) trait Chunk: Lanes<Scalar: Scalar> {
     /// The part of a [`VertexRow`] that a register holds, at most all of it.
     type Part: Copy + Sub<Output = Self::Part>;
 
-    /// The number of pairs.
     const WIDTH: usize;
 
     /// Loads the numbers from `first` on.
     fn load(token: Self::Token, numbers: &[Self::Scalar; LANES], first: usize) -> Self;
     /// Stores the numbers from `first` on.
     fn store(self, numbers: &mut [Self::Scalar; LANES], first: usize);
-    /// Returns one bit for each lane.
     fn bits(mask: Self::Mask) -> Mask;
     /// Loads one part of a row; the first is part 0.
     fn part(token: Self::Token, row: &VertexRow<Self::Scalar>, part: usize) -> Self::Part;

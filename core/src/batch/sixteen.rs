@@ -22,7 +22,6 @@ pub enum Sixteen<'a, S> {
     Tile(&'a Tile<S>),
 }
 
-/// [`Sixteen`] in either format.
 pub(super) struct InEitherFormat<'a>(PhantomData<&'a ()>);
 
 impl<'a> Family for InEitherFormat<'a> {

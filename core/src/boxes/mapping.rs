@@ -64,7 +64,6 @@ use crate::scalar::Scalar;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mapping {
     origin: [f64; 3],
-    /// Half the separation.
     half: f64,
     /// The time of the step at which the end's boxes are taken.
     until: f64,

@@ -404,7 +404,6 @@ fn tear(mesh: &mut Mesh, simulation: &Simulation) -> Result<Vec<u32>, SelvedgeEr
     Ok(triangles.as_flattened().to_vec())
 }
 
-/// Returns the number of steps in a fixed step.
 fn parts(fixed: f64, step: f64) -> u32 {
     // The check of the scene refuses NaN.
     (fixed / step).round().clamp(1.0, 1e6) as u32

@@ -57,12 +57,9 @@ pub(crate) struct Collisions {
     entities: HashMap<MeshHandle, Entity>,
     /// The last reports about bodies that do not take part or lag behind.
     problems: BTreeMap<Entity, SelvedgeError>,
-    /// Meshes that were read and refused.
     refused: HashMap<AssetId<Mesh>, MeshError>,
-    /// One shape for all bodies of a mesh.
     shapes: HashMap<AssetId<Mesh>, Weak<Shape>>,
     found: Vec<WorldContact<f64>>,
-    /// The geometry of each contact.
     geometries: Vec<WorldContactGeometry>,
 }
 
@@ -178,7 +175,6 @@ impl Collisions {
         criterion.into_iter().chain(threads).collect()
     }
 
-    /// Reads changed meshes again.
     fn forget(&mut self, changed: &HashSet<AssetId<Mesh>>) {
         self.refused.retain(|mesh, _| !changed.contains(mesh));
         self.shapes

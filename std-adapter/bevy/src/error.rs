@@ -95,7 +95,6 @@ pub enum SelvedgeError {
     Setting(String),
 }
 
-/// Writes and logs problems.
 pub(crate) fn tell(problems: &mut MessageWriter<'_, SelvedgeProblem>, entity: Option<Entity>, error: SelvedgeError) {
     match entity {
         Some(entity) => tracing::warn!("selvedge: entity {entity}: {error}"),

@@ -44,7 +44,6 @@ pub struct RopesOf {
     cloth: Entity,
     /// The tubes of these triangles. They change if the entity receives another simulation.
     tubes: Vec<(usize, Tubes)>,
-    /// The mesh with these triangles.
     made: Option<AssetId<Mesh>>,
     positions: Vec<DVec3>,
     triangles: Vec<[u32; 3]>,
@@ -74,7 +73,6 @@ impl RopesOf {
         self.cloth
     }
 
-    /// Finds the tubes.
     fn look(&mut self, tubes: &[(usize, Tubes)], simulation: &Simulation) {
         self.positions.clear();
         let is_new = self.tubes != tubes;
@@ -104,7 +102,6 @@ impl RopesOf {
     }
 }
 
-/// Writes the tubes of all entities that show ropes.
 pub(crate) fn show_ropes(
     mut all: Query<'_, '_, (Entity, &mut RopesOf, &Mesh3d)>,
     cloths: Query<'_, '_, &ClothSimulation>,

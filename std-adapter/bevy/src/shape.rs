@@ -56,7 +56,6 @@ pub(crate) fn positions_of(mesh: &Mesh) -> Result<&[[f32; 3]], MeshError> {
     }
 }
 
-/// Returns the triangles of a mesh, with its vertex numbers.
 pub(crate) fn triangles_of(mesh: &Mesh) -> Result<Vec<[u32; 3]>, MeshError> {
     if mesh.primitive_topology() != PrimitiveTopology::TriangleList {
         let found = mesh.primitive_topology();
@@ -86,11 +85,9 @@ pub(crate) fn triangles_of(mesh: &Mesh) -> Result<Vec<[u32; 3]>, MeshError> {
 pub(crate) struct Shape {
     /// The triangles with the vertex numbers of the mesh.
     pub(crate) triangles: Vec<[u32; 3]>,
-    /// The point of each vertex.
     pub(crate) points: Vec<u32>,
     /// The first vertex of each point.
     pub(crate) vertices: Vec<u32>,
-    /// The topology of the points.
     pub(crate) topology: Arc<Topology>,
 }
 

@@ -131,7 +131,6 @@ pub fn map_chunks<T: Send, R>(
     action(0, items, result);
 }
 
-/// The number of items of a chunk.
 #[cfg(feature = "parallel")]
 const CHUNK: usize = 4096;
 

@@ -81,7 +81,6 @@ fn frames<S: Scalar>() -> [Vec<[S; 3]>; 2] {
     [frame(0.75), frame(-0.125)]
 }
 
-/// Returns a digest of the results of `ask` for each criterion.
 fn answers<S: Scalar>(ask: impl Fn(&mut CollisionDetector<S>, [&[[S; 3]]; 2], &mut Digest) -> Result<(), StepError>) -> [u64; 2] {
     let [start, end] = frames::<S>();
     let tolerance = Limits::default().tolerance;

@@ -118,7 +118,6 @@ struct Task {
     leaf_tests: u64,
 }
 
-/// The number of leaves in a task.
 const TASK: usize = 64;
 /// The factor by which tests for each triangle and pair exceed those just after the build when the tree is built again.
 const DEGRADED: f64 = 1.5;
@@ -296,7 +295,6 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Computes the result from its definition.
     fn by_definition(boxes: &[SweptBox]) -> Vec<[u32; 2]> {
         let is_apart =
             |a: &SweptBox, b: &SweptBox| (0..3).any(|axis| a.lower[axis] > b.upper[axis] || b.lower[axis] > a.upper[axis]);

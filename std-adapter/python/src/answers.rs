@@ -121,7 +121,6 @@ impl GeometryColumns {
     }
 }
 
-/// Converts one contact.
 pub(crate) fn show_contact<'py, S: Scalar>(
     py: Python<'py>,
     contact: &Contact<S>,

@@ -161,7 +161,6 @@ pub(crate) struct Finders {
     threads_of: Option<u32>,
 }
 
-/// A format of positions.
 pub(crate) trait Format: Scalar + Element {
     fn finder(finders: &mut Finders) -> &mut Option<Finder<Self>>;
 }

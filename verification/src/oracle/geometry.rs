@@ -59,7 +59,6 @@ impl Ring for Polynomial {
     }
 }
 
-/// A point or a vector.
 pub(crate) type Point<R> = [R; 3];
 
 /// The corners (0, 1), (1, 2), (2, 0) of a triangle's edges.

@@ -97,7 +97,6 @@ impl Motion {
         (0..3).any(|axis| side(false, axis) || side(true, axis))
     }
 
-    /// Returns the points as polynomials in the time.
     pub(crate) fn trajectories(&self) -> [Point<Polynomial>; 4] {
         std::array::from_fn(|point| {
             std::array::from_fn(|axis| {

@@ -106,7 +106,6 @@ impl Pose {
         plus(&self.moved, &self.turned_from(start))
     }
 
-    /// Returns the velocity of that point.
     fn velocity(&self, start: DVec3) -> Place {
         plus(&self.translation, &cross(&self.spin, &self.turned_from(start)))
     }

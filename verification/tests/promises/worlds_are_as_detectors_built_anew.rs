@@ -647,7 +647,6 @@ impl Turn {
         self.start.1 + self.translation * time + along + (way - along) * cosine + self.axis.cross(way) * sine
     }
 
-    /// Returns the point of the shape that is there at a time.
     fn shape_of(&self, there: DVec3, time: f64) -> DVec3 {
         let way = there - self.start.1 - self.translation * time;
         let (sine, cosine) = (-self.angle * time).sin_cos();

@@ -21,7 +21,6 @@ const fn bias<S: Scalar>() -> i32 {
     ((1 << (S::EXPONENT_BITS - 1)) - 1 + S::FRACTION_BITS) as i32
 }
 
-/// The parts of a number.
 struct Parts {
     term: Term,
     /// A biased power of two above all bits of the number.

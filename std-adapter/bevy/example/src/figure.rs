@@ -58,12 +58,10 @@ pub(crate) fn walk(time: Res<'_, Time<Fixed>>, mut limbs: Query<'_, '_, (&Keyfra
     }
 }
 
-/// The entities of the figure.
 #[derive(Clone, Debug)]
 pub(crate) struct Figure {
     /// Torso, shoulders, head, legs and arms.
     pub(crate) parts: Vec<Entity>,
-    /// The cape.
     pub(crate) cape: Entity,
 }
 

@@ -6,7 +6,6 @@
 use crate::model::step::{Carrier, TimeStep};
 use selvedge_core::glam::DVec3;
 
-/// The anchor of a vertex.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Anchor {
     /// A point that a motion carries, given without any motion.

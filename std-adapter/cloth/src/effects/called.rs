@@ -32,7 +32,6 @@ impl Effects {
         self.0.iter().map(|effect| &**effect).find(|effect| effect.name() == name)
     }
 
-    /// Returns the effect of a name, to be shared.
     pub(crate) fn shared(&self, name: &str) -> Option<Arc<dyn Effect>> {
         self.0.iter().find(|effect| effect.name() == name).cloned()
     }

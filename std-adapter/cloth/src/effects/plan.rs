@@ -56,7 +56,6 @@ pub struct Plan<'a> {
     pub(crate) carriers: Vec<Carrier>,
     /// Motions of bodies, then those of pins.
     pub(crate) motions: Vec<Kinematic>,
-    /// The carriers of pins, by group.
     pub(crate) pins: Vec<Carrier>,
     /// Single vertices that seams join; ropes need to know them.
     pub(crate) ties: Vec<Tie>,

@@ -110,7 +110,6 @@ type Read = fn(&Table<'_>, &SceneParts<'_>) -> Result<Box<dyn Effect>, SceneErro
 
 /// An effect that scene files may name.
 pub(crate) struct Registration {
-    /// The keys of its table.
     pub(crate) keys: &'static [&'static str],
     /// Effects of which at least one must be present; empty if it needs none.
     pub(crate) needs: &'static [&'static str],

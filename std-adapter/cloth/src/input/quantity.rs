@@ -102,7 +102,6 @@ impl Quantity {
         written.min_by_key(String::len).unwrap_or_default()
     }
 
-    /// Returns an example for messages.
     pub(crate) fn example(&self) -> String {
         match self.units {
             [("", _), ..] => "0.5".to_owned(),

@@ -187,7 +187,6 @@ impl<'a> Table<'a> {
         self.choice(key, choices)?.ok_or_else(|| self.missing(key, &names()))
     }
 
-    /// Returns the table of this name, if there is one.
     pub(crate) fn table(&self, key: &str) -> Result<Option<Table<'a>>, SceneError> {
         match self.get(key) {
             None => Ok(None),

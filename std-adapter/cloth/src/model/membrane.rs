@@ -79,7 +79,6 @@ impl Flat {
     }
 }
 
-/// Returns the components along warp and weft.
 fn along([warp, weft]: [DVec3; 2], side: DVec3) -> DVec2 {
     DVec2::new(side.dot(warp), side.dot(weft))
 }

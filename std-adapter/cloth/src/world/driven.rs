@@ -27,7 +27,6 @@ pub(crate) struct Animated {
 /// A motion that the caller drives.
 #[derive(Debug)]
 pub(crate) struct Driven {
-    /// The vertices in the scene.
     pub(crate) vertices: Vec<u32>,
     /// The present placement of the points at rest; `None` after the caller moved them one by one.
     pub(crate) placement: Option<Placement>,
@@ -84,7 +83,6 @@ impl Kinematic {
         }
     }
 
-    /// Returns the pose at a time of the clock.
     pub(crate) fn pose(&self, clock: f64) -> Pose {
         match self {
             Self::Keyframes(motion) => motion.pose(clock),

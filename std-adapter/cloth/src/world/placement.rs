@@ -67,7 +67,6 @@ impl Placement {
         (along.normalize_or(DVec3::Z), 2.0 * atan2(along.length(), turn.w))
     }
 
-    /// Adds a rotation and a translation.
     pub(super) fn on(&self, axis: DVec3, angle: f64, translation: DVec3) -> Self {
         let [sine, cosine] = [sin(0.5 * angle), cos(0.5 * angle)];
         let turn = DQuat::from_xyzw(axis.x * sine, axis.y * sine, axis.z * sine, cosine);

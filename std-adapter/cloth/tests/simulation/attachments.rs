@@ -16,7 +16,6 @@ fn sheet() -> Cloth {
 }
 
 const WEIGHT: f64 = 0.2 * 0.2 * 0.2 * 9.81;
-/// Its upper corners.
 const CORNERS: [u32; 2] = [42, 48];
 
 fn hung(groups: Vec<AttachmentGroup>) -> Scene {

@@ -43,7 +43,6 @@ pub(crate) fn folded(columns: i32, rows: Range<i32>, height: f64) -> Mesh {
     }
 }
 
-/// Runs a scene on one thread.
 pub(crate) fn run(scene: Scene, steps: u64) -> Simulation {
     let mut simulation = Simulation::new(scene, 1).unwrap();
     advance(&mut simulation, steps);
@@ -54,7 +53,6 @@ pub(crate) fn advance(simulation: &mut Simulation, steps: u64) {
     (0..steps).for_each(|_| simulation.step().unwrap());
 }
 
-/// Makes pins that hold vertices at rest.
 pub(crate) fn resting(vertices: impl Into<Vec<u32>>) -> Pins {
     Pins {
         groups: vec![PinGroup::resting(vertices)],

@@ -30,7 +30,6 @@ fn coefficient(positions: &[selvedge::glam::DVec3], triangles: &[[u32; 3]]) -> f
     (shadow - disc) / (all - disc)
 }
 
-/// Writes a specimen of `rings` rings of triangles.
 fn specimen(rings: u32) -> String {
     let mut text = String::from("v 0 0 0\n");
     let first = |ring: u32| if ring == 0 { 1 } else { 2 + 3 * ring * (ring - 1) };

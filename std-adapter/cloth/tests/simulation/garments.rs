@@ -5,7 +5,6 @@ use selvedge_cloth::glam::{DMat3, DVec2, DVec3};
 use selvedge_cloth::{Body, Cloth, Mesh, Scene};
 use std::f64::consts::{PI, TAU};
 
-/// The names of the garments.
 pub(crate) const NAMES: [&str; 14] = [
     "fold through itself",
     "corner through itself",
@@ -195,7 +194,6 @@ fn joined(meshes: [Mesh; 2]) -> Mesh {
     one
 }
 
-/// Reproducible random numbers.
 struct Random(u64);
 
 impl Random {

@@ -95,7 +95,6 @@ impl<P: Position> World<P> {
         Ok(())
     }
 
-    /// Returns the vertices of a contact, and checks its time.
     fn vertices_in_step(&self, contact: &WorldContact<P::Scalar>) -> Result<[u32; 4], WorldError> {
         let vertices = self.vertices_of(contact)?;
         let time = contact.time.to_f64();

@@ -19,7 +19,6 @@ const GROUP: usize = LEAF * LEAF;
 /// usual mesh takes for an edge.
 const VALENCE: u32 = GROUP as u32;
 
-/// The hubs of a mesh.
 #[derive(Debug, Default)]
 pub(super) struct Hubs {
     /// Whether each vertex is a hub; empty if none is.
@@ -27,7 +26,6 @@ pub(super) struct Hubs {
 }
 
 impl Hubs {
-    /// Counts the triangles of each vertex.
     pub(super) fn new(vertex_count: usize, triangles: &[[u32; 3]]) -> Self {
         let mut valences = vec![0_u32; vertex_count];
         for &vertex in triangles.iter().flatten() {

@@ -17,7 +17,6 @@ pub struct Neighbours {
     parts: Vec<(u32, f32)>,
 }
 
-/// A vertex at rest.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct AtRest {
     pub(crate) position: [f32; 3],

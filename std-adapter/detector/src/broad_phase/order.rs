@@ -13,7 +13,6 @@ const SEQUENTIAL: usize = 4096;
 pub(super) struct Centre {
     /// The position, which is finite.
     pub(super) position: [f32; 3],
-    /// The number of the item.
     pub(super) item: u32,
 }
 

@@ -55,7 +55,6 @@ impl MeshHierarchy {
         self.must_build = true;
     }
 
-    /// Sets the bounds of a mesh, and whether it moves.
     pub(crate) fn set(&mut self, index: usize, bounds: MovingBox<f32>, moves: bool) {
         self.boxes[index] = bounds;
         self.moves[index] = moves;

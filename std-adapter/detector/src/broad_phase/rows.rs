@@ -9,7 +9,6 @@ use selvedge_core::batch::VertexRow;
 use selvedge_core::{Motion, Scalar};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// The rows of all vertices.
 #[derive(Debug, Default)]
 pub(crate) struct Rows {
     double: Vec<VertexRow<f64>>,
@@ -25,7 +24,6 @@ pub(crate) struct RowSlices<'a> {
 }
 
 impl Rows {
-    /// Returns the rows to read.
     pub(crate) fn slices(&self) -> RowSlices<'_> {
         RowSlices {
             double: self.double(),
@@ -33,7 +31,6 @@ impl Rows {
         }
     }
 
-    /// Returns the rows of all vertices.
     pub(crate) fn double(&self) -> &[VertexRow<f64>] {
         &self.double
     }

@@ -40,7 +40,6 @@ pub(super) struct Trees<'a, const N: usize, const M: usize> {
     pub(super) first: &'a Tree<N>,
     pub(super) second: &'a Tree<M>,
     pub(super) common: Common,
-    /// Whether there is a collision filter.
     pub(super) are_filtered: bool,
     /// The inset of boxes for the separation of neighbours, if they have a smaller one.
     pub(super) of_neighbours: Option<Inset>,

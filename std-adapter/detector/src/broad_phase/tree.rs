@@ -17,7 +17,6 @@ use selvedge_core::boxes::moving::{MovingBlock, MovingBox};
 
 const _: () = assert!(LEAF == LANES, "a group of the order is a block");
 
-/// The blocks of a level.
 #[derive(Debug, Default)]
 pub(super) struct TreeLevel {
     pub(super) blocks: Vec<MovingBlock>,
@@ -60,7 +59,6 @@ pub(super) struct Tree<const N: usize> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RestBlock {
     pub(super) boxes: BoxBlock,
-    /// The part of the mesh.
     pub(super) parts: [u32; LANES],
     /// The largest distance of the boxes of neighbours.
     pub(super) within: [f32; LANES],
@@ -220,7 +218,6 @@ impl<const N: usize> Tree<N> {
         }));
     }
 
-    /// Marks all primitives.
     pub(super) fn mark_all(&mut self) {
         let nodes = self.levels.iter_mut().flat_map(|level| &mut level.nodes);
         nodes.for_each(|node| node.moving = node.present);

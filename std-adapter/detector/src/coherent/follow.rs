@@ -64,7 +64,6 @@ pub(crate) struct Followed {
     distance: f64,
     /// The last step.
     before: [Vec<DVec3>; 2],
-    /// This one.
     step: [Vec<DVec3>; 2],
     /// The pairs that may come within the distance, VF and EE.
     pub(crate) open: [Vec<[u32; 2]>; 2],

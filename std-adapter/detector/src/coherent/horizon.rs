@@ -169,7 +169,6 @@ fn bent(bend: DVec3, steps: f64, h: f64, room: f64) -> DVec3 {
 mod tests {
     use super::*;
 
-    /// Makes a horizon that looks this number of steps ahead.
     fn looking(steps: u32) -> Horizon {
         let mut horizon = Horizon::new(2 * steps);
         horizon.forget();

@@ -51,7 +51,6 @@ fn how_many_before<D: Copy>(run: &[NearPair<D>], order: u128) -> usize {
     start + run[start..run.len().min(end)].partition_point(comes_before)
 }
 
-/// Returns the key of a pair as one number.
 #[inline(always)]
 fn order_of((kind, pair): (PairKind, [u32; 2])) -> u128 {
     let [first, second] = pair.map(u128::from);

@@ -278,7 +278,6 @@ mod tests {
 
     const CELLS: u32 = 12;
 
-    /// Returns the number of a vertex of a sheet, by row and column.
     fn vertex(row: u32, column: u32) -> u32 {
         row * (CELLS + 1) + column
     }

@@ -18,7 +18,6 @@ use selvedge_core::separation::largest_coordinate;
 #[derive(Debug)]
 pub(super) struct Sieve {
     level: Level,
-    /// The motion of each vertex.
     rows: Vec<VertexRow<f32>>,
     /// The clearance that pairs of each class have to keep.
     clearances: [Clearance; CLASSES],
@@ -36,7 +35,6 @@ pub(super) struct SievedPair {
 const AT_ONCE: usize = 128;
 
 impl Sieve {
-    /// Makes a sieve for this number of vertices.
     pub(super) fn new(vertices: usize) -> Self {
         Self {
             level: best_level(),

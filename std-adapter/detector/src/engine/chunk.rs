@@ -85,7 +85,6 @@ impl<'a> StepInput<'a> {
     }
 }
 
-/// The chunk of one thread.
 #[derive(Debug)]
 pub(super) struct Chunk {
     /// The pairs that the filter keeps, and the rows of their vertices.

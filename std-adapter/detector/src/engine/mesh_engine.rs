@@ -266,7 +266,6 @@ impl MeshEngine {
         self.statistics.seconds += begin.elapsed().as_secs_f64();
     }
 
-    /// Returns the earliest contact of a step.
     pub(crate) fn earliest(&mut self, threads: &Workers, motions: &dyn Motions, question: &Question) -> Option<Contact<f64>> {
         let begin = Clock::now();
         threads.run(|| {

@@ -52,7 +52,6 @@ impl Numbers<'_> {
         }
     }
 
-    /// Returns a pair as the mesh numbers it.
     pub(super) fn in_mesh(&self, kind: PairKind, pair: [u32; 2]) -> [u32; 2] {
         match self {
             Self::Positions(hierarchies) => hierarchies.in_mesh(kind, pair),

@@ -17,7 +17,6 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 #[derive(Debug)]
 pub(crate) struct PairEngine {
     pub(super) workers: Vec<Worker>,
-    /// The spaces of the threads.
     pub(super) spaces: Vec<Mutex<Space>>,
     work: Vec<Work>,
     tasks: Vec<BlockPair>,
@@ -60,7 +59,6 @@ pub(super) struct Worker {
 #[derive(Clone, Copy, Debug)]
 struct Visit {
     source: usize,
-    /// The end of its contacts.
     end: usize,
     tests: u64,
     candidates: u64,

@@ -18,7 +18,6 @@ pub(crate) struct Source<'a> {
     pub(super) question: Question,
 }
 
-/// The candidates of a source.
 #[derive(Clone, Copy)]
 pub(super) enum Candidates<'a> {
     /// Pairs that a traversal of hierarchies finds, by their positions in the trees.

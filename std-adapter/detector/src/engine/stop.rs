@@ -47,7 +47,6 @@ impl Stop {
         !self.has_stopped()
     }
 
-    /// Counts bytes that are stored.
     pub(crate) fn stores(&self, bytes: usize) {
         self.stored.fetch_add(bytes as u64, Ordering::Relaxed);
     }

@@ -67,7 +67,6 @@ pub(super) enum Undecided {
     Stuck,
 }
 
-/// The question of all sweeps.
 pub(super) struct Sweep<'a, F> {
     pub(super) level: Level,
     pub(super) kind: PairKind,

@@ -105,7 +105,6 @@ impl<T: Copy + Default + Ord> ByKey<T> {
         Self { starts, items }
     }
 
-    /// Returns the group of a key.
     pub(super) fn group(&self, key: usize) -> &[T] {
         &self.items[self.starts[key] as usize..self.starts[key + 1] as usize]
     }

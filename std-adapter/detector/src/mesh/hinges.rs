@@ -65,7 +65,6 @@ impl Hinges {
         }
     }
 
-    /// Returns the hinges at an edge.
     pub(crate) fn at(&self, edge: u32) -> impl Iterator<Item = Hinge> {
         let own = self.triangles.group(edge as usize);
         let pairs = own

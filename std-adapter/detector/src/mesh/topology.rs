@@ -193,7 +193,6 @@ impl Topology {
         }
     }
 
-    /// Returns whether the mesh has this pair.
     pub(crate) fn has_pair(&self, kind: PairKind, pair: [u32; 2]) -> bool {
         let edges = self.edges.len();
         let [firsts, seconds] = match kind {

@@ -98,7 +98,6 @@ pub fn first_coincident(positions: &[DVec3], tolerance: f64) -> Vec<u32> {
     first
 }
 
-/// Returns, for each position, the lowest number of an equal one.
 fn first_equal(positions: &[DVec3]) -> Vec<u32> {
     const EMPTY: u32 = u32::MAX;
     // The table has at least twice as many places, and its size is a power of two. A taken place leads to the next.

@@ -55,7 +55,6 @@ pub(crate) fn check_frame<P: Position>(frame: Frame, positions: &[P], expected: 
     }
 }
 
-/// Checks that the mesh has a pair.
 pub(crate) fn check_pair(topology: &Topology, kind: PairKind, pair: [u32; 2]) -> Result<(), StepError> {
     if topology.has_pair(kind, pair) {
         Ok(())
@@ -72,7 +71,6 @@ pub(crate) fn exactly<P: Position>(position: P) -> DVec3 {
 
 /// The positions of a step, in either format. Code that reads them is compiled once, not for each type of positions.
 pub(crate) trait Motions: Sync {
-    /// Returns the number of vertices.
     fn len(&self) -> usize;
     /// Returns where a vertex starts and ends, exactly.
     fn motion(&self, vertex: usize) -> Motion<f64>;

@@ -69,7 +69,6 @@ pub(super) enum Local {
     Whole(DAffine3),
 }
 
-/// A morph target.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Target {
     /// The weight, unless a track changes it.

@@ -45,7 +45,6 @@ impl Faces {
     }
 }
 
-/// The triangles of faces.
 #[derive(Debug, Default)]
 pub(super) struct Triangles {
     pub(super) triangles: Vec<[u32; 3]>,

@@ -460,7 +460,6 @@ fn a_written_file_has_the_permissions_of_any_new_file() {
     assert_eq!(mode(ours), mode(plain));
 }
 
-/// A change to a mesh.
 type Change = fn(&mut Mesh);
 
 fn written_step(change: Change) -> (TempDir, Result<MeshStep, MeshError>) {

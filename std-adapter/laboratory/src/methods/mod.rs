@@ -29,10 +29,8 @@ use selvedge_core::{PrimitivePair, Scalar};
 /// A use of a test of one pair. The compiler builds it for each test alone, so that times compare: a test takes a few
 /// nanoseconds.
 pub(crate) trait WithTest<S: Scalar, A> {
-    /// The result.
     type Outcome;
 
-    /// Uses a test that returns `A`.
     fn with(self, test: impl Fn(&PrimitivePair<S>) -> A) -> Self::Outcome;
 }
 

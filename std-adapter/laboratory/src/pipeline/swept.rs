@@ -12,7 +12,6 @@ use selvedge_core::Scalar;
 use selvedge_core::boxes::Aabb;
 use selvedge_core::boxes::mapping::image;
 
-/// Replaces `mapped` by the mapped boxes.
 pub(super) fn map_boxes<S: Scalar>(mapped: &mut Vec<SweptBox>, boxes: &[Aabb<S>]) {
     let middle = middle(boxes);
     parallel::fill(mapped, boxes, |swept| {

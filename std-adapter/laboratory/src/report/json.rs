@@ -68,7 +68,6 @@ fn stage(stage: Stage, [vertex_face, edge_edge]: [impl Into<Value>; 2], seconds:
     })
 }
 
-/// Returns a broad phase that finds triangle pairs.
 fn broad_phase(triangle_pairs: impl Into<Value>, seconds: f64) -> Value {
     json!({
         "stage": Stage::BroadPhase.name(),

@@ -30,7 +30,6 @@ fn in_order(kind: PairKind, [a, b]: [u32; 2]) -> MeshPair {
     }
 }
 
-/// Returns the four points of a pair.
 fn points<S: Format>(mesh: &MeshCase<S>, topology: &Topology, (kind, pair): MeshPair) -> PairCase<S> {
     let of_pair = topology.vertices_of(kind, pair);
     PairCase::new(kind, of_pair.map(|vertex| mesh.positions[vertex as usize]))

@@ -160,7 +160,6 @@ fn look_at(seed: u64, chunk: u64, cases: u64, paths: MotionPaths) -> [MeetingCou
     counts
 }
 
-/// Returns the random numbers of a chunk.
 fn random(seed: u64, chunk: u64) -> TestRng {
     let mut bytes = [0; 16];
     bytes[..8].copy_from_slice(&seed.to_le_bytes());

@@ -11,11 +11,9 @@ use selvedge_verification::oracle::within_at_rest;
 /// The exact motion of four points.
 pub(crate) struct Truth<'a> {
     pub(crate) kind: PairKind,
-    /// The time of the geometry.
     pub(crate) time: f64,
     /// Returns the positions at a time.
     pub(crate) at: &'a dyn Fn(f64) -> [Point; 4],
-    /// The velocities at `time`.
     pub(crate) velocities: [Point; 4],
     /// The largest coordinate. The error of a point may be 96u of it.
     pub(crate) largest: Rational,

@@ -162,7 +162,6 @@ type Linear<'a> = [Words<'a>; 2];
 /// The moving corners of a pair, around the triangle or parallelogram, along each axis.
 struct Polygon<'a> {
     corners: [Around<Linear<'a>>; 3],
-    /// The number of corners.
     count: usize,
 }
 

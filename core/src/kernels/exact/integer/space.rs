@@ -123,7 +123,6 @@ impl<'a> Space<'a> {
         Words::new(words)
     }
 
-    /// Returns the sum of three products.
     #[inline(never)]
     pub(in crate::kernels::exact) fn sum_of_products(&mut self, products: [[Words<'_>; 2]; 3]) -> Words<'a> {
         let length = products.iter().map(|[a, b]| a.0.len() + b.0.len()).max().unwrap_or(0);

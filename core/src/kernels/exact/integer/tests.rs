@@ -36,7 +36,6 @@ fn resized<const R: usize>(number: Words<'_>) -> Integer<R> {
     Integer(words)
 }
 
-/// Runs `compute` in a space.
 fn in_space<const R: usize>(compute: impl for<'a> Fn(&mut Space<'a>) -> Words<'a>) -> Integer<R> {
     // The words are not zero, so that none is left to chance.
     resized(compute(&mut Space::new(&mut [0x5555; 100])))

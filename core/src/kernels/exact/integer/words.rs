@@ -1,7 +1,6 @@
 use super::limbs::{sign_word, without_repeated_sign, without_zeros_below};
 use core::cmp::Ordering;
 
-/// A whole number in words.
 pub(in crate::kernels::exact) trait Whole: Copy {
     const ZERO: Self;
 
@@ -27,7 +26,6 @@ impl Whole for Words<'_> {
 }
 
 impl<'a> Words<'a> {
-    /// Returns the number of these words.
     #[inline(always)]
     pub(super) fn new(words: &'a [u64]) -> Self {
         Self(without_repeated_sign(words))

@@ -87,7 +87,6 @@ impl Stages {
 mod tests {
     use super::*;
 
-    /// Returns the factor of a wave of this eigenvalue.
     fn factor(stages: Stages, eigenvalue: f64) -> f64 {
         let [mut before, mut last] = [1.0, 1.0];
         for stage in stages.each() {

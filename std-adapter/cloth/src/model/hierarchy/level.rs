@@ -113,7 +113,6 @@ impl Level {
         }
     }
 
-    /// Reads the positions of the seeds.
     pub(crate) fn read(&self, positions: &[DVec3], seeds: &mut Vec<DVec3>) {
         seeds.clear();
         seeds.extend(self.seeds.iter().map(|&seed| positions[seed as usize]));

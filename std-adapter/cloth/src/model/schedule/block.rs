@@ -25,7 +25,6 @@ pub(super) struct Block<C: Local<N>, const N: usize> {
     /// The vertices' positions while the block runs, and whether any moved.
     pub(super) positions: Vec<DVec3>,
     pub(super) has_moved: bool,
-    /// The inverse masses by vertex.
     inverse_masses: Vec<f64>,
     /// The results of constraints that threads share.
     corrections: Vec<([DVec3; N], C::Multipliers)>,

@@ -35,7 +35,6 @@ use std::ops::Range;
 pub(crate) struct Schedule<C: Local<N>, const N: usize> {
     /// The blocks, sorted by colour.
     blocks: Vec<Block<C, N>>,
-    /// The blocks of each colour.
     colours: Vec<Range<usize>>,
     sweeps: u64,
     /// Whether each block may have something to move.

@@ -90,7 +90,6 @@ pub(crate) struct Hierarchies {
     pub(super) vertices: Tree<1>,
     pub(super) edges: Tree<2>,
     pub(super) faces: Tree<3>,
-    /// The ends and number of each edge, by position.
     edge_ends: Vec<EdgeEnds>,
     /// The position of each of the mesh's vertices. Isolated vertices have none.
     positions: Vec<u32>,

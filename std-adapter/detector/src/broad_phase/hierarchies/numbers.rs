@@ -12,7 +12,6 @@ impl Hierarchies {
         self.rows.double().get(position as usize).map(VertexRow::motion)
     }
 
-    /// Returns the number of positions, each of which has a row.
     pub(crate) fn vertex_positions(&self) -> usize {
         self.vertices.len()
     }
@@ -22,7 +21,6 @@ impl Hierarchies {
         &self.edges.vertices
     }
 
-    /// Returns the positions of the corners of a face.
     #[inline(always)]
     pub(crate) fn face_corners(&self, face: u32) -> [u32; 3] {
         self.faces.vertices[face as usize]

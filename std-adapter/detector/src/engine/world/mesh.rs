@@ -105,7 +105,6 @@ impl WorldMesh {
     }
 }
 
-/// The motion of each vertex.
 #[derive(Debug)]
 pub(crate) struct Frames(pub(crate) Vec<Motion<f64>>);
 

@@ -23,7 +23,6 @@ pub(crate) struct Stage {
     /// Whether meshes or groups differ from those in the hierarchy.
     pub(crate) are_others: bool,
     pub(crate) engine: PairEngine,
-    /// The number of vertices of all meshes.
     pub(crate) vertices: usize,
     /// Whether boxes were made for another separation.
     pub(crate) must_fit: bool,

@@ -133,7 +133,6 @@ fn moves_a_node(channel: &Value) -> bool {
     path != Some("pointer") && target.is_none_or(|target| target.get("node").is_some())
 }
 
-/// Returns the objects in a list of an object.
 fn objects<'a>(of: &'a mut Map<String, Value>, list: &str) -> impl Iterator<Item = &'a mut Map<String, Value>> {
     let list = of.get_mut(list).and_then(Value::as_array_mut);
     list.into_iter().flatten().filter_map(Value::as_object_mut)

@@ -96,7 +96,6 @@ impl Reader {
             .filter(|&index| (index as usize) < self.vertex_count)
     }
 
-    /// Adds `corners` as a face.
     fn push(&mut self, corners: &[i64], line: Option<usize>) -> Result<(), FileProblem> {
         let face = self.face;
         self.corners.clear();

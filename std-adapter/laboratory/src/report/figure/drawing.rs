@@ -60,7 +60,6 @@ impl Marks {
     }
 }
 
-/// Returns the numbers of marked items.
 fn marked(marks: &[bool]) -> impl Iterator<Item = usize> {
     let marks = marks.iter().enumerate();
     marks.filter(|&(_, &marked)| marked).map(|(index, _)| index)

@@ -3,7 +3,6 @@
 use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_width};
 use tiny_skia::{Pixmap, PremultipliedColorU8};
 
-/// The size of the letters.
 #[derive(Clone, Copy)]
 pub(super) enum Size {
     Small,

@@ -7,7 +7,6 @@ use crate::report::number::grouped;
 use crate::study::StepCandidates;
 use tiny_skia::{Color, PathBuilder, Pixmap, PixmapPaint, Rect, Transform};
 
-/// The width of a panel.
 pub(super) const WIDTH: f32 = 800.0;
 /// The room of the whole mesh, in the left panel.
 pub(super) const OVERVIEW: Room = Room {

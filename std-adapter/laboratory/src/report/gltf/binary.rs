@@ -30,7 +30,6 @@ impl Binary {
         self.add_accessor(view, UNSIGNED_INT, "SCALAR", count, json!({}))
     }
 
-    /// Adds a vector for each vertex.
     pub(super) fn add_vectors(&mut self, vectors: &[[f32; 3]]) -> usize {
         let (mut least, mut most) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
         for vector in vectors {

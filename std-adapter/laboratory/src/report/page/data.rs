@@ -25,7 +25,6 @@ use serde_json::{Value, json};
 /// The largest quantised coordinate.
 const FINEST: f64 = u16::MAX as f64;
 
-/// Returns all blocks.
 pub(super) fn blocks(recording: &Recording) -> Markup {
     let triangles = recording.placed_parts().flat_map(|(first, part)| {
         let placed = move |vertex: &u32| first as u32 + vertex;

@@ -13,7 +13,6 @@ pub(in crate::report) struct Shown<'a> {
 }
 
 impl<'a> Shown<'a> {
-    /// Returns all measures of a recording.
     pub(in crate::report) fn all(recording: &'a Recording) -> Vec<Self> {
         recording.measures.iter().map(Self::new).collect()
     }

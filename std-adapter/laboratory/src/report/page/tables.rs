@@ -28,7 +28,6 @@ pub(super) fn pairs(recording: &Recording) -> Markup {
     )
 }
 
-/// Returns counts of events.
 pub(super) fn events(recording: &Recording) -> Markup {
     let rows = recording.series_of(|kind| kind == SeriesKind::Events);
     let rows = rows.map(|series| (&*series.name, counts(recording, series)));
@@ -111,7 +110,6 @@ pub(super) fn gauges(recording: &Recording) -> Markup {
     table(["quantity", "least", "mean", "most", "unit"], rows)
 }
 
-/// Returns settings.
 pub(super) fn knobs(headings: [&str; 2], knobs: &[Knob]) -> Markup {
     let knobs = knobs.iter();
     html! { div.knobs { (table(headings, knobs.map(|knob| (&*knob.name, [&*knob.value])))) } }

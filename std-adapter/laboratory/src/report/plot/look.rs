@@ -3,7 +3,6 @@
 use super::svg::{PAPER_WHITE, line, px};
 use maud::{Markup, html};
 
-/// The look of a mark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Look {
     /// Okabe and Ito's colours, which colour-blind people can distinguish; some are darkened.

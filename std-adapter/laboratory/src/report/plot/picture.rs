@@ -14,7 +14,6 @@ const LETTER: f64 = 0.54;
 const COLUMNS: usize = 2;
 const COLUMN_GAP: f64 = 30.0;
 const ROW_GAP: f64 = 16.0;
-/// The height of the legend, if there is one.
 const LEGEND: f64 = 92.0;
 
 /// The width of the names of lines in a panel.
@@ -45,7 +44,6 @@ pub(super) struct Plot<'a> {
     pub(super) explanation: &'a str,
     /// The meaning of marks.
     pub(super) legend: &'a [(Look, &'a str)],
-    /// The size of each plot.
     pub(super) size: [f64; 2],
     /// The places from the left, some with names.
     pub(super) ticks: Vec<(f64, Option<String>)>,
@@ -86,7 +84,6 @@ pub(super) struct Mark {
 
 /// A method without a place on the axis upwards.
 pub(super) struct StripRow {
-    /// The places from the left.
     pub(super) places: Vec<f64>,
     pub(super) name: String,
 }

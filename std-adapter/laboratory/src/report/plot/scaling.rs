@@ -82,7 +82,6 @@ pub fn scaling_svg(points: &[ScalingPoint]) -> String {
     plot.draw(&[panel])
 }
 
-/// One line of the plot.
 struct Line {
     name: &'static str,
     colour: &'static str,

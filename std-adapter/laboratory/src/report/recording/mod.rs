@@ -251,7 +251,6 @@ pub enum MeasureKind {
 pub(super) const EDGES_99: &str = "99 % of the edges";
 /// The length of the most stretched edge relative to that at rest.
 pub(super) const LONGEST_EDGE: &str = "longest edge";
-/// Gravitational energy.
 pub(super) const GRAVITATIONAL: &str = "gravitational";
 
 /// A quantity of the state that takes too long to compute in each step.
@@ -333,7 +332,6 @@ impl Recording {
         self.about.up.try_normalize().unwrap_or(DVec3::Z)
     }
 
-    /// Returns the measure of this name.
     pub(super) fn measure(&self, name: &str) -> Option<&Measure> {
         self.measures.iter().find(|measure| measure.name == name)
     }

@@ -31,7 +31,6 @@ pub struct Recorder {
     /// The recording so far, without frames and without values of measures.
     recording: Recording,
     frames: Thinned<[f32; 3]>,
-    /// The values of the measures.
     measured: Thinned<f64>,
     /// The last readings of the counters.
     readings: Vec<f64>,

@@ -7,7 +7,6 @@ use selvedge_core::glam::DVec3;
 /// copies that tears have made.
 #[derive(Clone, Debug)]
 pub(super) struct Shown {
-    /// The number of vertices at the start.
     vertices: usize,
     has_triangles: bool,
     tubes: Option<Tubes>,
@@ -49,7 +48,6 @@ impl Shown {
         (self.own_vertices() + self.tube_vertices(), triangles)
     }
 
-    /// Adds the triangles of its tubes.
     pub(super) fn add_tubes(&self, triangles: &mut Vec<[u32; 3]>) {
         let first = self.own_vertices() as u32;
         triangles.extend(self.tubes.iter().flat_map(|tubes| tubes.triangles(first)));

@@ -71,7 +71,6 @@ impl Subject {
 #[derive(Clone, Debug)]
 pub struct SimulationRecorder {
     recorder: Recorder,
-    /// The names of the measures.
     measured: Vec<&'static str>,
     /// The number of copied vertices of each cloth.
     copied: Vec<usize>,

@@ -2,7 +2,6 @@
 
 use selvedge_files::bytes::Reader;
 
-/// The values after a step.
 pub(super) type AfterStep<N> = (u64, Vec<N>);
 
 /// When the limit is reached, every other entry is dropped, and from then on every other one is skipped. The first is always

@@ -11,7 +11,6 @@ type Colour = [f64; 3];
 /// Colours of the page's light theme, as linear light. The fronts of cloths are [`CLOTHS`].
 const LINING: DVec3 = dvec3(0.658, 0.332, 0.073_5);
 const BODY: DVec3 = dvec3(0.481, 0.412, 0.358);
-/// Colours as displayed.
 const SKY: [Colour; 2] = [[0.933, 0.945, 0.957], [0.835, 0.863, 0.890]];
 const INK: Colour = [0.486, 0.529, 0.576];
 

@@ -53,7 +53,6 @@ pub fn step(summary: &StepSummary) -> String {
     )
 }
 
-/// Returns the answer to the question.
 fn answer(summary: &StepSummary) -> String {
     let contacts = summary.report.contacts();
     match (summary.question, summary.earliest) {

@@ -36,7 +36,6 @@ impl PairSet {
         }
     }
 
-    /// Returns the pairs of either kind.
     pub(super) fn by_kind(&self) -> [(PairKind, &[[u32; 4]]); 2] {
         [
             (PairKind::VertexFace, &self.vertex_face),
