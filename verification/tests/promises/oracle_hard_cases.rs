@@ -135,8 +135,7 @@ fn edge_through_an_edge() {
 
 #[test]
 fn edges_that_graze_in_a_double_root() {
-    // The second edge turns about the x axis while it slides along y. With s = 1 − 2t it passes the
-    // first at height s² + gap.
+    // The second edge turns about the x axis while it slides along y. With s = 1 − 2t it passes the first at height s² + gap.
     let at = |s: f64, gap: f64| {
         [
             [-1.0, 0.0, 0.0],

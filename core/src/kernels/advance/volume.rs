@@ -6,11 +6,10 @@
 //! raised to the third degree, bound |n|.
 //!
 //! # Rounding
-//! ε as for the [corners](super::corners), S₃ the permanent of the three rows M M M. A monomial of a control value passes
-//! through at most 12 roundings: 3 differences, product, difference, sum of two vectors, product, two additions, one
-//! addition more, and a third (rounded itself) in the middle ones. Blossoming to [t, 1] adds 9 (three times 1 − t,
-//! product, sum), subtracting the bound 1, looking ahead 9: 31εS₃ ≤ 62uS₃ in any direction. **E = 64u·Ŝ₃ + η(1 + M)²**, M here the
-//! largest component.
+//! ε as for the [corners](super::corners), S₃ the permanent of the three rows M M M. A monomial of a control value passes through
+//! at most 12 roundings: 3 differences, product, difference, sum of two vectors, product, two additions, one addition more, and a
+//! third (rounded itself) in the middle ones. Blossoming to [t, 1] adds 9 (three times 1 − t, product, sum), subtracting the
+//! bound 1, looking ahead 9: 31εS₃ ≤ 62uS₃ in any direction. **E = 64u·Ŝ₃ + η(1 + M)²**, M here the largest component.
 //!
 //! Underflow: with λ the smallest normal number, what is lost in 9 components of differences, 3λ each, enters with two factors
 //! of M twice: at most 54λM²; 6 products in a cross product and 3 subtractions enter with one M, the rest with none: at most

@@ -34,10 +34,9 @@
 //! | VF | second corner − first | third corner − first | vertex − first corner |
 //! | EE, (u, v) and (k, l) | v − u | l − k | u − k |
 //!
-//! (For EE this is the volume of `coplanarity`: p · ((v − u) × (l − k)) = (l − k) · ((u − k) × (v − k)).) K = p · n is a
-//! cubic, n is quadratic with the control points n₀, h/2, n₁; as a cubic it has n₀, (n₀ + h)/3, (h + n₁)/3, n₁. The
-//! Bernstein polynomials Bᵢ are not negative, so K − s·|n| ≥ Σ Bᵢ·(kᵢ − s·|nᵢ|), and four conditions prove the distance
-//! greater than s throughout:
+//! (For EE this is the volume of `coplanarity`: p · ((v − u) × (l − k)) = (l − k) · ((u − k) × (v − k)).) K = p · n is a cubic, n
+//! is quadratic with the control points n₀, h/2, n₁; as a cubic it has n₀, (n₀ + h)/3, (h + n₁)/3, n₁. The Bernstein polynomials
+//! Bᵢ are not negative, so K − s·|n| ≥ Σ Bᵢ·(kᵢ − s·|nᵢ|), and four conditions prove the distance greater than s throughout:
 //!
 //! ```text
 //!  |k₀| > s·|n₀|,   |3k₁| > s·|n₀ + h|,   |3k₂| > s·|h + n₁|,   |k₃| > s·|n₁|,   all four k of one sign

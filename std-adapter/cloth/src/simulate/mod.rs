@@ -6,8 +6,7 @@
 //! With a contact effect the motion that comes out is then certified ([`contact`](crate::contact)), repaired or cut. Bodies and
 //! pins have a clock of their own, which may have to wait.
 //!
-//! **Finite whatever the scene says**: no constraint divides by what may vanish, and no vertex moves faster than
-//! [`FASTEST`].
+//! **Finite whatever the scene says**: no constraint divides by what may vanish, and no vertex moves faster than [`FASTEST`].
 
 mod advance;
 mod assembly;

@@ -17,9 +17,8 @@ use std::f64::consts::TAU;
 const BEND: f64 = 2.5;
 /// The place of the elbow's middle along the sleeve.
 const ELBOW: f64 = 0.29;
-/// The bend is spread over this length of the sleeve on either side of the elbow. Its radius at
-/// the end, 2 × 0.06 / 2.5 = 0.048, is less than the sleeve's there, 0.062: the inner side has no
-/// room left and must meet itself.
+/// The bend is spread over this length of the sleeve on either side of the elbow. Its radius at the end, 2 × 0.06 / 2.5 = 0.048,
+/// is less than the sleeve's there, 0.062: the inner side has no room left and must meet itself.
 const BEND_REACH: f64 = 0.06;
 /// The relative excess of the sleeve's width over its depth at the elbow.
 const FLATTENING: f64 = 0.12;
