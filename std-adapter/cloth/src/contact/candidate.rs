@@ -1,4 +1,4 @@
-//! A candidate pair, with what contact keeps of it.
+//! A candidate pair, with the data that contact stores for it.
 
 use crate::model::step::{Carrier, FREE};
 use selvedge::PairKind;
@@ -15,17 +15,19 @@ use selvedge_core::{Motion, PrimitivePair};
 /// A vertex and a face, or two edges, that may come close in this step.
 pub(super) type Candidate = NearPair<OfPair>;
 
-/// What contact keeps of a pair.
+/// The data that contact stores for a pair.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OfPair {
     pub(super) aim: Aim,
-    /// The body that it is a pair with; [`FREE`] for cloth with itself.
+    /// The body of a pair of cloth and a body; [`FREE`] for a pair of cloth and cloth.
     pub(super) body: Carrier,
 }
 
-/// How far apart a pair is to be, in metres: what is asked of all such pairs, until its own thickness is known, from its distance at rest.
+/// The distance at which contact aims for a pair, in metres. Until the thickness of this pair has been computed, from its
+/// distance at rest, this is the thickness of all such pairs.
 ///
-/// Less than zero as long as it is what is asked: one number, and no branch, for those who ask for it in every step.
+/// The number is negative while it is the thickness of all such pairs. So code that runs in every step reads one number without a
+/// branch.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Aim(f32);
 
@@ -54,7 +56,7 @@ impl OfPair {
     }
 }
 
-/// Where up to sixteen pairs of one kind are closest, found at once.
+/// Finds the closest points of up to sixteen pairs of one kind at once.
 #[derive(Default)]
 pub(super) struct ClosestOfSome {
     points: [[DVec3; 4]; LANES],
@@ -62,7 +64,7 @@ pub(super) struct ClosestOfSome {
 }
 
 impl ClosestOfSome {
-    /// Replaces them by those of these pairs.
+    /// Replaces the stored closest points by those of these pairs.
     pub(super) fn find<'a>(
         &mut self,
         level: Level,
@@ -79,14 +81,14 @@ impl ClosestOfSome {
         self.found()
     }
 
-    /// In the order of the pairs.
+    /// The closest points, in the order of the pairs.
     pub(super) const fn found(&self) -> &[ClosestPoints] {
         &self.closest
     }
 }
 
-/// When a pair comes within `separation` on the way from `start` to `end`; `None` if it certainly does not. It remembers the
-/// direction that proves it.
+/// When a pair comes within `separation` on the way from `start` to `end`; `None` if it certainly does not. Stores the direction
+/// that proves this in the pair.
 pub(super) fn impact(pair: &mut Candidate, path: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> Option<f64> {
     if pair.keeps_apart(path, separation, error) {
         return None;
@@ -120,7 +122,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(4000))]
 
-        /// On sampled times; the proof itself is checked with exact arithmetic where it is made.
+        /// Tests the proof at sampled times; the place that makes the proof checks it with exact arithmetic.
         #[test]
         fn what_is_said_to_stay_apart_does(
             start in prop::array::uniform4(point()),
@@ -148,7 +150,8 @@ mod tests {
             }
             prop_assert!(ClosestPoints::from_points(kind, end).distance() >= gap);
             prop_assert!(pair.distance_from_below(&start, error) <= ClosestPoints::from_points(kind, start).distance());
-            // And from the start to where repairs may have moved it: the gap at the start was large enough.
+            // The proof also holds from the start to a place where repairs may have moved the pair: the gap at the start was
+            // large enough.
             let moved = [0, 1, 2, 3].map(|k| end[k] + moves[(k + 1) % 4] * 0.1);
             let mut again = pair;
             if until.is_none() && again.stays_apart(&moved, separation, error) {
@@ -157,7 +160,7 @@ mod tests {
                     prop_assert!(ClosestPoints::from_points(kind, at).distance() > separation * (1.0 - 1e-9));
                 }
             }
-            // And once more from where it is: the gap is right there, as `stays_apart` takes it to be.
+            // The proof also holds from the present place: `stays_apart` assumes that the gap is right there.
             let on = [0, 1, 2, 3].map(|k| end[k] + moves[k] * 0.1);
             if pair.stays_apart(&on, separation, error) {
                 for t in [0.0, 0.25, 0.5, 0.75, 1.0] {

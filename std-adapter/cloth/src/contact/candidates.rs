@@ -1,4 +1,4 @@
-//! Which pairs contact looks at: [near pairs](NearPairs) of cloth with itself and with bodies, good for several steps.
+//! The pairs that contact looks at: [near pairs](NearPairs) of cloth with itself and with bodies, valid for several steps.
 
 use super::candidate::{Aim, OfPair};
 use super::crossing::{Crossing, CrossingFinder, PairKey};
@@ -15,45 +15,46 @@ use std::sync::Arc;
 /// Pairs near the state.
 pub(super) type Candidates = NearPairs<OfContact>;
 
-/// How far beyond the thickness candidates are looked for, in thicknesses: more makes longer lists that last longer. Most of a step's work is what
-/// it does with each candidate, unless vertices soon stray because steps are long. Measured, in processor time, with 0.3 and 0.2: a sleeve of 40
-/// thousand triangles 77 and 68 s (73 s with 0.13), sheets of 10 and 50 thousand that land on a ball 6.8 and 6.7 s, 24 and 22 s, a shirt on a figure
-/// that walks in steps of 4 ms 6.0 and 6.9 s.
+/// How far beyond the thickness the search for candidates goes, in thicknesses: a larger value makes longer lists that last
+/// longer. Most of the work of a step is what it does with each candidate, unless vertices move far because steps are long.
+/// Measured, in processor time, with 0.3 and 0.2: a sleeve of 40 thousand triangles 77 and 68 s (73 s with 0.13), sheets of 10
+/// and 50 thousand that land on a ball 6.8 and 6.7 s, 24 and 22 s, a shirt on a figure that walks in steps of 4 ms 6.0 and 6.9 s.
 const REACH: f64 = 0.2;
-/// The same in steps that are longer than [`SHORT`].
+/// The value of [`REACH`] in steps that are longer than [`SHORT`].
 const REACH_OF_LONG: f64 = 0.3;
-/// The longest of short steps, in seconds: between those of 1 ms and of 4 ms that were measured.
+/// The longest of short steps, in seconds; it lies between the measured steps of 1 ms and of 4 ms.
 const SHORT: f64 = 2.5e-3;
-/// How much more than the thickness is asked for along directions that are no axes, in thicknesses, of neighbours, of other pairs of cloth, and of
-/// pairs with a body. Of cloth: what comes that [near](MARGIN) is pushed apart before it is within the thickness; with less, cloth that is
-/// folded tightly was seen to slip more. Neighbours are held apart by the cloth between them: without it a sheet of 130 thousand triangles that
-/// lands on a ball has half as many candidates, and is as long. Without it for bodies the arm sleeve has 9 to 15 % fewer, and repairs take as
-/// long as with it.
+/// How far beyond the thickness the search goes along directions other than the axes, in thicknesses, for neighbours, for other
+/// pairs of cloth, and for pairs with a body. For cloth: pairs that come that [near](MARGIN) are pushed apart before they are
+/// within the thickness; with a smaller value, tightly folded cloth slipped more. The cloth between neighbours holds them apart:
+/// with zero for them a sheet of 130 thousand triangles that lands on a ball has half as many candidates, and takes as long. With
+/// zero for bodies the arm sleeve has 9 to 15 % fewer, and repairs take as long as before.
 const MARGINS: [f64; CLASSES] = [0.0, MARGIN, 0.0];
-/// Most steps to look ahead.
+/// The largest number of steps to look ahead.
 const FARTHEST: u32 = 4;
-/// The same on a fine mesh, of whose candidates a sieve leaves few.
+/// The value of [`FARTHEST`] on a fine mesh, where few candidates pass the sieve.
 const FARTHEST_OF_FINE: u32 = 8;
-/// What a candidate costs in a step, constraints and certificate, in units of what finding one costs that boxes leave: 30 and 50 ns on a sheet of 130
-/// thousand triangles that lands on a ball, before they were found faster. With 1.0 a sleeve of 40 thousand takes 79 s, with 0.6 77 s.
+/// The cost of a candidate in a step (constraints and certificate), in units of the cost to find a candidate that boxes let
+/// through: 30 and 50 ns on a sheet of 130 thousand triangles that lands on a ball, before the search became faster. With 1.0 a
+/// sleeve of 40 thousand takes 79 s, with 0.6 77 s.
 const UPKEEP: f64 = 0.6;
 
-/// What is to be kept apart.
+/// The pairs that contact keeps apart.
 #[derive(Debug)]
 pub(super) struct OfContact {
     topology: Arc<Topology>,
-    /// How far, if at all.
+    /// The distance to keep, if any.
     settings: ContactSettings,
-    /// Of each vertex: whose motion it follows.
+    /// Whose motion each vertex follows.
     carriers: Vec<Carrier>,
-    /// Vertices from here on are bodies'.
+    /// The number of the cloth's vertices; bodies' vertices come after them.
     cloth_vertices: usize,
-    /// If they have a thickness of their own.
+    /// The neighbours, if they have a thickness of their own.
     neighbours: Option<Arc<Neighbours>>,
 }
 
-/// `rest` and `carriers` are of all vertices, the cloth's first; steps mostly take `time_step` seconds. Gives neighbours in `settings` a thickness
-/// of their own if they are many.
+/// `rest` and `carriers` are of all vertices, the cloth's first; steps mostly take `time_step` seconds. Gives neighbours in
+/// `settings` a thickness of their own if there are many.
 pub(super) fn candidates(
     settings: &mut ContactSettings,
     topology: Topology,
@@ -79,7 +80,7 @@ pub(super) fn candidates(
         });
         farthest = FARTHEST_OF_FINE;
     }
-    // In the order of `OfContact::class`.
+    // These are in the order of `OfContact::class`.
     let asked: [Option<Thickness>; CLASSES] = [of_neighbours, cloth, bodies];
     let distances = asked.map(|asked| asked.map_or(0.0, |asked| asked.thickness));
     let spare = asked.iter().flatten().map(|asked| asked.thickness - asked.separation);
@@ -101,7 +102,7 @@ pub(super) fn candidates(
         cloth_vertices,
         neighbours,
     };
-    // Bodies among themselves are of no interest.
+    // Pairs of two bodies are not needed.
     let wanted = (0..rest.len()).map(|vertex| vertex < cloth_vertices).collect();
     let candidates = NearPairs::new(topology, interest, wanted, reach);
     candidates.expect("scenes give a positive thickness")
@@ -110,7 +111,7 @@ pub(super) fn candidates(
 impl Interest for OfContact {
     type Data = OfPair;
 
-    /// Neighbours in cloth, other pairs of cloth, pairs with a body.
+    /// The classes are neighbours in cloth, other pairs of cloth, and pairs with a body.
     #[inline(always)]
     fn class(&self, kind: PairKind, vertices: [u32; 4]) -> usize {
         let [one, .., other] = vertices;
@@ -125,7 +126,7 @@ impl Interest for OfContact {
         self.neighbours.clone()
     }
 
-    /// `None` also if all of the pair follows one motion, which never changes it.
+    /// `None` also if the whole pair follows one motion, which never changes its distance.
     #[inline(always)]
     fn about(&self, kind: PairKind, vertices: [u32; 4]) -> Option<OfPair> {
         let last_of_first = match kind {
@@ -146,7 +147,7 @@ impl Interest for OfContact {
 }
 
 impl OfContact {
-    /// Of all primitives, the cloth's first.
+    /// The topology of all primitives, the cloth's first.
     pub(super) fn topology(&self) -> &Arc<Topology> {
         &self.topology
     }
@@ -161,7 +162,7 @@ impl OfContact {
         (*first as usize) < firsts && (*second as usize) < seconds
     }
 
-    /// What two primitives are that meet.
+    /// The primitives that meet.
     pub(super) fn crossing(&self, intersection: &Intersection, positions: &[DVec3]) -> Crossing {
         let crossing = Crossing::new(&self.topology, intersection, positions);
         let body = self.body_of_pair(crossing.edge[0], crossing.face[0]);
@@ -171,15 +172,15 @@ impl OfContact {
         }
     }
 
-    /// Whether an edge of the cloth passes through a face of a body, or the other way round.
+    /// Whether an edge of the cloth passes through a face of a body, or an edge of the body through a face of the cloth.
     pub(super) fn passes_through(&self, body: Carrier, positions: &[DVec3]) -> bool {
         let found = CrossingFinder::new(&self.topology);
         let is_of_body = |a, b| self.body_of_pair(a, b) == Some(body);
-        // Where that cannot be asked, nothing is known to be apart.
+        // If the search fails, nothing is known to be apart.
         { found }.find(positions, is_of_body).map_or(true, |found| !found.is_empty())
     }
 
-    /// The body of two vertices that are to be kept apart, [`FREE`] for cloth and cloth; `None` if nobody asked for that.
+    /// The body of two vertices to keep apart, [`FREE`] for cloth and cloth; `None` if no effect keeps them apart.
     #[inline(always)]
     pub(super) fn body_of_pair(&self, one: u32, other: u32) -> Option<Carrier> {
         match (self.body(one), self.body(other)) {
@@ -202,7 +203,7 @@ impl OfContact {
 mod tests {
     use super::*;
 
-    /// The pairs of two layers of one cloth, and those of the lower layer and a body below it, so far from each other.
+    /// The number of pairs of two layers of one cloth, and of pairs of the lower layer and a body below it, at these distances.
     fn found(of_cloth: f64, of_bodies: f64, [layers, body]: [f64; 2]) -> [usize; 2] {
         let triangle = |height: f64| [DVec3::ZERO, DVec3::X, DVec3::Y].map(|point| point + DVec3::Z * height);
         let at = |heights: [f64; 3]| heights.into_iter().flat_map(triangle).collect::<Vec<_>>();

@@ -1,27 +1,28 @@
-//! Normal cones: which closest points of a body are those of its surface, and not only of one of its faces or edges.
+//! Normal cones: they show which closest points of a body lie on its surface, and not only on one of its faces or edges.
 //!
-//! A flat body of many triangles has many edges and vertices that are not there for what slides on it. If cloth is pushed along the way from such an
-//! edge, which is aslant, it is held back and thrown up. The way d from the closest point of a feature to the cloth is in the feature's *normal cone*
-//! if no way along the surface leads nearer to the cloth:
+//! A flat body of many triangles has many edges and vertices that do not matter to cloth that slides on it. A push from such an
+//! edge would be oblique: it would hold the cloth back and throw it up. The way d from the closest point of a feature to the
+//! cloth is in the feature's *normal cone* if no way along the surface leads nearer to the cloth:
 //!
 //! * a vertex: d·e ≤ 0 for each edge e that leaves it;
 //! * an edge: d·p ≤ 0 for each face beside it, with p in the face, perpendicular to the edge, towards the face;
 //! * a face: always, as d is its normal.
 //!
-//! **Dropping is safe.** Where the way leaves the cone, another feature of the body is strictly nearer to the same cloth, hence another pair, and the
-//! nearest of all such pairs is never dropped. That holds for concave, open and non-manifold surfaces too, as it asks about edges and faces one by
-//! one, and needs no normals and no orientation. It concerns pushes alone: certificates see every pair.
+//! **It is safe to drop the others.** If the way leaves the cone, another feature of the body is strictly nearer to the same
+//! cloth. That feature makes another pair, and the nearest of all such pairs is never dropped. This also holds for concave, open
+//! and non-manifold surfaces, since the test looks at edges and faces one by one, and needs no normals and no orientation. It
+//! concerns pushes alone: certificates look at every pair.
 //!
-//! Cones are those of the body as it is at the start of the step, so that it may change its shape. Cloth against cloth has none: a fold lies
-//! beside itself, and the pairs that keep it open are those that a cone would drop.
+//! Cones are those of the body at the start of the step, so that it may change its shape. Cloth against cloth has no cones: a
+//! fold lies beside itself, and a cone would drop the pairs that keep it open.
 
 use selvedge::Topology;
 use selvedge_core::glam::DVec3;
 
-/// Weights below this are zero: the closest point is on the feature without that vertex.
+/// Weights below this count as zero: the closest point is on the feature without that vertex.
 const LEAST_WEIGHT: f64 = 1e-9;
-/// The sine of the angle up to which a way counts as within the cone. Faces in a plane have a sine of zero, but for rounding: some 10⁻¹⁶ times
-/// coordinates over distance, and below this for coordinates up to 10⁷ times the distance.
+/// The sine of the angle up to which a way counts as within the cone. Faces in a plane have a sine of zero, apart from rounding:
+/// about 10⁻¹⁶ times coordinates over distance, which is below this value for coordinates up to 10⁷ times the distance.
 const TOLERANCE: f64 = 1e-6;
 const NONE: u32 = u32::MAX;
 
@@ -33,7 +34,7 @@ pub(super) struct Cones {
     spokes: Vec<Spoke>,
 }
 
-/// An edge from a vertex, and up to two corners opposite of it; an edge with more faces has several spokes.
+/// An edge from a vertex, and up to two corners opposite it; an edge with more faces has several spokes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Spoke {
     to: u32,
@@ -41,7 +42,7 @@ struct Spoke {
 }
 
 impl Cones {
-    /// Finds the spokes of the vertices from `first` on; other vertices have none.
+    /// Finds the spokes of the vertices from `first` on; other vertices get none.
     pub(super) fn new(topology: &Topology, first: usize) -> Self {
         let mut sides: Vec<[u32; 3]> = Vec::new();
         for &[a, b, c] in topology.triangles().iter().filter(|corners| corners[0] as usize >= first) {
@@ -73,7 +74,7 @@ impl Cones {
         &self.spokes[self.first[vertex] as usize..self.first[vertex + 1] as usize]
     }
 
-    /// Says whether a direction is in the normal cone at the point with these weights of these vertices.
+    /// Returns whether a direction is in the normal cone at the point with these weights of these vertices.
     pub(super) fn contain(&self, vertices: &[u32], weights: &[f64], positions: &[DVec3], direction: DVec3) -> bool {
         let mut on = [NONE; 3];
         let mut count = 0;
@@ -106,7 +107,7 @@ impl Cones {
 mod tests {
     use super::*;
 
-    /// Two triangles beside the edge from 0 to 1, whose other corners are at these places.
+    /// Two triangles beside the edge from 0 to 1, with these other corners.
     fn ridge(left: DVec3, right: DVec3) -> (Cones, Vec<DVec3>) {
         let topology = Topology::new(4, vec![[0, 1, 2], [1, 0, 3]]).unwrap();
         (Cones::new(&topology, 0), vec![DVec3::ZERO, DVec3::Y, left, right])

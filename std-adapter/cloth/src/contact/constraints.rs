@@ -1,15 +1,17 @@
 //! Contacts as constraints: pairs that are nearer to each other than their thickness are pushed apart.
 //!
-//! Each contact is a [row](super::rows) of the closest points at the start of the step. On a fine mesh neighbours at rest may be nearer than the
-//! thickness. Then the thickness of such a pair is at most half its distance at rest, or the mesh would lock, and [less](super::neighbours). What was
-//! tangled has no such distance at rest, and the two sides of a tear have none at all: they come apart to at least the thickness of neighbours.
+//! Each contact is a [row](super::rows) of the closest points at the start of the step. On a fine mesh neighbours at rest may be
+//! nearer than the thickness. Then the thickness of such a pair is at most half its distance at rest, or the mesh would lock, and
+//! [less](super::neighbours). A tangled pair has no such distance at rest, and the distance of the two sides of a tear is zero:
+//! they come apart to at least the thickness of neighbours.
 //!
 //! Contacts with a body are those with its [surface](super::cones).
 //!
-//! **Only where it matters.** Closest points are found when it is the turn of a pair to push, and not if the direction that it remembers
-//! keeps it at its thickness by then: where cloth lies on something each vertex has many pairs, and a push or two see to all of them. On a
-//! figure that walks in a shirt a third of the pairs that would come too near by themselves are left. A pair that remembers no direction is
-//! not kept by any: where that is so of many, as after a checkpoint, closest points are found of [several at once](Known).
+//! **Only necessary work.** The step computes the closest points of a pair when its turn to push comes, and not if the direction
+//! that it stores keeps it at its thickness by then: where cloth lies on something, each vertex has many pairs, and a push or two
+//! correct all of them. On a figure that walks in a shirt a third of the pairs that would come too near by themselves are left. A
+//! pair without a stored direction always needs its closest points: if many have none, as after a checkpoint, the step finds
+//! [several at once](Known).
 
 use super::candidate::{Aim, Candidate, ClosestOfSome};
 use super::cones::Cones;
@@ -34,33 +36,33 @@ use std::hint::select_unpredictable;
 /// The contacts of a step.
 #[derive(Debug, Default)]
 pub(super) struct Contacts {
-    /// The candidates that may have to be pushed, by their places, in order, as they are found.
+    /// The places of the candidates that may need a push, in order.
     open: Vec<u32>,
-    /// Pairs of cloth with itself, and pairs with a body.
+    /// The pairs of cloth with itself, and the pairs with a body.
     of: [Class; 2],
     memory: Memory,
-    /// Sweeps so far.
+    /// The number of sweeps so far.
     sweeps: u32,
 }
 
-/// Contacts with bodies, or those of cloth.
+/// The contacts with bodies, or those of cloth.
 #[derive(Debug, Default)]
 struct Class {
-    /// The candidates that may have to be pushed, by their places, in order.
+    /// The places of the candidates that may need a push, in order.
     open: Vec<u32>,
-    /// Of each of them what it is.
+    /// The state of each of them.
     found: Vec<Found>,
     rows: Vec<Row>,
-    /// Candidates that begin with a push, and their rows.
+    /// The candidates that begin with a push, and their rows.
     begun: Vec<(u32, u32)>,
-    /// The candidates without those; kept for its memory.
+    /// The other candidates; the field exists to use its memory again.
     others: Vec<u32>,
-    /// Whether all have had their turn once.
+    /// Whether each has had its first turn.
     is_found: bool,
 }
 
 impl Class {
-    /// Gives the candidates that begin with a push their places among those that may have to be pushed.
+    /// Gives the candidates that begin with a push their places among those that may need one.
     fn merge(&mut self) {
         let Self {
             open,
@@ -92,36 +94,36 @@ impl Class {
     }
 }
 
-/// What came of a candidate's turn.
+/// The result of a candidate's turn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Found {
-    /// The direction that it remembers keeps it apart so far.
+    /// The stored direction has kept the pair apart so far.
     Kept,
-    /// It is not near, or is no contact.
+    /// The pair is not near, or is no contact.
     Nothing,
-    /// Its place among the rows.
+    /// The pair has a row, at this place.
     Row(u32),
 }
 
-/// What is asked of pairs.
+/// The rules by which pairs become contacts.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rules<'a> {
     pub(super) settings: &'a ContactSettings,
-    /// Those that are not pushed: what is tangled.
+    /// The tangled pairs, which are not pushed.
     pub(super) exempt: &'a Exempt,
-    /// Of each vertex, for the thickness that neighbours can have.
+    /// The position of each vertex at rest, which limits the thickness of neighbours.
     pub(super) rest: &'a [DVec3],
-    /// Of gaps between positions of this step.
+    /// The error of gaps between positions of this step.
     pub(super) error: GapError<f64>,
-    /// The instructions by which closest points are found.
+    /// The processor instructions that find closest points.
     pub(super) level: Level,
-    /// Of bodies.
+    /// The normal cones of bodies.
     pub(super) cones: &'a Cones,
-    /// Vertices from here on are bodies'.
+    /// The number of the cloth's vertices; bodies' vertices come after them.
     pub(super) cloth_vertices: u32,
 }
 
-/// What starts within this may come within `aim`.
+/// The distance within which a pair must start if it may come within `aim`.
 fn reach(aim: f64) -> f64 {
     aim * (1.0 + MARGIN)
 }
@@ -138,24 +140,24 @@ impl Contacts {
         self.sweeps = 0;
     }
 
-    /// Forgets what pushed in the last step as well.
+    /// Forgets also what pushed in the last step.
     pub(super) fn forget(&mut self) {
         self.clear();
         self.memory.clear();
     }
 
-    /// Remembers what has pushed, as the step was made.
+    /// Stores what has pushed, after a step that was accepted.
     pub(super) fn remember(&mut self, touches: &Touches, h: f64) {
         self.memory.remember(self.of.iter().flat_map(|class| &class.rows), touches, h);
     }
 
-    /// What pushed in the last step, and what it begins a step of `h` seconds with.
+    /// The pairs that pushed in the last step, and the push with which each begins a step of `h` seconds.
     pub(super) fn remembered(&self, h: f64) -> impl Iterator<Item = (PairKey, f64)> {
         self.memory.begin(h)
     }
 
-    /// Lets the candidates at these places begin with a push over their mobility. Their turns stay in the order of all candidates, since the
-    /// result depends on it a little.
+    /// Lets the candidates at these places begin with a push, given over their mobility. They keep their turns in the order of
+    /// all candidates, since the result depends on that order a little.
     pub(super) fn begin(
         &mut self,
         places: &[(usize, f64)],
@@ -179,8 +181,8 @@ impl Contacts {
         self.of.iter_mut().for_each(Class::merge);
     }
 
-    /// Replaces them by those of the pairs that are near at the start of the step, and that the direction which kept them apart there does
-    /// not keep at their thickness at its predicted end.
+    /// Replaces the contacts by the pairs that are near at the start of the step. It leaves out a pair if the direction that kept
+    /// it apart there also keeps it at its thickness at the predicted end of the step.
     pub(super) fn collect(&mut self, pairs: &mut [Candidate], rules: Rules<'_>, predicted: &[DVec3]) {
         self.clear();
         parallel::map_chunks(
@@ -200,7 +202,8 @@ impl Contacts {
         }
     }
 
-    /// Finds the contacts that are too near at the start of the step, and records what they miss, before anything pushes.
+    /// Finds the contacts that are too near at the start of the step, and records how much each is too near, before anything
+    /// pushes.
     pub(super) fn find_missing(
         &mut self,
         pairs: &mut [Candidate],
@@ -230,7 +233,7 @@ impl Contacts {
         }
     }
 
-    /// Pushes once along the contacts with bodies, or along those of cloth; returns how many push that did not before.
+    /// Pushes once along the contacts with bodies, or along those of cloth; returns how many push for the first time.
     pub(super) fn push(
         &mut self,
         with_body: bool,
@@ -255,7 +258,7 @@ impl Contacts {
                 if *turn == Found::Kept {
                     let pair = &mut pairs[place as usize];
                     let found = are_known.then_some((&known, lane));
-                    // What remembers nothing is not kept.
+                    // A pair without a stored direction is not kept apart.
                     if found.is_none() && is_kept(pair, positions) {
                         continue;
                     }
@@ -275,7 +278,7 @@ impl Contacts {
         pushed
     }
 
-    /// Lets the contacts that were found push or take back, once each, in one order and then in the other.
+    /// Lets each contact push or take back once, in one order and then in the other.
     pub(super) fn sweep(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3]) {
         let is_reversed = self.sweeps.is_multiple_of(2);
         for with_body in [!is_reversed, is_reversed] {
@@ -294,35 +297,36 @@ impl Contacts {
         self.sweeps += 1;
     }
 
-    /// Lets all contacts follow the shift.
+    /// Moves the rest distances of all contacts with the shift.
     pub(super) fn follow_shift(&mut self, step: &TimeStep<'_>, positions: &[DVec3], touches: &Touches) {
         let rows = self.of.iter_mut().flat_map(|class| &mut class.rows);
         rows.for_each(|row| row.follow_shift(step, positions, touches));
     }
 
-    /// Records what pushes now, for friction.
+    /// Records what pushes now; friction reads this.
     pub(super) fn record(&mut self, touches: &mut Touches) {
         let rows = self.of.iter_mut().rev().flat_map(|class| &mut class.rows);
         rows.for_each(|row| row.record(touches));
     }
 
-    /// The pairs that were near, and not kept apart yet, when it was their turn: those with bodies first.
+    /// The pairs that were near, and not yet kept apart, at their turn: those with bodies first.
     pub(super) fn near_pairs(&self) -> impl Iterator<Item = ProximityPair> {
         self.of.iter().rev().flat_map(|class| &class.rows).map(|row| row.near)
     }
 }
 
-/// Whether a pair may have to be pushed. Without a branch, which nobody could foretell.
+/// Whether a pair may need a push. It uses no branch, since no branch here could be predicted.
 #[inline(always)]
 fn is_open(pair: &Candidate, predicted: &[DVec3]) -> bool {
     let aim = pair.data.aim.length();
     let is_near = f64::from(pair.gap()) <= reach(aim);
-    // What is not near is kept at that.
+    // A pair that is not near counts as kept.
     let distance = select_unpredictable(is_near, aim, f64::NEG_INFINITY);
     !pair.is_kept_at(distance, predicted)
 }
 
-/// Whether a pair may be nearer than its thickness at the start of the step, as far as it remembers, or is when bodies have come nearer by `closing`.
+/// Whether a pair may be nearer than its thickness, judged by its stored direction: at the start of the step, or after bodies
+/// have come nearer by `closing`.
 #[inline(always)]
 fn may_miss(pair: &Candidate, closing: f64) -> bool {
     f64::from(pair.gap()) < (1.0 - LEAST_MISSING) * pair.data.aim.length() + closing
@@ -336,23 +340,23 @@ fn farthest_way(step: &TimeStep<'_>, positions: &[DVec3]) -> f64 {
     squared.fold(0.0, f64::max).sqrt()
 }
 
-/// Whether the direction that a pair remembers keeps it at its thickness, but for what is not worth a push.
+/// Whether the direction that a pair stores keeps it at its thickness, up to a difference that is not worth a push.
 #[inline(always)]
 fn is_kept(pair: &Candidate, positions: &[DVec3]) -> bool {
     pair.is_kept_at((1.0 - LEAST_MISSING) * pair.data.aim.length(), positions)
 }
 
-/// Where up to sixteen pairs are closest, if that is found at once.
+/// The closest points of up to sixteen pairs, if the step finds them all at once.
 #[derive(Default)]
 struct Known {
     at_start: ClosestOfSome,
-    /// Not of pairs with a body.
+    /// The closest points at rest; empty for pairs with a body.
     at_rest: ClosestOfSome,
 }
 
 impl Known {
-    /// Finds it if all are of one kind and remember no direction, so that their closest points are needed whatever is pushed before them; few of
-    /// others' are. Returns whether it did.
+    /// Finds the closest points if all pairs are of one kind and store no direction: then all of them are needed, whatever is
+    /// pushed first, and otherwise few. Returns whether it did.
     fn find(&mut self, places: &[u32], pairs: &[Candidate], rules: Rules<'_>, start: &[DVec3]) -> bool {
         let asked = || places.iter().map(|&place| &pairs[place as usize]);
         let Some(Candidate { kind, data, .. }) = asked().next() else {
@@ -369,7 +373,8 @@ impl Known {
     }
 }
 
-/// The pair as it is at the start of the step, and its distance, if it is a contact there. `known` may say where it is closest, at a place in it.
+/// The pair at the start of the step, and its distance, if it is a contact there. `known` may hold its closest points, at a
+/// place.
 fn near(
     pair: &mut Candidate,
     known: Option<(&Known, usize)>,
@@ -401,7 +406,7 @@ fn near(
     Some((near, distance))
 }
 
-/// Whether the point of the body is the closest of its [surface](super::cones), and not only of one of its faces or edges.
+/// Whether the point of the body is the closest point of its [surface](super::cones), and not only of one of its faces or edges.
 fn is_of_surface(pair: &Candidate, closest: &ClosestPoints, rules: Rules<'_>, positions: &[DVec3]) -> bool {
     let of_first = match pair.kind {
         PairKind::VertexFace => 1,
@@ -416,7 +421,7 @@ fn is_of_surface(pair: &Candidate, closest: &ClosestPoints, rules: Rules<'_>, po
     }
 }
 
-/// The thickness that a pair can have: the one that is asked for, but for neighbours in one cloth.
+/// The thickness that a pair can have: the requested one, except for neighbours in one cloth.
 fn thickness_of(pair: &Candidate, closest_at_rest: impl FnOnce() -> ClosestPoints, rules: Rules<'_>) -> Option<f64> {
     let Rules {
         settings, exempt, rest, ..

@@ -1,23 +1,24 @@
-//! Which way to go for the curves along which surfaces pass through each other, the contours, to shrink until there are none.
+//! The directions in which contours, the curves along which surfaces pass through each other, shrink until there are none.
 //!
-//! Two things pull, and neither knows how the state came about:
+//! Two things pull, and neither uses the history of the state:
 //!
-//! **The length of contours** (Volino and Magnenat-Thalmann 2006, "Resolving surface collisions through intersection contour minimization").
-//! A contour consists of segments, each in a triangle T and a face F that pass through each other, and each ends where an edge meets a
-//! face. Let an edge of T with the direction e (of length one) meet F, whose normal is n, at p, and r be the direction of the segment from there into T.
-//! Let what is of T there move by x, what is of F by y. Then p moves by x − (n·(x − y) / n·e)·e, and the segment becomes longer by −r
-//! times that:
+//! **The length of contours** (Volino and Magnenat-Thalmann 2006, "Resolving surface collisions through intersection contour
+//! minimization"). A contour consists of segments, each in a triangle T and a face F that pass through each other; each segment
+//! ends where an edge meets a face. Let an edge of T with the direction e (of length one) meet F, whose normal is n, at p, and
+//! let r be the direction of the segment from there into T. Let the part of T at p move by x, and the part of F by y. Then p
+//! moves by x − (n·(x − y) / n·e)·e, and the segment becomes longer by −r times that:
 //!
 //! ```text
 //! dL = −(r − (r·e / n·e)·n)·x − (r·e / n·e)·n·y
 //! ```
 //!
-//! Its negative gradient is the way out. With x = −y = d/2 that is the paper's equation r − 2(r·e / n·e)·n, but for a factor of a half.
-//! Both triangles at the edge have a segment from p.
+//! The negative gradient of this length is the way out. With x = −y = d/2 it is the paper's equation r − 2(r·e / n·e)·n, apart
+//! from a factor of a half. Both triangles at the edge have a segment from p.
 //!
-//! **What has gone through**, along the normal. Where contours are parallel, as where a pleat lies in the next one, their length does not
-//! change. What has gone through a closed body is inside of it, and goes outwards. Of cloth it is the [smaller side](super::sides) of the contour:
-//! the edge goes to where its other end is, by ±n times how much smaller that side is.
+//! **The side that has gone through**, along the normal. Where contours are parallel, as where a pleat lies in the next one,
+//! their length does not change. A part that has gone through a closed body is inside it, and moves outwards. For cloth it is the
+//! [smaller side](super::sides) of the contour: the edge moves to where its other end is, by ±n times the difference of the two
+//! sides.
 
 use super::crossing::share_to_plane;
 use super::sides::Sides;
@@ -25,7 +26,7 @@ use crate::world::Incidence;
 use selvedge::{Intersection, Topology};
 use selvedge_core::glam::DVec3;
 
-/// What is known of the surfaces, and used again.
+/// The data on the surfaces, whose memory is used again.
 #[derive(Debug)]
 pub(super) struct Contours {
     edge_triangles: Incidence<u32>,
@@ -43,8 +44,9 @@ impl Contours {
         }
     }
 
-    /// Replaces `ways` by the direction in which each vertex is to go, without unit: longer than one where much pulls. `outward` is of a vertex: 1 or
-    /// −1 if it belongs to a closed body, the sign of its triangles' normals that leads out of it; otherwise 0.
+    /// Replaces `ways` by the direction in which each vertex should move; it has no unit, and is longer than one where the pull
+    /// is strong. `outward` is of a vertex: 1 or −1 if it belongs to a closed body, the sign of its triangles' normals that point
+    /// outwards; otherwise 0.
     pub(super) fn find_ways(
         &mut self,
         topology: &Topology,
@@ -57,7 +59,7 @@ impl Contours {
         ways.fill(DVec3::ZERO);
         let at = |vertex: u32| positions[vertex as usize];
         for intersection in intersections {
-            // Neighbours that touch are no contour: contact pushes them apart.
+            // Neighbours that touch make no contour: contact pushes them apart.
             let Intersection::EdgeFace { edge, face } = *intersection else {
                 continue;
             };
@@ -108,12 +110,12 @@ fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a).normalize_or_zero()
 }
 
-/// Of the corners of a triangle in a point of it.
+/// The weights of the corners of a triangle in one of its points.
 fn weights(point: DVec3, [a, b, c]: [DVec3; 3]) -> [f64; 3] {
     let normal = (b - a).cross(c - a);
     let part = |from: DVec3, to: DVec3| normal.dot((from - point).cross(to - point)) / normal.length_squared();
     let parts = [part(b, c), part(c, a), part(a, b)];
-    // One without area has none.
+    // A triangle without area has no such weights.
     parts.map(|part| if part.is_finite() { part.clamp(0.0, 1.0) } else { 1.0 / 3.0 })
 }
 
@@ -146,8 +148,8 @@ mod tests {
         found
     }
 
-    /// Of all contours: of each pair of triangles that pass through each other, the distance of the two points at which an edge of the one meets the
-    /// other.
+    /// The length of all contours: the sum over pairs of triangles that pass through each other of the distance between the two
+    /// points at which an edge of one meets the other.
     fn length(topology: &Topology, positions: &[DVec3]) -> f64 {
         let mut ends = std::collections::BTreeMap::<[u32; 2], Vec<DVec3>>::new();
         for own in intersections(topology, positions) {
@@ -174,7 +176,7 @@ mod tests {
         assert!(found.len() > 8 && length(&topology, &mesh.positions) > 0.5);
         let mut contours = Contours::new(&topology, &mesh.positions);
         let mut ways = vec![DVec3::ZERO; mesh.positions.len()];
-        // As of bodies whose way out nobody knows: no side pushes.
+        // The bodies count as open here: no side pushes.
         let mut along = |positions: &[DVec3]| {
             contours.find_ways(&topology, &found, positions, |_| f64::MIN_POSITIVE, &mut ways);
             ways.clone()

@@ -1,34 +1,34 @@
-//! Surfaces that pass through each other: which edges meet which faces, exactly.
+//! Surfaces that pass through each other: the exact test finds which edges meet which faces.
 //!
-//! The certified pass keeps apart what is apart. It would never notice two surfaces that pass through each other far from any vertex
-//! and any other edge: so edges that meet faces are asked for by themselves, of the detector's
-//! [exact test](CollisionDetector::intersections).
+//! The certified pass keeps apart pairs that are apart. It would never notice two surfaces that pass through each other far from
+//! any vertex and any other edge: so the detector's [exact test](CollisionDetector::intersections) looks for edges that meet
+//! faces.
 
 use super::candidate::Candidate;
 use selvedge::core::glam::DVec3;
 use selvedge::{CollisionDetector, Intersection, PairKind, StepError, Topology};
 use std::sync::Arc;
 
-/// An edge and a face that have a point in common, and no vertex.
+/// An edge and a face that have a point, but no vertex, in common.
 ///
-/// Neighbours that are folded flat onto each other may touch without any, and so may what is nearer than rounding can tell: then the edge
-/// is a vertex, (v, v), or the face an edge, (a, b, b).
+/// Neighbours that are folded flat onto each other may touch without such an edge and face, and so may pairs that are nearer than
+/// rounding can distinguish: then the edge is a vertex, (v, v), or the face an edge, (a, b, b).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
-    /// Its vertices, those of bodies after the cloth's.
+    /// The vertices of the edge, those of bodies after the cloth's.
     pub edge: [u32; 2],
-    /// Its vertices.
+    /// The vertices of the face.
     pub face: [u32; 3],
-    /// Where they meet, in metres.
+    /// The point where they meet, in metres.
     pub point: DVec3,
     /// The body that one of them belongs to; `None` if both are cloth.
     pub body: Option<usize>,
 }
 
-/// How a pair is called in the lists of candidates.
+/// The name of a pair in the lists of candidates.
 pub(crate) type PairKey = (PairKind, [u32; 2]);
 
-/// Looks for what meets; its hierarchies are used again.
+/// Finds what meets; its hierarchies are used again.
 #[derive(Debug)]
 pub(super) struct CrossingFinder {
     detector: CollisionDetector<f64>,
@@ -43,7 +43,8 @@ impl CrossingFinder {
         }
     }
 
-    /// What meets where all is at `positions`, in ascending order, if a vertex of the one and a vertex of the other `are_asked` about.
+    /// The edges and faces that meet at `positions`, in ascending order, if a vertex of one and a vertex of the other pass
+    /// `are_asked`.
     pub(super) fn find(
         &mut self,
         positions: &[DVec3],
@@ -59,7 +60,7 @@ impl CrossingFinder {
     }
 }
 
-/// Vertices of both, as [`Crossing`] has them.
+/// The vertices of both, in the form of [`Crossing`].
 fn edge_and_face(topology: &Topology, intersection: &Intersection) -> ([u32; 2], [u32; 3]) {
     let edge = |edge: u32| topology.edges()[edge as usize];
     let face = |face: u32| topology.triangles()[face as usize];
@@ -74,7 +75,7 @@ fn edge_and_face(topology: &Topology, intersection: &Intersection) -> ([u32; 2],
 }
 
 impl Crossing {
-    /// Of two primitives that meet, as of cloth with itself.
+    /// Makes the crossing of two primitives of the cloth that meet.
     pub(super) fn new(topology: &Topology, intersection: &Intersection, positions: &[DVec3]) -> Self {
         let (edge, face) = edge_and_face(topology, intersection);
         let point = |vertex: u32| positions[vertex as usize];
@@ -86,7 +87,7 @@ impl Crossing {
         }
     }
 
-    /// Of a pair that is nearer than rounding can tell.
+    /// Makes the crossing of a pair that is nearer than rounding can distinguish.
     pub(super) fn of_touching(pair: &Candidate, positions: &[DVec3]) -> Self {
         let [a, b, c, d] = pair.vertices;
         let (edge, face) = match pair.kind {

@@ -1,17 +1,18 @@
-//! Pairs that have left the promise: those of bodies that were let pass, and what was tangled where the simulation started.
+//! Pairs that certificates leave out (exempt pairs): those of bodies that were let pass, and those that were tangled at the start
+//! of the simulation.
 //!
-//! **Bodies** that were let pass come back when they are apart from the cloth.
+//! **Bodies** that were let pass are certified again as soon as they are apart from the cloth.
 //!
-//! **A tangle.** An edge and a face that meet cannot be kept apart, and may have to pass the edges and faces next to them on their way out. So
-//! while they meet, all pairs with a vertex of the edge on one side and a vertex of the face on the other are left out. (With only the
-//! five pairs that the two consist of, tangles stick: a vertex that comes to a face from the wrong side would be held off it as long as its edges meet
-//! no more than the faces beside it.) A pair that is left out comes back when it is apart by its separation and has no such vertices any more: from
-//! then on it is certified as any other, and never meets again. All other pairs are certified in every step. What is left out
-//! is found anew after each step, so that
+//! **A tangle.** An edge and a face that meet cannot be kept apart, and may have to pass the edges and faces next to them on
+//! their way out. So while they meet, all pairs with a vertex of the edge on one side and a vertex of the face on the other are
+//! left out. (If only the five pairs that make up the two were left out, tangles would not come apart: a vertex that comes to a
+//! face from the wrong side would be held off it as long as its edges meet only the faces beside it.) A pair returns as soon as
+//! it is apart by its separation and has no such vertices: from then on it is certified like any other pair, and never meets
+//! again. All other pairs are certified in every step. The pairs to leave out are computed again after each step, so that
 //!
-//! * curves along which surfaces pass through each other can move, grow, shrink and vanish, but none can begin where there is none: an edge
-//!   and a face that begin to meet have a vertex each in common with such as met at the start of the step, or were not apart yet;
-//! * when nothing is left out any more, every state is free again, for good.
+//! * contours can move, grow, shrink and vanish, but none can begin away from the others: an edge and a face that begin to meet
+//!   share a vertex each with a pair that met at the start of the step, or were not yet apart;
+//! * when nothing is left out, every state is free again, permanently.
 
 use super::candidate::Candidate;
 use super::candidates::{Candidates, OfContact};
@@ -19,27 +20,27 @@ use super::crossing::{Crossing, CrossingFinder, PairKey};
 use selvedge::{Intersection, PairKind, StepError};
 use selvedge_core::glam::DVec3;
 
-/// What certificates leave out.
+/// The pairs that certificates leave out.
 #[derive(Debug)]
 pub(crate) struct Exempt {
-    /// Bodies whose pairs have left the promise.
+    /// Whether the pairs of each body are exempt.
     pub(crate) yielding: Vec<bool>,
-    /// Made only if the simulation starts tangled.
+    /// The tangle, if the simulation starts tangled.
     pub(super) tangle: Option<Tangle>,
 }
 
-/// What meets, and what met and is not apart yet.
+/// The pairs that meet, and those that met and are not yet apart.
 #[derive(Debug)]
 pub(crate) struct Tangle {
     finder: CrossingFinder,
-    /// What meets now, in ascending order.
+    /// The pairs that meet now, in ascending order.
     intersections: Vec<Intersection>,
     crossings: Vec<Crossing>,
-    /// A vertex of the edge and one of the face of each, the smaller number first, in order.
+    /// A vertex of the edge and one of the face of each intersection, the smaller number first, in order.
     links: Vec<[u32; 2]>,
-    /// Pairs without such vertices that are not apart by their separation yet, in order.
+    /// The pairs without such vertices that are not yet apart by their separation, in order.
     parting: Vec<PairKey>,
-    /// Of each vertex, whether it has links.
+    /// Whether each vertex has links.
     is_linked: Vec<bool>,
 }
 
@@ -51,7 +52,7 @@ impl Exempt {
         }
     }
 
-    /// Whether nothing is promised of this pair.
+    /// Whether certificates leave this pair out.
     #[inline]
     pub(super) fn has(&self, pair: &Candidate) -> bool {
         pair.data.is_with_body() && self.yielding[pair.data.body as usize]
@@ -63,40 +64,40 @@ impl Exempt {
         self.tangle.is_some()
     }
 
-    /// Whether the pair is about something that meets: which way it would have to be pushed is not known.
+    /// Whether the pair has vertices of an edge and a face that meet: the direction to push it is not known.
     #[inline]
     pub(super) fn is_tangled(&self, pair: &Candidate) -> bool {
         self.tangle.as_ref().is_some_and(|tangle| tangle.links(pair))
     }
 
-    /// Whether the pair was about something that met, and is not apart by its separation yet.
+    /// Whether the pair had such vertices, and is not yet apart by its separation.
     pub(super) fn is_parting(&self, pair: &Candidate) -> bool {
         self.tangle.as_ref().is_some_and(|tangle| tangle.is_parting(pair))
     }
 
-    /// Edges that meet faces, of those that have left the promise.
+    /// The edges that meet faces, among exempt pairs.
     pub(crate) fn crossings(&self) -> &[Crossing] {
         self.tangle.as_ref().map_or(&[], Tangle::crossings)
     }
 
-    /// What they are.
+    /// The intersections of the tangle.
     pub(super) fn intersections(&self) -> &[Intersection] {
         self.tangle.as_ref().map_or(&[], |tangle| &tangle.intersections)
     }
 
-    /// Pairs of a tangle that are left out besides those about what meets; `None` if there is no tangle.
+    /// The exempt pairs of a tangle that have no vertices of an edge and a face that meet; `None` if there is no tangle.
     pub(crate) fn parting(&self) -> Option<&[PairKey]> {
         self.tangle.as_ref().map(Tangle::parting)
     }
 
-    /// Whether all is certified.
+    /// Whether every pair is certified.
     pub(crate) fn is_empty(&self) -> bool {
         self.tangle.is_none() && !self.yielding.contains(&true)
     }
 }
 
 impl Tangle {
-    /// Nothing yet, of so many vertices.
+    /// Makes a tangle without intersections, of so many vertices.
     pub(super) fn new(interest: &OfContact, vertices: usize) -> Self {
         Self {
             finder: CrossingFinder::new(interest.topology()),
@@ -121,7 +122,8 @@ impl Tangle {
         self.links.is_empty() && self.parting.is_empty()
     }
 
-    /// Looks at a state anew. `parting` are pairs, in order, that are left out even if they are not about what meets.
+    /// Finds the intersections of a state. `parting` are pairs, in order, that are left out even without vertices of an edge and
+    /// a face that meet.
     pub(super) fn look(&mut self, interest: &OfContact, parting: Vec<PairKey>, positions: &[DVec3]) -> Result<(), StepError> {
         assert!(parting.is_sorted(), "they are looked up by halving");
         let found = self.finder.find(positions, |a, b| interest.body_of_pair(a, b).is_some())?;
@@ -145,14 +147,14 @@ impl Tangle {
         Ok(())
     }
 
-    /// Looks at the state after a step: what `is_apart` comes back into the promise.
+    /// Finds the intersections of the state after a step: pairs that `is_apart` accepts are certified again.
     pub(super) fn take_back(&mut self, candidates: &Candidates, positions: &[DVec3], is_apart: impl Fn(&Candidate) -> bool) {
-        // What is in no list of candidates is farther apart than that.
+        // Pairs in no list of candidates are farther apart than their separation.
         let parting = candidates.list.iter().filter(|pair| self.has(pair) && !is_apart(pair));
         let mut parting: Vec<_> = parting.map(Candidate::key).collect();
-        // What was added to the list comes after the others.
+        // Pairs that were added to the list come after the others.
         parting.sort_unstable();
-        // Where it cannot be asked, as a coordinate is beyond all numbers, all stays as it was.
+        // If the test fails, as for an infinite coordinate, nothing changes.
         let _ = self.look(candidates.interest(), parting, positions);
     }
 
@@ -165,7 +167,7 @@ impl Tangle {
         self.parting.binary_search(&pair.key()).is_ok()
     }
 
-    /// Whether it is about what meets.
+    /// Whether the pair has vertices of an edge and a face that meet.
     #[inline]
     pub(super) fn links(&self, pair: &Candidate) -> bool {
         let of_first = match pair.kind {

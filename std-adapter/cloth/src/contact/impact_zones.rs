@@ -1,28 +1,29 @@
-//! Impact zones: cloth that is carried together (Provot 1997), so that there is a motion which is certainly free, from which each vertex
+//! Impact zones: parts of the cloth that move together (Provot 1997). Their motion is certainly free, and from it each vertex
 //! then goes as far as it [may](super::truncation).
 //!
-//! A zone's motion is its mean, which keeps its momentum, or that of the body or pin (its carrier) that it touches, which keeps it on the
-//! body. A zone that touches two carriers has none that would do for both, and rests.
+//! A zone moves with its mean, which keeps its momentum, or with the body or pin (its carrier) that it touches, which keeps it on
+//! the body. No motion suits a zone that touches two carriers; it rests.
 
 use super::candidate::Candidate;
 use crate::model::step::{Carrier, FREE, TimeStep};
 use selvedge_core::glam::DVec3;
 
-/// No carrier: two pull at the zone, or one that does not keep its shape.
+/// A zone without carrier: it touches two carriers, or one that does not keep its shape.
 pub(super) const TORN: Carrier = FREE - 1;
-/// Of a vertex in no zone.
+/// The value for a vertex that is in no zone.
 const ALONE: u32 = u32::MAX;
 
 /// The zones of one step; at first there are none.
 #[derive(Debug, Default)]
 pub(super) struct ImpactZones {
-    /// Of each vertex: another one of its zone, nearer to the root, itself if it is the root, [`ALONE`] if it is in none.
+    /// For each vertex, another vertex of its zone that is nearer to the root; the vertex itself if it is the root, [`ALONE`] if
+    /// it is in no zone.
     parents: Vec<u32>,
-    /// Of each root.
+    /// The carrier of each root's zone.
     carriers: Vec<Carrier>,
-    /// Of all zones.
+    /// The members of all zones.
     members: Vec<u32>,
-    /// Of each root: mass and momentum, in the unit of the wanted ways.
+    /// The mass and momentum of each root's zone, in the unit of the wanted ways.
     sums: Vec<(f64, DVec3)>,
 }
 
@@ -35,11 +36,11 @@ impl ImpactZones {
         self.members.clear();
     }
 
-    /// Lets the cloth of a pair be in one zone, with the carrier of whatever else the pair touches; `carriers` is of each vertex. Returns
-    /// whether that has changed anything.
+    /// Joins the cloth of a pair to one zone, with the carrier of the rest of the pair; `carriers` has an entry for each vertex.
+    /// Returns whether the zones have changed.
     ///
-    /// A change adds a vertex to a zone, makes one zone of two, or gives a zone a carrier, or one too many: there are fewer than four for
-    /// each vertex.
+    /// A change adds a vertex to a zone, joins two zones, or gives a zone a carrier, or a second one: there are fewer than four
+    /// changes for each vertex.
     pub(super) fn join(&mut self, pair: &Candidate, carriers: &[Carrier]) -> bool {
         let mut has_changed = false;
         let mut one = None;
@@ -71,8 +72,8 @@ impl ImpactZones {
         has_changed | (*own != before)
     }
 
-    /// Moves the members of each zone from the start of the step as the zone is carried: where two carriers pull at it, not at all. Marks those
-    /// whose positions change.
+    /// Moves the members of each zone from the start of the step with its carrier or its mean; a zone with two carriers does not
+    /// move. Marks those whose positions change.
     pub(super) fn carry(&mut self, step: &TimeStep<'_>, wanted: &[DVec3], positions: &mut [DVec3], moved: &mut [bool]) {
         self.members.sort_unstable();
         let members = std::mem::take(&mut self.members);
@@ -141,7 +142,7 @@ mod tests {
         )
     }
 
-    /// Where zones of these pairs are carried: eight vertices of cloth, one of a body that rests, one of another.
+    /// The positions to which zones of these pairs move: eight vertices of cloth, one of a body that rests, one of another body.
     fn carried(pairs: &[[u32; 4]]) -> Vec<DVec3> {
         let start: Vec<DVec3> = (0..10).map(|vertex| DVec3::X * f64::from(vertex)).collect();
         let wanted: Vec<DVec3> = (0..10).map(|vertex| start[vertex] + DVec3::Z * vertex as f64).collect();

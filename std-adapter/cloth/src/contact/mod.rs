@@ -1,23 +1,24 @@
-//! Contact: cloth with itself and with bodies.
+//! Contact of cloth with itself and with bodies.
 //!
-//! | module | what it does |
+//! | module | contents |
 //! |---|---|
-//! | `settings` | what effects ask for |
-//! | `candidates` | which pairs are looked at, followed from step to step by the detector; `neighbours`: those near each other at rest |
-//! | `candidate` | one pair: what contact keeps of it, its certified time of impact |
+//! | `settings` | the distances that effects request |
+//! | `candidates` | the pairs that contact looks at, which the detector follows from step to step; `neighbours`: pairs that are
+//! near each other at rest |
+//! | `candidate` | one pair: the data stored for it, and its certified time of impact |
 //! | `constraints`, `rows` | contacts as constraints of the solver |
-//! | `cones` | which contacts are with a body's surface |
-//! | `pass` | no step is accepted that is not certified |
-//! | `relaxation`, `impact_zones`, `truncation` | what is done about a step that is not |
-//! | `solver` | all of it, as the simulation calls it |
-//! | `crossing` | where surfaces pass through each other |
-//! | `exempt` | what has left the promise: bodies that were let pass, what was tangled where the simulation started |
-//! | `contours`, `sides`, `incidence` | which way to go for what is tangled to come apart |
-//! | `opening` | whether cloth that has torn may open |
-//! | `untangling` | that, as the simulation calls it before its first step |
-//! | `report` | what was counted, what it took, what was in the way |
+//! | `cones` | the contacts on a body's surface |
+//! | `pass` | the certificate of each step |
+//! | `relaxation`, `impact_zones`, `truncation` | repairs of steps that are not free |
+//! | `solver` | contact, in the form that the simulation calls |
+//! | `crossing` | edges and faces that pass through each other |
+//! | `exempt` | pairs without certificate: bodies that were let pass, and what was tangled at the start of the simulation |
+//! | `contours`, `sides`, `incidence` | the directions in which tangled cloth comes apart |
+//! | `opening` | whether torn cloth may open |
+//! | `untangling` | untangling, in the form that the simulation calls before its first step |
+//! | `report` | counts, times, and reasons why a step failed |
 //!
-//! Pairs may be left out of forces, never out of certificates: neighbours on the mesh are pairs like any other.
+//! Forces may leave pairs out, certificates never: neighbours on the mesh are pairs like any other.
 
 mod candidate;
 mod candidates;

@@ -1,7 +1,8 @@
-//! Neighbours: pairs in one cloth whose boxes are near each other at rest already.
+//! Neighbours: pairs in one cloth with boxes that are near each other at rest.
 //!
-//! On a fine mesh they are nearly all pairs within the thickness, and nothing has to push them apart: the cloth between them does. So they
-//! have a smaller thickness, and candidates of theirs are looked for within less. Certificates hold them apart like any other pair.
+//! On a fine mesh most pairs within the thickness are neighbours, and need no push: the cloth between them holds them apart. So
+//! they have a smaller thickness, and a smaller distance within which to search for candidates. Certificates keep them apart like
+//! any other pair.
 
 use super::settings::{ContactSettings, NEIGHBOURS_AT_REST, Thickness};
 use selvedge::PairKind;
@@ -11,8 +12,8 @@ use selvedge::core::separation::closest::ClosestPoints;
 use selvedge_core::glam::DVec3;
 use std::sync::Arc;
 
-/// Whether so many pairs in one cloth, vertices below `cloth_vertices`, are [so near](NEIGHBOURS_AT_REST) each other at rest that looking
-/// them up costs less than it saves: more than there are edges.
+/// Whether so many pairs in one cloth (of vertices below `cloth_vertices`) are [so near](NEIGHBOURS_AT_REST) each other at rest
+/// that it pays to look them up: more than there are edges.
 pub(super) fn are_many(topology: &Arc<Topology>, rest: &[DVec3], cloth_vertices: usize, settings: &ContactSettings) -> bool {
     let Some(distance) = settings.of_cloths().iter().map(|own| at_rest(*own)).reduce(f64::max) else {
         return false;
@@ -40,12 +41,12 @@ pub(super) fn are_many(topology: &Arc<Topology>, rest: &[DVec3], cloth_vertices:
     found.take(enough).count() == enough
 }
 
-/// How near each other neighbours in a cloth are at rest, in metres.
+/// The distance at rest below which pairs of a cloth are neighbours, in metres.
 pub(super) fn at_rest(own: Thickness) -> f64 {
     NEIGHBOURS_AT_REST * own.thickness
 }
 
-/// Whether the boxes of a pair come within `distance` of each other at rest: then it is one of neighbours.
+/// Whether the boxes of a pair come within `distance` of each other at rest: then the pair is one of neighbours.
 pub(super) fn are_neighbours(kind: PairKind, rest: [DVec3; 4], distance: f64) -> bool {
     let [a, b, c, d] = rest;
     let (low, high, other_low, other_high) = match kind {

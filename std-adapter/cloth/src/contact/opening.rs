@@ -1,11 +1,11 @@
-//! Whether cloth that has torn may open.
+//! Test whether torn cloth may open.
 //!
-//! Where a tear is closed its two sides touch: no certificate can begin there. But what touches had a vertex in common just before, and could
-//! not have passed through itself. So an opening is free if
+//! The two sides of a closed tear touch: no certificate can begin there. But they had a vertex in common just before, and could
+//! not have passed through each other. So an opening is free if
 //!
-//! * all other pairs keep on the way what a step would have to keep of them, and
-//! * at its end nothing meets, by the exact test, nor comes so near that rounding cannot tell: then what had the vertex in common is
-//!   apart as well, and certified from there on like any other pair.
+//! * all other pairs keep on the way the distance that a step would have to keep, and
+//! * at its end the exact test finds that no pair meets, or is so near that rounding cannot distinguish the two: then the sides
+//!   of the tear are apart as well, and certified from there on like any other pair.
 
 use super::candidate::Candidate;
 use super::pass::is_free;
@@ -15,8 +15,8 @@ use selvedge::PairKind;
 use selvedge_core::glam::DVec3;
 
 impl ContactSolver {
-    /// The vertices of what is in the way when cloth that has torn opens: none if it may. `from` tells of each vertex which one it was before
-    /// it tore; the steps are expected to take `h` seconds. Nothing may have left the promise.
+    /// The vertices of the pair that prevents torn cloth from opening; empty if it may open. `from` gives the vertex from which
+    /// each vertex was torn; the steps are expected to take `h` seconds. No pair may be exempt.
     pub(crate) fn in_the_way(&mut self, [closed, open]: [&[DVec3]; 2], from: &[u32], h: f64) -> Vec<u32> {
         self.refresh(closed, open, h);
         let mut found = Vec::new();
@@ -44,7 +44,8 @@ impl ContactSolver {
         found
     }
 
-    /// Goes on where another one is, of whose vertices those of this one are made.
+    /// Continues from the state of another solver; `from` gives the vertex of that solver from which each vertex of this one was
+    /// made.
     pub(crate) fn take_over(&mut self, other: &Self, from: &[u32]) {
         self.rest.clear();
         self.rest.extend(from.iter().map(|&vertex| other.rest[vertex as usize]));

@@ -1,4 +1,4 @@
-//! The certified pass: a step is accepted only when every candidate pair provably keeps its separation throughout.
+//! The certified pass: a step is accepted only if a proof exists that every candidate pair keeps its separation throughout.
 //!
 //! ```text
 //! wanted motion ─▶ candidates ─▶ each free? ─▶ relaxation ─▶ each free? ─▶ accepted
@@ -6,29 +6,31 @@
 //!                                                      └▶ cut: half the step
 //! ```
 //!
-//! **What is kept.** A pair keeps m_P = min(m, c·d_P − 3E). Here m is its [separation](super::separations), d_P the lower bound of its distance at the
-//! start, along the direction of its closest points there, and E the error of gaps ([`GapError`]). So a pair that starts nearer than m may stay, and
-//! a zone that is carried rigidly is free:
+//! **The distance kept.** A pair keeps m_P = min(m, c·d_P − 3E). Here m is its [separation](super::separations), d_P the lower
+//! bound of its distance at the start, along the direction of its closest points there, and E the error of gaps ([`GapError`]).
+//! So a pair that starts nearer than m may stay, and a zone that is carried rigidly is free:
 //!
 //! * A carrier that turns by θ shrinks distances on the straight paths of its points by cos(θ/2) at most, which [`LARGEST_TURN`] keeps above c.
 //! * A translation rounds each coordinate once. With |x| ≤ B and the unit roundoff u that moves the gap along a fixed direction by at most 6.1uB, and
 //!   the two computed gaps are off by 49uB each: 105uB in all, less than 2E, as E is 64uB. A computed lower bound is less than the computed gap
 //!   by E and a factor σ = 1 + 2⁻²⁰, at both ends. So the bound at the end is at least d_P − 2E, which is more than m_P.
 //!
-//! That takes the *same* direction at both ends, in full precision. The direction of points d apart has an error of some uB/d, which tilts a pair of
-//! size L by uBL/d, as good as any other. But two such directions differ by that much, and what a pair remembers is rounded to `f32`: for pairs much
-//! longer than they are apart either would cost more than a share 1 − c of the distance. A pair with d_P ≤ 3E is nearer than rounding can tell, and
-//! is refused where the simulation starts.
+//! This argument takes the *same* direction at both ends, in full precision. The direction of points at a distance d has an error
+//! of about uB/d, which tilts a pair of size L by uBL/d; this is as good as any other direction. But two such directions differ
+//! by that much, and a stored direction is rounded to `f32`: for pairs much longer than their distance, either would cost more
+//! than a share 1 − c of the distance. A pair with d_P ≤ 3E is nearer than rounding can distinguish, and the simulation refuses
+//! it at its start.
 //!
-//! **Relaxation.** Pairs that are not free become active; positions are relaxed until all that are active are kept apart, and the pairs of
-//! what has moved are looked at: those that are not free become active as well ([`relaxation`](super::relaxation)). On sleeves that bend,
-//! of 1 to 134 thousand triangles, that was enough in every step that was measured. It keeps momentum, which truncation does not: so it is
-//! given all of its rounds, though cloth that is jammed takes most of a step for them and is truncated all the same.
+//! **Relaxation.** Pairs that are not free become active, and positions are relaxed until all active pairs are kept apart. Then
+//! the pass tests the pairs of the vertices that have moved: those that are not free become active as well
+//! ([`relaxation`](super::relaxation)). On sleeves that bend, of 1 to 134 thousand triangles, this was enough in every measured
+//! step. Relaxation keeps momentum, and truncation does not: so relaxation gets all of its rounds, though jammed cloth spends
+//! most of a step on them and is truncated all the same.
 //!
-//! **It ends.** Relaxation has a bounded number of rounds ([`Effort`]). How a base is found, and the step truncated towards it, has
-//! an end by itself ([`truncation`](super::truncation)). A cut halves the step, a bounded number of times.
+//! **It ends.** Relaxation has a bounded number of rounds ([`Effort`]). The search for a base, and the truncation towards it, end
+//! by themselves ([`truncation`](super::truncation)). A cut halves the step, a bounded number of times.
 //!
-//! **Candidates** are good for several steps; what they hold is the [detector's](selvedge::coherent::NearPairs).
+//! **Candidates** last for several steps; the [detector](selvedge::coherent::NearPairs) states which pairs they hold.
 
 use super::candidate::{Candidate, ClosestOfSome, impact, time_of_impact_of};
 use super::report::Blocker;
@@ -43,33 +45,34 @@ use selvedge_core::batch::LANES;
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::gap::{GapError, distance_from_below};
 
-/// c of the module.
+/// The constant c of the module's documentation.
 const KEPT: f64 = 1.0 - 1e-5;
 /// The largest turn of a body in one step, in radians: cos(θ/2) ≥ 1 − θ²/8 ≥ 1 − ½·10⁻⁵.
 pub(crate) const LARGEST_TURN: f64 = 6.3e-3;
-/// Of the relaxation of what is wanted.
+/// The effort of a relaxation towards the wanted positions.
 const EFFORT: Effort = Effort {
     closures: 12,
     rounds: 60,
     gives_up: false,
 };
 
-/// How much a relaxation may take.
+/// The limits of a relaxation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Effort {
-    /// How often the active set may grow.
+    /// The number of times that the active set may grow.
     pub(super) closures: usize,
-    /// Each time.
+    /// The number of rounds each time.
     pub(super) rounds: usize,
-    /// Whether it ends once pairs are not kept apart after all rounds.
+    /// Whether the relaxation stops at the first time that all rounds do not keep the pairs apart.
     pub(super) gives_up: bool,
 }
 
 impl ContactSolver {
-    /// Turns the motion that is wanted, start to `end`, into one that is certainly free.
+    /// Turns the wanted motion, from the start of the step to `end`, into one that is certainly free.
     ///
     /// # Errors
-    /// Returns an error if the step has to be cut; then nothing has changed but `end`.
+    ///
+    /// Returns an error if the step has to be cut; then only `end` has changed.
     pub(crate) fn certify(&mut self, step: &TimeStep<'_>, end: &mut [DVec3]) -> Result<(), Blocker> {
         let start = step.start;
         self.error = gap_error(start, end);
@@ -90,13 +93,13 @@ impl ContactSolver {
         }
         match result {
             Ok(()) => self.candidates.advance(step.h),
-            // They are of an end that is not reached.
+            // The gaps are those at an end that the step does not reach.
             Err(_) => self.candidates.forget_gaps(),
         }
         result
     }
 
-    /// The candidates that are not free, looked at for the first time in this step, in order.
+    /// The candidates that are not free, at the first test of this step, in order.
     fn check_all(&mut self, start: &[DVec3], end: &[DVec3]) -> Vec<usize> {
         let Self {
             candidates,
@@ -144,11 +147,11 @@ impl ContactSolver {
         looked_at.open
     }
 
-    /// The candidates that are not free after some vertices have moved (`self.moved`): of those in `open`, and those of the
+    /// The candidates that are not free after some vertices have moved (`self.moved`), of those in `open` and those of the
     /// vertices. Clears the marks.
     pub(super) fn check_moved(&mut self, open: &[usize], step: &TimeStep<'_>, end: &[DVec3]) -> Vec<usize> {
         let start = step.start;
-        // What was moved may be farther out than anything before.
+        // Moved vertices may be farther out than any before.
         self.error = self.error.larger(gap_error(start, end));
         let strayed = self.candidates.find_strayed(end, step.h);
         let mut open = open.to_vec();
@@ -169,7 +172,7 @@ impl ContactSolver {
         } = self;
         candidates.find_places(moved, places);
         moved.fill(false);
-        // Most of the open ones have a vertex that has moved.
+        // Most of the open candidates have a vertex that has moved.
         open.retain(|index| places.binary_search(index).is_err());
         if !open.is_empty() {
             places.extend(open);
@@ -182,7 +185,7 @@ impl ContactSolver {
             let Some(separation) = separations.of(pair) else {
                 continue;
             };
-            // What it remembers was right for the way to where its vertices were before: its gap at the start is large enough.
+            // The stored direction was valid for the way to the earlier positions: its gap at the start is large enough.
             if pair.stays_apart(end, separation, *error) {
                 continue;
             }
@@ -193,14 +196,14 @@ impl ContactSolver {
         still_open
     }
 
-    /// Adds the candidates of vertices that have strayed in the course of repairs, and lets `open` name the same pairs as before.
-    /// Returns whether that was possible: not if many have strayed, or the motion has ended.
+    /// Adds the candidates of vertices that have strayed during repairs, and updates `open` so that it means the same pairs as
+    /// before. Returns whether that was possible: it is not if many have strayed, or the motion has ended.
     fn add_candidates_of_strayed(&mut self, strayed: usize, open: &mut [usize], motion: [&[DVec3]; 2], h: f64) -> bool {
         let keys: Vec<_> = open.iter().map(|&index| self.candidates.list[index].key()).collect();
         if !self.candidates.add_of_strayed(strayed, motion, h) {
             return false;
         }
-        // What is new has a vertex that has strayed.
+        // New candidates have a vertex that has strayed.
         let all = self.moved.iter_mut().zip(self.candidates.strayed());
         all.for_each(|(moved, &strayed)| *moved |= strayed);
         for (index, key) in open.iter_mut().zip(keys) {
@@ -220,7 +223,7 @@ impl ContactSolver {
         self.truncate(step, &wanted, end)
     }
 
-    /// Relaxes `end`, in which the pairs in `open` are not free; returns those that are not at the end.
+    /// Relaxes `end`, for which the pairs in `open` are not free; returns the pairs that are not free afterwards.
     pub(super) fn relax(&mut self, mut open: Vec<usize>, effort: Effort, step: &TimeStep<'_>, end: &mut [DVec3]) -> Vec<usize> {
         self.relaxation.reset();
         for _ in 0..effort.closures {
@@ -241,7 +244,7 @@ impl ContactSolver {
         open
     }
 
-    /// Whom to name when the step cannot be made: the first pair that touches a body or a pin.
+    /// The pair to report if the step cannot be made: the first one that touches a body or a pin.
     pub(super) fn blocker(&self, open: &[usize], step: &TimeStep<'_>) -> Blocker {
         let is_kinematic = |pair: &Candidate| pair.vertices.iter().any(|&v| self.carriers[v as usize] != FREE);
         let first = open.iter().find(|&&index| is_kinematic(&self.candidates.list[index]));
@@ -255,7 +258,7 @@ impl ContactSolver {
         }
     }
 
-    /// m_P of the module.
+    /// The distance m_P of the module's documentation.
     pub(super) fn kept(&self, pair: &Candidate, start: &[DVec3]) -> f64 {
         kept(pair, start, self.separation(pair).unwrap_or(0.0), self.error)
     }
@@ -265,16 +268,16 @@ impl ContactSolver {
     }
 }
 
-/// What came of looking at pairs that their remembered directions did not settle.
+/// The result of a test of pairs that their stored directions did not decide.
 #[derive(Default)]
 struct LookedAt {
     count: u64,
-    /// Those that are not free.
+    /// The pairs that are not free.
     open: Vec<usize>,
 }
 
-/// Up to sixteen pairs of one kind that no direction is known to keep apart: the next one is that of their closest points, found of all at
-/// once.
+/// Up to sixteen pairs of one kind for which no stored direction proves that they stay apart: their next direction is that of
+/// their closest points, found for all at once.
 struct Unsettled<'a> {
     level: Level,
     path: [&'a [DVec3]; 2],
@@ -299,7 +302,7 @@ impl<'a> Unsettled<'a> {
         self.pairs.len() < LANES && self.pairs.last().is_none_or(|&(place, _)| all[place].kind == kind)
     }
 
-    /// Settles which of them are free, tells the places of those that are not, in order, and holds none afterwards.
+    /// Tests which of the pairs are free, passes the places of the others to `tell`, in order, and removes all pairs.
     fn settle(&mut self, all: &mut [Candidate], mut tell: impl FnMut(usize)) {
         let (path, error) = (self.path, self.error);
         let pairs = self.pairs.iter().map(|&(place, _)| &all[place]);
@@ -315,12 +318,12 @@ impl<'a> Unsettled<'a> {
     }
 }
 
-/// Whether the pair keeps its separation, or what is left of it.
+/// Whether the pair keeps its separation, or a reduced one if it starts nearer.
 pub(super) fn is_free(pair: &mut Candidate, path: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> bool {
     pair.keeps_apart(path, separation, error) || is_free_by_time(pair, path, separation, error)
 }
 
-/// The same of a pair that no direction keeps apart by its separation.
+/// The result of [`is_free`] for a pair that no direction keeps apart by its separation.
 fn is_free_by_time(pair: &mut Candidate, path: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> bool {
     if time_of_impact_of(pair, path, separation).is_none() {
         return true;
@@ -329,15 +332,15 @@ fn is_free_by_time(pair: &mut Candidate, path: [&[DVec3]; 2], separation: f64, e
     kept < separation && (is_kept_along_start(pair, path, kept, error) || impact(pair, path, kept, error).is_none())
 }
 
-/// Whether the direction of the closest points at the start certainly keeps the pair more than `kept` apart on the way: the gap along it is linear in
-/// time.
+/// Whether the direction of the closest points at the start certainly keeps the pair more than `kept` apart on the way: the gap
+/// along it is linear in time.
 fn is_kept_along_start(pair: &Candidate, path: [&[DVec3]; 2], kept: f64, error: GapError<f64>) -> bool {
     let direction = pair.closest(path[0]).direction;
     let bound = |positions| distance_from_below(pair.kind, pair.points(positions), direction, error);
     path.into_iter().all(|positions| bound(positions) > kept)
 }
 
-/// m_P of the module.
+/// The distance m_P of the module's documentation.
 fn kept(pair: &Candidate, start: &[DVec3], separation: f64, error: GapError<f64>) -> f64 {
     separation.min((KEPT * pair.distance_from_below(start, error) - TOO_NEAR * error.length()).max(0.0))
 }

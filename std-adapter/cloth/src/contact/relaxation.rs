@@ -1,12 +1,13 @@
-//! Relaxation: positions move until an active set of pairs is kept apart (Agmon 1954, Motzkin and Schoenberg 1954; in the metric of the
-//! masses).
+//! Relaxation: positions move until each pair of an active set is kept apart (Agmon 1954, Motzkin and Schoenberg 1954; in the
+//! metric of the masses).
 //!
-//! A pair that was found not to be free stays active until the relaxation ends: what is pushed out of one is not pushed back into another
-//! unseen. At first it is a half-space, Σwᵢ·d·xᵢ ≥ m_P, with the weights w and the direction d of its closest points at the start of the
-//! step. If it is found not to be free once more, where other points are the closest, *all* points of its first set are to be ahead of all
-//! points of its second by m_P along d: that is sufficient.
+//! A pair that is not free becomes active and stays so until the relaxation ends, so that a push out of one pair does not go
+//! unnoticed into another. At first the condition of a pair is a half-space, Σwᵢ·d·xᵢ ≥ m_P, with the weights w and the direction
+//! d of its closest points at the start of the step. If the pair is not free in a later test, where other points are the closest,
+//! *all* points of its first set have to be ahead of all points of its second set by m_P along d, which suffices.
 //!
-//! Each projection aims at a little more than is needed, so that rounds end if there are positions that are all of that.
+//! Each projection aims at a little more than the condition, so that the rounds end if positions exist that satisfy all
+//! conditions.
 
 use super::candidate::Candidate;
 use crate::model::mobility::mobility;
@@ -15,15 +16,15 @@ use selvedge::PairKind;
 use selvedge_core::glam::DVec3;
 use std::collections::BTreeMap;
 
-/// What a projection aims at, in separations that are kept.
+/// The distance at which a projection aims, as a multiple of the distance to keep.
 const AIM: f64 = 1.05;
 
 /// The active set of a relaxation.
 #[derive(Debug, Default)]
 pub(super) struct Relaxation {
-    /// In the order in which they were found not to be free.
+    /// The pairs, in the order in which tests found them not to be free.
     active: Vec<Active>,
-    /// Where each of them is.
+    /// The place of each pair in `active`.
     places: BTreeMap<(PairKind, [u32; 2]), usize>,
 }
 
@@ -34,20 +35,20 @@ struct Active {
     vertices: [u32; 4],
     weights: [f64; 4],
     direction: DVec3,
-    /// What is to be kept along the direction.
+    /// The distance to keep along the direction.
     kept: f64,
-    /// Of all points, instead of the closest.
+    /// Whether all points have to keep it, and not only the closest.
     of_all: bool,
 }
 
 impl Relaxation {
-    /// No pair is active any more.
+    /// Makes the set empty.
     pub(super) fn reset(&mut self) {
         self.active.clear();
         self.places.clear();
     }
 
-    /// Adds a pair that is to keep a distance of `kept`, or asks for all of its points.
+    /// Adds a pair that has to keep a distance of `kept`; for an active pair, requires this of all of its points.
     pub(super) fn add(&mut self, pair: &Candidate, kept: f64, step: &TimeStep<'_>) {
         if let Some(&place) = self.places.get(&pair.key()) {
             self.active[place].of_all = true;
@@ -65,8 +66,8 @@ impl Relaxation {
         });
     }
 
-    /// Projects one pair after the other, at most so many rounds, until all are kept apart: returns whether they are. Marks the vertices that
-    /// it moves.
+    /// Projects one pair after the other, in at most so many rounds, until all are kept apart: returns whether they are. Marks
+    /// the vertices that move.
     pub(super) fn relax(&self, rounds: usize, step: &TimeStep<'_>, positions: &mut [DVec3], moved: &mut [bool]) -> bool {
         (0..rounds).any(|_| {
             let mut are_kept = true;
@@ -79,7 +80,7 @@ impl Relaxation {
 }
 
 impl Active {
-    /// Returns whether it was kept apart before, or cannot be.
+    /// Returns whether the pair was kept apart before, or cannot be.
     fn project(&self, step: &TimeStep<'_>, positions: &mut [DVec3], moved: &mut [bool]) -> bool {
         let vertices = self.vertices.map(|vertex| vertex as usize);
         let along = vertices.map(|vertex| self.direction.dot(positions[vertex]));
@@ -101,7 +102,7 @@ impl Active {
         gap >= self.kept
     }
 
-    /// Weights of the point of each set that is nearest to the other set, of points that are so far `along` the direction.
+    /// The weights of the point of each set that is nearest to the other set, for points that are so far `along` the direction.
     fn of_nearest(&self, along: [f64; 4]) -> [f64; 4] {
         let of_first = match self.kind {
             PairKind::VertexFace => 1,
@@ -129,7 +130,7 @@ mod tests {
     }
 
     proptest! {
-        /// Where one of the four may not move as well.
+        /// Covers pairs of which one of the four vertices may not move.
         #[test]
         fn a_pair_is_kept_apart_on_its_side_once_all_of_its_points_are_asked_for(
             start in points(),

@@ -1,28 +1,28 @@
-//! What contact says of itself: what it counted, what it took, what was in the way.
+//! Counts and times of contact, and reasons why a step failed.
 
 use selvedge::PairKind;
 
-/// What one step's contacts were.
+/// Counts of one step's contacts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ContactCounts {
-    /// Pairs that moving boxes leave, as far as an effect asks for them.
+    /// The number of pairs whose moving boxes come within the distance that an effect requests.
     pub candidates: u64,
-    /// Those that the direction remembered from the step before did not settle.
+    /// The number of candidates that the direction stored in the step before did not decide.
     pub looked_at: u64,
-    /// Contacts that pushed.
+    /// The number of contacts that pushed.
     pub pushed: u64,
-    /// Pairs that were not free on the motion that the solver wanted.
+    /// The number of pairs that were not free on the motion that the solver wanted.
     pub violated: u64,
-    /// Rounds in which zones were carried, where relaxation was not enough.
+    /// The number of rounds with zones, after a relaxation that was not enough.
     pub zone_rounds: u64,
-    /// Vertices that were held back: of their motion they lost more than a tenth.
+    /// The number of vertices that lost more than a tenth of their motion.
     pub held: u64,
-    /// Times the step was cut in half.
+    /// The number of times that the step was cut in half.
     pub cuts: u64,
 }
 
 impl ContactCounts {
-    /// Pairs that are left after each stage, in the order of the data flow.
+    /// The number of pairs that are left after each stage, in the order of the data flow.
     #[must_use]
     pub fn pairs(&self) -> [(&'static str, u64); 3] {
         [
@@ -32,7 +32,7 @@ impl ContactCounts {
         ]
     }
 
-    /// What else happened.
+    /// The other counts.
     #[must_use]
     pub fn events(&self) -> [(&'static str, u64); 4] {
         [
@@ -47,26 +47,26 @@ impl ContactCounts {
 /// Why a step could not be made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Blocker {
-    /// In seconds.
+    /// The time in the simulation, in seconds.
     pub(crate) time: f64,
-    /// Of the pair that is in the way.
+    /// The kind of the pair that is in the way.
     pub(crate) kind: PairKind,
-    /// Its vertices, those of bodies after the cloth's.
+    /// The vertices of the pair, those of bodies after the cloth's.
     pub(crate) vertices: [u32; 4],
     /// The body in the way; `None` if it is a pin, or the cloth itself.
     pub(crate) body: Option<usize>,
 }
 
-/// Seconds of what effects share.
+/// The processor time of the parts of contact that effects share, in seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ContactSeconds {
-    /// Finding candidate pairs.
+    /// The time to find candidate pairs.
     pub candidates: f64,
-    /// Finding the pairs that may have to be pushed; what pushes them is counted with the effects.
+    /// The time to find the pairs that may need a push; the pushes count as time of the effects.
     pub constraints: f64,
-    /// Proving pairs free.
+    /// The time to prove pairs free.
     pub certificates: f64,
-    /// Repairing steps that are not free.
+    /// The time to repair steps that are not free.
     pub repairs: f64,
 }
 
@@ -78,7 +78,7 @@ impl Blocker {
 }
 
 impl ContactSeconds {
-    /// Each stage's, in the order of the data flow.
+    /// The time of each stage, in the order of the data flow.
     #[must_use]
     pub fn stages(&self) -> [(&'static str, f64); 4] {
         [
@@ -90,7 +90,7 @@ impl ContactSeconds {
     }
 }
 
-/// `the vertex-face pair of vertices 1, 2, 3, 4`.
+/// Formats a pair, as in `the vertex-face pair of vertices 1, 2, 3, 4`.
 pub(super) fn described(kind: PairKind, vertices: [u32; 4]) -> String {
     let [a, b, c, d] = vertices;
     format!("the {kind} pair of vertices {a}, {b}, {c}, {d}")

@@ -1,13 +1,14 @@
 //! Rows of the contact solver: C = n·Σwᵢxᵢ − r ≥ 0, with the direction n and the weights w of the closest points at the start of the step.
 //!
-//! A row pushes its two sides apart to its rest distance r, and may take back later what it has pushed, but no more (projected Gauss-Seidel with
-//! accumulated pushes): so several sweeps over all rows end where each pushes as much as it has to.
+//! A row pushes its two sides apart to its rest distance r, and may take back later what it has pushed, but no more (projected
+//! Gauss-Seidel with accumulated pushes). So several sweeps over all rows converge to the state where each row pushes as much as
+//! it has to.
 //!
-//! Each sweep passes a push on by one layer. So a row that pushed in the last step begins with that push, in proportion to h², as a force that lasts
-//! would have it. Squeezed contacts begin with none: where they push back and forth that would add energy.
+//! Each sweep passes a push on by one layer. So a row that pushed in the last step begins with that push, in proportion to h², as
+//! if the force stayed the same. Squeezed contacts begin without a push: where they push back and forth it would add energy.
 //!
-//! r is the thickness, but no more than the distance at the start: a push must not become a velocity. What is missing is made up for by the
-//! [shift](crate::model::touches), which r follows.
+//! r is the thickness, but no more than the distance at the start: a push must not become a velocity. The
+//! [shift](crate::model::touches), which r follows, makes up for the difference.
 
 use super::crossing::PairKey;
 use crate::model::mobility::mobility;
@@ -15,16 +16,17 @@ use crate::model::step::{TimeStep, Touches};
 use crate::model::touches::{Touch, along};
 use selvedge_core::glam::DVec3;
 
-/// A pair that is near at the start of a step, and was not seen to be kept at its thickness by what pushed before it.
+/// A pair that is near at the start of a step, and that pushes before it have not certainly kept at its thickness.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProximityPair {
     /// Vertex and face, or first edge and second edge; the cloth's vertices, then those of bodies.
     pub vertices: [u32; 4],
-    /// Of each vertex in the way between the closest points: positive on the first side, where they add up to one, negative on the other.
+    /// The weight of each vertex in the way between the closest points: positive on the first side, where they add up to one,
+    /// negative on the other.
     pub weights: [f64; 4],
-    /// From the second side to the first, of length one.
+    /// The direction from the second side to the first, of length one.
     pub normal: DVec3,
-    /// How far apart the pair is to be, in metres.
+    /// The distance at which contact aims, in metres.
     pub thickness: f64,
 }
 
@@ -33,18 +35,18 @@ pub struct ProximityPair {
 pub(super) struct Row {
     key: PairKey,
     pub(super) near: ProximityPair,
-    /// r of the module.
+    /// The rest distance r of the module's documentation.
     rest: f64,
     mobility: f64,
-    /// By how much it has moved its sides apart in this step.
+    /// The sum of its pushes in this step, in metres.
     push: f64,
-    /// Its place among touches; `NONE` until it has pushed.
+    /// The place of its touch; `NONE` until it has pushed.
     touch: u32,
-    /// Its place among what is too near; `NONE` if it is not.
+    /// Its place among the recoveries; `NONE` if it is not too near.
     recovery: u32,
 }
 
-/// What rows pushed with in the last step that was made, each over its mobility, by their pairs in order.
+/// The pushes of rows in the last accepted step, each over its mobility, by their pairs in order.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Memory {
     pushes: Vec<(PairKey, f64)>,
@@ -57,7 +59,7 @@ impl Memory {
         self.pushes.clear();
     }
 
-    /// Replaces it by what the rows of a step of `h` seconds have pushed, but for those that are squeezed.
+    /// Replaces the pushes by those of the rows of a step of `h` seconds, except squeezed ones.
     pub(super) fn remember<'a>(&mut self, rows: impl Iterator<Item = &'a Row>, touches: &Touches, h: f64) {
         self.pushes.clear();
         let pushed = rows.filter(|row| row.push > LEAST_PUSH * row.near.thickness && !touches.is_squeezed(row.recovery));
@@ -66,7 +68,7 @@ impl Memory {
         self.h = h;
     }
 
-    /// The pairs, and what each begins a step of `h` seconds with, over its mobility.
+    /// The pairs, and the push with which each begins a step of `h` seconds, over its mobility.
     pub(super) fn begin(&self, h: f64) -> impl Iterator<Item = (PairKey, f64)> {
         let scale = (h / self.h).powi(2);
         self.pushes.iter().map(move |&(key, push)| (key, push * scale))
@@ -74,11 +76,11 @@ impl Memory {
 }
 
 const NONE: u32 = u32::MAX;
-/// Pushes of less than this share of the thickness are not remembered: they are rounding.
+/// Pushes of less than this share of the thickness are not stored: they are rounding.
 const LEAST_PUSH: f64 = 1e-9;
 
 impl Row {
-    /// A pair that is this far apart at the start of the step.
+    /// Makes the row of a pair that is this far apart at the start of the step.
     pub(super) fn new(key: PairKey, near: ProximityPair, distance: f64, step: &TimeStep<'_>) -> Self {
         Self {
             key,
@@ -91,8 +93,8 @@ impl Row {
         }
     }
 
-    /// Records what it misses of its thickness at the start of the step, as long as there is no shift: and how much that would be if bodies moved and the
-    /// cloth did not.
+    /// Records by how much the pair misses its thickness at the start of the step, while there is no shift, and how much that
+    /// would be if bodies moved and the cloth did not.
     #[inline]
     pub(super) fn record_missing(&mut self, step: &TimeStep<'_>, positions: &[DVec3], touches: &mut Touches) {
         let ProximityPair {
@@ -107,7 +109,7 @@ impl Row {
         self.recovery = recovery.unwrap_or(self.recovery);
     }
 
-    /// How far apart its sides are along the normal if bodies are where they end and the cloth where it starts.
+    /// The distance of its sides along the normal with bodies at the end of the step and the cloth at the start.
     fn left(&self, step: &TimeStep<'_>, positions: &[DVec3]) -> f64 {
         let ProximityPair {
             vertices,
@@ -123,8 +125,8 @@ impl Row {
         parts.fold(0.0, |sum, (vertex, weight)| sum + weight * normal.dot(at(vertex as usize)))
     }
 
-    /// Pushes its sides apart, or takes back what it has pushed, until they are at its rest distance. Returns whether it pushes now and did not
-    /// before.
+    /// Pushes its sides apart, or takes pushes back, until they are at its rest distance. Returns whether it pushes for the first
+    /// time.
     #[inline]
     pub(super) fn settle(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3]) -> bool {
         let ProximityPair {
@@ -137,12 +139,12 @@ impl Row {
         self.push_by(missing.max(-self.push), step, positions)
     }
 
-    /// Begins with a push over its mobility.
+    /// Begins with a push, given over its mobility.
     pub(super) fn begin_with(&mut self, push: f64, step: &TimeStep<'_>, positions: &mut [DVec3]) {
         self.push_by(push * self.mobility, step, positions);
     }
 
-    /// Returns whether it pushes now and did not before.
+    /// Returns whether it pushes for the first time.
     #[inline(always)]
     fn push_by(&mut self, push: f64, step: &TimeStep<'_>, positions: &mut [DVec3]) -> bool {
         let ProximityPair {
@@ -151,7 +153,7 @@ impl Row {
             normal,
             ..
         } = self.near;
-        // What is not a number pushes nothing.
+        // A push that is not a number is skipped.
         if !(push != 0.0 && push.is_finite() && self.mobility > 0.0) {
             return false;
         }
@@ -164,10 +166,10 @@ impl Row {
         is_new
     }
 
-    /// Lets the rest distance follow the shift, which may take neighbours of this contact nearer to it.
+    /// Changes the rest distance by the shift, which may bring neighbours of this contact nearer to it.
     ///
-    /// Where contacts are squeezed there is no room for what they are to keep. They push no more than it takes to keep the cloth where it was, beside
-    /// bodies where they are now: pads that close would otherwise throw out what is between them.
+    /// Where contacts are squeezed there is no room for their distances. They push just enough to keep the cloth where it was,
+    /// beside bodies where they are now: otherwise pads that close would throw out the cloth between them.
     pub(super) fn follow_shift(&mut self, step: &TimeStep<'_>, positions: &[DVec3], touches: &Touches) {
         if touches.is_squeezed(self.recovery) {
             let left = self.left(step, positions);
@@ -177,7 +179,7 @@ impl Row {
         self.rest = self.near.thickness.min(self.rest + shifted);
     }
 
-    /// Records how much it has pushed so far.
+    /// Records its pushes so far.
     pub(super) fn record(&mut self, touches: &mut Touches) {
         if !touches.wanted {
             return;

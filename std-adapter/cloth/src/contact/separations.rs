@@ -1,20 +1,21 @@
-//! Which separation each pair is certified to keep in a step.
+//! The separation that each pair is certified to keep in a step.
 
 use super::candidate::Candidate;
 use super::exempt::Exempt;
 use super::settings::ContactSettings;
 
-/// What each pair is to keep in a step.
+/// The separations of all pairs in a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Separations<'a> {
-    /// Of cloth, and of cloth and bodies, if it is the same for all such pairs: as it mostly is, and then nobody has to be asked.
+    /// The separations of pairs of cloth, and of pairs of cloth and bodies, if they are the same for all such pairs, as in most
+    /// scenes: then no pair needs a look-up.
     of_all: Option<[Option<f64>; 2]>,
     settings: &'a ContactSettings,
     exempt: &'a Exempt,
 }
 
 impl<'a> Separations<'a> {
-    /// The separations that pairs are asked to keep: none while they are `exempt`.
+    /// Makes the separations of pairs; `exempt` pairs have none.
     pub(super) fn new(settings: &'a ContactSettings, exempt: &'a Exempt) -> Self {
         let of_all = settings.of_all().filter(|_| exempt.is_empty());
         Self {
@@ -24,10 +25,10 @@ impl<'a> Separations<'a> {
         }
     }
 
-    /// The separation that a pair is asked to keep; `None` if none is promised.
+    /// The separation that a pair has to keep; `None` if it is exempt.
     ///
-    /// A pair of neighbours may have a [thickness of its own](super::candidate::Aim) that is less than the separation, since it is nearer at rest. It
-    /// keeps no more than that, or it could come apart, but never back to where it rests.
+    /// A pair of neighbours may have a [thickness of its own](super::candidate::Aim) below the separation, since it is nearer at
+    /// rest. It keeps no more than that; otherwise it could come apart, but never return to its distance at rest.
     #[inline(always)]
     pub(super) fn of(&self, pair: &Candidate) -> Option<f64> {
         let separation = match self.of_all {

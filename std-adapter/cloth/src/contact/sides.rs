@@ -1,9 +1,9 @@
-//! How large the surface is on either side of each contour: the smaller side is the one that has gone through (global intersection analysis,
-//! Baraff, Witkin and Kass 2003, "UntanglingProgress cloth").
+//! The area of the surface on either side of each contour: the smaller side is the one that has gone through (global intersection
+//! analysis, Baraff, Witkin and Kass 2003, "Untangling cloth").
 //!
-//! A contour that meets the border of another surface ends within its own, and does not cut it in two (Wicke, Lanker and Gross 2006, "UntanglingProgress
-//! cloth with boundaries"). So nothing is flooded here: what is nearer, along edges that are not cut, to one side of a contour than to any other
-//! side of any contour is that side's.
+//! A contour that meets the border of another surface ends inside its own surface, and does not cut it in two (Wicke, Lanker and
+//! Gross 2006, "Untangling cloth with boundaries"). So this module does not flood regions: a point belongs to the side of a
+//! contour that is nearest to it along edges that are not cut.
 
 use super::crossing::share_to_plane;
 use crate::world::Incidence;
@@ -12,20 +12,21 @@ use selvedge_core::glam::DVec3;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Sides are told apart by ends of cut edges: each is a node of a forest, and the nodes of one side have one root.
+/// Ends of cut edges distinguish the sides: each is a node of a forest, and the nodes of one side have one root.
 #[derive(Debug)]
 pub(super) struct Sides {
     vertex_edges: Incidence<u32>,
-    /// Of each vertex, a third of the area of its triangles where untangling began.
+    /// A third of the area of each vertex's triangles at the start of untangling.
     areas: Vec<f64>,
-    /// Of each edge, the node of its first end, that of the second comes next; [`NONE`] if it is not cut.
+    /// The node of each edge's first end, which the node of its second end follows; [`NONE`] if the edge is not cut.
     nodes: Vec<u32>,
     parents: Vec<u32>,
-    /// Of each root, the area of its side.
+    /// The area of each root's side.
     sums: Vec<f64>,
-    /// Of each vertex, how far it is from the nearest side, and a node of that.
+    /// The distance of each vertex from the nearest side, and a node of that side.
     nearest: Vec<(f64, u32)>,
-    /// Vertices from which others may be reached, the nearest first: distances, which are not negative, ascend as their bits do.
+    /// Vertices from which the search goes on, the nearest first: distances are not negative, so they have the order of their
+    /// bits.
     queue: BinaryHeap<Reverse<(u64, u32)>>,
 }
 
@@ -52,7 +53,7 @@ impl Sides {
         }
     }
 
-    /// Looks at a state anew.
+    /// Finds the sides of all contours in a state.
     pub(super) fn find(&mut self, topology: &Topology, intersections: &[Intersection], positions: &[DVec3]) {
         self.nodes.clear();
         self.nodes.resize(topology.edges().len(), NONE);
@@ -77,7 +78,8 @@ impl Sides {
         }
     }
 
-    /// How much smaller the side of a cut edge's first end is than that of its second, as a share of both: from −1 to 1.
+    /// How much smaller the side of a cut edge's first end is than that of its second, as a share of the sum of both: from −1 to
+    /// 1.
     pub(super) fn excess(&mut self, edge: u32) -> f64 {
         let node = self.nodes[edge as usize];
         let [first, second] = [node, node + 1].map(|node| self.root(node) as usize);
@@ -86,7 +88,7 @@ impl Sides {
         if share.is_finite() { share } else { 0.0 }
     }
 
-    /// The edge is cut by the face: its ends are on two sides.
+    /// Cuts the edge at the face: its ends are on two sides.
     fn cut(&mut self, topology: &Topology, [edge, face]: [u32; 2], positions: &[DVec3]) {
         let next = self.parents.len() as u32;
         if self.nodes[edge as usize] == NONE {
@@ -103,7 +105,8 @@ impl Sides {
         self.reach(ends[1], (1.0 - share) * length, node + 1);
     }
 
-    /// A contour passes from one cut edge to another of the same triangle: their common end is on one of its sides, their others on the other.
+    /// Joins sides along contours. A contour passes from one cut edge to another of the same triangle: their common end is on one
+    /// of its sides, their others on the other.
     fn join_along_contours(&mut self, topology: &Topology) {
         for edges in topology.triangle_edges() {
             for [one, other] in [[0, 1], [1, 2], [2, 0]].map(|pair| pair.map(|k| edges[k])) {
@@ -122,7 +125,7 @@ impl Sides {
         }
     }
 
-    /// From the sides over all that can be reached (Dijkstra 1959).
+    /// Spreads the sides to all vertices within reach (Dijkstra 1959).
     fn spread(&mut self, topology: &Topology, positions: &[DVec3]) {
         while let Some(Reverse((distance, vertex))) = self.queue.pop() {
             let (nearest, node) = self.nearest[vertex as usize];
@@ -169,7 +172,7 @@ mod tests {
     use crate::world::sheet;
     use selvedge::{CollisionDetector, Mesh};
 
-    /// A sheet of 1 m, and another one that stands on edge in it at `x`, from y = −1 m to `until`.
+    /// A sheet of 1 m, and another one that stands upright in it at `x`, from y = −1 m to `until`.
     fn crossed(x: f64, until: f64) -> (Topology, Vec<DVec3>, Vec<Intersection>) {
         let mut mesh = sheet(DVec3::ZERO, [DVec3::X, DVec3::Y], [11, 11]);
         let standing = [DVec3::Y * (until + 1.0), DVec3::Z];
@@ -185,7 +188,7 @@ mod tests {
         (topology, mesh.positions, found)
     }
 
-    /// For each cut edge of the lying sheet, how much smaller the side at lower x is.
+    /// How much smaller the side at lower x is, for each cut edge of the lying sheet.
     fn excess(x: f64, until: f64) -> Vec<f64> {
         let (topology, positions, found) = crossed(x, until);
         let mut sides = Sides::new(&topology, &positions);
@@ -211,7 +214,7 @@ mod tests {
             let far = excess(0.83, until);
             assert!(far.iter().all(|&excess| excess < -0.1), "{until}: {far:?}");
         }
-        // Of 1 m² a strip of 0.23 m is on one side; vertices share out the area of the triangles between.
+        // A strip of 0.23 m of 1 m² is on one side; vertices share the area of the triangles between.
         let [first, ..] = excess(0.23, 2.0)[..] else {
             panic!("it is cut")
         };

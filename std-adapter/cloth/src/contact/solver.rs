@@ -1,4 +1,4 @@
-//! Contact as the simulation calls it: constraints in the solver, then the [certified pass](super::pass).
+//! Contact in the form that the simulation calls: constraints in the solver, then the [certified pass](super::pass).
 
 use super::candidate::{Candidate, time_of_impact_of};
 use super::candidates::{Candidates, candidates};
@@ -22,32 +22,32 @@ use selvedge_core::separation::largest_coordinate;
 /// Distances up to this many errors of a gap may be rounding errors.
 pub(super) const TOO_NEAR: f64 = 3.0;
 
-/// Everything that contact needs, made only if an effect asks for it.
+/// The state of contact; it exists only if an effect requests contacts.
 #[derive(Debug)]
 pub(crate) struct ContactSolver {
     pub(crate) settings: ContactSettings,
     pub(super) candidates: Candidates,
-    /// Of each vertex: whose motion it follows.
+    /// Whose motion each vertex follows.
     pub(super) carriers: Vec<Carrier>,
-    /// Of each vertex, for the thickness that neighbours can have.
+    /// The position of each vertex at rest, which limits the thickness of neighbours.
     pub(super) rest: Vec<DVec3>,
-    /// Of gaps between positions of this step.
+    /// The error of gaps between positions of this step.
     pub(super) error: GapError<f64>,
     pub(super) level: Level,
     contacts: Contacts,
-    /// Candidates that begin with a push, and what that is; kept for its memory.
+    /// The candidates that begin with a push, and the push; the field exists to use its memory again.
     begun: Vec<(usize, f64)>,
-    /// Of bodies.
+    /// The normal cones of bodies.
     cones: Cones,
     cloth_vertices: u32,
     pub(super) moved: Vec<bool>,
-    /// The candidates that are looked at after something has moved; kept for its memory.
+    /// The candidates to test after vertices have moved; the field exists to use its memory again.
     pub(super) places: Vec<usize>,
     pub(super) relaxation: Relaxation,
     pub(super) zones: ImpactZones,
-    /// What has left the promise.
+    /// The pairs that certificates leave out.
     pub(super) exempt: Exempt,
-    /// Whether contacts push; not while what is tangled is pulled apart, as they would push to the side where it must not stay.
+    /// Whether contacts push; they do not during untangling, since they would push tangled cloth to the wrong side.
     pub(super) pushes: bool,
     pub(crate) counts: ContactCounts,
     pub(crate) stages: ContactSeconds,
@@ -87,7 +87,7 @@ impl ContactSolver {
         }
     }
 
-    /// Forgets the steps before; the next one is expected to lead from `start` to `end` in `h` seconds.
+    /// Discards the data of the steps before; the next step is expected to lead from `start` to `end` in `h` seconds.
     pub(crate) fn refresh(&mut self, start: &[DVec3], end: &[DVec3], h: f64) {
         let begin = Clock::now();
         self.candidates.refresh(start, end, h);
@@ -95,8 +95,8 @@ impl ContactSolver {
         self.stages.candidates += begin.elapsed().as_secs_f64();
     }
 
-    /// Where edges meet faces after [`refresh`](Self::refresh), and pairs that are nearer than rounding can tell. From here on they have left the
-    /// promise, each until it is apart, with [those about it](super::exempt).
+    /// Exempts edges and faces that meet after [`refresh`](Self::refresh), and pairs that are nearer than rounding can
+    /// distinguish, and returns them. Each stays exempt, with [the pairs about it](super::exempt), until it is apart.
     ///
     /// # Errors
     /// Returns an error if a position is not finite.
@@ -121,7 +121,7 @@ impl ContactSolver {
         Ok(crossings)
     }
 
-    /// Sets up the contacts of a step that so far leads from `start` to `predicted`.
+    /// Sets up the contacts of a step that leads, before contact, from `start` to `predicted`.
     pub(crate) fn prepare(&mut self, start: &[DVec3], predicted: &[DVec3]) {
         let begin = Clock::now();
         self.error = gap_error(start, predicted);
@@ -134,7 +134,7 @@ impl ContactSolver {
         self.stages.constraints += begin.elapsed().as_secs_f64();
     }
 
-    /// Pushes apart what is too near: cloth and bodies, or cloth and cloth.
+    /// Pushes pairs apart that are too near: of cloth and bodies, or of cloth and cloth.
     pub(crate) fn push(&mut self, with_body: bool, step: &TimeStep<'_>, positions: &mut [DVec3]) {
         let (contacts, pairs, rules) = self.parts();
         let pushed = contacts.push(with_body, pairs, rules, (step, positions));
@@ -156,33 +156,33 @@ impl ContactSolver {
         self.begun = places;
     }
 
-    /// Remembers what has pushed, as the step was made.
+    /// Stores what has pushed, after a step that was accepted.
     pub(crate) fn remember(&mut self, touches: &Touches, h: f64) {
         self.contacts.remember(touches, h);
     }
 
-    /// Records what contacts miss of their thickness at the start of the step.
+    /// Records by how much contacts miss their thickness at the start of the step.
     pub(crate) fn find_missing(&mut self, step: &TimeStep<'_>, positions: &[DVec3], touches: &mut Touches) {
         let (contacts, pairs, rules) = self.parts();
         contacts.find_missing(pairs, rules, (step, positions), touches);
     }
 
-    /// Lets contacts follow the shift of what is too near.
+    /// Moves the rest distances of contacts with the shift.
     pub(crate) fn follow_shift(&mut self, step: &TimeStep<'_>, positions: &[DVec3], touches: &Touches) {
         self.contacts.follow_shift(step, positions, touches);
     }
 
-    /// Lets the contacts that were found push or take back once more.
+    /// Lets each contact push or take back once.
     pub(crate) fn sweep(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3]) {
         self.contacts.sweep(step, positions);
     }
 
-    /// Records what pushes now, for friction.
+    /// Records what pushes now; friction reads this.
     pub(crate) fn record(&mut self, touches: &mut Touches) {
         self.contacts.record(touches);
     }
 
-    /// The contacts, the candidates that they are of, and what is asked of these.
+    /// The contacts, their candidates, and the rules for them.
     fn parts(&mut self) -> (&mut Contacts, &mut [Candidate], Rules<'_>) {
         let rules = Rules {
             settings: &self.settings,
@@ -201,28 +201,29 @@ impl ContactSolver {
         self.contacts.near_pairs()
     }
 
-    /// How many pairs of a tangle have left the promise, of those that the last step looked at.
+    /// The number of exempt pairs of a tangle among those that the last step looked at.
     pub(crate) fn tolerated_pairs(&self) -> usize {
         let count = |tangle: &Tangle| self.candidates.list.iter().filter(|pair| tangle.has(pair)).count();
         self.exempt.tangle.as_ref().map_or(0, count)
     }
 
-    /// Takes a body's pairs out of the promise until it is apart from the cloth.
+    /// Exempts a body's pairs until it is apart from the cloth.
     pub(crate) fn let_pass(&mut self, body: usize) {
         self.exempt.yielding[body] = true;
     }
 
-    /// What has left the promise.
+    /// The pairs that certificates leave out.
     pub(crate) fn exempt(&self) -> &Exempt {
         &self.exempt
     }
 
-    /// Sets what [`yielding`](Self::yielding) says.
+    /// Sets the bodies that [`yielding`](Self::yielding) returns.
     pub(crate) fn set_yielding(&mut self, yielding: &[bool]) {
         self.exempt.yielding.copy_from_slice(yielding);
     }
 
-    /// Sets what [`Exempt::parting`] says, where all is at `positions`. False: there are no such pairs, and nothing has changed.
+    /// Sets the pairs that [`Exempt::parting`] returns, with all vertices at `positions`. Returns false, and changes nothing, if
+    /// there are no such pairs.
     pub(crate) fn set_parting(&mut self, parting: Option<&[PairKey]>, positions: &[DVec3]) -> bool {
         let interest = self.candidates.interest();
         let Some(parting) = parting else {
@@ -240,8 +241,8 @@ impl ContactSolver {
         is_known
     }
 
-    /// Takes what is apart by its separation back into the promise. A coarse mesh may pass through another one with all its vertices and
-    /// edges far from the other's: that is asked for by itself.
+    /// Certifies pairs again that are apart by their separation. A coarse mesh may pass through another one with all its vertices
+    /// and edges far from those of the other: the exact test covers this case.
     pub(crate) fn take_back(&mut self, positions: &[DVec3]) {
         let Self {
             exempt,

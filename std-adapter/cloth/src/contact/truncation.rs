@@ -1,21 +1,23 @@
-//! Truncation: a step that relaxation has left with pairs that are not free goes, vertex by vertex, as far as each may.
+//! Truncation: if a relaxation leaves pairs that are not free, each vertex goes as far on its way as it may.
 //!
-//! **The base** is a motion of which every pair is free. At first it is the relaxed one. The cloth of pairs that are not free is carried
-//! together ([`impact_zones`](super::impact_zones)), and that of pairs which then are not: a zone that is carried rigidly is free
-//! ([`pass`](super::pass)). Where two carriers pull at one zone neither would do: it stays where it was when the step began, where only
-//! pairs with what the carriers move are not free, and those few are relaxed, and what they push. From where the cloth is *wanted* that would not
-//! end where it is jammed: thousands of pairs pull it this way and that. (`violent.toml` with a thousand times its stiffness, 200 steps from
-//! a state with up to 12,000 pairs of 800 triangles that are not free in a step: from there steps were cut into up to 64 parts, and a step took
-//! more than 2.5 s; from the start there were 21 cuts, and it takes 0.5 s.)
+//! **The base** is a motion for which every pair is free. At first it is the relaxed one. The cloth of pairs that are not free is
+//! carried together ([`impact_zones`](super::impact_zones)), and then that of pairs which have become not free: a zone that is
+//! carried rigidly is free ([`pass`](super::pass)). A zone with two carriers can follow neither: it stays where it was when the
+//! step began. There only pairs with parts that the carriers move are not free; those few are relaxed, and the pairs that they
+//! push. A relaxation from the *wanted* place would not end for jammed cloth: thousands of pairs pull it in all directions.
+//! (`violent.toml` with a thousand times its stiffness, 200 steps from a state with up to 12,000 pairs of 800 triangles that are
+//! not free in a step: from the wanted place steps were cut into up to 64 parts, and a step took more than 2.5 s; from the start
+//! there were 21 cuts, and a step takes 0.5 s.)
 //!
-//! **Truncation.** From the base each vertex goes on towards where relaxation has left it, its share the least that it has in any of its
-//! pairs: [core's lemma](selvedge_core::separation::truncation). Bodies and pins have no share to lose, and reach their keyframes exactly.
-//! No promise rests on it: every pair with a vertex that moves is certified at last, and the vertices of those that are not free return to the
-//! base.
+//! **Truncation.** From the base each vertex moves towards its place after the relaxation, by a share that is the least in any of
+//! its pairs: [core's lemma](selvedge_core::separation::truncation). Bodies and pins have the share 1, and reach their keyframes
+//! exactly. No promise depends on the shares: every pair with a vertex that moves is certified at last, and the vertices of those
+//! that are not free return to the base.
 //!
-//! **It ends.** Each round of [`find_base`](ContactSolver::find_base) changes the zones, which can change no more than four times for each
-//! vertex, or is the last one, with a bounded number of rounds of relaxation ([`EFFORT`]). There are [`PASSES`] passes of shares. After
-//! them each round leaves at least one vertex at the base for good, or is the last one: where all vertices are at the base all pairs are free.
+//! **It ends.** Each round of [`find_base`](ContactSolver::find_base) changes the zones, which can change no more than four times
+//! for each vertex, or is the last one, with a bounded number of rounds of relaxation ([`EFFORT`]). There are [`PASSES`] passes
+//! of shares. After them each round returns at least one vertex to the base, where it stays, or is the last one: with all
+//! vertices at the base all pairs are free.
 
 use super::impact_zones::TORN;
 use super::pass::Effort;
@@ -25,21 +27,22 @@ use crate::model::step::{Carrier, FREE, TimeStep};
 use selvedge_core::Motion;
 use selvedge_core::glam::DVec3;
 
-/// Of a base's relaxation. It grows from a few pairs outward, layer by layer, so it may grow often: 14 times at most where that ended, in the steps
-/// that were looked at. As pairs are few rounds are cheap; 60 were too few for some hundred pairs. Once rounds do not come to an end it would go
-/// on to move all that is near, and a shorter step finds its base sooner.
+/// The effort of a base's relaxation. The active set grows from a few pairs outward, layer by layer, so it may grow often: in the
+/// steps that were looked at, it grew at most 14 times if it ended. With few pairs rounds are cheap; 60 were too few for some
+/// hundred pairs. If rounds do not end, the relaxation would move all that is near, and a shorter step finds its base sooner.
 const EFFORT: Effort = Effort {
     closures: 40,
     rounds: 1000,
     gives_up: true,
 };
-/// How often shares are taken of what is left of the way: the second time with other directions, as vertices are elsewhere.
+/// The number of passes of shares, each of the rest of the way: the second pass has other directions, as vertices have moved.
 const PASSES: usize = 2;
-/// A vertex that loses more of its motion than this is counted as held back.
+/// A vertex that loses more of its motion than this counts as held back.
 const LOSS: f64 = 0.1;
 
 impl ContactSolver {
-    /// Moves `end`, which is as `wanted`, to a base: a motion of which every pair is free. Its zones have all vertices by which the two differ.
+    /// Moves `end`, which equals `wanted` at first, to a base: a motion for which every pair is free. Its zones have all vertices
+    /// at which the two differ.
     pub(super) fn find_base(
         &mut self,
         mut open: Vec<usize>,
@@ -56,7 +59,7 @@ impl ContactSolver {
                 has_changed |= self.zones.join(&self.candidates.list[index], &carriers);
             }
             if !has_changed {
-                // Between two carriers.
+                // No zone has changed: these pairs are between two carriers.
                 open = self.relax(open, EFFORT, step, end);
                 if !open.is_empty() {
                     return Err(self.blocker(&open, step));
@@ -69,7 +72,7 @@ impl ContactSolver {
         Ok(())
     }
 
-    /// Moves `end`, a base, as far towards `wanted` as each vertex may go.
+    /// Moves `end`, which is a base, as far towards `wanted` as each vertex may go.
     pub(super) fn truncate(&mut self, step: &TimeStep<'_>, wanted: &[DVec3], end: &mut [DVec3]) -> Result<(), Blocker> {
         let start = step.start;
         let base = end.to_vec();
@@ -89,7 +92,7 @@ impl ContactSolver {
                 let own = pair.shares(start, [end, wanted], kept, self.error);
                 for (vertex, own) in pair.vertices.into_iter().zip(own) {
                     let share = &mut shares[vertex as usize];
-                    // A NaN share counts, and keeps the vertex where it is.
+                    // A NaN share counts, and keeps the vertex in place.
                     *share = if *share < own { *share } else { own };
                 }
             }
@@ -122,14 +125,14 @@ impl ContactSolver {
         Ok(())
     }
 
-    /// Each vertex's carrier, those that rest in this step taken for one: a zone may touch any number of them.
+    /// Each vertex's carrier. Those that rest in this step count as one: a zone may touch any number of them.
     fn carriers_of_the_step(&self, step: &TimeStep<'_>) -> Vec<Carrier> {
         let rests = |carrier: usize| step.poses[carrier][0] == step.poses[carrier][1];
         let first_at_rest = (0..step.poses.len()).find(|&carrier| rests(carrier));
         let of_step = |&carrier: &Carrier| match first_at_rest {
             _ if carrier == FREE => FREE,
             Some(first) if rests(carrier as usize) => first as Carrier,
-            // Whose points go ways of their own carries nothing along.
+            // A body that changes its shape carries no zone.
             _ if !step.poses[carrier as usize][1].is_rigid() => TORN,
             _ => carrier,
         };

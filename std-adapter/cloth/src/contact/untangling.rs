@@ -1,4 +1,4 @@
-//! UntanglingProgress as the simulation calls it before its first step.
+//! Untangling in the form that the simulation calls before its first step.
 
 use super::contours::Contours;
 use super::solver::ContactSolver;
@@ -7,16 +7,16 @@ use selvedge::Topology;
 use selvedge_core::glam::DVec3;
 use std::collections::BTreeSet;
 
-/// Knows which way out there is.
+/// The directions in which tangled cloth comes apart.
 #[derive(Debug)]
 pub(crate) struct Untangler {
     contours: Contours,
-    /// Of each body, the sign of its triangles' normals that leads out of it; zero if it is not closed.
+    /// The sign of the normals of each body's triangles that point outwards; zero if the body is not closed.
     outward: Vec<f64>,
 }
 
 impl ContactSolver {
-    /// Of what was found to be tangled there.
+    /// Makes the untangler of these positions.
     pub(crate) fn untangler(&self, positions: &[DVec3]) -> Untangler {
         let interest = self.candidates.interest();
         let topology = interest.topology();
@@ -33,22 +33,22 @@ impl ContactSolver {
         }
     }
 
-    /// Ends untangling: from here on all counts as that far apart at rest as it is now, which in the scene it was not. Counts and times
-    /// begin anew.
+    /// Ends untangling: from here on the present distances count as distances at rest, which those of the scene cannot. Counts
+    /// and times start at zero.
     pub(crate) fn end_untangling(&mut self, positions: &[DVec3]) {
         self.rest.copy_from_slice(positions);
         self.pushes = true;
         (self.counts, self.stages) = Default::default();
     }
 
-    /// Lets contacts push, or not.
+    /// Sets whether contacts push.
     pub(crate) fn set_pushes(&mut self, pushes: bool) {
         self.pushes = pushes;
     }
 }
 
 impl Untangler {
-    /// Replaces `ways` by the direction in which each vertex is to go; see [`Contours::find_ways`].
+    /// Replaces `ways` by the direction in which each vertex should move; see [`Contours::find_ways`].
     pub(crate) fn find_ways(&mut self, contact: &ContactSolver, positions: &[DVec3], ways: &mut [DVec3]) {
         let interest = contact.candidates.interest();
         let topology: &Topology = interest.topology();
@@ -61,7 +61,7 @@ impl Untangler {
     }
 }
 
-/// See [`Untangler`]: closed is what has each edge once in either direction.
+/// See [`Untangler`]: a body is closed if it has each edge once in either direction.
 fn outward(triangles: &[[u32; 3]], positions: &[DVec3]) -> f64 {
     let edges = || triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
     let all: BTreeSet<[u32; 2]> = edges().collect();

@@ -1,4 +1,4 @@
-//! What a simulation has of a scene's meshes and effects: made where it begins, and anew when cloth has torn.
+//! The data that a simulation derives from a scene's meshes and effects: at the start, and again after cloth has torn.
 
 use super::errors::SetupError;
 use super::momentum::Pieces;
@@ -12,48 +12,48 @@ use selvedge::{Mesh, Topology};
 use selvedge_core::glam::DVec3;
 use std::ops::Range;
 
-/// See the [module](self).
+/// The data that a simulation derives from a scene's meshes and effects.
 #[derive(Debug)]
 pub(super) struct Assembly {
-    /// Of the effects, in the order in which they run.
+    /// The names of the effects, in the order in which they run.
     pub(super) effects: Vec<&'static str>,
-    /// Of each cloth.
+    /// The vertices of each cloth.
     pub(super) vertices_of_cloths: Vec<Range<usize>>,
     pub(super) body_vertices: Vec<Range<usize>>,
     pub(super) cloth_vertices: usize,
     pub(super) cloth_triangles: usize,
     pub(super) triangles: Vec<[u32; 3]>,
-    /// Of the cloths.
+    /// The loose edges of the cloths.
     pub(super) loose_edges: Vec<[u32; 2]>,
-    /// Where all vertices are at rest: the cloth's in the scene, bodies' as their meshes have them.
+    /// The positions of all vertices at rest: the cloth's in the scene, bodies' as in their meshes.
     pub(super) rest: Vec<DVec3>,
     pub(super) inverse_masses: Vec<f64>,
-    /// Of each vertex: whose motion it follows.
+    /// Whose motion each vertex follows.
     pub(super) carriers: Vec<Carrier>,
-    /// Kinematic ones: bodies', then those of pins.
+    /// The motions of bodies, then those of pins.
     pub(super) motions: Vec<Kinematic>,
-    /// Of each group of pins.
+    /// The carrier of each group of pins.
     pub(super) pins: Vec<Carrier>,
     pub(super) forces: Vec<Entry<dyn Force>>,
     pub(super) constraints: Vec<Entry<dyn Constraint>>,
-    /// Those of them that remember something.
+    /// The indices of constraints with a memory.
     pub(super) remembering: Vec<usize>,
-    /// Those of them that act again between the sweeps of contacts.
+    /// The indices of constraints that act again between the sweeps of contacts.
     pub(super) among_contacts: Vec<usize>,
-    /// Those of them that limit lengths.
+    /// The indices of constraints that limit lengths.
     pub(super) bounding: Vec<usize>,
     pub(super) pushes: Vec<Entry<dyn Constraint>>,
     pub(super) friction: Vec<Entry<dyn Constraint>>,
     pub(super) contact: Option<ContactSolver>,
     pub(super) tearable: Vec<Tearable>,
-    /// Of all cloths: what keeps its momentum.
+    /// The pieces of all cloths; each keeps its momentum.
     pub(super) pieces: Pieces,
     /// The mean length of the cloths' edges at rest, in metres, each counted once for each triangle.
     pub(super) mean_edge: f64,
 }
 
 impl Assembly {
-    /// Of a scene that makes sense.
+    /// Makes the data of a valid scene.
     ///
     /// # Errors
     /// Returns an error if it has too many triangles, or no cloth.
@@ -142,7 +142,7 @@ impl Assembly {
         })
     }
 
-    /// What its constraints remember.
+    /// The memories of its constraints.
     pub(super) fn memories(&self) -> impl Iterator<Item = &dyn Memory> {
         let all = self.remembering.iter();
         all.filter_map(|&index| self.constraints[index].action.memory())

@@ -1,4 +1,4 @@
-//! The state of a simulation as bytes, and what it has measured so far.
+//! The state of a simulation and its measurements as bytes.
 
 use super::state::State;
 use crate::contact::{ContactCounts, ContactSeconds, PairKey};
@@ -8,36 +8,37 @@ use selvedge::PairKind;
 use selvedge_core::glam::{DQuat, DVec3};
 use selvedge_files::bytes::Reader;
 
-/// A checkpoint can be taken when so many steps are done, and again so many later. There contact forgets what it knows besides
-/// the state, which a resumed simulation does not know either.
+/// A simulation can be saved as a checkpoint after this many steps, and again after each further so many. Contact then discards
+/// its data besides the state, which a resumed simulation does not have either.
 pub const CHECKPOINT_STEPS: u64 = 200;
 
 const MAGIC: &[u8; 16] = b"selvedge state 4";
 
-/// Bytes from which a simulation cannot go on.
+/// Bytes from which a simulation cannot continue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum CheckpointError {
-    /// Something else.
+    /// The bytes are no checkpoint.
     #[error("this is not a checkpoint of a simulation")]
     NotOne,
-    /// Of another scene, or of an earlier version of it.
+    /// The checkpoint is of another scene, or of an earlier version of this one.
     #[error("the checkpoint belongs to another scene, or to this scene before a change")]
     OtherScene,
-    /// Cut short, or with numbers that no simulation has.
+    /// The checkpoint is cut short, or has numbers that no simulation has.
     #[error("the checkpoint is damaged")]
     Damaged,
 }
 
-/// A cloth in which something may have torn.
+/// A cloth that may have torn.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct TornCloth {
-    /// Which vertex each of the last ones is a copy of.
+    /// The vertex that each of the last vertices is a copy of.
     pub(super) copied: Vec<u32>,
     pub(super) triangles: Vec<[u32; 3]>,
 }
 
 impl TornCloth {
-    /// Whether it is that cloth torn: copies aside its triangles are the same, and with its loose edges they have all vertices.
+    /// Whether it is that cloth, perhaps torn: if copies count as their originals its triangles are the same, and they and its
+    /// loose edges have all vertices.
     pub(super) fn is_of(&self, cloth: &Cloth) -> bool {
         let made = cloth.vertices_as_made();
         let are_before = (made..).zip(&self.copied).all(|(copy, &vertex)| (vertex as usize) < copy);
@@ -64,7 +65,8 @@ impl TornCloth {
     }
 }
 
-/// What has torn: of each cloth what it is now, and the edges. Only in checkpoints of scenes that may tear, before all that depends on it.
+/// The tears: each cloth after them, and the edges that tore. A checkpoint has them only if its scene may tear, before all data
+/// that depend on them.
 pub(super) type Torn = (Vec<TornCloth>, Vec<TornEdge>);
 
 fn write_torn((cloths, edges): &Torn, bytes: &mut Vec<u8>) {
@@ -81,7 +83,7 @@ fn write_torn((cloths, edges): &Torn, bytes: &mut Vec<u8>) {
     }
 }
 
-/// What has torn of cloths with so many triangles each.
+/// Reads the tears of cloths with so many triangles each.
 fn read_torn(reader: &mut Reader<'_>, triangles_of_cloths: &[usize]) -> Option<Torn> {
     let cloth = |&triangles: &usize| {
         let copied = reader.count(size_of::<u32>())?;
@@ -105,29 +107,29 @@ fn read_torn(reader: &mut Reader<'_>, triangles_of_cloths: &[usize]) -> Option<T
     Some((cloths, edges))
 }
 
-/// A simulation at one moment. What was measured has no influence on how it goes on.
+/// A simulation at one moment. The measurements in it have no influence on the steps that follow.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Checkpoint {
-    /// `None` if nothing tears.
+    /// The tears; `None` if nothing tears.
     pub(super) torn: Option<Torn>,
     pub(super) state: State,
-    /// Of each body; none without contact.
+    /// Whether each body is let pass; empty without contact.
     pub(super) yielding: Vec<bool>,
-    /// Of what was tangled at the start and is not apart yet, pairs that do not meet any more; `None` if all is apart.
+    /// The pairs of a tangle at the start that no longer meet and are not yet apart; `None` if there is no tangle.
     pub(super) parting: Option<Vec<PairKey>>,
-    /// Seconds of each effect.
+    /// The seconds of each effect.
     pub(super) effects: Vec<f64>,
-    /// Of what the caller moves, unless it was moved point by point.
+    /// The placement of each body and group of pins that the caller moves, unless it was moved point by point.
     pub(super) placements: Vec<Option<Placement>>,
-    /// Of all constraints that remember something.
+    /// The memories of all constraints.
     pub(super) memories: Vec<f64>,
-    /// All zero without contact.
+    /// The counts of contact; all zero without contact.
     pub(super) counts: ContactCounts,
-    /// All zero without contact.
+    /// The times of contact; all zero without contact.
     pub(super) stages: ContactSeconds,
 }
 
-/// How much there is of what, in a simulation of the scene.
+/// The lengths of the lists in a checkpoint of the scene.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sizes {
     pub(super) vertices: usize,
@@ -187,7 +189,8 @@ impl Checkpoint {
         bytes
     }
 
-    /// What of a simulation's checkpoint is read first, and the rest; of a scene that may tear the triangles of each cloth.
+    /// Reads the first part of a checkpoint, and returns it with a reader of the rest; `triangles_of_cloths` is for a scene that
+    /// may tear.
     pub(super) fn begin<'a>(
         bytes: &'a [u8],
         fingerprint: u64,
@@ -206,7 +209,7 @@ impl Checkpoint {
         Ok((torn, reader))
     }
 
-    /// The rest, but for what has torn.
+    /// Reads all but the tears.
     pub(super) fn read(mut reader: Reader<'_>, sizes: Sizes) -> Result<Self, CheckpointError> {
         let checkpoint = Self::read_on(&mut reader, sizes).ok_or(CheckpointError::Damaged)?;
         let state = &checkpoint.state;
@@ -299,7 +302,7 @@ fn pair(reader: &mut Reader<'_>) -> Option<PairKey> {
     Some((kind, [feature()?, feature()?]))
 }
 
-/// Whether there is one, and its numbers.
+/// Reads whether there is a placement, and its numbers.
 fn placement(reader: &mut Reader<'_>) -> Option<Option<Placement>> {
     let is_there = flag(reader)?;
     let mut numbers = [0.0; 7];
@@ -311,7 +314,7 @@ fn placement(reader: &mut Reader<'_>) -> Option<Option<Placement>> {
         rotation: DQuat::from_xyzw(x, y, z, w),
         translation: translation.into(),
     };
-    // To normalise again would change bits.
+    // To normalise the rotation again would change bits.
     placement.checked().ok()?;
     Some(is_there.then_some(placement))
 }

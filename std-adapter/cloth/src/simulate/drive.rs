@@ -1,4 +1,4 @@
-//! What a caller says from step to step: where bodies and pins go, how the wind blows.
+//! Motions that the caller sets from step to step: of bodies and pins, and of the wind.
 
 use super::simulation::Simulation;
 use crate::effects::Wind;
@@ -6,51 +6,51 @@ use crate::input::{Field, LARGEST_COORDINATE, LENGTH, ValueError};
 use crate::world::{Driven, Placement};
 use selvedge_core::glam::DVec3;
 
-/// Something cannot be moved as asked; nothing has changed.
+/// A motion that cannot be set; nothing has changed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DriveError {
     /// There is no such body.
     #[error("there is no body {body}: the scene has {bodies}, numbered from 0")]
     NoBody {
-        /// What was asked for.
+        /// The number that was given.
         body: usize,
-        /// How many there are.
+        /// The number of bodies.
         bodies: usize,
     },
     /// There is no such group of pins.
     #[error("there is no group {group} of pins: the scene has {groups}, numbered from 0")]
     NoPins {
-        /// What was asked for.
+        /// The number that was given.
         group: usize,
-        /// How many there are.
+        /// The number of groups.
         groups: usize,
     },
-    /// It follows keyframes, or a body.
+    /// The body or the pins follow keyframes, or a body.
     #[error("{what} cannot be moved by hand: give it `BodyMotion::Driven` in the scene")]
     NotDriven {
-        /// In words.
+        /// A description of the body or the pins.
         what: String,
     },
-    /// One position is needed for each vertex.
+    /// The number of positions differs from the number of vertices.
     #[error("{found} positions were given for {expected} vertices")]
     VertexCount {
-        /// How many vertices it has.
+        /// The number of vertices.
         expected: usize,
-        /// How many positions were given.
+        /// The number of positions.
         found: usize,
     },
-    /// A number is not finite, or beyond its range.
+    /// A number is not finite, or out of its range.
     #[error(transparent)]
     Value(#[from] ValueError),
-    /// The scene calls for no wind.
+    /// The scene has no wind.
     #[error("the scene has no wind: add the effect `Wind` to it")]
     NoWind,
 }
 
 impl Simulation {
-    /// Leads a [driven](crate::BodyMotion::Driven) body to another placement in the next step: it turns about its origin, the shorter way
-    /// round, and moves along, both evenly. A step that is cut or has to wait leaves it on the way, where [`placement`](Self::placement)
-    /// says; unless it is told again it stays there.
+    /// Moves a [driven](crate::BodyMotion::Driven) body to another placement in the next step: it turns about its origin, the
+    /// shorter way round, and moves along, both evenly. After a step that is cut or has to wait the body is on the way, where
+    /// [`placement`](Self::placement) says; it stays there until the next call.
     ///
     /// # Errors
     /// Returns an error if there is no such body, it is not driven, or the placement is none.
@@ -60,8 +60,9 @@ impl Simulation {
         Ok(())
     }
 
-    /// Leads each vertex of a [driven](crate::BodyMotion::Driven) body straight to a position, in metres, in the next step: a body that
-    /// changes its shape, such as a skinned figure. Pins that follow it know no way to go then, and stay: move them on their own.
+    /// Moves each vertex of a [driven](crate::BodyMotion::Driven) body straight to a position, in metres, in the next step. This
+    /// suits a body that changes its shape, such as a skinned figure. Pins that follow the body do not follow such a motion: move
+    /// them separately.
     ///
     /// # Errors
     /// Returns an error if there is no such body, it is not driven, or the positions are not one for each vertex, finite and
@@ -73,7 +74,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// The same for a group of pins, by its index in [`Pins`](crate::effects::Pins), whose motion is driven.
+    /// Moves each vertex of a group of driven pins straight to a position, in metres, in the next step; `group` is the index of
+    /// the group in [`Pins`](crate::effects::Pins).
     ///
     /// # Errors
     /// Returns an error if there is no such group, it is not driven, or the positions are not one for each vertex, finite and
@@ -90,7 +92,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// Where a [driven](crate::BodyMotion::Driven) body stands now; `None` for any other, and for one that was moved vertex by vertex.
+    /// The present placement of a [driven](crate::BodyMotion::Driven) body; `None` for any other body, and for one that was moved
+    /// vertex by vertex.
     #[must_use]
     pub fn placement(&self, body: usize) -> Option<Placement> {
         let is_body = body < self.body_names.len();
@@ -98,13 +101,14 @@ impl Simulation {
         driven.and_then(|driven| driven.placement)
     }
 
-    /// Lets the [`Wind`](crate::effects::Wind) blow so from now on, in m/s.
+    /// Sets the velocity of the [`Wind`](crate::effects::Wind) from now on, in m/s.
     ///
     /// # Errors
-    /// Returns an error if the scene calls for no wind, or no wind can blow so.
+    ///
+    /// Returns an error if the scene has no wind, or the velocity is not allowed.
     pub fn set_wind(&mut self, velocity: DVec3) -> Result<(), DriveError> {
         Wind::check_velocity(velocity).map_err(|error| error.of("wind"))?;
-        // Each of several cloths has its own.
+        // Each of several cloths has its own wind.
         let taken = self.made.forces.iter_mut().map(|force| force.action.set_wind(velocity));
         let is_taken = taken.fold(false, |any, taken| any | taken);
         if let Some(tearing) = &mut self.tearing {
@@ -125,7 +129,7 @@ impl Simulation {
     }
 }
 
-/// Whether there is one for each vertex, and all are within reach.
+/// Checks that there is one position for each vertex, and that all are within reach.
 fn check_positions(positions: &[DVec3], expected: usize) -> Result<(), DriveError> {
     if positions.len() != expected {
         let found = positions.len();

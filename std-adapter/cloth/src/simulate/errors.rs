@@ -1,19 +1,19 @@
-//! Why a simulation cannot begin, or cannot make a step.
+//! Errors that prevent a simulation from starting, or a step from being made.
 
 use super::tangled::Tangled;
 use crate::input::ValueError;
 use selvedge::{StepError, ThreadError, TopologyError};
 
-/// A step that could not be made without an intersection, and was not.
+/// A step that was not made because it would have caused an intersection.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
     "blocked at {time:.6} s: no motion was found that leaves {what} free{}",
     .body.as_ref().map_or(String::new(), |body| format!(" of the body '{body}'"))
 )]
 pub struct Blocked {
-    /// In seconds.
+    /// The time in the simulation, in seconds.
     pub time: f64,
-    /// The pair that is in the way, in words.
+    /// A description of the pair that is in the way.
     pub what: String,
     /// The body that is in the way; `None` if it is a pin.
     pub body: Option<String>,
@@ -25,10 +25,10 @@ pub enum SetupError {
     /// Cloth and bodies together have too many triangles.
     #[error(transparent)]
     Topology(#[from] TopologyError),
-    /// Something in the scene cannot be.
+    /// The scene is not valid.
     #[error(transparent)]
     Value(#[from] ValueError),
-    /// The scene starts with surfaces that pass through each other, which no certificate can end.
+    /// Surfaces pass through each other at the start of the scene, so that no certificate is possible.
     #[error(transparent)]
     Tangled(Box<Tangled>),
     /// A position is not finite.

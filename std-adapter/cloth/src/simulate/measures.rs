@@ -1,19 +1,19 @@
-//! What a simulation measures of itself.
+//! Measurements of a simulation.
 
-/// An effect that the scene calls for, and the time that it has taken.
+/// An effect of the scene, and its processor time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EffectTime {
-    /// As in the scene.
+    /// The name of the effect, as in the scene.
     pub name: &'static str,
-    /// Seconds, so far.
+    /// The seconds so far.
     pub seconds: f64,
 }
 
-/// How long the edges of the cloth are, over their lengths at rest.
+/// The length of the cloth's edges over their length at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EdgeStretch {
-    /// No more than one in a hundred edges is longer.
+    /// The stretch that one in a hundred edges exceeds.
     pub percentile_99: f64,
-    /// Of the longest.
+    /// The stretch of the longest edge.
     pub largest: f64,
 }

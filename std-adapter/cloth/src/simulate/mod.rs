@@ -1,12 +1,14 @@
-//! One step after another.
+//! The steps of a simulation.
 //!
-//! Extended position-based dynamics with small steps and one iteration each (Macklin et al. 2016, 2019): velocities take the
-//! forces, positions are predicted, constraints move them, and the velocity is what comes out of it.
+//! The method is extended position-based dynamics with small steps and one iteration each (Macklin et al. 2016, 2019): forces
+//! change velocities, positions are predicted, constraints correct them, and the new velocity is the change of position over the
+//! length of the step.
 //!
-//! With a contact effect the motion that comes out is then certified ([`contact`](crate::contact)), repaired or cut. Bodies and
-//! pins have a clock of their own, which may have to wait.
+//! With a contact effect the resulting motion is then certified ([`contact`](crate::contact)), repaired or cut. Bodies and pins
+//! have a separate clock, which may have to wait.
 //!
-//! **Finite whatever the scene says**: no constraint divides by what may vanish, and no vertex moves faster than [`FASTEST`].
+//! **All numbers stay finite, whatever the scene**: no constraint divides by a number that may be zero, and no vertex moves
+//! faster than [`FASTEST`].
 
 mod advance;
 mod assembly;

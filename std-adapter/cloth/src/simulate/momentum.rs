@@ -7,9 +7,9 @@
 //! L′ = Σ m·x′ × v′ = Σ m·x × v + (1/h)·Σ m·x × D
 //! ```
 //!
-//! The first sum is the angular momentum at the start plus h times the moment of the forces. So the corrections change it by their moment about
-//! the positions at the **start** of the step, whatever the solver is. Each constraint has no moment about the positions at which it acts, but
-//! these differ from x. The rest would turn the cloth.
+//! The first sum is the angular momentum at the start plus h times the moment of the forces. So the corrections change it by
+//! their moment about the positions at the **start** of the step, for any solver. Each constraint has no moment about the
+//! positions at which it acts, but these differ from x. The remaining moment would turn the cloth.
 //!
 //! **The projection.** The nearest corrections D + δ, in the metric of the masses, that have neither a sum nor a moment are
 //!
@@ -20,18 +20,19 @@
 //! with the centre of mass c and the inertia I about it: Lagrange multipliers for Σ m·(D + δ) = 0 and Σ m·(x − c) × (D + δ) = 0. δ moves the whole
 //! piece as a rigid body, so that no strain changes but in the second order of ω.
 //!
-//! **Held pieces.** A pinned vertex p takes up any force but no moment about itself: then c = p and a = 0. Pins on a line take up every moment
-//! but the one about that line. Then ω is along it. Other pins take up all moments, and nothing is projected. A vertex that a spring
-//! [holds](crate::model::step::Memory::hold) has the larger mass that all constraints see: inner forces change Σ m·D by nothing in that metric too.
+//! **Held pieces.** A pinned vertex p takes up any force but no moment about itself: then c = p and a = 0. Pins on a line take up
+//! every moment except the one about that line. Then ω is along it. Other pins take up all moments, and nothing is projected. A
+//! vertex that a spring [holds](crate::model::step::Memory::hold) has the larger mass that all constraints see: in that metric,
+//! too, inner forces do not change Σ m·D.
 //!
 //! **A piece** is what edges and [joints](crate::model::step::Constraint::joints) connect, pinned vertices included.
 
 use crate::model::step::TimeStep;
 use selvedge_core::glam::{DMat3, DVec3};
 
-/// Pins are on a line if none is farther from it than this share of their extent, which is more than rounding to single precision.
+/// Pins are on a line if none is farther from it than this share of their extent, which exceeds rounding to single precision.
 const STRAIGHT: f64 = 1e-6;
-/// What is added to the inertia, as a share of its trace: a straight rope has none about its own line, and no moment either.
+/// The number added to the inertia, as a share of its trace: a straight rope has no inertia and no moment about its own line.
 const LEAST_INERTIA: f64 = 1e-12;
 
 /// The pieces of all cloths, and the positions before constraints correct them.
@@ -48,7 +49,7 @@ struct Piece {
     pinned: Vec<u32>,
 }
 
-/// What a piece may turn about.
+/// The possible rotations of a piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Hinge {
     CentreOfMass,
@@ -82,13 +83,13 @@ impl Pieces {
         }
     }
 
-    /// Remembers the positions before corrections.
+    /// Stores the positions before corrections.
     pub(super) fn begin(&mut self, positions: &[DVec3]) {
         self.before.clear();
         self.before.extend_from_slice(positions);
     }
 
-    /// Takes the sum and the moment out of the corrections since [`begin`](Self::begin), as far as nothing outside takes them up.
+    /// Removes the sum and the moment of the corrections since [`begin`](Self::begin), except where pins take them up.
     pub(super) fn project(&self, step: &TimeStep<'_>, positions: &mut [DVec3]) {
         for piece in &self.pieces {
             piece.project(step, &self.before, positions);
@@ -96,7 +97,7 @@ impl Pieces {
     }
 }
 
-/// The least vertex known to be connected with this one. Shortens the way to it.
+/// The smallest vertex known to be connected with this one. Shortens the path to it.
 fn root(parents: &mut [u32], mut vertex: u32) -> u32 {
     while parents[vertex as usize] != vertex {
         let next = parents[parents[vertex as usize] as usize];
@@ -107,7 +108,7 @@ fn root(parents: &mut [u32], mut vertex: u32) -> u32 {
 }
 
 impl Piece {
-    /// What the pinned vertices leave it to turn about; `None` if they leave nothing.
+    /// The rotations that pinned vertices allow; `None` if they allow none.
     fn hinge(&self, start: &[DVec3]) -> Option<Hinge> {
         let [first, others @ ..] = &self.pinned[..] else {
             return Some(Hinge::CentreOfMass);
@@ -163,7 +164,7 @@ impl Piece {
     }
 }
 
-/// ω of the module, given Σ m·q², one for each axis, and Σ m·(xy, yz, zx) of the arms q.
+/// The angular velocity ω of the module's documentation, from Σ m·q², one for each axis, and Σ m·(xy, yz, zx) of the arms q.
 fn turn(hinge: Hinge, moment: DVec3, squares: DVec3, products: DVec3) -> DVec3 {
     let trace = squares.element_sum();
     let diagonal = DVec3::splat(trace * (1.0 + LEAST_INERTIA)) - squares;
@@ -187,7 +188,7 @@ mod tests {
         prop::collection::vec(prop::array::uniform3(-1.0..1.0_f64).prop_map(DVec3::from), count)
     }
 
-    /// The corrections that are left of arbitrary ones, with the vertices and masses.
+    /// Projects random corrections, and returns the result, with the vertices and masses.
     fn left(start: &[DVec3], corrections: &[DVec3], inverse_masses: &[f64]) -> Vec<DVec3> {
         let step = TimeStep {
             time: 0.0,
@@ -206,7 +207,7 @@ mod tests {
     }
 
     proptest! {
-        /// Neither sum nor moment is left, but where pins take them up; and the rest is what a rigid motion does not change.
+        /// Projected corrections have neither sum nor moment, except where pins take them up.
         #[test]
         fn corrections_keep_no_momentum_that_nothing_takes_up(
             start in vectors(6),

@@ -1,25 +1,25 @@
-//! What changes from step to step.
+//! The part of a simulation that changes from step to step.
 
 use crate::contact::ContactSolver;
 use selvedge_core::glam::DVec3;
 
-/// In m/s: twice the speed of sound and more. What would move faster is slowed down to this.
+/// The largest speed, in m/s: more than twice the speed of sound. Faster vertices are slowed down to it.
 pub const FASTEST: f64 = 1000.0;
 
-/// All that the rest of a simulation depends on, but for the scene and the bodies that are let pass.
+/// The state that the rest of a simulation depends on, besides the scene and the bodies that are let pass.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct State {
-    /// Steps done.
+    /// The number of steps done.
     pub(crate) step: u64,
-    /// Steps in which bodies or pins had to wait, or to be let pass.
+    /// The number of steps in which bodies or pins had to wait, or to be let pass.
     pub(crate) blocked_steps: u64,
-    /// Steps at whose end an edge was longer than its limit by more than is tolerated.
+    /// The number of steps at whose end an edge was longer than its limit by more than the tolerance.
     pub(crate) overstretched_steps: u64,
     /// The time before the last steps of the scene's length, in seconds.
     pub(crate) before: f64,
     /// The number of these steps.
     pub(crate) since: u64,
-    /// Of bodies and pins, in seconds; behind the time when they had to wait.
+    /// The time of bodies and pins, in seconds; behind the time of the simulation if they had to wait.
     pub(crate) clock: f64,
     pub(crate) positions: Vec<DVec3>,
     pub(crate) velocities: Vec<DVec3>,
@@ -31,8 +31,8 @@ impl State {
         self.before + self.since as f64 * h
     }
 
-    /// Has contact forget all but the state, which everything is expected to go on from straight ahead in steps of `h` seconds: so a
-    /// simulation that goes on from here, and one that is resumed here, are alike.
+    /// Makes contact discard all data but the state; steps of `h` seconds are expected to follow, straight ahead. So a simulation
+    /// that continues from here, and one that is resumed here, are alike.
     pub(super) fn begin_anew(&self, contact: &mut ContactSolver, h: f64) {
         let ways = self.positions.iter().zip(&self.velocities);
         let end: Vec<_> = ways
@@ -42,7 +42,7 @@ impl State {
     }
 }
 
-/// The vector, no longer than `longest`; zero if it is not finite.
+/// The vector, shortened to `longest`; zero if it is not finite.
 pub(super) fn limited(vector: DVec3, longest: f64) -> DVec3 {
     let squared = vector.length_squared();
     if squared <= longest * longest {

@@ -1,6 +1,6 @@
-//! One substep: a whole step, or the part of one that can be made at once.
+//! A substep: a whole step, or a part of one after a cut.
 //!
-//! Forces, prediction, constraints, contact, friction, and the certified end, a method each.
+//! Forces, prediction, constraints, contact, friction, and the certificate have a method each.
 
 use super::assembly::Assembly;
 use super::measures::EffectTime;
@@ -14,19 +14,19 @@ use crate::world::Kinematic;
 use selvedge::clock::Clock;
 use selvedge_core::glam::DVec3;
 
-/// Sweeps over the contacts that were found.
+/// The number of sweeps over the contacts that were found.
 const SWEEPS: usize = 4;
-/// How much longer than its limit an edge may be: less is not worth another round.
+/// The largest length of an edge, over its limit, that needs no other round.
 const TOLERANCE: f64 = 1.01;
-/// Most rounds of limits and contacts.
+/// The largest number of rounds of limits and contacts.
 const ROUNDS: usize = 4;
 
-/// A substep under way. It changes nothing of the state until it is accepted.
+/// A substep in progress. It changes no state before it is accepted.
 pub(super) struct Substep<'a> {
     step: TimeStep<'a>,
     /// The clock of bodies and pins at the end, in seconds.
     clock: f64,
-    /// The inverse masses without what [holds](crate::model::step::Memory::hold) vertices.
+    /// The inverse masses apart from the springs that [hold](crate::model::step::Memory::hold) vertices.
     inverse_masses: &'a [f64],
     effects: &'a mut [EffectTime],
     carriers: &'a [Carrier],
@@ -44,7 +44,7 @@ pub(super) struct Substep<'a> {
     velocities: &'a mut Vec<DVec3>,
     positions: &'a mut Vec<DVec3>,
     touches: &'a mut Touches,
-    /// Where the step starts, shifted; kept for its memory.
+    /// The shifted positions at the start of the step; the field exists to use its memory again.
     shifted: &'a mut Vec<DVec3>,
 }
 
@@ -52,6 +52,7 @@ impl Simulation {
     /// Advances the cloth by `h` seconds, and bodies and pins by `ticks` seconds of their clock.
     ///
     /// # Errors
+    ///
     /// Returns an error if no motion is found that is certainly free. Then nothing has changed.
     pub(super) fn attempt(&mut self, h: f64, ticks: f64) -> Result<(), Blocker> {
         let mut substep = Substep::begin(self, h, ticks);
@@ -74,7 +75,7 @@ impl Simulation {
 }
 
 impl Work {
-    /// Takes the shift out of velocities: all of it, so that momentum is kept even where certification has held vertices back.
+    /// Removes the shift from velocities: all of it, so that momentum is kept even where certification has held vertices back.
     fn leave_out_shift(&self, velocities: &mut [DVec3], h: f64) {
         for (velocity, shift) in velocities.iter_mut().zip(self.touches.shift()) {
             *velocity -= *shift / h;
@@ -163,7 +164,7 @@ impl<'a> Substep<'a> {
         }
     }
 
-    /// Forces change velocities. They see the masses without what holds vertices.
+    /// Lets forces change velocities. They see the masses apart from the springs that hold vertices.
     fn apply_forces(&mut self) {
         let step = TimeStep {
             inverse_masses: self.inverse_masses,
@@ -175,7 +176,7 @@ impl<'a> Substep<'a> {
         }
     }
 
-    /// Predicts where inertia leads, and puts bodies and pins where their motion leads by the end.
+    /// Predicts positions by inertia, and moves bodies and pins to the end of the substep.
     fn predict(&mut self) {
         let Self {
             step,
@@ -197,7 +198,7 @@ impl<'a> Substep<'a> {
         }
     }
 
-    /// Constraints correct the positions, one after the other. Inner forces among them keep the [momentum](super::momentum).
+    /// Lets constraints correct the positions, one after the other. Inner forces among them keep the [momentum](super::momentum).
     fn constrain(&mut self) {
         let mut is_inner = false;
         for index in 0..self.constraints.len() {
@@ -223,10 +224,11 @@ impl<'a> Substep<'a> {
         });
     }
 
-    /// Pushes apart what comes too near, rubs what pushes, and brings back what that stretches beyond its limit.
+    /// Pushes near pairs apart, applies friction to contacts that push, and shortens edges that this stretches beyond their
+    /// limit.
     ///
-    /// Friction and pushes stretch the cloth, and limits pull it into what it touches: each acts in rounds until all limits hold. Without a limit
-    /// there is one round.
+    /// Friction and pushes stretch the cloth, and limits pull it into touching surfaces: each acts in rounds until all limits
+    /// hold. Without a limit there is one round.
     fn separate(&mut self) {
         if let Some(contact) = &mut self.contact {
             contact.prepare(self.step.start, self.positions);
@@ -272,7 +274,7 @@ impl<'a> Substep<'a> {
         }
     }
 
-    /// Shifts what is too near since the start of the step.
+    /// Shifts pairs that have been too near since the start of the step.
     fn recover(&mut self) {
         self.push_off_smooth_bodies();
         if let Some(contact) = &mut self.contact {
@@ -290,7 +292,7 @@ impl<'a> Substep<'a> {
         }
     }
 
-    /// Lets all contacts push again, or take back what they have pushed.
+    /// Lets each contact push or take back again.
     fn sweep(&mut self) {
         let Some(contact) = &mut self.contact else { return };
         let any = contact.settings.effect(false).or(contact.settings.effect(true));
@@ -299,7 +301,7 @@ impl<'a> Substep<'a> {
         }
     }
 
-    /// Rubs what has pushed. Sliding is without the shift.
+    /// Applies friction to contacts that have pushed. Sliding does not include the shift.
     fn rub(&mut self) {
         if self.friction.is_empty() {
             return;
@@ -319,7 +321,7 @@ impl<'a> Substep<'a> {
         }
     }
 
-    /// Whether all lengths that constraints limit are within their limits, but for a percent.
+    /// Whether all lengths that constraints limit are within their limits and the tolerance.
     fn holds(&mut self) -> bool {
         self.bounding.iter().all(|&index| {
             let Entry { effect, action } = &self.constraints[index];
@@ -361,7 +363,7 @@ impl<'a> Substep<'a> {
         Ok(())
     }
 
-    /// Constraints take note of a substep that is accepted.
+    /// Tells constraints of a substep that is accepted.
     fn settle(&mut self) {
         for &index in self.remembering {
             let Entry { effect, action } = &mut self.constraints[index];

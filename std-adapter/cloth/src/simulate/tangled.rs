@@ -1,4 +1,4 @@
-//! What is said of a scene that starts tangled.
+//! Reports on a scene that starts tangled.
 
 use super::measures::EdgeStretch;
 use crate::contact::Crossing;
@@ -9,35 +9,35 @@ use std::fmt;
 /// The progress of untangling.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct UntanglingProgress {
-    /// Steps so far.
+    /// The number of steps so far.
     pub steps: u32,
-    /// Edges that intersect faces now.
+    /// The number of edges that intersect faces now.
     pub crossings: usize,
 }
 
 /// The result of untangling before the first step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Untangled {
-    /// Edges that intersected faces at the start of the scene.
+    /// The number of edges that intersected faces at the start of the scene.
     pub crossings: usize,
-    /// Edges that still do.
+    /// The number of edges that still do.
     pub left: usize,
-    /// Steps, during which no time passes.
+    /// The number of steps, during which no time passes.
     pub steps: u32,
-    /// Why it ended.
+    /// The reason why it ended.
     pub end: UntanglingEnd,
     /// The stretch of edges now, over their lengths in the scene.
     pub stretch: EdgeStretch,
     /// The largest move of a vertex, in metres.
     pub farthest: f64,
-    /// Seconds of work; zero without the feature `timing`.
+    /// The seconds of work; zero without the feature `timing`.
     pub seconds: f64,
 }
 
 /// The reason why untangling ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UntanglingEnd {
-    /// Nothing intersects any more.
+    /// Nothing intersects.
     Free,
     /// The number of intersections did not fall for many steps.
     NoProgress,
@@ -58,18 +58,18 @@ impl fmt::Display for UntanglingEnd {
     }
 }
 
-/// A scene that starts with surfaces passing through each other: all places.
+/// The places where surfaces pass through each other at the start of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tangled {
-    /// Every edge and face that meet.
+    /// The edges and faces that meet.
     pub crossings: Vec<Crossing>,
-    /// Where all is, and the triangles: the cloth's, then the bodies'.
+    /// The positions of all vertices, and the triangles: the cloth's, then the bodies'.
     pub mesh: Mesh,
-    /// How many of the triangles are the cloth's.
+    /// The number of the cloth's triangles.
     pub cloth_triangles: usize,
-    /// Of bodies, in the order of the scene.
+    /// The names of bodies, in the order of the scene.
     pub body_names: Vec<String>,
-    /// What untangling did, if the scene asked for that.
+    /// The result of untangling, if the scene requests it.
     pub untangled: Option<Untangled>,
 }
 
@@ -142,7 +142,7 @@ impl fmt::Display for Tangled {
     }
 }
 
-/// `3 edges meet faces`.
+/// Formats a number, as in `3 edges meet faces`.
 fn counted(crossings: usize) -> String {
     match crossings {
         1 => "an edge meets a face".to_owned(),

@@ -1,4 +1,4 @@
-//! What happens between two steps where edges are loaded above their strength ([`tearing`](crate::model::tearing)).
+//! Tears between two steps, at edges that are loaded above their strength ([`tearing`](crate::model::tearing)).
 //!
 //! ```text
 //! what tears ─▶ cloths with copies of vertices ─▶ all that depends on meshes, made anew ─▶ opened a little ─▶ is it free? ─▶ taken
@@ -6,7 +6,7 @@
 //!                       └────────────────────────────────────────────────────────────────────────────────────────────┘
 //! ```
 //!
-//! What is made anew sees the scene as it was made, but for its cloths' meshes; where a simulation has come to is carried over.
+//! New data are derived from the original scene with the new meshes of its cloths; the state of the simulation is carried over.
 
 use super::assembly::Assembly;
 use super::checkpoint::{CHECKPOINT_STEPS, CheckpointError, TornCloth};
@@ -19,26 +19,26 @@ use selvedge::clock::Clock;
 use selvedge_core::glam::DVec3;
 use std::collections::BTreeMap;
 
-/// By what share of its shortest edge the copies of a vertex move apart: less if more cannot be.
+/// The share of its shortest edge by which the copies of a vertex move apart; later values are for when there is no room.
 const OPENINGS: [f64; 3] = [0.05, 0.01, 0.001];
 
-/// What had no room to open is tried again after the next step whose number is a multiple of this: each try makes anew all that depends on
-/// meshes, which takes as long as several steps.
+/// Tears that had no room to open are tried again after each step whose number is a multiple of this: a try makes all data again
+/// that depend on meshes, which takes as long as several steps.
 const TRIED_AGAIN: u64 = 20;
 
-// So nothing waits at a checkpoint, and none has to tell of it.
+// So no tear waits at a checkpoint, and checkpoints need no record of waiting tears.
 const _: () = assert!(CHECKPOINT_STEPS.is_multiple_of(TRIED_AGAIN));
 
 impl Simulation {
-    /// The edges that have torn so far, in the order in which they did; none unless [`Tearing`](crate::effects::Tearing) is called for.
+    /// The edges that have torn so far, in this order; empty without [`Tearing`](crate::effects::Tearing).
     #[must_use]
     pub fn torn_edges(&self) -> &[TornEdge] {
         self.tearing.as_ref().map_or(&[], |tearing| &tearing.torn)
     }
 
-    /// Of a cloth that has torn: of which of its vertices it has copies now, in the order of these, which are the last of
-    /// [its vertices](Self::vertices_of_cloth). What one is of comes before it, and may be a copy itself. None if it has not torn, or there
-    /// is no such cloth.
+    /// The vertices of a torn cloth that have been copied, in the order of the copies, which are the last of [its
+    /// vertices](Self::vertices_of_cloth). The original of a copy comes before it, and may be a copy itself. Empty if the cloth
+    /// has not torn, or there is no such cloth.
     #[must_use]
     pub fn copied_vertices(&self, cloth: usize) -> &[u32] {
         let tearing = self.tearing.as_ref();
@@ -46,7 +46,7 @@ impl Simulation {
         torn.map_or(&[], Cloth::copied)
     }
 
-    /// Tears what is loaded above its strength, unless something has left the promise.
+    /// Tears edges that are loaded above their strength, unless pairs are exempt from certificates.
     pub(super) fn tear(&mut self) {
         let Some(mut tearing) = self.tearing.take() else { return };
         if self.is_apart() {
@@ -107,7 +107,8 @@ impl Simulation {
         }
     }
 
-    /// Where all is when the tears have opened; the vertices, as they are numbered now, that are in the way if they cannot.
+    /// The positions of all vertices when the tears have opened; if they cannot open, the vertices, with their new numbers, that
+    /// are in the way.
     fn opened(&self, made: &mut Assembly, tears: &[Tear], copies: &Copies, from: &[u32]) -> Result<Vec<DVec3>, Vec<u32>> {
         let closed = gathered(&self.state.positions, from);
         let mut in_the_way = Vec::new();
@@ -131,7 +132,7 @@ impl Simulation {
         Err(in_the_way.into_iter().map(|vertex| from[vertex as usize]).collect())
     }
 
-    /// How many triangles the cloths before this one have.
+    /// The number of triangles of the cloths before this one.
     fn triangles_before(&self, cloth: usize) -> usize {
         let first = self.made.vertices_of_cloths[cloth].start as u32;
         self.made.triangles[..self.made.cloth_triangles].partition_point(|triangle| triangle[0] < first)
@@ -157,7 +158,8 @@ impl Simulation {
         }
     }
 
-    /// Goes on with what was made of other meshes; `from`: of each vertex, which it was, or is made of. New vertices are where the old ones were.
+    /// Continues with the data of other meshes; `from` gives the old vertex of each vertex, or its original. New vertices start
+    /// at the place of their originals.
     fn adopt(&mut self, made: Assembly, from: &[u32], wind: Option<DVec3>) {
         let before = std::mem::replace(&mut self.made, made);
         let memories = self.made.memories().zip(before.memories());
@@ -179,7 +181,7 @@ impl Simulation {
         }
     }
 
-    /// What a checkpoint has of tears; `None` if nothing tears.
+    /// The tears for a checkpoint; `None` if nothing tears.
     pub(super) fn torn_cloths(&self) -> Option<(Vec<TornCloth>, Vec<TornEdge>)> {
         let tearing = self.tearing.as_ref()?;
         let of = |cloth: &Cloth| TornCloth {
@@ -189,16 +191,17 @@ impl Simulation {
         Some((tearing.scene.cloths.iter().map(of).collect(), tearing.torn.clone()))
     }
 
-    /// How many each cloth has; `None` if nothing tears.
+    /// The number of triangles of each cloth; `None` if nothing tears.
     pub(super) fn triangles_of_cloths(&self) -> Option<Vec<usize>> {
         let cloths = self.tearing.as_ref()?.scene.cloths.iter();
         Some(cloths.map(|cloth| cloth.mesh.triangles.len()).collect())
     }
 
-    /// What is made anew of a checkpoint's cloths.
+    /// Makes the data of a checkpoint's cloths.
     ///
     /// # Errors
-    /// Returns an error if these are not the scene's.
+    ///
+    /// Returns an error if these are not the scene's cloths.
     pub(super) fn torn_as(&mut self, torn: Vec<TornCloth>) -> Result<Retorn, CheckpointError> {
         let numbering = self.numbering();
         let tearing = self.tearing.as_mut().ok_or(CheckpointError::Damaged)?;
@@ -221,7 +224,7 @@ impl Simulation {
         Ok(Retorn { made, cloths, from })
     }
 
-    /// Goes on with that.
+    /// Continues with the data of a checkpoint's cloths.
     pub(super) fn adopt_torn(&mut self, Retorn { made, cloths, from }: Retorn, torn: Vec<TornEdge>) {
         if let Some(tearing) = &mut self.tearing {
             (tearing.scene.cloths, tearing.torn) = (cloths, torn);
@@ -236,7 +239,7 @@ fn gathered<T: Copy>(all: &[T], from: &[u32]) -> Vec<T> {
     from.iter().map(|&vertex| all[vertex as usize]).collect()
 }
 
-/// What `new` remembers of what `old` knew by the same keys; what it knows itself where that had nothing.
+/// The numbers of the memory `new`: those of `old` with the same keys, and its own for other keys.
 fn carried_over(new: &dyn Memory, old: &dyn Memory) -> Vec<f64> {
     let (keys, mut known, before) = (new.keys(), new.numbers(), old.numbers());
     if keys.is_empty() {

@@ -1,4 +1,4 @@
-//! What a simulation whose cloths may tear keeps: its scene, and meshes with copies of vertices.
+//! The data of a simulation with cloths that may tear: its scene, and meshes with copies of vertices.
 
 use super::assembly::Assembly;
 use crate::model::tearing::{Tear, TornEdge};
@@ -7,28 +7,28 @@ use crate::world::Cloth;
 use selvedge_core::glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What a simulation keeps if its cloths may tear.
+/// The data of a simulation with cloths that may tear.
 #[derive(Debug)]
 pub(super) struct Tearing {
-    /// As it was made, but for the meshes of its cloths.
+    /// The original scene, except for the meshes of its cloths.
     pub(super) scene: Scene,
-    /// What has torn so far.
+    /// The edges that have torn so far.
     pub(super) torn: Vec<TornEdge>,
-    /// Of tears that had no room to open: the cloths and their vertices that would have fallen apart. They stay whole until
-    /// the next step at which they are tried again.
+    /// The cloths and the vertices that would be split by tears that had no room to open. They stay whole until the next step
+    /// that tries again.
     pub(super) waiting: BTreeSet<(usize, u32)>,
-    /// As the caller has set it last.
+    /// The velocity of the wind that the caller has set last.
     pub(super) wind: Option<DVec3>,
 }
 
 /// Meshes of a scene's cloths in which something has torn.
 pub(super) struct Meshes {
     pub(super) cloths: Vec<Cloth>,
-    /// Of each vertex among all, which it was, or is made of.
+    /// The old vertex of each vertex, among all, or its original.
     pub(super) from: Vec<u32>,
 }
 
-/// The vertex of a cloth that a fan has, of a cloth's vertex that is split and the fan's place.
+/// The vertex that a fan gets, for a cloth, its vertex that is split, and the fan's place.
 pub(super) type Copies = BTreeMap<(usize, u32, usize), u32>;
 
 impl Tearing {
@@ -41,7 +41,7 @@ impl Tearing {
         }
     }
 
-    /// Puts the scene together with other meshes for its cloths, which are put back if that cannot be.
+    /// Assembles the scene with other meshes of its cloths; on failure, restores the old ones.
     pub(super) fn assemble(&mut self, cloths: Vec<Cloth>) -> Option<Assembly> {
         let before = std::mem::replace(&mut self.scene.cloths, cloths);
         let made = Assembly::of(&self.scene).ok();
@@ -51,7 +51,7 @@ impl Tearing {
         made
     }
 
-    /// Keeps in mind what cannot open now.
+    /// Stores tears that cannot open now.
     pub(super) fn put_off(&mut self, tears: &[Tear]) {
         let splits = tears.iter().flat_map(|tear| {
             let vertices = tear.splits.iter().map(|(vertex, _)| *vertex);
@@ -60,7 +60,7 @@ impl Tearing {
         self.waiting.extend(splits);
     }
 
-    /// The meshes, torn.
+    /// Makes the torn meshes.
     pub(super) fn cut(&self, tears: &[Tear], numbered: &Numbering) -> Option<(Meshes, Copies)> {
         let mut cloths = self.scene.cloths.clone();
         let (mut copies, mut of_copies) = (Copies::new(), vec![Vec::new(); cloths.len()]);
@@ -95,13 +95,13 @@ impl Tearing {
     }
 }
 
-/// Where cloths and bodies are among all vertices.
+/// The places of cloths and bodies among all vertices.
 pub(super) struct Numbering {
     pub(super) first_of_cloths: Vec<u32>,
     pub(super) bodies: std::ops::Range<u32>,
 }
 
-/// A simulation of a checkpoint's cloths, which is not gone on with yet.
+/// The data of a checkpoint's cloths, before the simulation continues with them.
 pub(super) struct Retorn {
     pub(super) made: Assembly,
     pub(super) cloths: Vec<Cloth>,

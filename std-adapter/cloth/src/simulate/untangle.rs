@@ -1,13 +1,13 @@
-//! A tangled start, pulled apart before the first step.
+//! Untangling of a tangled start, before the first step.
 //!
 //! ```text
 //! what meets ─▶ ways that shorten it ─▶ constraints ─▶ certified pass, without what meets ─▶ what meets now … until nothing does
 //!                                        └─▶ then contacts push until all is apart by its separation, and the cloth relaxes
 //! ```
 //!
-//! These are steps as any other, but without forces, inertia and time: bodies and pins rest, each step starts at rest and leads
-//! [the way out](crate::contact) by at most [`REACH`]. So stretch, shear, bending and strain limits keep the cloth together on the way, and no
-//! pairs come to meet but those next to such as do.
+//! Untangling makes steps without forces, inertia and time: bodies and pins rest, and each step starts at rest and moves vertices
+//! along [the way out](crate::contact) by at most [`REACH`]. So stretch, shear, bending and strain limits keep the cloth together
+//! on the way, and new pairs meet only next to those that meet already.
 
 use super::errors::SetupError;
 use super::simulation::Simulation;
@@ -16,16 +16,18 @@ use selvedge::Mesh;
 use selvedge::clock::Clock;
 use selvedge_core::glam::DVec3;
 
-/// How far a vertex is led in a step, in mean distances of vertices of the finest cloth: some steps for each triangle.
+/// The largest move of a vertex in a step, in mean distances of vertices of the finest cloth: it takes several steps to cross a
+/// triangle.
 const REACH: f64 = 0.3;
-/// How often a step is tried, each time with half the reach.
+/// The number of tries of a step, each with half the reach.
 const TRIES: u32 = 7;
-/// Most steps in which something is led.
+/// The largest number of steps that move vertices out.
 const MOST: u32 = 1000;
-/// Leading ends if the number of intersections has had no new minimum for so many steps. Garments that come apart in the tests need less
-/// than a third of that.
+/// Untangling stops if the number of intersections has had no new minimum for this many steps. Garments that come apart in the
+/// tests need less than a third of that.
 const HOPELESS: u32 = 200;
-/// Most steps in which the cloth relaxes. It has if in so many steps the longest edge has not become shorter by this share.
+/// The largest number of steps in which the cloth relaxes. It has relaxed if the longest edge has not become shorter by the share
+/// [`RELAXING`] in [`PATIENCE`] steps.
 const MOST_RELAXING: u32 = 500;
 const PATIENCE: u32 = 20;
 const RELAXING: f64 = 0.01;
@@ -36,7 +38,7 @@ impl Simulation {
         self.made.contact.as_ref().is_none_or(|contact| contact.exempt().is_empty())
     }
 
-    /// Looks at the state after untangling as at any start.
+    /// Checks the state after untangling like any start.
     pub(super) fn check_untangled(&mut self, untangled: Untangled) -> Result<(), SetupError> {
         let Some(contact) = &mut self.made.contact else {
             return Ok(());
@@ -60,7 +62,7 @@ impl Simulation {
         })))
     }
 
-    /// Pulls apart what is tangled. What is left of it is for the caller to look at.
+    /// Untangles; the caller checks the result.
     pub(super) fn untangle(&mut self, spacing: f64, tell: &mut (dyn FnMut(UntanglingProgress) + Send)) -> Untangled {
         let begin = Clock::now();
         let forces = std::mem::take(&mut self.made.forces);
@@ -74,7 +76,7 @@ impl Simulation {
         self.threads = threads;
         (self.made.forces, self.effects) = (forces, times);
         self.state.velocities = velocities;
-        // Nothing lets go, and no fold stays, before the first step.
+        // No joint breaks, and no fold stays, before the first step.
         self.recall(&remembered);
         let moved = start.iter().zip(&self.state.positions);
         Untangled {
@@ -88,7 +90,7 @@ impl Simulation {
         }
     }
 
-    /// Does the steps of untangling. Returns their number and why they ended.
+    /// Makes the steps of untangling. Returns their number and the reason why they ended.
     fn pull_apart(&mut self, reach: f64, tell: &mut (dyn FnMut(UntanglingProgress) + Send)) -> (u32, UntanglingEnd) {
         let mut ways = vec![DVec3::ZERO; self.state.positions.len()];
         let Some(contact) = &self.made.contact else {
@@ -143,12 +145,13 @@ impl Simulation {
         (pulled + relaxed, end)
     }
 
-    /// A step that leads vertices by their way, but by no more than `reach`, or by less if that cannot be; false: not by anything.
+    /// Makes a step that moves vertices along their ways, by at most `reach`, or by less if that is not possible; returns false
+    /// if no step is possible.
     fn lead(&mut self, ways: &[DVec3], mut reach: f64) -> bool {
         let h = self.time_step;
         for _ in 0..TRIES {
             for (velocity, way) in self.state.velocities.iter_mut().zip(ways) {
-                // Little where little pulls, and all of the reach where much does.
+                // The move is small where the pull is small, and the full reach where it is large.
                 *velocity = *way * (reach / (1.0 + way.length_squared()).sqrt() / h);
             }
             if self.attempt(h, 0.0).is_ok() {
