@@ -17,7 +17,7 @@ ZOO = pathlib.Path(__file__).parent / "tests" / "zoo"
 
 
 def by_trimesh(path):
-    """The triangles that trimesh reads, as corners."""
+    """Returns the triangles that trimesh reads, as corners."""
     scene = trimesh.load(path, process=False, maintain_order=True)
     if isinstance(scene, trimesh.Scene):
         scene = scene.to_mesh()
@@ -25,7 +25,7 @@ def by_trimesh(path):
 
 
 def by_meshio(path):
-    """The triangles that meshio reads, as corners; other polygons are not split."""
+    """Returns the triangles that meshio reads, as corners; it does not split other polygons."""
     mesh = meshio.read(path)
     if any(block.type not in ("triangle", "line", "vertex") for block in mesh.cells):
         raise ValueError("polygons")
@@ -34,7 +34,7 @@ def by_meshio(path):
 
 
 def read(reader, path):
-    """What a reader makes of a file: triangles and warnings, or why none."""
+    """Reads a file: returns triangles and warnings, or why there are none."""
     with warnings.catch_warnings(record=True) as warned, contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
         warnings.simplefilter("always")
         try:
@@ -44,7 +44,7 @@ def read(reader, path):
 
 
 def same(one, other):
-    """Whether both have the same triangles, in any order, exactly."""
+    """Decides whether both have exactly the same triangles, in any order."""
     key = lambda triangles: collections.Counter(tuple(map(tuple, triangle)) for triangle in (triangles + 0.0).tolist())
     return key(one) == key(other)
 
@@ -62,12 +62,12 @@ def main():
                 continue
             own = by_trimesh(written[0])
             for name, reader in readers.items():
-                # What this crate has written must be read by all, with the same numbers.
+                # All readers must read the files of this crate, with the same numbers.
                 for to in written:
                     found, said = read(reader, to)
                     if found is None or said or not same(found, own):
                         wrong.append(f"{path.name}: {name} reads {to.suffix} otherwise: {said}")
-                # What others have written is read otherwise by some readers; most must agree.
+                # Some readers disagree on the files of others; most must agree.
                 found, said = read(reader, path)
                 if found is None:
                     refused[name] += 1

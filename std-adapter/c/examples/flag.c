@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* What a scene may say stands in std-adapter/cloth/scenes/README.md. */
+/* std-adapter/cloth/scenes/README.md describes scenes. */
 static const char SCENE[] =
     "time_step = \"2 ms\"\n"
     "duration = \"1 s\"\n"
@@ -31,7 +31,7 @@ static const char SCENE[] =
     "[[effects.pins.group]]\n"
     "part = \"left\"\n";
 
-/* For 100 steps each, in m/s. */
+/* The velocities of the wind in m/s, for 100 steps each. */
 static const double WINDS[5][3] = {{6, 1, 0}, {6, -4, 0}, {-5, 3, 0}, {12, 0, 1}, {0, 0, 0}};
 
 int main(void) {

@@ -1,8 +1,8 @@
-// A flag in a wind that turns, as flag.c: 500 steps of 2 ms, the free corner, and whether each state is certified.
+// The flag of flag.c in a wind that turns: it prints the free corner, and whether each state is certified.
 #include <cstdio>
 #include <selvedge_cloth.hpp>
 
-// What a scene may say stands in std-adapter/cloth/scenes/README.md.
+// std-adapter/cloth/scenes/README.md describes scenes.
 static const char *const SCENE = R"(
 time_step = "2 ms"
 duration = "1 s"
@@ -29,7 +29,7 @@ thickness = "5 mm"
 part = "left"
 )";
 
-// For 100 steps each, in m/s.
+// The velocities of the wind in m/s, for 100 steps each.
 static const double WINDS[5][3] = {{6, 1, 0}, {6, -4, 0}, {-5, 3, 0}, {12, 0, 1}, {0, 0, 0}};
 
 int main() {

@@ -2,8 +2,8 @@
  *
  *   frames [--float] FRAME.obj FRAME.obj...
  *
- * A line for each step between two frames, and one for each contact of it. Only what frames need is read of OBJ: "v x y z" and
- * triangles "f a b c".
+ * Prints a line for each step between two frames, and one for each of its contacts. Of OBJ it reads only "v x y z" and triangles
+ * "f a b c".
  */
 #include <selvedge.h>
 #include <stdio.h>
@@ -44,7 +44,7 @@ static struct frame read_frame(const char *path) {
     } else if (strncmp(line, "f ", 2) == 0) {
       frame.triangles = room(frame.triangles, frame.triangle_count, sizeof *frame.triangles);
       for (size_t k = 0; k < 3; k++) {
-        /* Numbered from 1. What is no number becomes 2^32 - 1, which the library refuses. */
+        /* OBJ counts from 1. A word that is no number becomes 2^32 - 1, which the library rejects. */
         frame.triangles[3 * frame.triangle_count + k] = (uint32_t)strtoul(at, &at, 10) - 1;
         at += strcspn(at, " \n"); /* "a/b/c": the position comes first */
       }
@@ -62,7 +62,7 @@ static float *to_float(const struct frame *frame) {
   return positions;
 }
 
-/* One detector for the whole sequence; what a step costs depends on what it kept from the last. */
+/* The whole sequence has one detector, which keeps data from the last step: this makes the next step faster. */
 static selvedge_status find(selvedge_detector *detector, int is_float, const struct frame *start, const struct frame *end,
                             const selvedge_contact **contacts, size_t *count) {
   if (!is_float) {
@@ -90,7 +90,7 @@ int main(int argc, char **argv) {
   for (int k = first + 1; k < argc && status == SELVEDGE_STATUS_OK; k++) {
     struct frame end = read_frame(argv[k]);
     if (start.vertex_count != end.vertex_count) {
-      /* The library is told one count for both. */
+      /* The library takes one count for both. */
       fprintf(stderr, "the start frame has %zu positions, the end frame %zu\n", start.vertex_count, end.vertex_count);
       exit(1);
     }

@@ -2,8 +2,8 @@
 //
 //   frames [--float] FRAME.obj FRAME.obj...
 //
-// A line for each step between two frames, and one for each contact of it. Only what frames need is read of OBJ: "v x y z" and
-// triangles "f a b c".
+// Prints a line for each step between two frames, and one for each of its contacts. Of OBJ it reads only "v x y z" and triangles
+// "f a b c".
 #include <selvedge.hpp>
 
 #include <cstdio>
@@ -31,7 +31,7 @@ frame<Scalar> read_frame(const std::string &path) {
     if (word == "v") {
       for (int k = 0; k < 3 && words >> number; k++) read.positions.push_back(static_cast<Scalar>(std::stod(number)));
     } else if (word == "f") {
-      // Numbered from 1. "a/b/c": the position comes first, and reading ends behind it.
+      // OBJ counts from 1. In "a/b/c" the position comes first, and reading ends behind it.
       for (int k = 0; k < 3 && words >> number; k++) read.triangles.push_back(static_cast<std::uint32_t>(std::stoul(number)) - 1);
     }
   }
@@ -44,7 +44,7 @@ void find_contacts(const std::vector<std::string> &paths) {
   selvedge::detector<Scalar> detector(start.positions.size() / 3, start.triangles);
   for (std::size_t step = 1; step < paths.size(); step++) {
     auto end = read_frame<Scalar>(paths[step]);
-    const auto contacts = detector.contacts(start.positions, end.positions);  // the detector's: until the next step
+    const auto contacts = detector.contacts(start.positions, end.positions);  // valid until the next step
     std::printf("%s: %zu contacts\n", paths[step].c_str(), contacts.size());
     for (const selvedge_contact &contact : contacts) {
       const auto *vertices = contact.vertices;

@@ -78,7 +78,7 @@ class triples {
   std::size_t count_;
 };
 
-/// Candidates of a step.
+/// The candidates of a step.
 struct candidate_pairs {
   list<selvedge_pair> vertex_face;
   list<selvedge_pair> edge_edge;

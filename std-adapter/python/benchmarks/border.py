@@ -1,9 +1,9 @@
-"""What Python's border costs, and ipctk beside it: in one process, one thread.
+"""Measures what a call from Python costs, and compares ipctk, in one process and one thread.
 
     python benchmarks/border.py START.ply END.ply [--ipctk]
 
-Beside the same step from Rust, `selvedge cull START END --repeat 20 --threads 1` in turn with this, it tells what the border costs. Needs
-meshio; with --ipctk also ipctk.
+The cost of the border is the difference from the same step in Rust: run `selvedge cull START END --repeat 20 --threads 1` in turn with
+this. It needs meshio; with --ipctk also ipctk.
 """
 
 import argparse
@@ -51,7 +51,7 @@ def main() -> None:
         ("earliest", lambda: detector.earliest(start, end)),
         ("a new mesh and its step size", lambda: ipc.compute_collision_free_stepsize(ipc.CollisionMesh(start, faces=faces), start, end)),
     ]
-    # In turn: a machine that is slow for a while is so for all.
+    # The rows take turns, so that a machine that is slow for a while slows all of them.
     times = {name: min(least(action, 1) for _ in range(given.times)) for name, action in rows}
     for name, seconds in times.items():
         print(f"{1e3 * seconds:10.2f} ms  {name}")
@@ -73,14 +73,14 @@ def main() -> None:
         seconds = least(lambda: step_size(ipctk.CollisionMesh(start, edges, faces_i32)), 2)
         print(f"{1e3 * seconds:10.2f} ms  ipctk, a new mesh and its step size, {name}: {seconds / cold:.0f} times ours")
         seconds = least(lambda: step_size(mesh), 2)
-        # It ends at the first contact, where ours are all of them.
+        # It ends at the first contact; ours finds all of them.
         print(f"{1e3 * seconds:10.2f} ms  ipctk, its step size again, {name}: {seconds / warm:.0f} times all our contacts")
     if given.candidates:
         compare_candidates(ipctk, mesh, ipc.CollisionMesh(start, edges, faces), start, end)
 
 
 def compare_candidates(ipctk: Any, mesh: Any, ours: ipc.CollisionMesh, start: np.ndarray, end: np.ndarray) -> None:
-    """Gigabytes of Python's objects, and minutes, for millions of candidates."""
+    """Compares lists of candidates. Millions of them take gigabytes of Python's objects, and minutes."""
     candidates, theirs = ipc.Candidates(), ipctk.Candidates()
     candidates.build(ours, start, end)
     theirs.build(mesh, start, end, 0.0, ipctk.LBVH())

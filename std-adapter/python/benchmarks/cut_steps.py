@@ -1,10 +1,10 @@
-"""Random steps of loose triangles, cut where `compute_collision_free_stepsize` says: whether any pair touches then, by the exact verdict.
+"""Cuts random steps of loose triangles at their `compute_collision_free_stepsize`, and tests exactly whether any pair then touches.
 
     python benchmarks/cut_steps.py [--steps 10000] [--seed 1] [--save FILE]
 
 Half of the steps are of triangles anywhere, half of stacks of nearly parallel ones that fall onto each other. A step is cut at its size,
 rounded as numpy rounds it. Ends with 1 if a cut step touches. `--save` writes the steps, from start to where they were cut, for
-`verification/examples/cut_steps.rs`, which asks the oracle the same.
+`verification/examples/cut_steps.rs`, which asks the oracle the same question.
 """
 
 import argparse
@@ -37,7 +37,7 @@ def stacked(random: np.random.Generator) -> Step:
 
 
 def touches(start: NDArray[np.float64], end: NDArray[np.float64]) -> bool:
-    """Whether any two primitives of different triangles do, exactly."""
+    """Decides exactly whether any two primitives of different triangles touch."""
 
     def pair(kind: selvedge.Kind, vertices: list[int]) -> bool:
         return selvedge.touches(kind, start[vertices], end[vertices])

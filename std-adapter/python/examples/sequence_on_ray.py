@@ -1,13 +1,13 @@
-"""All contacts of a sequence of frames, found by many workers on a Ray cluster, in one table.
+"""Finds all contacts of a sequence of frames, by many workers on a Ray cluster, and writes one table.
 
     pip install selvedge ray meshio pyarrow
     python sequence_on_ray.py FRAMES OUT.parquet [--address auto] [--workers 2] [--chunk 100] [--separation 0.0]
 
 FRAMES is a folder of OBJ or PLY files with the same triangles, in the order of their names; all machines see it and OUT's folder under the
-same names. Workers keep a detector; each gets so many steps in a row and writes what it found itself. The state is a folder beside the
-table, one file for each piece that is done: started again, the work goes on. A piece whose worker is lost is done again by another, three
-times at most; one whose frames are at fault is named, and the others go on. The table is sorted by step, kind
-and pair: the same for any number of workers, losses and starts.
+same names. Each worker keeps a detector, gets pieces of consecutive steps, and writes their contacts to files. The state is a folder
+beside the table, with a file for each finished piece: the same command resumes the work. A piece whose worker is lost is done again by
+another, at most three times; a piece with faulty frames is reported, and the others continue. The table is sorted by step, kind and pair: it
+is the same for any number of workers, losses and starts.
 """
 
 import argparse
@@ -36,7 +36,7 @@ def read(path: Path) -> tuple[np.ndarray, np.ndarray]:
 
 @ray.remote(num_cpus=1, max_restarts=0)
 class Worker:
-    """One detector, for all pieces that it gets."""
+    """A worker, with one detector for all of its pieces."""
 
     def __init__(self, separation: float) -> None:
         self.separation = separation
@@ -56,7 +56,7 @@ class Worker:
         return positions
 
     def contacts(self, first: int, paths: list[Path]) -> dict[str, np.ndarray]:
-        """Of the steps from each frame to the next; ``first`` is the number of the first."""
+        """Finds the contacts of the steps from each frame to the next; ``first`` is the number of the first step."""
         found = []
         start = self.frame(paths[0])
         for step, path in enumerate(paths[1:], first):
@@ -87,7 +87,7 @@ class Worker:
 
 
 def write(table: pa.Table, path: Path) -> None:
-    """Whole, or not at all, also where a worker that was taken for lost writes the same."""
+    """Writes a whole table or none, even if a worker that was taken for lost writes the same one."""
     beside = path.with_suffix(f".{uuid.uuid4().hex}.writing")
     pq.write_table(table, beside)
     os.replace(beside, path)
@@ -107,7 +107,7 @@ def main() -> int:
     if len(frames) < 2 or given.chunk < 1 or given.workers < 1:
         print(f"{given.frames}: at least two OBJ or PLY files, one worker and one step a piece are needed", file=sys.stderr)
         return 2
-    # What pieces depend on is in the name of their folder, so that another question does not find them.
+    # The name of the folder has all that the pieces depend on, so that another question does not find them.
     state = given.table.resolve().with_name(f"{given.table.name}.state-{len(frames)}-{given.chunk}-{given.separation!r}")
     state.mkdir(parents=True, exist_ok=True)
     firsts = range(0, len(frames) - 1, given.chunk)
@@ -117,7 +117,7 @@ def main() -> int:
 
     ray.init(address=given.address, log_to_driver=False, include_dashboard=False)
     workers: list[Any] = [Worker.remote(given.separation) for _ in range(min(given.workers, len(waiting)))]
-    # Two pieces each: while one is told to be done, the worker has the other.
+    # Each worker gets two pieces: while it reports one, it has the other.
     idle = list(range(len(workers))) * 2
     running: dict[Any, tuple[int, int, Any]] = {}
     losses = dict.fromkeys(waiting, 0)
@@ -140,7 +140,7 @@ def main() -> int:
             failed[first] = str(error.cause)
         except ray.exceptions.RayError as error:
             if workers[number] is worker:
-                # It does its pieces in order: the older one was on, the other is not to blame.
+                # A worker does its pieces in order: it was at the older one, and the other is not to blame.
                 losses[next(first for first, _, lost in running.values() if lost is worker)] += 1
                 workers[number] = Worker.remote(given.separation)
             print(f"steps {first} to {first + given.chunk}: worker lost ({type(error).__name__})", flush=True)

@@ -1,4 +1,4 @@
-"""Meshes that more than one test has use for."""
+"""Meshes for several tests."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What is wrong is said, in an exception that says what to do; the object answers as before."""
+"""Bad input raises an exception that says what to do; the object answers as before."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What a call does to threads, processes and signals."""
+"""Calls with threads, processes and signals."""
 
 import _thread
 import multiprocessing
@@ -22,14 +22,14 @@ FACES, FLAT = sheet(300)
 
 @pytest.fixture(autouse=True)
 def ctrl_c_is_heard():
-    """A shell's background jobs, and what nohup starts, have it ignored."""
+    """Makes Ctrl-C work: background jobs of a shell, and processes started by nohup, ignore it."""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)
 
 
 def long_question(threads: int = 1):
-    """One that takes many seconds: all of a crumpled sheet near all of it."""
+    """A question that takes many seconds: all parts of a crumpled sheet are near each other."""
     detector, random = Detector(FACES, len(FLAT), threads), np.random.default_rng(0)
     assert detector.is_free(FLAT, FLAT + 1.0)
     return detector, random.uniform(0, 1, FLAT.shape), random.uniform(0, 1, FLAT.shape)
@@ -39,7 +39,7 @@ def long_question(threads: int = 1):
 def test_ctrl_c_ends_a_long_call_and_leaves_the_detector_usable(threads):
     detector, start, end = long_question(threads)
     threading.Timer(0.3, _thread.interrupt_main).start()
-    # Else it would go on until memory ends.
+    # Otherwise the call would run until memory ends.
     otherwise = threading.Timer(60, detector.cancel)
     otherwise.start()
     with pytest.raises(KeyboardInterrupt):
@@ -50,7 +50,7 @@ def test_ctrl_c_ends_a_long_call_and_leaves_the_detector_usable(threads):
 
 @contextmanager
 def asked_in_another_thread(detector: Detector, start: np.ndarray, end: np.ndarray):
-    """A long question that is being asked; it is to be cancelled."""
+    """Asks a long question in another thread; the caller has to cancel it."""
     ended: list[object] = []
 
     def ask() -> None:

@@ -1,4 +1,4 @@
-"""What the detector answers, and in which arrays."""
+"""The detector's answers, and their arrays."""
 
 import pickle
 

@@ -1,4 +1,4 @@
-"""Familiar names: what they answer, and that candidates and step sizes are those of the detector."""
+"""The names of ipctk: their answers, and candidates and step sizes, which are those of the detector."""
 
 import pickle
 

@@ -35,7 +35,7 @@ def test_every_method_runs_on_a_step_of_ones_own() -> None:
     detector.set_limits(touching=True)
     assert exact == len(detector.contacts(start, end)) > 0
     assert methods["missed"][methods["pipeline"] == "selvedge"] == 0
-    # The paper has no row for ours.
+    # The paper has no row for our method.
     paper = dict(zip(methods["pipeline"], methods["paper_frames_per_second"], strict=True))
     assert paper["lv_2014"] > 0 and np.isnan(paper["selvedge"])
     stages = tables["stages"]
@@ -61,7 +61,7 @@ def test_filters_are_measured_in_both_formats() -> None:
     assert columns_agree(filters) > 50
     assert set(filters["scalar"]) == {"f32", "f64"}
     certified = filters["certified"]
-    # A filter that proves something else has no false culls to count.
+    # A filter that proves another statement has no false culls.
     assert np.nansum(filters["false_culls"][certified]) == 0
     assert filters["nanoseconds_per_pair"].min() > 0
 

@@ -1,4 +1,4 @@
-"""Cloth, step by step."""
+"""Simulations of cloth."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-// What tests in C++ count: what should have been refused, or should be so, and is not.
+// Counts the failures of tests in C++: calls that should have failed, and conditions that should hold.
 #pragma once
 #include <cstdio>
 #include <selvedge.hpp>

@@ -1,5 +1,4 @@
-/* A child process has none of its parent's threads: detectors that have some are refused there, and can be freed; others
- * go on. */
+/* A child process has none of its parent's threads: detectors with threads fail there, and can be freed; others still work. */
 #define _POSIX_C_SOURCE 200809L
 #include <selvedge.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-/* A child process has none of its parent's threads: simulations that have some are refused there, and can be freed; others go on. */
+/* A child process has none of its parent's threads: simulations with threads fail there, and can be freed; others still work. */
 #define _POSIX_C_SOURCE 200809L
 #include <selvedge_cloth.h>
 #include <stdio.h>

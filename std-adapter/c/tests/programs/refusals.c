@@ -1,6 +1,6 @@
-/* What is wrong is refused by its own status, says why, and changes nothing: the detector answers as before.
+/* A wrong call returns a status for its error, with a message, and changes nothing: the detector answers as before.
  *
- * Run under the sanitizers by check.sh: nothing is read that is not there, and nothing is lost.
+ * check.sh runs this under the sanitizers, which find invalid reads and leaks.
  */
 #include <math.h>
 #include <selvedge.h>
@@ -65,14 +65,14 @@ static void meshes(void) {
   EXPECT(VERTEX_OUT_OF_RANGE, selvedge_detector_new(SELVEDGE_SCALAR_F32, 0, triangles, 1, &made));
   EXPECT(UNKNOWN_CONSTANT, selvedge_detector_new(2, VERTICES, TRIANGLES, 2, &made));
   EXPECT(UNKNOWN_CONSTANT, selvedge_detector_new(UINT32_MAX, VERTICES, TRIANGLES, 2, &made));
-  /* Counts beyond reason, of which not one entry may be looked at. */
+  /* The counts are far too large; the library must not read an entry. */
   EXPECT(TOO_LARGE, selvedge_detector_new(SELVEDGE_SCALAR_F64, VERTICES, TRIANGLES, SIZE_MAX, &made));
   EXPECT(TOO_LARGE, selvedge_detector_new(SELVEDGE_SCALAR_F64, VERTICES, TRIANGLES, (size_t)1 << 40, &made));
   EXPECT(TOO_LARGE, selvedge_detector_new(SELVEDGE_SCALAR_F64, SIZE_MAX, TRIANGLES, 2, &made));
   HOLDS(made == NULL);
 }
 
-/* 2^32 - 1 vertices can be numbered. Nothing is kept for those without a triangle. */
+/* 2^32 - 1 vertices can be numbered. Those without a triangle take no memory. */
 static void more_vertices_than_memory(void) {
   selvedge_detector *made = NULL;
   bool answer = true;
@@ -188,14 +188,14 @@ static void questions(selvedge_detector *detector) {
   HOLDS(contacts == NULL && vf == NULL && ee == NULL && count == 7 && other == 7 && answer && contact.time == 0);
   answers_as_ever(detector);
 
-  /* A failed call leaves what an earlier one has shown. */
+  /* A failed call keeps the result of an earlier one. */
   EXPECT(OK, selvedge_detector_contacts_of_f64(detector, START, END, VERTICES, pairs, 1, NULL, 0, &contacts, &count));
   const selvedge_contact *before = contacts;
   EXPECT(WRONG_LENGTH, selvedge_detector_contacts_f64(detector, START, END, 0, &contacts, &count));
   HOLDS(contacts == before && count == 1 && contacts[0].pair.first == 3);
 }
 
-/* How the two of a contact lie to each other, what is near, and how far vertices may go. */
+/* Tests the geometry of contacts, near pairs, and truncation. */
 static void places(selvedge_detector *detector) {
   const selvedge_contact *contacts = NULL;
   const selvedge_geometry *geometries = NULL;
@@ -236,7 +236,7 @@ static void places(selvedge_detector *detector) {
   HOLDS(geometries == NULL && other == 7);
   EXPECT(OK, GEOMETRIES(START, END, VERTICES, NULL, 0));
   HOLDS(geometries == NULL && other == 0);
-  /* The list of contacts is still there, and the vertices of a caller's row are not looked at. */
+  /* The list of contacts is still valid, and the library does not read the vertices of a caller's row. */
   EXPECT(OK, GEOMETRIES(START, END, VERTICES, contacts, count));
   HOLDS(other == 3 && geometries[0].pair.first == contacts[0].pair.first && geometries[0].vertices[3] == 2);
   HOLDS(geometries[0].has_normal && geometries[0].normal[2] == 1 && fabs(geometries[0].speed + 0.4) < 1e-12);
@@ -271,7 +271,7 @@ static void places(selvedge_detector *detector) {
   EXPECT(OK, NEAR(START, VERTICES, 0.25));
   HOLDS(near_count == 1 && near_each_other[0].pair.first == 3 && near_each_other[0].has_normal);
   HOLDS(near_each_other[0].distance[0] <= 0.2 && near_each_other[0].distance[1] >= 0.2);
-  /* The other list is not this one, in which nothing moves. */
+  /* This list differs from the other one: nothing moves in it. */
   HOLDS(near_each_other[0].speed == 0 && other == 1 && fabs(geometries[0].speed + 0.4) < 1e-12);
 
 #define TRUNCATE(start, wanted, length, end) selvedge_detector_truncate_f64(detector, start, wanted, length, end, &truncation)
@@ -295,7 +295,7 @@ static void places(selvedge_detector *detector) {
   bool is_free = false;
   EXPECT(OK, selvedge_detector_is_free_f64(detector, START, end, VERTICES, &is_free));
   HOLDS(is_free && end[11] > 0 && end[11] < START[11]);
-  /* In place. */
+  /* The end is replaced in place. */
   memcpy(wrong, END, sizeof wrong);
   EXPECT(OK, TRUNCATE(START, wrong, VERTICES, wrong));
   HOLDS(memcmp(wrong, end, sizeof end) == 0);
@@ -309,7 +309,7 @@ static size_t contact_count(selvedge_detector *detector) {
   return count;
 }
 
-/* A filter that is refused leaves the one before. */
+/* A filter that is rejected leaves the one before. */
 static void filters(selvedge_detector *detector) {
   const selvedge_groups groups[VERTICES + 1] = {{1, 2}, {1, 2}, {1, 2}, {2, 1}, {4, 4}, {4, 4}, {1, 1}};
   const uint32_t patches[VERTICES] = {0, 0, 0, 0, 1, 1};
@@ -343,7 +343,7 @@ static void filters(selvedge_detector *detector) {
   answers_as_ever(detector);
 }
 
-/* A question that is cut short leaves the detector, and what it has shown. */
+/* An interrupted search leaves the detector, and its results, as they were. */
 static void cut_short(selvedge_detector *detector) {
   const selvedge_contact *contacts = NULL;
   const selvedge_pair *vf = NULL, *ee = NULL;
@@ -378,7 +378,7 @@ static void cut_short(selvedge_detector *detector) {
   EXPECT(OK, selvedge_detector_contacts_f64(detector, START, END, VERTICES, &contacts, &count));
 }
 
-/* A leak would be found here, by the sanitizer. */
+/* The sanitizer would find a leak here. */
 static void come_and_go(void) {
   for (int k = 0; k < 300; k++) {
     selvedge_detector *made = NULL;

@@ -1,4 +1,4 @@
-// What C++ adds to refusals: exceptions, owners that can be moved, frames of two lengths.
+// Tests the additions of C++ to refusals.c: exceptions, owners that can be moved, frames of two lengths.
 #include "expect.hpp"
 #include <type_traits>
 #include <utility>
@@ -23,7 +23,7 @@ static void try_all() {
   expect(__LINE__, SELVEDGE_STATUS_UNKNOWN_CONSTANT, [&] { first.candidates(start, end, static_cast<selvedge_boxes>(9)); });
   expect(__LINE__, SELVEDGE_STATUS_BAD_LIMIT, [&] { first.set_within(-1, 0); });
 
-  // As ever, after all that.
+  // The detector still works after these errors.
   first.set_within(0, 1e-7);
   holds(__LINE__, first.contacts(start, end).size() >= 2 && !first.is_free(start, end) && first.is_free(start, start));
   holds(__LINE__, !first.earliest(start, start).has_value() && first.earliest(start, end)->pair.first == 3);

@@ -1,7 +1,7 @@
-/* What is wrong with a simulation of cloth is refused by its own status, says why, and changes nothing: it goes on as one that was
- * never asked.
+/* A wrong call of a simulation returns a status for its error, with a message, and changes nothing: the simulation continues as
+ * without the call.
  *
- * Run under the sanitizers by check.sh: nothing is read or written that is not there, and nothing is lost.
+ * check.sh runs this under the sanitizers, which find invalid reads and writes, and leaks.
  */
 #include <math.h>
 #include <selvedge_cloth.h>
@@ -31,7 +31,7 @@ static int faults = 0;
 
 #define SAYS(words) HOLDS(strstr(selvedge_last_error(), words))
 
-/* A sheet of 25 vertices above a small ball that is driven, as the first of two groups of pins is. */
+/* A sheet of 25 vertices above a small ball. The ball and the first of two groups of pins are driven. */
 #define HEAD "time_step = 0.002\nduration = 1\n"
 #define CLOTH                                                                                                             \
   "[cloth]\nshape = \"sheet\"\nsides = { first = [0.4, 0, 0], second = [0, 0.4, 0] }\ncells = [4, 4]\ndensity = 0.15\n" \
@@ -211,7 +211,7 @@ static void checkpoints(selvedge_simulation *it) {
   EXPECT(OK, selvedge_simulation_free(other));
 }
 
-/* The ball is led into a sheet of which every vertex is pinned: there is no way out. */
+/* The ball moves into a sheet of which every vertex is pinned: there is no way out. */
 static void blocked(void) {
   selvedge_simulation *it = NULL;
   EXPECT(OK, selvedge_simulation_new(HEAD "on_blocked = \"stop\"\n" BALL "driven = true\n" CLOTH
@@ -235,7 +235,7 @@ int main(void) {
   handles();
   blocked();
 
-  /* One is asked all that is wrong after each step, the other nothing. */
+  /* One simulation gets all wrong calls after each step, the other none. */
   selvedge_simulation *asked = NULL, *quiet = NULL;
   selvedge_sizes sizes = {0};
   EXPECT(OK, selvedge_simulation_new(SCENE, NULL, 2, &asked));

@@ -1,4 +1,4 @@
-// What C++ adds to simulations: exceptions, an owner that can be moved, lists and texts of C++'s.
+// Tests the additions of C++ to simulations.c: exceptions, an owner that can be moved, lists and texts of C++.
 #include "expect.hpp"
 #include <selvedge_cloth.hpp>
 #include <type_traits>

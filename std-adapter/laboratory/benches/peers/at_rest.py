@@ -1,4 +1,4 @@
-"""Does a mesh at rest pass through itself? ipctk's `has_intersections` beside `selvedge check --any`, in turn."""
+"""Compares the time of ipctk's `has_intersections` and `selvedge check --any`, in turn, on a mesh at rest."""
 
 import argparse
 import json
@@ -30,7 +30,7 @@ def wavy_sheet(squares: int, path: Path) -> None:
     j, i = np.meshgrid(np.arange(squares), np.arange(squares), indexing="ij")
     a = (j * (squares + 1) + i).ravel()
     b, c, d = a + 1, a + squares + 1, a + squares + 2
-    # Diagonals that alternate.
+    # Diagonals alternate.
     is_even = ((i + j) % 2 == 0).ravel()[:, None]
     first = np.where(is_even, np.stack([a, b, d], 1), np.stack([a, b, c], 1))
     second = np.where(is_even, np.stack([a, d, c], 1), np.stack([b, d, c], 1))

@@ -1,4 +1,4 @@
-"""Shared by the scripts of this folder: arguments, mesh files, runs of the selvedge command."""
+"""Functions that the scripts of this folder share: arguments, mesh files, runs of the selvedge command."""
 
 import argparse
 import json

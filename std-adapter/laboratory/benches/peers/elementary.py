@@ -1,4 +1,4 @@
-"""Times the tests of all candidate pairs of a step over the whole of it: selvedge against ipctk.
+"""Times the tests of all candidate pairs over a whole step: selvedge against ipctk.
 
 `whole_step.py` measures what ipctk's users run: a step size, for which it cuts most tests short. Here each pair is tested over the
 whole step, as for a list of all contacts. README.md describes the timed work.
@@ -24,7 +24,7 @@ try:
 except ImportError as error:
     common.missing_package(error)
 
-# Without rescaling the tests stop short of nothing: a pair is in contact if its distance may be zero, as in the paper. With
+# Without rescaling a pair is in contact if its distance may be zero, as in the paper. With
 # ipctk's defaults (0.8 and 0.9) they also report pairs that only come near each other.
 WHOLE = {"conservative_rescaling": 1.0}
 PEERS: dict[str, Callable[[], ipctk.NarrowPhaseCCD]] = {
@@ -42,7 +42,7 @@ BLOCK = 8192
 
 
 class Pairs(NamedTuple):
-    """Pairs of one kind: two ids each, ipctk's."""
+    """Pairs of one kind: two of ipctk's ids each."""
 
     kind: str
     ids: np.ndarray
@@ -74,11 +74,11 @@ class Sample(NamedTuple):
 
 
 class Peers:
-    """ipctk on the pairs that selvedge has, those apart from those in contact.
+    """Runs ipctk on the pairs of selvedge, those that are apart and those in contact separately.
 
     ipctk's loop over candidates, which is C++, passes the earliest impact so far to each later test as the end of its time span.
     Among pairs without contact there is no impact, so that the loop tests each of them over its whole step. The others are tested
-    one by one from here.
+    one by one from Python.
     """
 
     def __init__(self, step: common.Step, candidates: dict, contacts: dict) -> None:
@@ -102,7 +102,7 @@ class Peers:
         return sum(len(m) if in_contact is None else int((m == in_contact).sum()) for m in masks)
 
     def blocks(self, in_contact: bool, seed: int) -> list[tuple[str, np.ndarray]]:
-        """All such pairs in blocks of neighbours, the blocks in random order."""
+        """Yields the pairs in blocks of neighbours, the blocks in random order."""
         blocks = []
         for pairs in self.pairs:
             ids = pairs.ids[pairs.in_contact == in_contact]
@@ -112,7 +112,7 @@ class Peers:
         return [blocks[index] for index in order]
 
     def run(self, name: str, seed: int, budget: float) -> Sample:
-        """Both kinds of pairs, until all are done or the time is over: a share of it for pairs in contact."""
+        """Times both kinds of pairs, until all are done or the time is over; a share of it is for pairs in contact."""
         method = PEERS[name]()
         apart = self.part(name, seed, 0.8 * budget, method, in_contact=False)
         touching = self.part(name, seed, 0.2 * budget, method, in_contact=True)
@@ -146,7 +146,7 @@ class Peers:
         return [ipctk.EdgeEdgeCandidate(a, b) for a, b in ids.tolist()]
 
     def in_loop(self, kind: str, ids: np.ndarray, method: ipctk.NarrowPhaseCCD) -> tuple[float, bool]:
-        """Seconds, and whether all are found apart."""
+        """Returns the seconds, and whether all are found apart."""
         candidates = ipctk.Candidates()
         if kind == "vertex-face":
             candidates.fv_candidates = self.stencils(kind, ids)
@@ -157,7 +157,7 @@ class Peers:
         return sample.seconds, size >= 1.0
 
     def one_by_one(self, kind: str, ids: np.ndarray, method: ipctk.NarrowPhaseCCD) -> tuple[float, int]:
-        """Seconds, and how many are found in contact."""
+        """Returns the seconds, and how many are found in contact."""
         motion = (self.step.start, self.step.end)
         asked = [
             (pair, *(pair.dof(at, self.edges, self.step.triangles) for at in motion))
@@ -169,13 +169,13 @@ class Peers:
 
 
 def index_of(table: np.ndarray, rows: np.ndarray) -> np.ndarray:
-    """Where each row is in a table that has it; both with ascending numbers in each row."""
+    """Returns the place of each row in a table that has it; both have ascending numbers in each row."""
     places = np.argsort(keys(table))
     return places[np.searchsorted(keys(table), keys(rows), sorter=places)]
 
 
 def keys(rows: np.ndarray) -> np.ndarray:
-    """One number for each row of small numbers."""
+    """Returns one number for each row of small numbers."""
     key = np.zeros(len(rows), dtype=np.int64)
     for column in rows.T:
         key = key * 2**21 + column
@@ -200,7 +200,7 @@ class Own(NamedTuple):
 
 
 def own(arguments: argparse.Namespace, name: str) -> Own:
-    """All stages after the broad phase on the very pairs that ipctk gets; and the whole step with moving boxes."""
+    """Times all stages after the broad phase on the same pairs that ipctk gets, and the whole step with moving boxes."""
     pipeline, options = OWN[name]
     paths = (arguments.selvedge, arguments.START, arguments.END)
     repeat = (*options, "--repeat", "5")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A sheet that falls on a ball, in selvedge, MuJoCo, Rapier and newton: processor time, crossings, stretch. See README.md."""
+"""Compares selvedge, MuJoCo, Rapier and newton on a sheet that falls on a ball: processor time, crossings, stretch. See README.md."""
 
 import argparse
 import json
@@ -40,7 +40,7 @@ INTERVAL = 0.05
 
 @dataclass
 class Run:
-    """The result of a simulator: states every INTERVAL from the start, as far as it came."""
+    """The result of a simulator: states every INTERVAL from the start until its time was used up."""
 
     what: str
     time_step: float
@@ -82,7 +82,7 @@ AS_MUJOCO = [
 
 
 def selvedge(options: argparse.Namespace, folder: Path, name: str, own: list[tuple[str, str]]) -> Run:
-    """Runs the program's scene with changes. The time is that of the whole command, with set-up, report and files."""
+    """Runs the program's scene with changes. The time is that of the whole command, including set-up, report and files."""
     scene = (HERE / "../../../cloth/scenes/drop.toml").read_text()
     changes = [
         *own,
@@ -108,7 +108,7 @@ def selvedge(options: argparse.Namespace, folder: Path, name: str, own: list[tup
 
 
 def mujoco(options: argparse.Namespace, _: Path, ipc: bool) -> Run:
-    """A flexible sheet of triangles; `ipc`: with incremental potential contact, which has no friction yet."""
+    """Runs MuJoCo with a flexible sheet of triangles; `ipc`: with incremental potential contact, which has no friction yet."""
     import mujoco as engine
 
     time_step, n = 1e-3, options.cells
@@ -145,7 +145,7 @@ def mujoco(options: argparse.Namespace, _: Path, ipc: bool) -> Run:
 
 
 def rapier(options: argparse.Namespace, folder: Path, radius: float) -> Run:
-    """A program of its own, in `rapier/`; particles of this radius, so that layers are twice as far apart."""
+    """Runs the program in `rapier/`, with particles of this radius, so that layers are twice as far apart."""
     time_step = 1 / 240
     arguments = [options.cells, radius, time_step, options.seconds, options.most, folder]
     done = subprocess.run([options.rapier.absolute(), *map(str, arguments)], stdout=subprocess.PIPE, check=True)
@@ -156,7 +156,7 @@ def rapier(options: argparse.Namespace, folder: Path, radius: float) -> Run:
 
 
 def newton(options: argparse.Namespace, _: Path) -> Run:
-    """Vertex block descent on the CPU, with the iterations of newton's own examples; it has no drag of the kind."""
+    """Runs newton's vertex block descent on the CPU, with the iterations of newton's own examples; it has no such drag."""
     import newton as engine
     import warp
 
@@ -229,7 +229,7 @@ SIMULATORS: dict[str, Callable[[argparse.Namespace, Path], Run]] = {
 
 
 def crossings(run: Run, binary: Path, folder: Path) -> list[int]:
-    """Of each state, how many edges pass through a face, by `selvedge check`: exactly, for the coordinates as they are."""
+    """Returns how many edges pass through a face in each state, by `selvedge check`: exactly, for the given coordinates."""
     paths = [folder / f"state-{index:05}.ply" for index in range(len(run.states))]
     for path, points in zip(paths, run.states, strict=True):
         meshio.write(path, meshio.Mesh(points, [("triangle", run.triangles.astype(np.int32))]))

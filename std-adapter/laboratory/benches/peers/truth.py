@@ -72,7 +72,7 @@ def edges_of(triangles: np.ndarray) -> np.ndarray:
 
 
 def as_vertices(pairs: np.ndarray, kind: str, step: common.Step) -> np.ndarray:
-    """Ids of primitives (vertices first, then edges, then triangles) as four vertices a pair."""
+    """Converts ids of primitives (vertices first, then edges, then triangles) to four vertices a pair."""
     vertices, edges = len(step.start), edges_of(step.triangles)
     first_triangle = vertices + len(edges)
     if kind == "vertex-face":
@@ -89,8 +89,8 @@ def as_vertices(pairs: np.ndarray, kind: str, step: common.Step) -> np.ndarray:
 
 
 def canonical(pairs: pl.DataFrame, kind: str) -> pl.DataFrame:
-    """The same pairs with one spelling each: a face's vertices ascending, an edge's too, and of two
-    edges the one with the smaller vertices first."""
+    """Returns the pairs in canonical form: a face's vertices ascend, an edge's too, and of two
+    edges the one with the smaller vertices is first."""
     i0, i1, i2, i3 = map(pl.col, KEY)
     if kind == "vertex-face":
         low, high = pl.min_horizontal(i1, i2, i3), pl.max_horizontal(i1, i2, i3)
@@ -108,7 +108,7 @@ def canonical(pairs: pl.DataFrame, kind: str) -> pl.DataFrame:
 
 
 def read_pairs(path: Path, vertices: int) -> dict[str, pl.DataFrame]:
-    """The pairs of a CSV file that selvedge wrote, by kind, in canonical form."""
+    """Returns the pairs of a CSV file that selvedge wrote, by kind, in canonical form."""
     if not path.is_file():
         common.fail(f"selvedge wrote no {path.name}")
     schema = dict.fromkeys(KEY, pl.Int64)

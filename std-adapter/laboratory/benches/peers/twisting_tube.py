@@ -75,7 +75,7 @@ def pose(t: float, sign: float) -> tuple[float, float]:
 
 
 class Newton:
-    """The same tube in newton, by vertex block descent."""
+    """Runs the same tube in newton, by vertex block descent."""
 
     def __init__(self, points: np.ndarray, triangles: np.ndarray, options: argparse.Namespace):
         wp.config.quiet = True
@@ -89,7 +89,7 @@ class Newton:
             vertices=[wp.vec3(*point) for point in points],
             indices=triangles.reshape(-1).tolist(),
             vel=wp.vec3(0.0, 0.0, 0.0),
-            # As in the scene; bending as in newton's own example of a twist, which has the same size.
+            # The values are those of the scene; bending is that of newton's own example of a twist, which has the same size.
             density=0.2,
             tri_ke=300.0,
             tri_ka=300.0,
@@ -149,11 +149,11 @@ class Newton:
 
 
 def crossings(points: np.ndarray, triangles: np.ndarray) -> int:
-    """Edges that certainly pass through a triangle with which they share no vertex.
+    """Counts edges that certainly pass through a triangle with which they share no vertex.
 
     Each of the five signed volumes of an edge and a triangle must exceed the rounding of its evaluation (Shewchuk's bound for
-    the determinant of three differences is 8 units of rounding of its permanent; 32 are allowed), so nothing is counted that
-    only touches.
+    the determinant of three differences is 8 units of rounding of its permanent; 32 are allowed), so edges that only
+    touch are not counted.
     """
     edges = np.unique(np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1), axis=0)
     low, high = points[triangles].min(axis=1), points[triangles].max(axis=1)

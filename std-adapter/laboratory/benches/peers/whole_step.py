@@ -36,7 +36,7 @@ SHORT_QUESTIONS = {
 }
 TIGHT_INCLUSION_STEP = "ipctk LBVH + Tight-Inclusion"
 ADDITIVE_STEP = "ipctk LBVH + additive CCD"
-# How each step size is computed.
+# The computation of each step size.
 TESTS = {
     TIGHT_INCLUSION_STEP: lambda: ipctk.TightInclusionCCD(**TIGHT_INCLUSION),
     ADDITIVE_STEP: lambda: ipctk.AdditiveCCD(**ADDITIVE),
@@ -69,7 +69,7 @@ class Measurement:
 
 
 class Ipctk:
-    """ipctk on one step. Its mesh (edges and adjacency) is built once, outside the timed part."""
+    """Runs ipctk on one step. Its mesh (edges and adjacency) is built once, outside the timed part."""
 
     def __init__(self, step: common.Step, threads: int, tests: list[str]) -> None:
         ipctk.set_num_threads(threads)
@@ -82,7 +82,7 @@ class Ipctk:
         self.edges = len(edges)
 
     def run(self, rows: dict[str, Measurement], record: bool) -> None:
-        """One round: candidates, then the step sizes from those same candidates."""
+        """Runs one round: candidates, then the step sizes from these candidates."""
         motion = (self.mesh, self.step.start, self.step.end)
         candidates = ipctk.Candidates()
         _, build = timed(lambda: candidates.build(*motion, 0.0, ipctk.LBVH()))
@@ -114,7 +114,7 @@ def add(first: Sample, second: Sample) -> Sample:
 
 
 class Own(NamedTuple):
-    """What one row of selvedge runs: a pipeline, the instruction set (None: the best), and the options of a short question."""
+    """The settings of one row of selvedge: a pipeline, the instruction set (None: the best), and the options of a short question."""
 
     pipeline: str
     simd: str | None
@@ -171,7 +171,7 @@ def ask_selvedge(arguments: argparse.Namespace, own: Own, row: Measurement) -> N
 
 
 def peak_bytes(who: int) -> int:
-    """The most memory that this process (or the largest of those it has started and waited for) has had."""
+    """Returns the peak memory of this process (or of the largest of those it has started and waited for)."""
     return 1024 * resource.getrusage(who).ru_maxrss
 
 
@@ -182,7 +182,7 @@ def spread(values: list[float]) -> dict[str, float]:
 def compare(
     rows: dict[str, Measurement], stages: dict[str, dict[str, list[float]]], short: dict[str, Own]
 ) -> list[dict]:
-    """ipctk's time over selvedge's, round by round, for each row of selvedge and each figure of ipctk."""
+    """Returns ipctk's time over selvedge's, round by round, for each row of selvedge and each figure of ipctk."""
     ratios = []
     for name in short:
         peers = [BROAD_PHASE]
@@ -261,7 +261,7 @@ def main() -> None:
     arguments = parser.parse_args()
     names = common.pipelines(arguments) if arguments.selvedge else []
 
-    # The first process, so that the peak of all processes is its own.
+    # This process is the first, so that the peak of all processes is its own.
     if arguments.selvedge:
         Own(names[0], None, []).run(arguments)
     selvedge_bytes = peak_bytes(resource.RUSAGE_CHILDREN)

@@ -10,9 +10,9 @@ from pathlib import Path
 from PIL import Image
 from playwright.sync_api import Page, TimeoutError, sync_playwright
 
-# Software rendering, where there is no graphics card.
+# Use software rendering if there is no graphics card.
 FLAGS = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"]
-# Name, theme, size of the window.
+# Each has a name, a theme and a size of the window.
 VIEWS = [("light", "light", 1200, 850), ("dark", "dark", 1200, 850), ("narrow", "light", 390, 800)]
 
 problems: list[str] = []

@@ -41,9 +41,9 @@ def compare(step: Step | None = None, *, pipelines: Sequence[str] = (), threads:
     :param threads: 0 is one for each core
     :param rounds: how often each method runs each step; the fastest counts
     :returns: ``methods``, a row each, with pairs and contacts a step, missed contacts, frames per second, and the paper's own figures
-        where it has them; ``stages``, a row for each stage of each method, with seconds a step; ``findings``, sentences
-    :raises InputError: for what the command refuses, in its words
-    :raises CommandError: if the command is not there, or of another version
+        if it has them; ``stages``, a row for each stage of each method, with seconds a step; ``findings``, sentences
+    :raises InputError: if the command rejects the arguments; the message is the command's
+    :raises CommandError: if the command is missing or has another version
     """
     arguments = [f"--rounds={rounds}", f"--threads={threads}"]
     if pipelines:
@@ -72,15 +72,15 @@ def accuracy(
     :param step: a step to take pairs from as well; pairs of the built-in scene, far from the origin, and nearly coplanar ones are always
         measured
     :param only: ``"filters"`` or ``"elementary"`` to leave the other out
-    :param pairs: at most so many of each set
+    :param pairs: the largest number of pairs of each set
     :param repeat: how often each timed pair goes through each filter; the fastest counts
-    :param seed: where random pairs begin
+    :param seed: the seed of random pairs
     :param separation: cull only pairs that stay farther apart than this
     :returns: ``filters``, a row for each set, format, filter and instruction set, with nanoseconds a pair, the share that it culls and
-        its false culls; ``elementary``, a row for each set, format and test, with what it misses and how early its times are;
+        its false culls; ``elementary``, a row for each set, format and test, with the number of misses and how early its times are;
         ``filter_sets`` and ``elementary_sets``, the pairs
-    :raises InputError: for what the command refuses, in its words
-    :raises CommandError: if the command is not there, or of another version
+    :raises InputError: if the command rejects the arguments; the message is the command's
+    :raises CommandError: if the command is missing or has another version
     """
     arguments = [f"--pairs={pairs}", f"--repeat={repeat}", f"--seed={seed}", f"--separation={float(separation)!r}"]
     if only is not None:
@@ -104,7 +104,7 @@ def hard_cases(name: str = "", *, scalar: Literal["f32", "f64"] = "f64") -> Tabl
     :returns: a row for each case and method: ``case``, ``placement``, ``kind``, the exact time of ``first_contact`` as text, its bounds
         ``not_before`` and ``not_after`` (NaN if there is none), ``method``, and ``answer``: ``right``, ``false-alarm`` or ``missed``
     :raises InputError: if no case has that name
-    :raises CommandError: if the command is not there, or of another version
+    :raises CommandError: if the command is missing or has another version
     """
     document = _run("hard-cases", f"--scalar={scalar}", "--json", "--", name)
     rows = []
