@@ -7,13 +7,13 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 # shellcheck source=std-adapter/checks.bash
 source ../checks.bash
 
-# The version in Cargo.toml.
+# This is the version in Cargo.toml.
 least=$(sed -n 's/^rust-version = "\(.*\)"/\1/p' Cargo.toml)
 rust=$(rustc --version | cut -d ' ' -f 2)
 [ "$(printf '%s\n' "$least" "$rust" | sort -V | head -n 1)" = "$least" ] || missing "Rust $rust is too old: Bevy needs $least"
 cargo fetch --locked </dev/null || missing "crates.io cannot be reached"
 
-# A target folder of its own: another workspace, other features.
+# A separate target folder, since workspace and features differ.
 export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$PWD/target}/bevy
 
 say "Bevy: formatting, lints, documentation"

@@ -16,7 +16,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 prefix=$folder/installed
 export LD_LIBRARY_PATH=$prefix/lib PKG_CONFIG_PATH=$prefix/lib/pkgconfig
-# The library must refuse absurd counts under a sanitizer as well.
+# The library must reject absurd counts under a sanitizer as well.
 export ASAN_OPTIONS=allocator_may_return_null=1:max_allocation_size_mb=8192:detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1
 
 say "library without cloth: make install"

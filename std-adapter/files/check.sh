@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Reads every file of the zoo with two other readers, and with them what this crate writes: the same triangles, to the last bit.
+# Reads every file of the zoo, and the files that this crate writes, with two other readers: triangles must be the same, to the last bit.
 # Needs Python 3.10 or newer with venv, and a package index (PyPI). --present: skips the check where they are missing.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the wheel and tests it in a virtual environment of its own: tests, types, stubs, the README's example, the wheel's size.
+# Builds the wheel and checks it in a new virtual environment: tests, types, stubs, the README's example, the wheel's size.
 # Needs Python 3.10 or newer with venv, and a package index (PyPI). --present: skips the check where they are missing.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -18,7 +18,7 @@ if [ -z "${SELVEDGE_COMMAND:-}" ]; then
 fi
 export SELVEDGE_COMMAND
 
-# A target folder of its own: another workspace, another profile.
+# A separate target folder, since workspace and profile differ.
 target=${CARGO_TARGET_DIR:-$PWD/target}/python
 export CARGO_TARGET_DIR=$target
 mkdir -p "$target"
@@ -26,7 +26,7 @@ tools=$target/tools
 environment=$target/environment
 wheels=$target/wheels
 
-# Created again if a package is missing, as after a change of this list.
+# The environment is created again if a package is missing, as after a change of this list.
 if ! "$tools/bin/python" -c 'import maturin, pytest, mypy, numpy, matplotlib' 2>/dev/null; then
     "$python" -m venv "$tools" || missing "Python's module venv is missing (Debian: apt install python3-venv)"
     "$tools/bin/pip" install --quiet --disable-pip-version-check "maturin>=1.16,<2" "pytest>=9,<10" "mypy>=2.4,<2.5" numpy matplotlib ||

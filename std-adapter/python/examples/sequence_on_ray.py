@@ -6,8 +6,8 @@
 FRAMES is a folder of OBJ or PLY files with the same triangles, in the order of their names; all machines see it and OUT's folder under the
 same names. Each worker keeps a detector, gets pieces of consecutive steps, and writes their contacts to files. The state is a folder
 beside the table, with a file for each finished piece: the same command resumes the work. A piece whose worker is lost is done again by
-another, at most three times; a piece with faulty frames is reported, and the others continue. The table is sorted by step, kind and pair: it
-is the same for any number of workers, losses and starts.
+another, at most three times; a piece with faulty frames is reported, and the others continue. The table is sorted by step, kind and pair:
+it is the same for any number of workers, losses and starts.
 """
 
 import argparse
