@@ -153,8 +153,8 @@ def main():
         rows.append(f"| {number} | `{name}` | {change}{f' (place {place + 1})' if place else ''} | {said} |")
         print(rows[-1], flush=True)
     head = (
-        "# Mutations that the proofs notice\n\n`verification/proofs/mutations.py` writes this page. It makes each mutation in a copy of core, traces the new terms, compares "
-        "them with\nthe accepted ones, and has Coq try to prove them. See [proof.md](proof.md).\n\n"
+        "# Mutations that the proofs notice\n\n`verification/proofs/mutations.py` writes this page. It makes each mutation in a copy of core and traces the new terms. It "
+        "compares\nthem with the accepted ones, and has Coq try to prove them. See [proof.md](proof.md).\n\n"
         "| | in `core/src` | mutation | refused by |\n|---|---|---|---|\n"
     )
     (ROOT / "docs/proof-mutations.md").write_text(head + "\n".join(rows) + "\n")
