@@ -1,5 +1,5 @@
-//! Measures the cost of exact signs for a pair: on pairs that can mostly be culled, on pairs that floating point cannot decide,
-//! and on numbers of all sizes.
+//! Measures the cost of exact signs for a pair: on pairs that can mostly be culled, on undecided pairs, and on numbers of all
+//! sizes.
 
 mod pairs;
 

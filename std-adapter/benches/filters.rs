@@ -1,4 +1,4 @@
-//! Measures every batched test and every filter tier, on tiles that stay in the first cache and on pairs gathered from a mesh of
+//! Measures every batched test and every filter tier. Pairs are in tiles that stay in the first cache, or gathered from a mesh of
 //! a million vertices. Run `cargo bench -p selvedge-benches --bench filters`; a further word selects benchmarks, such as
 //! `gathered/f32`.
 //!

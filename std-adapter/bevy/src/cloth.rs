@@ -19,9 +19,10 @@ use std::collections::BTreeMap;
 
 /// A simulation of cloth that runs in each fixed step, from a [`Scene`] made in code or read from a file.
 ///
-/// The scene is in world coordinates, in metres. Its bodies can [follow](Self::led_by) entities. The positions and normals of the cloth are
-/// written into the entity's own `Mesh3d`, if it has one: a mesh from [`mesh_of`], from [`mesh_of_cloths`], or the one that was passed to
-/// [`cloth_of_mesh`]. No other entity should have the same mesh. The entity's `Transform` does not move the cloth.
+/// The scene is in world coordinates, in metres. Its bodies can [follow](Self::led_by) entities. The positions and normals of the
+/// cloth are written into the entity's own `Mesh3d`, if it has one. This is a mesh from [`mesh_of`], from [`mesh_of_cloths`], or
+/// the one that was passed to [`cloth_of_mesh`]. No other entity should have the same mesh. The entity's `Transform` does not
+/// move the cloth.
 ///
 /// When cloth tears, its mesh receives one vertex per corner of a triangle, with all attributes. This needs the triangles in the cloth's
 /// order, as [`cloth_of_mesh`] and [`mesh_of`] have them.
@@ -103,7 +104,7 @@ impl ClothSimulation {
     /// Lets a body of the scene, given by its index, follow an entity. Its `BodyMotion` becomes [`Driven`](BodyMotion::Driven), from the
     /// entity's place at the start.
     ///
-    /// In a fixed step it moves from its place to that of the entity at a constant rate, and rotates the short way about the entity's
+    /// In a fixed step it moves to the place of the entity at a constant rate, and rotates the short way about the entity's
     /// origin. If the entity loses its `Transform` or is despawned, the body stays where it is.
     #[must_use]
     pub fn led_by(mut self, body: usize, entity: Entity) -> Self {

@@ -43,8 +43,9 @@ pub struct BodyContact {
     pub vertices: [u32; 4],
     /// The time in [0, 1] of the step. It is never after the exact time.
     pub time: f64,
-    /// The geometry at that time in Bevy's world: the closest points of both sides, their barycentric weights, the unit normal from the second
-    /// side to the first, and the speed along it in lengths per fixed step. See [its guarantees](selvedge::core::separation::geometry).
+    /// The geometry at that time in Bevy's world: the closest points of both sides with their barycentric weights, the normal,
+    /// and the speed along it. The normal points from the second side to the first; the unit of speed is lengths per fixed step.
+    /// See [its guarantees](selvedge::core::separation::geometry).
     pub geometry: Geometry,
 }
 

@@ -1,5 +1,5 @@
-//! Measures the cost of a world beyond that of its moving meshes: a cloth alone, the same cloth beside many resting meshes, and steps before and after
-//! a large mesh is inserted.
+//! Measures the cost of a world beyond that of its moving meshes. It has a cloth alone, the same cloth beside many resting
+//! meshes, and steps before and after a large mesh is inserted.
 //!
 //! ```sh
 //! cargo bench -p selvedge --bench world

@@ -6,8 +6,8 @@
 //! ```
 //!
 //! Meshes are OBJ or PLY files of equal topology. The detector is made once. Each step takes two slices of positions and fills
-//! the same list of contacts. The table shows the earliest contact, at which the whole mesh would have to stop, beside the result
-//! of truncation: the number of vertices held back, and the share of all their motion that is kept.
+//! the same list of contacts. The table shows the earliest contact, at which the whole mesh would have to stop. Beside it is the
+//! result of truncation: the number of vertices held back, and the share of the motion that is kept.
 
 use selvedge::Topology;
 use selvedge::glam::DVec3;

@@ -28,8 +28,8 @@ use selvedge_core::batch::LANES;
 
 /// The box that a triangle sweeps during the step, in the caller's length unit.
 ///
-/// A caller with `f64` positions either rounds outwards, or maps all coordinates of an axis by one monotone function: boxes that overlap
-/// must still do so.
+/// Boxes that overlap must still do so after rounding. A caller with `f64` positions either rounds outwards, or maps all
+/// coordinates of an axis by one monotone function.
 ///
 /// Two boxes overlap unless, along some axis, the lower bound of one is greater than the upper bound of the other. A NaN bound separates
 /// nothing. Infinite bounds compare as numbers do.

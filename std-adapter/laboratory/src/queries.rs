@@ -1,10 +1,10 @@
 //! Reads primitive-pair queries in the rational CSV format of the public continuous collision detection benchmark (Wang, Ferguson,
 //! Schneider, Jiang, Attene, Panozzo: A Large-scale Benchmark and an Inclusion-based Algorithm for Continuous Collision Detection, 2021).
 //!
-//! A query is one vertex–face or edge–edge pair that moves linearly over the step, and takes eight rows: its four points at the start of
-//! the step, then the same four at the end. A row has numerator and denominator of x, y and z and, where the verdict is known, the truth:
-//! 1 if the pair collides within the step, else 0, the same on all eight rows. Numerators and denominators are integers of any length.
-//! There is no header; blank lines are skipped.
+//! A query is one vertex–face or edge–edge pair that moves linearly over the step. It takes eight rows: its four points at the
+//! start of the step, then the same four at the end. A row has numerator and denominator of x, y and z. If the verdict is known,
+//! a further column has the truth, the same on all eight rows: 1 if the pair collides within the step, else 0. Numerators and
+//! denominators are integers of any length. There is no header; blank lines are skipped.
 //!
 //! ```
 //! use selvedge::PairKind;
@@ -98,9 +98,9 @@ pub fn kind_of_path(path: &Path) -> Option<PairKind> {
 /// `f64`, ties to even.
 ///
 /// # Errors
-/// Returns an error if the file is missing, a folder, unreadable, empty or of unknown kind; a row has the wrong number of
-/// columns, a field that is no integer, a denominator of zero or a coordinate beyond `f64`; a truth is not 0 or 1 or differs
-/// within a query; or the last query is incomplete.
+/// Returns an error if the file is missing, a folder, unreadable, empty or of unknown kind, or the last query is incomplete. A
+/// row must have the right number of columns and only integers, no denominator of zero, and no coordinate beyond `f64`. A truth
+/// is 0 or 1, and the same within a query.
 pub fn read(path: &Path, kind: Option<PairKind>) -> Result<QueryFile, QueryError> {
     let at = |message: &dyn Display| QueryError(format!("{}: {message}", path.display()));
     if path.is_dir() {

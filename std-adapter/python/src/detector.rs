@@ -12,8 +12,9 @@ use selvedge::{Cancellation, CandidateBoxes, StepError, Topology};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 
-/// Calls about so few pairs run on the caller's thread, where Ctrl-C is noticed when they end: usually after a millisecond, and after a
-/// second if all pairs touch. A thread for each call would cost a third to a half of the time of small meshes.
+/// Calls with so few pairs run on the caller's thread, where Ctrl-C takes effect when they end. This is usually after a
+/// millisecond, and after a second if all pairs touch. A thread for each call would cost a third to a half of the time of small
+/// meshes.
 const FEW_PAIRS: usize = 1 << 22;
 
 /// The stub, `_native.pyi`, documents the class.

@@ -46,9 +46,8 @@ impl Arm {
 
 /// Runs every method on the same steps: the paper's Table 1
 ///
-/// The steps are those of the built-in arm scene, of a scene file (TOML), which is simulated first, or one step between two
-/// meshes of equal topology (OBJ or PLY). All methods share one broad phase and run each step in turn, so that their times
-/// compare.
+/// The steps are those of the built-in arm scene, or of a scene file (TOML), which is simulated first. Two meshes of equal
+/// topology (OBJ or PLY) make one step. All methods share one broad phase and run each step in turn, so that their times compare.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -169,8 +168,8 @@ fn read_frames(start: &Path, end: &Path) -> Result<TwoFrames, Failure> {
     })
 }
 
-/// Adds the files of a report: the table as CSV, page and Markdown, and the paper's Figure 3 on the step in which our method
-/// leaves the most candidates.
+/// Adds the files of a report: the table as CSV, page and Markdown, and the paper's Figure 3. The figure shows the step in which
+/// our method leaves the most candidates.
 pub(super) fn add_report(
     files: &mut OutputFiles,
     folder: &Path,

@@ -9,7 +9,7 @@ use selvedge_laboratory::study::ask_hard_cases;
 
 /// Runs every method on hard cases by name: degenerate pairs, grazes, shapes of the literature
 ///
-/// Each case stands at several sizes, from a micrometre to ten kilometres: near the origin, 10,000 km from it, and turned so that
+/// Each case has several sizes, from a micrometre to ten kilometres. It is near the origin, 10,000 km from it, and turned so that
 /// coordinates are rounded. The table shows the exact answer and marks every wrong one, ours included.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\

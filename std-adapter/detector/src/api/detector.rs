@@ -70,10 +70,11 @@ use std::sync::Arc;
 /// boxes of resting vertices once. To detect contacts between several meshes, put them into one topology, or use a [`World`](crate::World).
 ///
 /// # Guarantees
-/// * **No contact is missed**, and no time is later than the exact one, rounding included, in every floating-point environment
-///   ([`selvedge_core`](crate::core)). A pair that comes within the tolerance of the separation may count as a contact. So may a pair that comes
-///   within 2⁻⁴⁵ of its size of the separation, which rounding hides, and one with coordinates that differ by more than 2²⁵⁰. No pair that stays
-///   farther apart is a contact ([reason by reason](selvedge_core::elementary::advance#what-is-promised)).
+/// * **No contact is missed**, and no time is later than the exact one. This includes rounding, and holds in every floating-point
+///   environment ([`selvedge_core`](crate::core)). A pair that comes within the tolerance of the separation may count as a
+///   contact. So may a pair that comes within 2⁻⁴⁵ of its size of the separation, which rounding hides, and one with coordinates
+///   that differ by more than 2²⁵⁰. No pair that stays farther apart is a contact ([reason by
+///   reason](selvedge_core::elementary::advance#what-is-promised)).
 /// * Positions in `f32` give contacts that are as sharp as those of the same positions in `f64`: pairs that `f32` leaves open are decided in `f64`. Times
 ///   are rounded down. Positions in `f64` that are all `f32` numbers take as little time as `f32`.
 /// * The contacts, their times and their order are the same on any number of threads and every instruction set. The order depends on the hierarchies,
@@ -146,8 +147,8 @@ impl<S: Scalar> CollisionDetector<S> {
     /// Listed pairs ([`contacts_of`](Self::contacts_of)) are tested whatever the filter says.
     ///
     /// # Errors
-    /// Returns an error if a list of the filter does not have an entry for each vertex, or names a vertex that does not exist.
-    /// The old filter then stays.
+    /// Returns an error if a list of the filter has the wrong length, or names a vertex that does not exist. The old filter then
+    /// stays.
     pub fn set_collision_filter(&mut self, filter: CollisionFilter) -> Result<(), StepError> {
         filter.check(self.topology().vertex_count())?;
         self.engine.set_filter(filter);
@@ -212,9 +213,9 @@ impl<S: Scalar> CollisionDetector<S> {
     ///
     /// It is the first contact that [`contacts`](Self::contacts) finds, with the same time. Let s be the separation and δ the tolerance of the
     /// [criterion](Self::set_criterion):
-    /// * **The time is a certified lower bound.** Before it no two primitives are within s of each other, rounding included. So the mesh may move up to
-    ///   that time, `start + (end − start)·time` but for the rounding of these positions, and any shorter step is free. `None` proves that the whole
-    ///   step is free.
+    /// * **The time is a certified lower bound.** Before it no two primitives are within s of each other, rounding included. So
+    ///   the mesh may move up to that time (`start + (end − start)·time`, apart from rounding), and any shorter step is free.
+    ///   `None` proves that the whole step is free.
     /// * **The time may be early.** At that time the distance of the pair is at most s + δ and a rounding error
     ///   ([bounded there](selvedge_core::elementary::advance#what-is-promised)). If the pair approaches at a speed of v lengths per step and comes within
     ///   s, the exact time is about δ/v later. A near miss, a pair that comes within s + δ and turns back, may also count. The exact first contact is

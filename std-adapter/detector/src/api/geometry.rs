@@ -50,8 +50,8 @@ impl<S: Scalar> CollisionDetector<S> {
     /// ```
     ///
     /// # Errors
-    /// Returns an error if a frame's length is not the mesh's number of vertices, the mesh does not have the pair, or the time is
-    /// not in [0, 1]. Positions that are not finite give no normal.
+    /// Returns an error if a frame has the wrong length, the mesh does not have the pair, or the time is not in [0, 1]. Positions
+    /// that are not finite give no normal.
     pub fn contact_geometry<P: Position<Scalar = S>>(
         &self,
         start: &[P],

@@ -75,8 +75,9 @@ pub enum MeshMotion<'a, P> {
 ///   which one moves, and for a deforming mesh with itself. Times are as sharp as [those of a detector](crate::CollisionDetector::earliest). With
 ///   separation s and tolerance δ, a pair within s + 3δ on arcs may be a contact.
 /// * **Contacts of two meshes do not depend on other meshes.** For straight motion they are those of a
-///   [`CollisionDetector`](crate::CollisionDetector) for the two as one mesh, with the same times, bit for bit. There is one exception: far from the
-///   origin, in `f64`, such a detector may leave out pairs between the separation and the tolerance beyond it that a world reports.
+///   [`CollisionDetector`](crate::CollisionDetector) for the two as one mesh, with the same times, bit for bit. There is one
+///   exception, far from the origin, in `f64`. Between the separation and the tolerance beyond it, such a detector may leave out
+///   pairs that a world reports.
 /// * The contacts and their order are the same on any number of threads.
 /// * **The cost of a step depends on what moves.** The world skips pairs of resting meshes and does not refit them. Inserting a mesh builds its own
 ///   hierarchies, and in the next step the small one over meshes.
@@ -85,7 +86,7 @@ pub enum MeshMotion<'a, P> {
 /// For piecewise-straight motion, run one step for each segment. For a single pair, core takes [all segments at
 /// once](selvedge_core::paths::Polyline).
 ///
-/// Where one step ends and the next begins, a rotating body is placed at its pose again, a few roundings away from the ends of the last step's arcs.
+/// Each step begins at the pose of a rotating body, a few roundings away from the ends of the last step's arcs.
 #[derive(Debug)]
 pub struct World<P: Position> {
     stage: Stage,
@@ -157,8 +158,8 @@ impl<P: Position> World<P> {
     /// Meshes may share a topology (`Arc`).
     ///
     /// # Errors
-    /// Returns an error if there is not one position for each vertex, one is NaN or infinite, or all meshes together would have
-    /// more than 2³¹ − 1 vertices.
+    /// Returns an error if the number of positions is wrong, one is NaN or infinite, or the meshes would have more than 2³¹ − 1
+    /// vertices.
     pub fn insert(
         &mut self,
         topology: impl Into<Arc<Topology>>,

@@ -27,10 +27,10 @@
 //! ```
 //!
 //! # Which pairs
-//! The candidates are those that [relative boxes along three axes](selvedge_core::boxes::relative::three_axes) leave, for `f32` positions and for
-//! `f64` positions that are `f32` numbers, unless the mesh is far from the origin for its size. Other `f64` positions are
-//! [rounded to `f32`](selvedge_core::boxes::mapping) for the boxes. Pairs that are apart by less than the rounding are then candidates too; none
-//! is lost.
+//! The candidates are the pairs that [relative boxes along three axes](selvedge_core::boxes::relative::three_axes) leave. This
+//! holds for `f32` positions, and for `f64` positions that are `f32` numbers, unless the mesh is far from the origin for its
+//! size. Other `f64` positions are [rounded to `f32`](selvedge_core::boxes::mapping) for the boxes. Pairs that are apart by less
+//! than the rounding are then candidates too; none is lost.
 //!
 //! The order of the candidates depends on the hierarchies, and so on earlier steps. The same sequence of steps gives the same candidates in the
 //! same order, on any number of threads and every instruction set.

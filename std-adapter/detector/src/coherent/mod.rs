@@ -1,7 +1,8 @@
 //! Coherent motion: finds near pairs for several steps at once and follows them from step to step.
 //!
-//! A [`CollisionDetector`](crate::CollisionDetector::set_coherent) does this by itself. Use [`NearPairs`] directly in a solver that handles contact on
-//! its own: the solver decides which pairs are of [interest](Interest), keeps data with each, and holds pairs apart by remembered directions.
+//! A [`CollisionDetector`](crate::CollisionDetector::set_coherent) does this by itself. Use [`NearPairs`] directly in a solver
+//! that handles contact. The solver decides which pairs are of [interest](Interest), stores data with each, and keeps pairs apart
+//! by stored directions.
 //!
 //! ```text
 //! now and then   hierarchies of moving boxes ─▶ sieve ─▶ the list of near pairs, good for some steps of the expected motion

@@ -1,10 +1,11 @@
 //! The list of near pairs, found for several steps at once.
 //!
-//! **Guarantee.** Let h be the distance of a class and b the length [beyond](Reach::beyond) it. On the motion that the list was found for
-//! ([`horizon`](super::horizon)), a pair that is not in the list keeps h + b·(|d₁| + |d₂| + |d₃|) along a direction d of length one
-//! ([`sieve`](super::sieve)). While no vertex strays from that motion by more than b/2 along an axis, the list holds every pair within h. While none
-//! strays farther than b/2 + (h − m)/(2√3), it holds every pair that may come within m, since the stray along d is at most half of
-//! b·(|d₁| + |d₂| + |d₃|) + h − m. If few vertices stray farther, their pairs are found again and added; otherwise all pairs are found again.
+//! **Guarantee.** Let h be the distance of a class and b the length [beyond](Reach::beyond) it. The list is made for a motion
+//! ([`horizon`](super::horizon)). On it, a pair outside the list keeps h + b·(|d₁| + |d₂| + |d₃|) along a direction d of length
+//! one ([`sieve`](super::sieve)). While no vertex strays from that motion by more than b/2 along an axis, the list holds every
+//! pair within h. While none strays farther than b/2 + (h − m)/(2√3), it holds every pair that may come within m. Reason: the
+//! stray along d is at most half of b·(|d₁| + |d₂| + |d₃|) + h − m. If few vertices stray farther, their pairs are found again
+//! and added; otherwise all pairs are found again.
 
 use super::horizon::Horizon;
 use super::interest::{Interest, Reach};
@@ -156,8 +157,8 @@ impl<I: Interest> NearPairs<I> {
         self.horizon.ahead.spend(self.reach.upkeep * self.list.len() as f64);
     }
 
-    /// Finds the vertices that stray so far that a pair outside the list may come closer than it has to keep, a time of `h` later at `end`. Returns their
-    /// number.
+    /// Finds the vertices that stray too far by `end`, a time of `h` later. Then a pair outside the list may come closer than
+    /// allowed. Returns their number.
     pub fn find_strayed(&mut self, end: &[DVec3], h: f64) -> usize {
         self.horizon.find_strayed(end, h, self.room, &mut self.strayed)
     }

@@ -172,8 +172,8 @@ impl<D: Copy> NearPair<D> {
         kept.is_some()
     }
 
-    /// Returns the share of the way from `base` to `wanted` that each vertex may go, so that the pair keeps `separation` on the way from `start`
-    /// ([core's truncation](selvedge_core::separation::truncation)).
+    /// Returns the share of the way from `base` to `wanted` that each vertex may go. With it the pair keeps `separation` on the
+    /// way from `start` ([core's truncation](selvedge_core::separation::truncation)).
     ///
     /// It tries the remembered direction and those of the closest points, and remembers the best one, without a gap. The shares are zero if no direction
     /// keeps the pair apart both at `start` and at `base`.

@@ -14,7 +14,7 @@
 //! # `f32` first
 //! If all positions are `f32` numbers, in either format, filter and sweeps run in `f32` first. A register then holds twice as
 //! many pairs, and half as many bytes are read. A proof in `f32` holds for the positions themselves. The pairs that `f32` leaves
-//! open continue in `f64`, from the times up to which they are proven apart, so contacts and times are as sharp as those of
+//! open continue in `f64`, from the times up to which they are proven apart. So contacts and times are as sharp as those of
 //! `f64`. The separation and the end of the time range are rounded up.
 
 use super::findings::{Findings, count_of};

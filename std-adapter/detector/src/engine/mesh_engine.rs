@@ -25,9 +25,9 @@ use std::sync::Arc;
 /// A shorter part finds about as few candidates; a longer one finds more of them.
 const EARLY: f64 = 1.0 / 16.0;
 
-/// The number of candidates for each edge from which on a search of the [early part](EARLY) alone may pay. A traversal costs
-/// about six box tests for each edge in any part of the step, and a candidate as much as about one test in the stages after it.
-/// With this number the traversal is a small part of the whole step, and one that finds nothing is no great loss.
+/// The number of candidates for each edge from which on a search of the [early part](EARLY) alone may pay. A traversal takes
+/// about six box tests for each edge in any part of the step. A candidate takes about one test in the stages after it. With this
+/// number the traversal is a small part of the whole step, and one that finds nothing is no great loss.
 const MANY_CANDIDATES: u64 = 8;
 
 /// Finds the contacts of one mesh: a world of one mesh, whose pairs can also be listed or followed.

@@ -27,8 +27,9 @@ pub(crate) struct Question {
 
 /// The latest time at which a contact is of interest. All threads share it, and each contact lowers it if only the earliest is wanted.
 ///
-/// A time is stored as its bits, which have the same order since times are not negative. The order in which threads lower it changes no result: a pair
-/// is dropped only if it is proven apart until *after* the bound, which is never before the earliest contact.
+/// A time is stored as its bits, which have the same order since times are not negative. The order in which threads lower it
+/// changes no result. A pair is dropped only if it is proven apart until *after* the bound, which is never before the earliest
+/// contact.
 #[derive(Debug)]
 pub(crate) struct Bound(AtomicU64);
 

@@ -14,8 +14,8 @@
 //!
 //! # Why these are enough
 //! Two triangles have a point in common, besides the vertices that they share, exactly if one of these pairs meets:
-//! * **No common vertex.** A triangle without area is the union of its edges. Otherwise two triangles meet in a segment that ends where an edge of one
-//!   meets the other, or they are coplanar and overlap in a polygon whose corners lie on edges.
+//! * **No common vertex.** A triangle without area is the union of its edges. Otherwise two triangles meet in a segment that ends
+//!   where an edge of one meets the other. Or they are coplanar and overlap in a polygon whose corners lie on edges.
 //! * **One common vertex v**, and x another common point. The ray from v through x leaves each triangle on the edge opposite to v, or in an end of it.
 //!   Where it first leaves a triangle, it is still in the other, which is convex.
 //! * **A common edge, v u**, and x a common point beside it. Then both triangles lie in one plane, on one side of v u, with corners a and b. By the

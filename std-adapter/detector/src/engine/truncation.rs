@@ -9,8 +9,9 @@
 //! their pairs      from the boxes that whole ways sweep: contacts again ─▶ repeat until there are none
 //! ```
 //!
-//! **The result is free.** A pair that swept boxes exclude keeps its distance wherever each vertex ends in the box of its way. Every other pair passes
-//! the certified tests for the final ends of its vertices: in the last round, or in an earlier one since which none of its vertices changed.
+//! **The result is free.** A pair that swept boxes exclude keeps its distance wherever each vertex ends in the box of its way.
+//! Every other pair passes the certified tests for the final ends of its vertices. It does so in the last round, or in an earlier
+//! one after which none of its vertices changed.
 //!
 //! **It ends.** Every contact found in a round is a pair that moves. The first time, its planes lower the shares of its vertices,
 //! or its vertices rest at once; the second time they rest. A resting pair is not tested again. So each pair takes at most two

@@ -79,8 +79,9 @@ impl Hinges {
         !self.loose.is_empty() || !self.points.is_empty()
     }
 
-    /// Returns whether neither an edge of the vertex nor a hinge shows that the vertex touches the triangle. Then the vertex is a point, a loose edge
-    /// joins it with a corner, or the triangle is a loose edge that lies on the opposite edge of a triangle of the vertex.
+    /// Returns whether neither an edge of the vertex nor a hinge shows that the vertex touches the triangle. Then the vertex is a
+    /// point, or a loose edge joins it with a corner. Or the triangle is a loose edge that lies on the opposite edge of a
+    /// triangle of the vertex.
     pub(crate) fn must_be_looked_at(&self, vertex: u32, triangle: [u32; 3]) -> bool {
         let is_loose = |&corner: &u32| self.loose.binary_search(&[vertex, corner]).is_ok();
         let lies_opposite = || {
@@ -110,8 +111,8 @@ impl Hinge {
         (a != b).then_some([u, v, a, b])
     }
 
-    /// Returns the pairs of the two triangles that have no vertex in common, by kind: each opposite vertex with the other triangle, and an edge of
-    /// each, with the smaller number first.
+    /// Returns the pairs of the two triangles that have no vertex in common, by kind. They are each opposite vertex with the
+    /// other triangle, and an edge of each, with the smaller number first.
     pub(crate) fn pairs(&self, topology: &Topology) -> Option<[[[u32; 2]; 2]; 2]> {
         let [u, v, a, b] = self.vertices(topology)?;
         let [first, second] = self.triangles;

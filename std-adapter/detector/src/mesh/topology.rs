@@ -8,8 +8,8 @@ use crate::PairKind;
 
 /// The vertices, edges and triangles of a mesh.
 ///
-/// The mesh may be anything that a file can hold: edges with one, two or more triangles, several components, vertices without a triangle, duplicate
-/// triangles, and triangles that name a vertex twice. Nothing is dropped or renumbered.
+/// The mesh may be anything that a file can hold. It may have edges with one, two or more triangles, several components, vertices
+/// without a triangle, duplicate triangles, and triangles that name a vertex twice. Nothing is dropped or renumbered.
 ///
 /// [Loose edges and points](Self::with_loose_features), for ropes, hair and particles, are faces that name a vertex twice or three times. They
 /// collide as the segment or point that they are.
@@ -45,12 +45,12 @@ impl Topology {
 
     /// Finds the edges of `triangles`.
     ///
-    /// It takes O(v + n log d) time for v vertices, n triangles and at most d edges at a vertex, or O(n log n) if few of many vertices have a
-    /// triangle. Memory is proportional to the number of triangles.
+    /// It takes O(v + n log d) time for v vertices, n triangles and at most d edges at a vertex. It takes O(n log n) if few of
+    /// many vertices have a triangle. Memory is proportional to the number of triangles.
     ///
     /// # Errors
-    /// Returns an error if there are no triangles, a triangle names a vertex that does not exist, or there are more than a `u32`
-    /// can number.
+    /// Returns an error if there are no triangles or more than a `u32` can number, or a triangle names a vertex that does not
+    /// exist.
     pub fn new(vertex_count: usize, triangles: Vec<[u32; 3]>) -> Result<Self, TopologyError> {
         Self::with_loose_features(vertex_count, triangles, &[], &[])
     }
@@ -87,8 +87,7 @@ impl Topology {
     /// ```
     ///
     /// # Errors
-    /// Returns an error if there is no primitive, a primitive names a vertex that does not exist, or there are more than a `u32`
-    /// can number.
+    /// Returns an error if there are no primitives or more than a `u32` can number, or one names a vertex that does not exist.
     pub fn with_loose_features(
         vertex_count: usize,
         mut triangles: Vec<[u32; 3]>,

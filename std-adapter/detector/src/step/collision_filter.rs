@@ -52,9 +52,10 @@ impl Default for Groups {
 
 /// Excludes pairs of a mesh. An excluded pair is never a candidate and never a contact.
 ///
-/// [Groups](Self::with_groups), [patches](Self::with_patches) and [pairs](Self::without_vertex_pairs) say which vertices do not collide. A pair of
-/// primitives is excluded if no vertex of one collides with a vertex of the other (the rule of ipc-toolkit), or if the caller's
-/// [own rule](Self::with_rule) excludes it. Groups and patches also exclude whole parts of the mesh at once, which saves their traversal.
+/// [Groups](Self::with_groups), [patches](Self::with_patches) and [pairs](Self::without_vertex_pairs) say which vertices do not
+/// collide. A pair of primitives is excluded if no vertex of one collides with a vertex of the other (the rule of ipc-toolkit).
+/// The caller's [own rule](Self::with_rule) can exclude it, too. Groups and patches also exclude whole parts of the mesh at once,
+/// which saves their traversal.
 ///
 /// Meshes that never move need no filter: see [`set_moving`](crate::CollisionDetector::set_moving).
 ///

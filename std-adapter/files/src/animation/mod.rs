@@ -1,10 +1,10 @@
 //! Figures of glTF 2.0 files (`.gltf`, `.glb`): meshes of one node or of a whole scene, and the motion of their vertices in one
 //! animation.
 //!
-//! The reader takes the triangles of each mesh (lists, strips and fans), all its primitives one after the other, with their morph
-//! targets; the node's skin; and one animation's channels of translation, rotation, scale and weights, with interpolation `STEP`,
-//! `LINEAR` (rotations along the shorter arc) and `CUBICSPLINE`. A file without animations is a figure that rests. Looks, lights
-//! and cameras are ignored, even if the file requires extensions for them. Points, lines and other channels are
+//! The reader takes the triangles of each mesh (lists, strips and fans), all its primitives in turn, with their morph targets,
+//! and the node's skin. Of one animation it takes the channels of translation, rotation, scale and weights. Interpolation is
+//! `STEP`, `LINEAR` (rotations along the shorter arc) or `CUBICSPLINE`. A file without animations is a figure that rests. Looks,
+//! lights and cameras are ignored, even if the file requires extensions for them. Points, lines and other channels are
 //! [listed](Figure::left_out). Compressed meshes (Draco, meshopt) are refused; the message has the command that converts them.
 //!
 //! Positions are computed in `f64` from the file's numbers, with the same bits on every platform.
@@ -49,9 +49,9 @@ pub struct Choice<'a> {
 /// Reads a moving figure from the glTF file at `path`, with the files beside it that it names.
 ///
 /// # Errors
-/// Returns an error if a file cannot be read, is no glTF 2.0 or declares more than it holds; if it has no such node or animation,
-/// or several; if it requires an extension that changes shapes; if a number is not finite, or a vertex names a joint or a vertex
-/// that does not exist. The message names the file, and the node, channel or vertex.
+/// Returns an error if a file cannot be read, is no glTF 2.0 or declares more than it holds. The node and the animation must
+/// exist and be unique. Other errors are a required extension that changes shapes, a number that is not finite, and a joint or
+/// vertex that does not exist. The message names the file, and the node, channel or vertex.
 pub fn read(path: &Path, choice: &Choice<'_>) -> Result<Figure, AnimationError> {
     read_from(&FileSource::Disk, path, choice)
 }

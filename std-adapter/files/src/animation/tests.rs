@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use selvedge_core::glam::{DAffine3, DQuat, DVec3};
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
 
-/// A strip of two triangles. The upper two vertices follow the upper of two joints, which lies a metre up and turns by a quarter
+/// A strip of two triangles. The upper two vertices follow the upper of two joints. It lies a metre up and turns by a quarter
 /// about z in the second from 1 to 2. The joint itself moves along x. One morph target lifts vertex 0 along z.
 const NUMBERS: [(&str, &[f32]); 9] = [
     ("positions", &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 2.0, 0.0, 1.0, 2.0, 0.0]),

@@ -83,9 +83,9 @@ pub struct MeshFile {
 /// Reads the mesh file at `path`, in the format that its extension names.
 ///
 /// # Errors
-/// Returns an error if the file cannot be read, is not in its format, ends early or goes on too long, has a coordinate that is
-/// not finite, a face with fewer than three vertices or one that does not exist, or no face at all. The message names the file
-/// and the line, element or vertex.
+/// Returns an error if the file cannot be read, is not in its format, is too short or too long, or has no face. Coordinates must
+/// be finite, and each face needs at least three vertices, which must exist. The message names the file and the line, element or
+/// vertex.
 pub fn read(path: &Path) -> Result<MeshFile, MeshError> {
     let read = load(&FileSource::Disk, path, &ReadOptions::default()).and_then(Parsed::into_file);
     read.map_err(|problem| MeshError::file(path, problem))
@@ -103,9 +103,9 @@ pub struct LooseMesh {
     pub notes: MeshNotes,
 }
 
-/// Reads the mesh file at `path` like [`read`], together with edges and points that belong to no triangle. These are the lines
-/// `l` (each piece of one is an edge) and `p` of an OBJ file, and the element `edge` (`vertex1`, `vertex2`) of a PLY file. A PLY
-/// file with neither faces nor edges is a cloud of points: all its vertices.
+/// Reads the mesh file at `path` like [`read`], together with edges and points that belong to no triangle. In OBJ these are the
+/// lines `l` (each piece of one is an edge) and `p`; in PLY they are the element `edge` (`vertex1`, `vertex2`). A PLY file with
+/// neither faces nor edges is a cloud of points: all its vertices.
 ///
 /// # Errors
 /// Returns the errors of [`read`], except that a file may have edges or points alone. Also returns an error if one of these names

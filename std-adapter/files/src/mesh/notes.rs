@@ -28,7 +28,7 @@ impl MeshNotes {
         !self.left_out.iter().any(|part| part.may_have_area)
     }
 
-    /// Returns the parts that were left out and may have an area as a phrase, such as `1 line 'surf' (line 12)`, or `None` if there are none.
+    /// Names the parts that were left out and may have an area, as in `1 line 'surf' (line 12)`; `None` without such parts.
     #[must_use]
     pub fn missing(&self) -> Option<String> {
         missing(&self.left_out)

@@ -1,10 +1,10 @@
 //! Wavefront OBJ: lines `v` and `f`, and `l` and `p` on request.
 //!
-//! This reader is our own because a collision pair is reported by the numbers of its vertices, so they must be the file's, and
-//! its positions must be exact. No crate keeps both (looked at in their current versions). `tobj` renumbers vertices in the order
-//! of their first use and drops the rest. `obj`, `obj-rs` and `wobj` hold 32-bit coordinates. `wavefront_obj` numbers vertices
-//! for each object separately and refuses faces that name vertices of another. `wavefront-obj-io` refuses negative indices and
-//! needs a newer compiler than we promise. None reports the lines that it skips.
+//! A collision pair is reported by the numbers of its vertices, so they must be the file's, and its positions must be exact. No
+//! current crate keeps both, so this reader is our own. `tobj` renumbers vertices in the order of their first use and drops the
+//! rest. `obj`, `obj-rs` and `wobj` hold 32-bit coordinates. `wavefront_obj` numbers vertices for each object separately and
+//! refuses faces that name vertices of another. `wavefront-obj-io` refuses negative indices and needs a newer compiler than we
+//! promise. None reports the lines that it skips.
 
 use super::error::FileProblem;
 use super::notes::{FilePart, LeftOut};

@@ -76,13 +76,13 @@ pub enum SequenceProblem {
 }
 
 /// Reads numbered OBJ or PLY files as the frames of one mesh. `pattern` is a path whose file name has one run of `#` in place of
-/// the number (`body-####.ply`), which has as many digits as there are `#`, or more. It may also be a folder whose mesh files are
-/// one such sequence. Frames go from the lowest number to the highest without a gap.
+/// the number (`body-####.ply`). The number has at least as many digits as there are `#`. It may also be a folder whose mesh
+/// files are one such sequence. Frames go from the lowest number to the highest without a gap.
 ///
 /// # Errors
 /// Returns the errors of [`read`](super::read) for any of the files. Also returns an error if a file has parts with an area that
-/// the reader leaves out; if there are no files, or a number is missing or occurs twice; or if a frame differs from the first in
-/// its triangles or its number of vertices. That message names both files and the first difference.
+/// the reader leaves out. It needs at least one file, and each number once. A frame may not differ from the first in its
+/// triangles or its number of vertices; the message then names both files and the first difference.
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;

@@ -1,8 +1,8 @@
 //! STL, text and binary. The format has no vertex numbers, so vertices in exactly the same place are one, numbered by their first
 //! appearance.
 //!
-//! This reader is our own because `stl_io` reads text as 32-bit numbers and skips unknown lines, and neither it nor `nom_stl`
-//! refuses a loop of other than three vertices. The binary form is fifty bytes a triangle.
+//! This reader is our own because `stl_io` reads text as 32-bit numbers and skips unknown lines. Neither it nor `nom_stl` rejects
+//! a loop of other than three vertices. The binary form is fifty bytes a triangle.
 
 use super::error::FileProblem;
 use super::notes::{FilePart, LeftOut};

@@ -8,9 +8,9 @@
 //!   root if no **inside function** gᵢ = (eᵢ × eᵢ₊₁)·n is negative there. These are quartics; their control values follow from
 //!   those of the two quadratics in the product. If all five control values have one strict sign, that is the sign at the root. A
 //!   function that is negative throughout excludes contact, even if the pair is coplanar.
-//! * Otherwise the function is reduced modulo the cubic, which keeps its value at the cubic's root: c²·g = q·K + r, where c is
-//!   the leading coefficient of K and r has degree two. The sign of r at the root follows from the order of that root and the
-//!   roots of r. That order follows from the signs of K at the roots of r.
+//! * Otherwise the function is reduced modulo the cubic, which keeps its value at the cubic's root: c²·g = q·K + r. Here c is the
+//!   leading coefficient of K, and r has degree two. The sign of r at the root follows from the order of that root and the roots
+//!   of r. That order follows from the signs of K at the roots of r.
 //!
 //! In exact arithmetic this is a decision. The paper uses expansions if floating point is in doubt. Here rounding is ignored, to
 //! show the cost of the classification alone and how often it then errs. The reduction suffers most: if K is nearly of lower

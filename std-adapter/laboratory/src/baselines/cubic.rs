@@ -1,7 +1,7 @@
 //! The plain cubic test of Provot 1997, as a baseline. **Not certified: it misses contacts.**
 //!
-//! The four points are coplanar at the roots of a cubic. At each root in [0, 1], earliest first, the test checks whether the vertex
-//! lies in the triangle (barycentric coordinates in [0, 1]), or whether the two lines' nearest points lie on both edges.
+//! The four points are coplanar at the roots of a cubic. The test takes each root in [0, 1], earliest first. It checks whether
+//! the vertex lies in the triangle (barycentric coordinates in [0, 1]), or the two lines' nearest points lie on both edges.
 //! Everything is computed in plain floating point without a tolerance, so the answer is sometimes wrong either way:
 //! * Pairs that are coplanar throughout (the cubic is zero) count as free of contact, and so do parallel edges.
 //! * Rounding may lose a double root (a graze).

@@ -1,8 +1,8 @@
 //! Bounds along nine directions: x, y, z and the diagonals x±y, x±z, y±z.
 //!
-//! [`separated`] is our reading of the subspace filters of Tang, Li and Wang 2011; [`Dop18`] is the swept bounding volume of Hutter and
-//! Fuhrmann 2007, who keep one for every vertex, edge and triangle. Neither culls a pair that touches, in any floating-point
-//! environment. NaN and infinite coordinates keep the pair.
+//! [`separated`] is our reading of the subspace filters of Tang, Li and Wang 2011. [`Dop18`] is the swept bounding volume of
+//! Hutter and Fuhrmann 2007, who keep one for every vertex, edge and triangle. Neither culls a pair that touches, in any
+//! floating-point environment. NaN and infinite coordinates keep the pair.
 //!
 //! # Why sums may round
 //! Rounding is monotone in any direction: x ≤ y implies fl(x) ≤ fl(y). So fl(a) > fl(b) proves a > b. A coordinate along a diagonal is
@@ -11,8 +11,8 @@
 //! Flushed operands break that: with λ the smallest normal number, λ/2 + λ/2 becomes 0. Hence one value must exceed the other plus
 //! g = η/u, far above λ. Let A = fl(a + b) > fl(Z + g) with Z = fl(c + d).
 //! * |Z| ≤ g/16u: then A ≥ Z + g/2, and all roundings and flushed operands together are less than g/2.
-//! * |Z| > g/16u: at most one operand of a sum of that size is flushed. The sums of the others are multiples of a step far above λ, or
-//!   differ by a normal operand, which is more than what was flushed.
+//! * |Z| > g/16u: at most one operand of a sum of that size is flushed. The sums of the others are multiples of a step far above
+//!   λ, or differ by a normal operand, which exceeds the flushed one.
 //!
 //! Coordinates need the gap as well. A compiler may add zero to them, to make one vector operation of comparisons of coordinates
 //! and of sums, and that flushes one side only.

@@ -1,8 +1,9 @@
 //! The paper's non-coplanarity filter as printed. **Not certified**: rounding can make it cull a colliding pair.
 //!
-//! The presets `tang_2010` and `lv_2014` reproduce this baseline (Lv, He, Mi, equations 1 to 14; the same filter as Tang,
-//! Manocha, Tong 2010). The plane's normal in the middle of the step comes from the velocities, n̂ = (n₀ + n₁ − (v_b − v_a)×(v_c
-//! − v_a)) / 2. The signs of A, B, 2C + F and 2D + E count as computed. Prefer [`certified`](selvedge_core::filter::certified).
+//! The presets `tang_2010` and `lv_2014` reproduce this baseline. It is Lv, He, Mi, equations 1 to 14, and the same filter as
+//! Tang, Manocha, Tong 2010. The plane's normal in the middle of the step comes from the velocities, n̂ = (n₀ + n₁ − (v_b −
+//! v_a)×(v_c − v_a)) / 2. The signs of A, B, 2C + F and 2D + E count as computed. Prefer
+//! [`certified`](selvedge_core::filter::certified).
 
 use selvedge_core::batch::PointsTest;
 use selvedge_core::verification::coplanarity::ControlValues;

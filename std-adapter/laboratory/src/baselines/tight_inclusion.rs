@@ -3,7 +3,7 @@
 //! misses, but has **no useful bound of its work**.
 //!
 //! F(t, u, v) is the difference of two points: one set's at parameter u (or the vertex), and the other's at v (or the face's at
-//! u, v). It is linear in each variable, so its values on a box lie in the box of its values at the corners. If that box does not
+//! u, v). F is linear in each variable, so its values on a box lie in the box of its values at the corners. If that box does not
 //! contain the origin, up to the error of evaluation, there is no contact. Otherwise the search halves the box, until F's values
 //! on it span less than the tolerance on each axis.
 //!
@@ -17,7 +17,7 @@
 //! the evaluation here, linear in the coordinates.
 //!
 //! # Rounding
-//! F is evaluated from positions: those at t (1 − t, two products, a sum), weighted (1 − u − v, a product, two sums), and a
+//! F comes from the positions at t (1 − t, two products, a sum), their weighted sums (1 − u − v, a product, two sums), and a
 //! difference. A monomial passes through at most 9 roundings. The magnitudes add up to at most 4m for coordinates up to m on that
 //! axis (|1 − u − v| + u + v ≤ 3). The error is thus 36εm to first order, and ε = 2u in any direction of rounding. The bound
 //! 80u·max(1, m) covers that and the second order; the 1 covers underflow. (The published code has min(1, m), which does not

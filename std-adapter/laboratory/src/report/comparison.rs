@@ -22,9 +22,9 @@ const COLUMNS: [(&str, &[&str]); 7] = [
 /// The column with a bar beside each number.
 const FRAMES_PER_SECOND: usize = 8;
 
-/// Returns a method's name, with a dagger if it is reconstructed, and its numbers: mean pairs a step after distribution, boxes
-/// and filters, contacts, frames a second, and the paper's numbers if it has them. A dash stands for a stage that the method
-/// lacks.
+/// Returns a method's name, with a dagger if it is reconstructed, and its numbers. They are mean pairs a step after distribution,
+/// boxes and filters, contacts, frames a second, and the paper's numbers if it has them. A dash stands for a stage that the
+/// method lacks.
 fn cells(row: &ComparisonRow) -> (String, Vec<String>) {
     let survivors = |wanted: fn(Stage) -> bool| {
         let last = row.stages.iter().rfind(|stage| wanted(stage.stage));

@@ -81,8 +81,8 @@ fn comparison_record(row: &ComparisonRow) -> Vec<String> {
 }
 
 /// Writes contacts as `kind,i0,i1,i2,i3,time`: vertex–face first, each kind in the order given. For VF, i0 is the vertex and i1
-/// to i3 are the face's. For EE, i0, i1 and i2, i3 are the two edges. Vertices count from 0 as in the mesh's file; times are in
-/// [0, 1] of the step, written so that they read back exactly as `f64`.
+/// to i3 are the face's. For EE, i0, i1 and i2, i3 are the two edges. Vertices count from 0 as in the mesh's file. Times are in
+/// [0, 1] of the step; as `f64` they read back exactly.
 ///
 /// # Errors
 /// Returns the errors of `out`.

@@ -1,5 +1,5 @@
-//! Reports where surfaces pass through each other, in meshes at rest and in scenes at their start: a list, and a mesh with the
-//! place in red.
+//! Reports where surfaces pass through each other, in meshes at rest and in scenes at their start. Writes a list, and a mesh with
+//! the place in red.
 
 use super::number::{counted, few, grouped, time};
 use super::tables;

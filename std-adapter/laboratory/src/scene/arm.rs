@@ -1,6 +1,6 @@
 //! A sleeve on an arm that bends at the elbow until the inner side folds onto itself.
 //!
-//! The motion is a formula, not a simulation. A position depends only on the position at rest and on the time, so any frame is
+//! The motion is a formula, not a simulation. A position depends only on the position at rest and on the time. So any frame is
 //! available without earlier ones, and every refinement of the sleeve moves alike. The cloth may pass through itself: late in the
 //! bend, the prescribed motion takes the folds into each other.
 //!
@@ -17,8 +17,8 @@ use std::f64::consts::TAU;
 const BEND: f64 = 2.5;
 /// The place of the elbow's middle along the sleeve.
 const ELBOW: f64 = 0.29;
-/// The bend is spread over this length of the sleeve on either side of the elbow. Its radius at the end, 2 × 0.06 / 2.5 = 0.048,
-/// is less than the sleeve's there, 0.062: the inner side has no room left and must meet itself.
+/// The bend is spread over this length of the sleeve on either side of the elbow. At the end its radius is 2 × 0.06 / 2.5 =
+/// 0.048, less than the sleeve's there, 0.062. So the inner side must meet itself.
 const BEND_REACH: f64 = 0.06;
 /// The relative excess of the sleeve's width over its depth at the elbow.
 const FLATTENING: f64 = 0.12;

@@ -16,8 +16,8 @@ pub struct EffectCost {
     pub seconds: f64,
 }
 
-/// Runs the scene that `read` returns without effects, with the first one, with the first two, and so on, in the order in which
-/// they run. Each run takes `steps` steps from the start. Calls `progress` with the share that is done.
+/// Runs the scene that `read` returns without effects, with the first one, with the first two, and so on. Each run takes `steps`
+/// steps from the start. Calls `progress` with the share that is done.
 ///
 /// # Errors
 /// Returns an error if the scene cannot be read or set up.

@@ -1,4 +1,4 @@
-//! The answers to the hard cases of `selvedge hard-cases` are exact, and Selvedge's methods are right on all of them and on their
+//! The answers to the hard cases of `selvedge hard-cases` are exact. Selvedge's methods are right on all of them and on their
 //! neighbours in the last place.
 
 use selvedge_core::Scalar;

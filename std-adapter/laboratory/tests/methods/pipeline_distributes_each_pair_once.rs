@@ -1,5 +1,5 @@
-//! The pipeline agrees with its definition, over small degenerate meshes: no pair is lost, none is met twice, and every preset
-//! ends with the pairs that its own tests leave.
+//! The pipeline agrees with its definition on small degenerate meshes. No pair is lost or found twice, and every preset ends with
+//! the pairs that its own tests leave.
 
 use proptest::prelude::*;
 use selvedge::PairCounts;

@@ -1,9 +1,9 @@
 //! PLY in its three encodings, with faces, triangle strips, and loose edges on request.
 //!
-//! This reader is our own because `ply-rs-bw`, the best maintained crate, refuses text that C writes and reads (`.5`, `1e5`,
-//! `nan` in an unused property, lines that end in CR). It makes a table of names and values for each element, which takes twenty
-//! times as long, and does not check that a header's counts fit the file. `plyfile`-style crates read 32-bit coordinates, or no
-//! lists of unknown properties.
+//! This reader is our own. The best maintained crate, `ply-rs-bw`, rejects text that C writes and reads (`.5`, `1e5`, `nan` in an
+//! unused property, lines that end in CR). It makes a table of names and values for each element, which takes twenty times as
+//! long. It does not check that a header's counts fit the file. `plyfile`-style crates read 32-bit coordinates, or no lists of
+//! unknown properties.
 
 mod body;
 mod header;

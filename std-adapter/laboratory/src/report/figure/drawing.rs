@@ -101,7 +101,7 @@ impl Drawing<'_> {
     }
 }
 
-/// Returns faces without a mark from the furthest to the nearest, then everything with one in the same order, so that cloth never
+/// Returns faces without a mark from the furthest to the nearest, then everything with a mark in the same order. So cloth never
 /// hides a mark.
 ///
 /// A face is as deep as its middle. Edges and vertices lie on faces, so edges come half an edge's length nearer, and vertices a

@@ -18,7 +18,7 @@ pub const FIGURE_SIZE: [u32; 2] = [1600, 1000];
 
 /// Draws a mesh twice, side by side, with the primitives of two sets of candidate pairs marked. Returns the PNG file's bytes.
 ///
-/// The marks are those of Figure 3 in Lv, He, Mi: vertices of vertex–face pairs are blue, their faces yellow, and edges of
+/// The marks are those of Figure 3 in Lv, He, Mi. Vertices of vertex–face pairs are blue, their faces yellow, and edges of
 /// edge–edge pairs green. The view is orthographic, from the side to which the mesh bends, so that the inner side of an elbow
 /// faces the viewer. Cloth without a mark never hides a mark. If the right panel's marks are in a small part of the mesh, both
 /// panels show that part close up.

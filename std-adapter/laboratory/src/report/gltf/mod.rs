@@ -158,7 +158,7 @@ fn differences(to: &[[f32; 3]], from: &[[f32; 3]]) -> Vec<[f32; 3]> {
     pairs.map(|(a, b)| [a[0] - b[0], a[1] - b[1], a[2] - b[2]]).collect()
 }
 
-/// Returns the animation. At the time of frame k the weight of target k − 1 is 1 and all others are 0; the first frame has no
+/// Returns the animation. At the time of frame k the weight of target k − 1 is 1, and others are 0; the first frame has no
 /// target. Rigid parts have their poses.
 fn animation(
     binary: &mut Binary,

@@ -22,7 +22,7 @@ const LEGEND: [(Look, &str); 4] = [
 
 /// Plots accuracy against time, as an SVG picture with its own light background: one panel for each set of pairs and format.
 ///
-/// The horizontal axis is time per pair, logarithmic and the same in all panels: sixteen pairs side by side on the best
+/// The horizontal axis is time per pair, logarithmic and the same in all panels. It is for sixteen pairs side by side on the best
 /// instruction set, unless the name says otherwise. The vertical axis is the share of pairs that the filter culls, among those
 /// that exact arithmetic culls; each line is ten times closer to all. Filters without a proof have no place on that axis. They
 /// are in a strip of their own, with the number of pairs that they cull without proof.

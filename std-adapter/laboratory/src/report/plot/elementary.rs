@@ -36,8 +36,8 @@ fn look(method: ElementaryTest) -> Look {
     }
 }
 
-/// Plots the accuracy of the time of impact against time, as an SVG picture with its own light background: one panel for each set
-/// of pairs and format.
+/// Plots the accuracy of the time of impact against time, as an SVG picture with a light background. Each set of pairs and format
+/// has a panel.
 ///
 /// The horizontal axis is time per pair, logarithmic and the same in all panels. The vertical axis is the median error of a
 /// contact's time, ten times less from line to line. A line joins the tolerances of one test. Tests that may miss contacts, or

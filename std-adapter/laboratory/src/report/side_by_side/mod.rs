@@ -1,7 +1,7 @@
 //! Compares two simulations on one page, which needs no scripts.
 //!
-//! The page has pictures of both at the same times from the same place, numbers with their ratios, charts of energy and stretch,
-//! and the differences of their scenes.
+//! The page has pictures of both at the same times from the same place, and the differences of their scenes. Numbers have ratios;
+//! charts show energy and stretch.
 
 mod chart;
 mod rows;

@@ -1,4 +1,4 @@
-//! Colours the surfaces: a sun with shadows, light from the sky and from the floor, and a lamp at the eye that keeps folds in the
+//! Colours the surfaces. Light comes from a sun with shadows, the sky, the floor, and a lamp at the eye, which keeps folds in the
 //! shade legible.
 
 use super::raster::Raster;

@@ -2,8 +2,9 @@
 //!
 //! # Pairs
 //! A [`PairSet`] is measured in `f32` and in `f64`. In either format a filter is compared with exact arithmetic **on the
-//! coordinates that it gets**: those of a scene rounded to that format, those of nearly coplanar pairs made in it. All rows of
-//! one set and one format thus share pairs and truth, while `f32` and `f64` stand for programs with positions in that format.
+//! coordinates that it gets**. Those of a scene are rounded to that format; those of nearly coplanar pairs are made in it. All
+//! rows of one set and one format thus share pairs and truth, while `f32` and `f64` stand for programs with positions in that
+//! format.
 //!
 //! # Truth
 //! Exact arithmetic ([`selvedge_core::verification::exact`]) culls a pair if the four control values have one strict sign, and
@@ -215,8 +216,8 @@ fn scene_pairs(mesh: Option<&dyn Frames>, options: AccuracyOptions) -> Result<Sc
     })
 }
 
-/// Measures every filter on candidate pairs of the arm scene, those of all steps of `mesh` if there is one, nearly coplanar pairs
-/// and pairs far from the origin. Calls `progress` with the share that is done.
+/// Measures every filter on candidate pairs of the arm scene and of all steps of `mesh`, if given, nearly coplanar pairs and
+/// pairs far from the origin. Calls `progress` with the share that is done.
 ///
 /// # Errors
 /// Returns an error if threads cannot be started, a frame is not finite, or backends disagree.

@@ -1,9 +1,9 @@
 //! Measures what accuracy costs in time, for elementary tests: every test on the same pairs, at tolerances from 1e-2 to 1e-12.
 //!
 //! # Pairs
-//! The sets are the [hard cases](crate::hard_cases) that a format holds exactly, and, as for filters, candidates of real steps
-//! and nearly coplanar pairs whose swept boxes overlap. A slow test runs on fewer pairs: in random order until its
-//! [budget](AccuracyOptions::budget) is used up. Its counts are of these pairs.
+//! The sets are the [hard cases](crate::hard_cases) that a format holds exactly, candidates of real steps, and nearly coplanar
+//! pairs whose swept boxes overlap. A slow test runs on fewer pairs: in random order until its [budget](AccuracyOptions::budget)
+//! is used up. Its counts are of these pairs.
 //!
 //! # Truth
 //! *Whether* a pair touches is decided exactly, in whole numbers, by [`selvedge_core::elementary::contact`](mod@contact), on the
@@ -125,8 +125,8 @@ struct Questions<S: Scalar> {
     truth: Vec<ExactAnswer>,
 }
 
-/// Measures every elementary test on hard cases, on candidates of the arm scene and of all steps of `mesh` if there is one, and
-/// on nearly coplanar pairs. Calls `progress` with the share that is done.
+/// Measures every elementary test on hard cases, candidates of the arm scene and of all steps of `mesh`, if given, and nearly
+/// coplanar pairs. Calls `progress` with the share that is done.
 ///
 /// # Errors
 /// Returns an error if threads cannot be started or a frame is not finite.
