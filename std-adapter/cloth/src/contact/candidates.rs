@@ -15,28 +15,28 @@ use std::sync::Arc;
 /// Pairs near the state.
 pub(super) type Candidates = NearPairs<OfContact>;
 
-/// How far beyond the thickness the search for candidates goes, in thicknesses: a larger value makes longer lists that last
-/// longer. Most of the work of a step is what it does with each candidate, unless vertices move far because steps are long.
-/// Measured, in processor time, with 0.3 and 0.2: a sleeve of 40 thousand triangles 77 and 68 s (73 s with 0.13), sheets of 10
-/// and 50 thousand that land on a ball 6.8 and 6.7 s, 24 and 22 s, a shirt on a figure that walks in steps of 4 ms 6.0 and 6.9 s.
+/// How far beyond the thickness the search for candidates goes, in thicknesses. A larger value makes longer lists that last
+/// longer. Most of the work of a step is what it does with each candidate, unless vertices move far because steps are long. The
+/// processor times with 0.3 and 0.2 are: a sleeve of 40 thousand triangles 77 and 68 s (73 s with 0.13), sheets of 10 and 50
+/// thousand that land on a ball 6.8 and 6.7 s, 24 and 22 s. A shirt on a figure that walks in steps of 4 ms takes 6.0 and 6.9 s.
 const REACH: f64 = 0.2;
 /// The value of [`REACH`] in steps that are longer than [`SHORT`].
 const REACH_OF_LONG: f64 = 0.3;
 /// The longest of short steps, in seconds; it lies between the measured steps of 1 ms and of 4 ms.
 const SHORT: f64 = 2.5e-3;
-/// How far beyond the thickness the search goes along directions other than the axes, in thicknesses, for neighbours, for other
-/// pairs of cloth, and for pairs with a body. For cloth: pairs that come that [near](MARGIN) are pushed apart before they are
-/// within the thickness; with a smaller value, tightly folded cloth slipped more. The cloth between neighbours holds them apart:
-/// with zero for them a sheet of 130 thousand triangles that lands on a ball has half as many candidates, and takes as long. With
-/// zero for bodies the arm sleeve has 9 to 15 % fewer, and repairs take as long as before.
+/// How far beyond the thickness the search goes along directions other than the axes, in thicknesses. The values are for
+/// neighbours, other pairs of cloth, and pairs with a body. Pairs of cloth that come that [near](MARGIN) are pushed apart before
+/// they are within the thickness. With a smaller value, tightly folded cloth slipped more. The cloth between neighbours holds
+/// them apart. With zero for them a sheet of 130 thousand triangles that lands on a ball has half as many candidates, and takes
+/// as long. With zero for bodies the arm sleeve has 9 to 15 % fewer, and repairs take as long as before.
 const MARGINS: [f64; CLASSES] = [0.0, MARGIN, 0.0];
 /// The largest number of steps to look ahead.
 const FARTHEST: u32 = 4;
 /// The value of [`FARTHEST`] on a fine mesh, where few candidates pass the sieve.
 const FARTHEST_OF_FINE: u32 = 8;
 /// The cost of a candidate in a step (constraints and certificate), in units of the cost to find a candidate that boxes let
-/// through: 30 and 50 ns on a sheet of 130 thousand triangles that lands on a ball, before the search became faster. With 1.0 a
-/// sleeve of 40 thousand takes 79 s, with 0.6 77 s.
+/// through. These were 30 and 50 ns on a sheet of 130 thousand triangles that lands on a ball, before the search became faster.
+/// With 1.0 a sleeve of 40 thousand takes 79 s, with 0.6 77 s.
 const UPKEEP: f64 = 0.6;
 
 /// The pairs that contact keeps apart.

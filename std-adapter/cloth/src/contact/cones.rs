@@ -10,8 +10,8 @@
 //!
 //! **It is safe to drop the others.** If the way leaves the cone, another feature of the body is strictly nearer to the same
 //! cloth. That feature makes another pair, and the nearest of all such pairs is never dropped. This also holds for concave, open
-//! and non-manifold surfaces, since the test looks at edges and faces one by one, and needs no normals and no orientation. It
-//! concerns pushes alone: certificates look at every pair.
+//! and non-manifold surfaces. The test looks at edges and faces one by one, and needs no normals and no orientation. It concerns
+//! pushes alone: certificates look at every pair.
 //!
 //! Cones are those of the body at the start of the step, so that it may change its shape. Cloth against cloth has no cones: a
 //! fold lies beside itself, and a cone would drop the pairs that keep it open.
@@ -21,8 +21,8 @@ use selvedge_core::glam::DVec3;
 
 /// Weights below this count as zero: the closest point is on the feature without that vertex.
 const LEAST_WEIGHT: f64 = 1e-9;
-/// The sine of the angle up to which a way counts as within the cone. Faces in a plane have a sine of zero, apart from rounding:
-/// about 10⁻¹⁶ times coordinates over distance, which is below this value for coordinates up to 10⁷ times the distance.
+/// The sine of the angle up to which a way counts as within the cone. Faces in a plane have a sine of zero, apart from rounding.
+/// This is about 10⁻¹⁶ times coordinates over distance, below this value for coordinates up to 10⁷ times the distance.
 const TOLERANCE: f64 = 1e-6;
 const NONE: u32 = u32::MAX;
 

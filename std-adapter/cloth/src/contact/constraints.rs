@@ -7,11 +7,11 @@
 //!
 //! Contacts with a body are those with its [surface](super::cones).
 //!
-//! **Only necessary work.** The step computes the closest points of a pair when its turn to push comes, and not if the direction
-//! that it stores keeps it at its thickness by then: where cloth lies on something, each vertex has many pairs, and a push or two
-//! correct all of them. On a figure that walks in a shirt a third of the pairs that would come too near by themselves are left. A
-//! pair without a stored direction always needs its closest points: if many have none, as after a checkpoint, the step finds
-//! [several at once](Known).
+//! **Only necessary work.** The step computes the closest points of a pair when its turn to push comes. It does not if the
+//! direction that the pair stores keeps it at its thickness by then. Where cloth lies on something, each vertex has many pairs,
+//! and a push or two correct all of them. On a figure that walks in a shirt a third of the pairs that would come too near by
+//! themselves are left. A pair without a stored direction always needs its closest points. If many have none, as after a
+//! checkpoint, the step finds [several at once](Known).
 
 use super::candidate::{Aim, Candidate, ClosestOfSome};
 use super::cones::Cones;
@@ -182,7 +182,7 @@ impl Contacts {
     }
 
     /// Replaces the contacts by the pairs that are near at the start of the step. It leaves out a pair if the direction that kept
-    /// it apart there also keeps it at its thickness at the predicted end of the step.
+    /// it apart there also suffices at the predicted end of the step.
     pub(super) fn collect(&mut self, pairs: &mut [Candidate], rules: Rules<'_>, predicted: &[DVec3]) {
         self.clear();
         parallel::map_chunks(
@@ -355,7 +355,7 @@ struct Known {
 }
 
 impl Known {
-    /// Finds the closest points if all pairs are of one kind and store no direction: then all of them are needed, whatever is
+    /// Finds the closest points if all pairs are of one kind and store no direction. Then all of them are needed, whatever is
     /// pushed first, and otherwise few. Returns whether it did.
     fn find(&mut self, places: &[u32], pairs: &[Candidate], rules: Rules<'_>, start: &[DVec3]) -> bool {
         let asked = || places.iter().map(|&place| &pairs[place as usize]);

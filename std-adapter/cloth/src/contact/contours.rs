@@ -3,7 +3,7 @@
 //! Two things pull, and neither uses the history of the state:
 //!
 //! **The length of contours** (Volino and Magnenat-Thalmann 2006, "Resolving surface collisions through intersection contour
-//! minimization"). A contour consists of segments, each in a triangle T and a face F that pass through each other; each segment
+//! minimization"). A contour consists of segments, each in a triangle T and a face F that pass through each other. Each segment
 //! ends where an edge meets a face. Let an edge of T with the direction e (of length one) meet F, whose normal is n, at p, and
 //! let r be the direction of the segment from there into T. Let the part of T at p move by x, and the part of F by y. Then p
 //! moves by x − (n·(x − y) / n·e)·e, and the segment becomes longer by −r times that:
@@ -17,7 +17,7 @@
 //!
 //! **The side that has gone through**, along the normal. Where contours are parallel, as where a pleat lies in the next one,
 //! their length does not change. A part that has gone through a closed body is inside it, and moves outwards. For cloth it is the
-//! [smaller side](super::sides) of the contour: the edge moves to where its other end is, by ±n times the difference of the two
+//! [smaller side](super::sides) of the contour. The edge moves to where its other end is, by ±n times the difference of the two
 //! sides.
 
 use super::crossing::share_to_plane;
@@ -45,8 +45,8 @@ impl Contours {
     }
 
     /// Replaces `ways` by the direction in which each vertex should move; it has no unit, and is longer than one where the pull
-    /// is strong. `outward` is of a vertex: 1 or −1 if it belongs to a closed body, the sign of its triangles' normals that point
-    /// outwards; otherwise 0.
+    /// is strong. `outward` returns the sign of the normals that point outwards, 1 or −1, for a vertex of a closed body, and 0
+    /// for others.
     pub(super) fn find_ways(
         &mut self,
         topology: &Topology,
@@ -148,7 +148,7 @@ mod tests {
         found
     }
 
-    /// The length of all contours: the sum over pairs of triangles that pass through each other of the distance between the two
+    /// The length of all contours. It is a sum over pairs of triangles that pass through each other: the distance of the two
     /// points at which an edge of one meets the other.
     fn length(topology: &Topology, positions: &[DVec3]) -> f64 {
         let mut ends = std::collections::BTreeMap::<[u32; 2], Vec<DVec3>>::new();

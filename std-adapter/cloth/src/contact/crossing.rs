@@ -1,7 +1,7 @@
 //! Surfaces that pass through each other: the exact test finds which edges meet which faces.
 //!
 //! The certified pass keeps apart pairs that are apart. It would never notice two surfaces that pass through each other far from
-//! any vertex and any other edge: so the detector's [exact test](CollisionDetector::intersections) looks for edges that meet
+//! any vertex and any other edge. So the detector's [exact test](CollisionDetector::intersections) looks for edges that meet
 //! faces.
 
 use super::candidate::Candidate;
@@ -11,8 +11,8 @@ use std::sync::Arc;
 
 /// An edge and a face that have a point, but no vertex, in common.
 ///
-/// Neighbours that are folded flat onto each other may touch without such an edge and face, and so may pairs that are nearer than
-/// rounding can distinguish: then the edge is a vertex, (v, v), or the face an edge, (a, b, b).
+/// Neighbours that are folded flat onto each other may touch without such an edge and face. So may pairs that are nearer than
+/// rounding can distinguish. Then the edge is a vertex, (v, v), or the face an edge, (a, b, b).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
     /// The vertices of the edge, those of bodies after the cloth's.
@@ -109,7 +109,7 @@ impl Crossing {
     }
 }
 
-/// Where an edge meets the plane of a face, as a share of the way from its first end to its second; one half where it lies in the plane.
+/// Where an edge meets the plane of a face, as a share of the way from its first end to its second; one half if it lies there.
 pub(super) fn share_to_plane([a, b]: [DVec3; 2], [c, d, e]: [DVec3; 3]) -> f64 {
     let normal = (d - c).cross(e - c);
     let [above, below] = [normal.dot(a - c), normal.dot(b - c)];

@@ -1,8 +1,8 @@
 //! Impact zones: parts of the cloth that move together (Provot 1997). Their motion is certainly free, and from it each vertex
 //! then goes as far as it [may](super::truncation).
 //!
-//! A zone moves with its mean, which keeps its momentum, or with the body or pin (its carrier) that it touches, which keeps it on
-//! the body. No motion suits a zone that touches two carriers; it rests.
+//! A zone moves with its mean, which keeps its momentum. If it touches a body or pin (its carrier), it moves with that, which
+//! keeps it on the body. No motion suits a zone that touches two carriers; it rests.
 
 use super::candidate::Candidate;
 use crate::model::step::{Carrier, FREE, TimeStep};
@@ -16,8 +16,8 @@ const ALONE: u32 = u32::MAX;
 /// The zones of one step; at first there are none.
 #[derive(Debug, Default)]
 pub(super) struct ImpactZones {
-    /// For each vertex, another vertex of its zone that is nearer to the root; the vertex itself if it is the root, [`ALONE`] if
-    /// it is in no zone.
+    /// For each vertex, another vertex of its zone that is nearer to the root. The root has itself; a vertex in no zone has
+    /// [`ALONE`].
     parents: Vec<u32>,
     /// The carrier of each root's zone.
     carriers: Vec<Carrier>,
@@ -39,7 +39,7 @@ impl ImpactZones {
     /// Joins the cloth of a pair to one zone, with the carrier of the rest of the pair; `carriers` has an entry for each vertex.
     /// Returns whether the zones have changed.
     ///
-    /// A change adds a vertex to a zone, joins two zones, or gives a zone a carrier, or a second one: there are fewer than four
+    /// A change adds a vertex to a zone, joins two zones, or gives a zone a carrier, or a second one. There are fewer than four
     /// changes for each vertex.
     pub(super) fn join(&mut self, pair: &Candidate, carriers: &[Carrier]) -> bool {
         let mut has_changed = false;
@@ -72,7 +72,7 @@ impl ImpactZones {
         has_changed | (*own != before)
     }
 
-    /// Moves the members of each zone from the start of the step with its carrier or its mean; a zone with two carriers does not
+    /// Moves the members of each zone from the start of the step with its carrier or its mean. A zone with two carriers does not
     /// move. Marks those whose positions change.
     pub(super) fn carry(&mut self, step: &TimeStep<'_>, wanted: &[DVec3], positions: &mut [DVec3], moved: &mut [bool]) {
         self.members.sort_unstable();

@@ -4,7 +4,7 @@
 //! not have passed through each other. So an opening is free if
 //!
 //! * all other pairs keep on the way the distance that a step would have to keep, and
-//! * at its end the exact test finds that no pair meets, or is so near that rounding cannot distinguish the two: then the sides
+//! * at its end the exact test finds that no pair meets, or is so near that rounding cannot distinguish the two. Then the sides
 //!   of the tear are apart as well, and certified from there on like any other pair.
 
 use super::candidate::Candidate;

@@ -6,25 +6,26 @@
 //!                                                      └▶ cut: half the step
 //! ```
 //!
-//! **The distance kept.** A pair keeps m_P = min(m, c·d_P − 3E). Here m is its [separation](super::separations), d_P the lower
-//! bound of its distance at the start, along the direction of its closest points there, and E the error of gaps ([`GapError`]).
+//! **The distance kept.** A pair keeps m_P = min(m, c·d_P − 3E). Here m is its [separation](super::separations), and E the error
+//! of gaps ([`GapError`]). d_P is the lower bound of its distance at the start, along the direction of its closest points there.
 //! So a pair that starts nearer than m may stay, and a zone that is carried rigidly is free:
 //!
 //! * A carrier that turns by θ shrinks distances on the straight paths of its points by cos(θ/2) at most, which [`LARGEST_TURN`] keeps above c.
-//! * A translation rounds each coordinate once. With |x| ≤ B and the unit roundoff u that moves the gap along a fixed direction by at most 6.1uB, and
-//!   the two computed gaps are off by 49uB each: 105uB in all, less than 2E, as E is 64uB. A computed lower bound is less than the computed gap
-//!   by E and a factor σ = 1 + 2⁻²⁰, at both ends. So the bound at the end is at least d_P − 2E, which is more than m_P.
+//! * A translation rounds each coordinate once. With |x| ≤ B and the unit roundoff u that moves the gap along a fixed direction
+//!   by at most 6.1uB. The two computed gaps are off by 49uB each. This makes 105uB in all, less than 2E, as E is 64uB. A
+//!   computed lower bound is less than the computed gap by E and a factor σ = 1 + 2⁻²⁰, at both ends. So the bound at the end is
+//!   at least d_P − 2E, which is more than m_P.
 //!
 //! This argument takes the *same* direction at both ends, in full precision. The direction of points at a distance d has an error
 //! of about uB/d, which tilts a pair of size L by uBL/d; this is as good as any other direction. But two such directions differ
-//! by that much, and a stored direction is rounded to `f32`: for pairs much longer than their distance, either would cost more
-//! than a share 1 − c of the distance. A pair with d_P ≤ 3E is nearer than rounding can distinguish, and the simulation refuses
-//! it at its start.
+//! by that much, and a stored direction is rounded to `f32`. For pairs much longer than their distance, either would cost more
+//! than a share 1 − c of it. A pair with d_P ≤ 3E is nearer than rounding can distinguish, and the simulation refuses it at its
+//! start.
 //!
 //! **Relaxation.** Pairs that are not free become active, and positions are relaxed until all active pairs are kept apart. Then
-//! the pass tests the pairs of the vertices that have moved: those that are not free become active as well
+//! the pass tests the pairs of the vertices that have moved. Those that are not free become active as well
 //! ([`relaxation`](super::relaxation)). On sleeves that bend, of 1 to 134 thousand triangles, this was enough in every measured
-//! step. Relaxation keeps momentum, and truncation does not: so relaxation gets all of its rounds, though jammed cloth spends
+//! step. Relaxation keeps momentum, and truncation does not. So relaxation gets all of its rounds, though jammed cloth spends
 //! most of a step on them and is truncated all the same.
 //!
 //! **It ends.** Relaxation has a bounded number of rounds ([`Effort`]). The search for a base, and the truncation towards it, end
@@ -276,7 +277,7 @@ struct LookedAt {
     open: Vec<usize>,
 }
 
-/// Up to sixteen pairs of one kind for which no stored direction proves that they stay apart: their next direction is that of
+/// Up to sixteen pairs of one kind for which no stored direction proves that they stay apart. Their next direction is that of
 /// their closest points, found for all at once.
 struct Unsettled<'a> {
     level: Level,
@@ -332,7 +333,7 @@ fn is_free_by_time(pair: &mut Candidate, path: [&[DVec3]; 2], separation: f64, e
     kept < separation && (is_kept_along_start(pair, path, kept, error) || impact(pair, path, kept, error).is_none())
 }
 
-/// Whether the direction of the closest points at the start certainly keeps the pair more than `kept` apart on the way: the gap
+/// Whether the direction of the closest points at the start certainly keeps the pair more than `kept` apart on the way. The gap
 /// along it is linear in time.
 fn is_kept_along_start(pair: &Candidate, path: [&[DVec3]; 2], kept: f64, error: GapError<f64>) -> bool {
     let direction = pair.closest(path[0]).direction;

@@ -1,6 +1,6 @@
 //! Rows of the contact solver: C = n·Σwᵢxᵢ − r ≥ 0, with the direction n and the weights w of the closest points at the start of the step.
 //!
-//! A row pushes its two sides apart to its rest distance r, and may take back later what it has pushed, but no more (projected
+//! A row pushes its two sides apart to its rest distance r. It may take back later what it has pushed, but no more (projected
 //! Gauss-Seidel with accumulated pushes). So several sweeps over all rows converge to the state where each row pushes as much as
 //! it has to.
 //!
@@ -21,8 +21,8 @@ use selvedge_core::glam::DVec3;
 pub struct ProximityPair {
     /// Vertex and face, or first edge and second edge; the cloth's vertices, then those of bodies.
     pub vertices: [u32; 4],
-    /// The weight of each vertex in the way between the closest points: positive on the first side, where they add up to one,
-    /// negative on the other.
+    /// The weight of each vertex in the way between the closest points. Weights are positive on the first side, where they add up
+    /// to one, and negative on the other.
     pub weights: [f64; 4],
     /// The direction from the second side to the first, of length one.
     pub normal: DVec3,
@@ -93,8 +93,8 @@ impl Row {
         }
     }
 
-    /// Records by how much the pair misses its thickness at the start of the step, while there is no shift, and how much that
-    /// would be if bodies moved and the cloth did not.
+    /// Records by how much the pair misses its thickness at the start of the step, while there is no shift. Also records this
+    /// distance for moved bodies and unmoved cloth.
     #[inline]
     pub(super) fn record_missing(&mut self, step: &TimeStep<'_>, positions: &[DVec3], touches: &mut Touches) {
         let ProximityPair {
@@ -169,7 +169,7 @@ impl Row {
     /// Changes the rest distance by the shift, which may bring neighbours of this contact nearer to it.
     ///
     /// Where contacts are squeezed there is no room for their distances. They push just enough to keep the cloth where it was,
-    /// beside bodies where they are now: otherwise pads that close would throw out the cloth between them.
+    /// beside bodies where they are now. Otherwise pads that close would throw out the cloth between them.
     pub(super) fn follow_shift(&mut self, step: &TimeStep<'_>, positions: &[DVec3], touches: &Touches) {
         if touches.is_squeezed(self.recovery) {
             let left = self.left(step, positions);

@@ -8,7 +8,7 @@ use super::settings::ContactSettings;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Separations<'a> {
     /// The separations of pairs of cloth, and of pairs of cloth and bodies, if they are the same for all such pairs, as in most
-    /// scenes: then no pair needs a look-up.
+    /// scenes. Then no pair needs a look-up.
     of_all: Option<[Option<f64>; 2]>,
     settings: &'a ContactSettings,
     exempt: &'a Exempt,

@@ -140,7 +140,7 @@ impl ContactSettings {
         self.of_first[usize::from(is_with_body)]
     }
 
-    /// The distances that each pair of cloth, and each pair with a body, has to keep; only with one cloth are they the same for
+    /// The distances that each pair of cloth, and each pair with a body, has to keep. Only with one cloth are they the same for
     /// all pairs.
     pub(super) fn of_all(&self) -> Option<[Option<Thickness>; 2]> {
         (self.ends.len() == 1).then_some(self.of_first)
@@ -189,6 +189,6 @@ pub(super) const MARGIN: f64 = 2.0 / 3.0;
 
 /// Pairs of cloth are neighbours if their boxes are nearer at rest than this, in thicknesses. They include all pairs with a
 /// thickness of half their distance at rest, and all that would stay candidates while the cloth lies flat. Other pairs are
-/// candidates within 1 + [`MARGIN`] thicknesses and the reach beyond, 1.95 in all along a diagonal: a pair that is no neighbour
+/// candidates within 1 + [`MARGIN`] thicknesses and the reach beyond, 1.95 in all along a diagonal. A pair that is no neighbour
 /// is an eighth farther apart. With 2.0 a sheet of 130 thousand triangles that lands on a ball has a fifth more candidates.
 pub(super) const NEIGHBOURS_AT_REST: f64 = 2.25;

@@ -1,8 +1,8 @@
-//! The area of the surface on either side of each contour: the smaller side is the one that has gone through (global intersection
+//! The area of the surface on either side of each contour. The smaller side is the one that has gone through (global intersection
 //! analysis, Baraff, Witkin and Kass 2003, "Untangling cloth").
 //!
 //! A contour that meets the border of another surface ends inside its own surface, and does not cut it in two (Wicke, Lanker and
-//! Gross 2006, "Untangling cloth with boundaries"). So this module does not flood regions: a point belongs to the side of a
+//! Gross 2006, "Untangling cloth with boundaries"). So this module does not flood regions. A point belongs to the side of a
 //! contour that is nearest to it along edges that are not cut.
 
 use super::crossing::share_to_plane;
@@ -78,8 +78,7 @@ impl Sides {
         }
     }
 
-    /// How much smaller the side of a cut edge's first end is than that of its second, as a share of the sum of both: from −1 to
-    /// 1.
+    /// How much smaller the side of a cut edge's first end is than that of its second, as a share of both: from −1 to 1.
     pub(super) fn excess(&mut self, edge: u32) -> f64 {
         let node = self.nodes[edge as usize];
         let [first, second] = [node, node + 1].map(|node| self.root(node) as usize);
@@ -105,7 +104,7 @@ impl Sides {
         self.reach(ends[1], (1.0 - share) * length, node + 1);
     }
 
-    /// Joins sides along contours. A contour passes from one cut edge to another of the same triangle: their common end is on one
+    /// Joins sides along contours. A contour passes from one cut edge to another of the same triangle. Their common end is on one
     /// of its sides, their others on the other.
     fn join_along_contours(&mut self, topology: &Topology) {
         for edges in topology.triangle_edges() {

@@ -1,12 +1,12 @@
 //! Truncation: if a relaxation leaves pairs that are not free, each vertex goes as far on its way as it may.
 //!
 //! **The base** is a motion for which every pair is free. At first it is the relaxed one. The cloth of pairs that are not free is
-//! carried together ([`impact_zones`](super::impact_zones)), and then that of pairs which have become not free: a zone that is
+//! carried together ([`impact_zones`](super::impact_zones)), and then that of further pairs which are not free. A zone that is
 //! carried rigidly is free ([`pass`](super::pass)). A zone with two carriers can follow neither: it stays where it was when the
 //! step began. There only pairs with parts that the carriers move are not free; those few are relaxed, and the pairs that they
 //! push. A relaxation from the *wanted* place would not end for jammed cloth: thousands of pairs pull it in all directions.
 //! (`violent.toml` with a thousand times its stiffness, 200 steps from a state with up to 12,000 pairs of 800 triangles that are
-//! not free in a step: from the wanted place steps were cut into up to 64 parts, and a step took more than 2.5 s; from the start
+//! not free in a step. From the wanted place steps were cut into up to 64 parts, and a step took more than 2.5 s. From the start
 //! there were 21 cuts, and a step takes 0.5 s.)
 //!
 //! **Truncation.** From the base each vertex moves towards its place after the relaxation, by a share that is the least in any of

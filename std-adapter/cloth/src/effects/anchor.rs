@@ -1,6 +1,6 @@
 //! The anchor of an attached vertex.
 //!
-//! The anchor on a body is a point of its nearest triangle at the start, with its distance in front of the triangle, so that it
+//! The anchor on a body is a point of its nearest triangle at the start, with its distance in front of the triangle. So it
 //! follows bodies that deform as well.
 
 use crate::model::step::{Carrier, TimeStep};

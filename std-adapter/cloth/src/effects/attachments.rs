@@ -5,10 +5,10 @@
 //! that.
 //!
 //! One implicit step solves (M + h²K)·x = M·y + h²k·a + …, where y is the inertial prediction, a the anchor and K the springs'
-//! matrix. The springs are the diagonal part: for all other constraints the mass of a held vertex is m + h²k ([`Memory::hold`]),
+//! matrix. The springs are the diagonal part. For all other constraints the mass of a held vertex is m + h²k ([`Memory::hold`]),
 //! and the vertex starts from (m·y + h²k·a)/(m + h²k). At rest the force is then k·|x − a| whatever else pulls, and light
 //! vertices are held as well as heavy ones. (A spring as one constraint among others would pull its vertex back by as much as the
-//! others moved it, h²/m times the force, which is many edges on a fine mesh.)
+//! others moved it. This is h²/m times the force, many edges on a fine mesh.)
 //!
 //! Coarse levels of stretch and strain limit weigh their seeds in the same way.
 

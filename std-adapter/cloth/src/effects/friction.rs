@@ -1,8 +1,8 @@
 //! Friction: Coulomb's law on positions (Macklin et al. 2014), for every contact that pushed in this step.
 //!
-//! A contact that moved its two sides apart by p may undo up to μ·p of their sliding since the start of the step. It remembers
-//! how much it has undone. So friction may act again when other constraints have moved the cloth or contacts have pushed further:
-//! each time the sum of its corrections is projected into the cone (projected Gauss-Seidel).
+//! A contact that moved its two sides apart by p may undo up to μ·p of their sliding since the start of the step. It stores how
+//! much it has undone. So friction may act again when other constraints have moved the cloth or contacts have pushed further.
+//! Each time the sum of its corrections is projected into the cone (projected Gauss-Seidel).
 
 use super::registration::{Effect, Registration, Scope};
 use crate::effects::plan::Plan;

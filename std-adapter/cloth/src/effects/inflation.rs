@@ -43,8 +43,8 @@ fn read_keyframes(table: &Table<'_>) -> Result<Vec<PressureKey>, SceneError> {
     Ok(keyframes)
 }
 
-/// A pressure on one side of the cloth: from inside on a closed cloth, towards the side from which triangles are
-/// counter-clockwise on an open one. A negative pressure pushes the other way.
+/// A pressure on one side of the cloth. On a closed cloth it acts from inside, on an open one towards the side from which
+/// triangles are counter-clockwise. A negative pressure pushes the other way.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inflation {
     /// Keyframes in order, at least one. The pressure is linear in between, and constant before the first and after the last.

@@ -13,10 +13,10 @@
 //!   stretch e costs ½k(φ)·e² per area, with 1/k(φ) = cos⁴φ/k_u + sin⁴φ/k_v + cos²φ·sin²φ/G (a fabric without transverse
 //!   contraction). Warp and weft separately would leave a diagonal pull to the mesh. Without shear stiffness nothing resists that
 //!   pull, and warp and weft are used.
-//! * **It needs a stretched side.** The three corners of a tube or a fold may come nearer to each other while the triangle gets
-//!   longer in one direction, since it gets flatter in others. So a triangle without a side longer than at rest does not act.
-//!   Otherwise its stretch is at most [`TRUST`] times that of its longest side. Without this rule levels of few triangles prop
-//!   the cloth up. With it the resolution of the coarsest level does not matter.
+//! * **It needs a stretched side.** The three corners of a tube or a fold may approach each other while the triangle gets longer
+//!   in one direction and flatter in others. So a triangle without a side longer than at rest does not act. Otherwise its stretch
+//!   is at most [`TRUST`] times that of its longest side. Without this rule levels of few triangles prop the cloth up. With it
+//!   the resolution of the coarsest level does not matter.
 //!
 //! L levels and the mesh share the stiffness: each level has (L + 1) times the compliance, since each alone would do all of the
 //! work. The mesh keeps its own compliance, because the rest is local.

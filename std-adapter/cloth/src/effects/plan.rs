@@ -141,8 +141,7 @@ impl<'a> Plan<'a> {
         self.scene
     }
 
-    /// Returns the mass of each vertex of the cloth, in kg: a third of the mass of its triangles and half of that of its loose
-    /// edges.
+    /// Returns the mass of each vertex of the cloth, in kg: a third of its triangles' mass and half of its loose edges' mass.
     #[must_use]
     pub fn masses(&self) -> Vec<f64> {
         self.scene.cloth.masses()

@@ -1,8 +1,9 @@
 //! Strain limit: no triangle is stretched beyond a given ratio along any direction.
 //!
-//! For the principal direction d ([`SquaredStretch`]) the constraint |d_u·w_u + d_v·w_v| ≤ limit has the form of stretch, with
-//! coefficients d_u·a + d_v·b, and no compliance. One triangle's correction stretches its neighbours, so some stay a little above
-//! the limit. More `sweeps` bring them closer and take longer. The same limit first acts on all coarse [`levels`](super::levels).
+//! For the principal direction d ([`SquaredStretch`]) the constraint |d_u·w_u + d_v·w_v| ≤ limit has the form of stretch. Its
+//! coefficients are d_u·a + d_v·b, and it has no compliance. One triangle's correction stretches its neighbours, so some stay a
+//! little above the limit. More `sweeps` bring them closer and take longer. The same limit first acts on all coarse
+//! [`levels`](super::levels).
 
 use super::levels::{self, OnLevels, Tension};
 use super::registration::{ActsOn, Effect, Registration};

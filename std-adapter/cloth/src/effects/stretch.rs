@@ -4,11 +4,11 @@
 //! Where w vanishes it has no direction, and nothing is corrected.
 //!
 //! Further `sweeps` keep the multipliers of the earlier ones. They leave less stretch and take longer. On the sheet of
-//! `drop.toml` with 10 thousand triangles 99 % of the edges are stretched by up to 3.4 % after a second with one sweep, and by
-//! 2.7 % with two, in 1.1 times the time.
+//! `drop.toml` with 10 thousand triangles 99 % of the edges are stretched by up to 3.4 % after a second with one sweep. With two
+//! they are stretched by 2.7 %, in 1.1 times the time.
 //!
 //! One iteration moves a pull by one edge, so that finer meshes would be softer. Coarse [`levels`](super::levels) run first to
-//! prevent this. One implicit step of h solves x − h²(k/ρ)·x″ = y for the inertial prediction y, with ρ the mass per area: a pull
+//! prevent this. One implicit step of h solves x − h²(k/ρ)·x″ = y for the inertial prediction y, with ρ the mass per area. A pull
 //! decays by e over the distance h·√(k/ρ). Levels reach [`REACH`] times that distance, where e⁻⁴ remains. A coarser mesh needs no
 //! levels.
 

@@ -1,10 +1,10 @@
 //! Tearing: edges tear when their load is above their strength ([`tearing`](crate::model::tearing)).
 //!
 //! **Still certified.** After the certificate of a step, overloaded edges tear, and the two sides of a tear open by a small share
-//! of an edge. The opening is no part of a step. It is accepted only if the exact test finds no intersection, and if a
-//! certificate shows that nothing passed through anything on the way, except for pairs that had a vertex in common. Otherwise the
-//! tear waits for room. So every state is free, before a tear and after it. While a body or a tangle is excluded from the
-//! guarantee, nothing tears.
+//! of an edge. The opening is no part of a step. It is accepted only if the exact test finds no intersection. A certificate must
+//! also show that nothing passed through anything on the way, except for pairs that had a vertex in common. Otherwise the tear
+//! waits for room. So every state is free, before a tear and after it. While a body or a tangle is excluded from the guarantee,
+//! nothing tears.
 //!
 //! **Cost.** Each step computes the tension of each triangle and the load of each edge. A step after which something tears
 //! rebuilds everything that depends on the mesh: constraints, levels, candidates. While a tear waits, each twentieth step does so

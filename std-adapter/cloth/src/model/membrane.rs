@@ -5,7 +5,7 @@ use crate::world::Cloth;
 use crate::world::Incidence;
 use selvedge_core::glam::{DVec2, DVec3};
 
-/// The material directions of a triangle of cloth (Baraff and Witkin 1998): positions xᵢ give the images w_u = Σaᵢxᵢ of a unit of
+/// The material directions of a triangle of cloth (Baraff and Witkin 1998). Positions xᵢ give the images w_u = Σaᵢxᵢ of a unit of
 /// warp and w_v = Σbᵢxᵢ of a unit of weft. At rest both have length one and are perpendicular. The three coefficients of each sum
 /// to zero, so only the last two are stored.
 #[derive(Clone, Copy, Debug)]

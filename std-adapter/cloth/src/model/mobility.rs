@@ -5,7 +5,7 @@
 ///
 /// A push of p moves vertex i by p·wᵢ/mᵢ over that. If a pinned or heavy vertex has nearly all of the weight, a vertex with
 /// little weight would move far to compensate. The result is then larger, so that no vertex moves farther than twice the push.
-/// This never applies to free vertices of a face if none is more than four times as heavy as another: with that ratio r, w²·r +
+/// This never applies to free vertices of a face if none is more than four times as heavy as another. With that ratio r, w²·r +
 /// (1 − w)²/2 ≥ w·r/2 for all w.
 pub(crate) fn mobility<const N: usize>(inverse_masses: &[f64], vertices: [u32; N], weights: [f64; N]) -> f64 {
     let (mut mobility, mut fastest) = (0.0, 0.0_f64);

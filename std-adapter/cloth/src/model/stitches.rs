@@ -1,8 +1,8 @@
 //! Stitches: the pairs of points that a seam joins.
 //!
 //! Two rows of vertices are laid along each other by their lengths at rest. Each vertex of the row with more vertices is joined
-//! to the point at the same share of the other row's length, between two of its vertices. So rows of different meshes fit, and
-//! rows of equally many evenly spaced vertices are joined one to one.
+//! to the point at the same share of the other row's length. So rows of different meshes fit, and rows of equally many evenly
+//! spaced vertices are joined one to one.
 //!
 //! A stitch is C = |a − (1 − s)·b − s·c| ≤ L, without compliance: Δx = −(|p| − L)·wₖ·∇C/Σw·|∇C|². It only pulls. Contact keeps
 //! the rows apart.

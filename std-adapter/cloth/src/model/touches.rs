@@ -1,8 +1,8 @@
 //! The contacts of a substep, for friction and for recovery.
 //!
 //! **Recovery is no push.** Two sides that start a substep nearer than their thickness have to come apart, but a push would give
-//! them a velocity. So pushes only keep such a contact from getting nearer. A *shift* takes it apart: a displacement that does
-//! not enter the velocity (split impulses: Guendelman, Bridson and Fedkiw 2003 separate the two in the same way).
+//! them a velocity. So pushes only keep such a contact from getting nearer. A *shift* takes it apart, a displacement that does
+//! not enter the velocity. (Guendelman, Bridson and Fedkiw 2003 separate the two in the same way, as split impulses.)
 //!
 //! The shift s treats contacts as soft. Contact i lacks eᵢ of its thickness along nᵢ, moves its sides apart by pᵢ ≥ 0, and yields
 //! as much as its sides do:

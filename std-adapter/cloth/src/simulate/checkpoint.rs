@@ -37,7 +37,7 @@ pub(super) struct TornCloth {
 }
 
 impl TornCloth {
-    /// Whether it is that cloth, perhaps torn: if copies count as their originals its triangles are the same, and they and its
+    /// Whether it is that cloth, perhaps torn. If copies count as their originals its triangles are the same, and they and its
     /// loose edges have all vertices.
     pub(super) fn is_of(&self, cloth: &Cloth) -> bool {
         let made = cloth.vertices_as_made();

@@ -48,9 +48,9 @@ pub enum DriveError {
 }
 
 impl Simulation {
-    /// Moves a [driven](crate::BodyMotion::Driven) body to another placement in the next step: it turns about its origin, the
+    /// Moves a [driven](crate::BodyMotion::Driven) body to another placement in the next step. It turns about its origin, the
     /// shorter way round, and moves along, both evenly. After a step that is cut or has to wait the body is on the way, where
-    /// [`placement`](Self::placement) says; it stays there until the next call.
+    /// [`placement`](Self::placement) says. It stays there until the next call.
     ///
     /// # Errors
     /// Returns an error if there is no such body, it is not driven, or the placement is none.
@@ -65,8 +65,8 @@ impl Simulation {
     /// them separately.
     ///
     /// # Errors
-    /// Returns an error if there is no such body, it is not driven, or the positions are not one for each vertex, finite and
-    /// within a kilometre.
+    /// Returns an error if there is no such body, or it is not driven. Each vertex needs one position, finite and within a
+    /// kilometre.
     pub fn move_body(&mut self, body: usize, positions: &[DVec3]) -> Result<(), DriveError> {
         let driven = self.driven_body(body)?;
         check_positions(positions, driven.vertices.len())?;
@@ -74,12 +74,12 @@ impl Simulation {
         Ok(())
     }
 
-    /// Moves each vertex of a group of driven pins straight to a position, in metres, in the next step; `group` is the index of
+    /// Moves each vertex of a group of driven pins straight to a position, in metres, in the next step. `group` is the index of
     /// the group in [`Pins`](crate::effects::Pins).
     ///
     /// # Errors
-    /// Returns an error if there is no such group, it is not driven, or the positions are not one for each vertex, finite and
-    /// within a kilometre.
+    /// Returns an error if there is no such group, or it is not driven. Each vertex needs one position, finite and within a
+    /// kilometre.
     pub fn move_pins(&mut self, group: usize, positions: &[DVec3]) -> Result<(), DriveError> {
         let groups = self.made.pins.len();
         let carrier = *self.made.pins.get(group).ok_or(DriveError::NoPins { group, groups })? as usize;

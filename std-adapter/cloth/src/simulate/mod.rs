@@ -1,7 +1,7 @@
 //! The steps of a simulation.
 //!
-//! The method is extended position-based dynamics with small steps and one iteration each (Macklin et al. 2016, 2019): forces
-//! change velocities, positions are predicted, constraints correct them, and the new velocity is the change of position over the
+//! The method is extended position-based dynamics with small steps and one iteration each (Macklin et al. 2016, 2019). Forces
+//! change velocities, positions are predicted, and constraints correct them. The new velocity is the change of position over the
 //! length of the step.
 //!
 //! With a contact effect the resulting motion is then certified ([`contact`](crate::contact)), repaired or cut. Bodies and pins

@@ -22,7 +22,7 @@ use std::collections::BTreeMap;
 /// The share of its shortest edge by which the copies of a vertex move apart; later values are for when there is no room.
 const OPENINGS: [f64; 3] = [0.05, 0.01, 0.001];
 
-/// Tears that had no room to open are tried again after each step whose number is a multiple of this: a try makes all data again
+/// Tears that had no room to open are tried again after each step whose number is a multiple of this. A try makes all data again
 /// that depend on meshes, which takes as long as several steps.
 const TRIED_AGAIN: u64 = 20;
 

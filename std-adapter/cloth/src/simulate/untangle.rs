@@ -5,9 +5,9 @@
 //!                                        └─▶ then contacts push until all is apart by its separation, and the cloth relaxes
 //! ```
 //!
-//! Untangling makes steps without forces, inertia and time: bodies and pins rest, and each step starts at rest and moves vertices
-//! along [the way out](crate::contact) by at most [`REACH`]. So stretch, shear, bending and strain limits keep the cloth together
-//! on the way, and new pairs meet only next to those that meet already.
+//! Untangling makes steps without forces, inertia and time. Bodies and pins rest, and each step starts at rest and moves vertices
+//! along [the way out](crate::contact) by at most [`REACH`]. So stretch, shear, bending and strain limits keep the cloth
+//! together. New pairs meet only next to those that meet already.
 
 use super::errors::SetupError;
 use super::simulation::Simulation;
@@ -16,7 +16,7 @@ use selvedge::Mesh;
 use selvedge::clock::Clock;
 use selvedge_core::glam::DVec3;
 
-/// The largest move of a vertex in a step, in mean distances of vertices of the finest cloth: it takes several steps to cross a
+/// The largest move of a vertex in a step, in mean distances of vertices of the finest cloth. It takes several steps to cross a
 /// triangle.
 const REACH: f64 = 0.3;
 /// The number of tries of a step, each with half the reach.
@@ -145,7 +145,7 @@ impl Simulation {
         (pulled + relaxed, end)
     }
 
-    /// Makes a step that moves vertices along their ways, by at most `reach`, or by less if that is not possible; returns false
+    /// Makes a step that moves vertices along their ways, by at most `reach`, or by less if that is not possible. Returns false
     /// if no step is possible.
     fn lead(&mut self, ways: &[DVec3], mut reach: f64) -> bool {
         let h = self.time_step;

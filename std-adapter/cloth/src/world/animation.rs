@@ -76,8 +76,8 @@ impl Animation {
     /// first frame is at time 0.
     ///
     /// # Errors
-    /// Returns an error if there is no frame, the frames differ in their number of vertices, the rate is invalid, or a coordinate
-    /// is not finite or beyond a kilometre.
+    /// Returns an error if there is no frame, the frames differ in their number of vertices, or the rate is invalid. Coordinates
+    /// must be finite and within a kilometre.
     pub fn from_frames(frames: Vec<Vec<DVec3>>, frames_per_second: f64) -> Result<Self, ValueError> {
         RATE.check(frames_per_second)?;
         let wrong = |message: String| Err(ValueError::new("frames", message));

@@ -9,12 +9,12 @@
 //! | leather, sheep nappa of 0.8 mm | 480 g/m² (8) | 2 kN/m (8) | 770 N/m (8) | 44 µN m (6) |
 //! | latex, a sheet of 0.4 mm | 372 g/m² (7) | 480 N/m (7) | 160 N/m (7) | 8.5 µN m (7) |
 //!
-//! 1. Wang, O'Brien and Ramamoorthi 2011, data-driven elastic models for cloth: the fabrics `11oz-black-denim` (99 % cotton) and
-//!    `royal-target` (trousers, 65 % cotton), with their moduli at the smallest strain and curvature. The stiffer direction of
-//!    denim is taken as the warp, since spandex is in the weft.
+//! 1. Wang, O'Brien and Ramamoorthi 2011, data-driven elastic models for cloth. The fabrics are `11oz-black-denim` (99 % cotton)
+//!    and `royal-target` (trousers, 65 % cotton), with their moduli at the smallest strain and curvature. The stiffer direction
+//!    of denim is taken as the warp, since spandex is in the weft.
 //! 2. Penava, Šimić Penava and Knezić 2014: a plain weave of cotton, 150.3 g/m² and 0.318 mm.
 //! 3. Chosen from cantilever measurements of unnamed fabrics of that weight: Feng, Huang, Xu and Wang 2022. Fabrics of 140 to 160
-//!    g/m² have 2.5 to 58 µN m; fabrics of 55 to 80 g/m² have 1.1 to 33 µN m, most of them below 7.
+//!    g/m² have 2.5 to 58 µN m. Fabrics of 55 to 80 g/m² have 1.1 to 33 µN m, most of them below 7.
 //! 4. Kawabata 1980: means of 214 winter suitings: a bending rigidity of 10^−0.867 gf cm²/cm, a shear stiffness of 10^−0.066
 //!    gf/(cm deg), 10^1.421 mg/cm². The cotton's shear stiffness is a choice: 1.16 gf/(cm deg) in these units.
 //! 5. De Boos and Tester 1994 (SiroFAST, CSIRO report WT92.02): suitings without faults stretch by 2 to 6 % under 98 N/m, their

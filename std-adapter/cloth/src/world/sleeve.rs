@@ -1,8 +1,8 @@
 //! The paper's sleeve: a tube of rings that taper from the shoulder to the cuff.
 //!
 //! A tube of rings n₁ … n_m, triangulated between neighbours, has Σnᵢ vertices and 2Σnᵢ − n₁ − n_m triangles. With 34 rings that
-//! taper from 25 points to 16 it has 693 vertices and 1,345 triangles, like the arm clothing in Lv et al., whose own mesh is not
-//! published.
+//! taper from 25 points to 16 it has 693 vertices and 1,345 triangles. So has the arm clothing in Lv et al., whose own mesh is
+//! not published.
 
 use libm::{cos, sin};
 use selvedge::Mesh;

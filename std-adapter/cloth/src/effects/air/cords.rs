@@ -2,8 +2,8 @@
 //!
 //! The force on an edge of length L and diameter d is ½ρ·c·d·L·|u|u, where u is the part across the edge of the air's relative
 //! velocity. Flow along the edge has no effect (the cross-flow principle; Hoerner, Fluid-Dynamic Drag, 1965, chapter 3). With λ
-//! the mass per length, the edge's own velocity across follows v′ = −k|v|v, k = ½ρcd/λ, with the same exact solution over a step
-//! as [`Panels`](super::panels).
+//! the mass per length, the edge's own velocity across follows v′ = −k|v|v, k = ½ρcd/λ. The exact solution over a step is that of
+//! [`Panels`](super::panels).
 
 use super::drag::{Drag, share_taken, take};
 use crate::model::step::TimeStep;

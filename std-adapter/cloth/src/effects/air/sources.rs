@@ -2,7 +2,7 @@
 //!
 //! **A fan** is a round jet. It is straight, and its half-width grows with the distance s as R + 0.094·s (Hussein, Capp and
 //! George 1994, J. Fluid Mech. 258:31). The momentum through each section is the same, ∝ U²R², so that the velocity in the middle
-//! falls as R/(R + 0.094·s); across the jet it is 2^(−r²/half-width²). The air behind the fan is still, and so is the air that
+//! falls as R/(R + 0.094·s). Across the jet it is 2^(−r²/half-width²). The air behind the fan is still, and so is the air that
 //! the jet entrains.
 //!
 //! **A vortex** turns about its axis with the velocity 2·v·(r/R)/(1 + (r/R)²). Its largest value is v, at the core's radius R

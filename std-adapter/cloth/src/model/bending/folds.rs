@@ -6,8 +6,8 @@
 //! lags behind a rotation, it damps rotation a little.
 //!
 //! **Yield.** C·n/A is a curvature, c₀/A that of the fold at rest. If they differ by more than κ after a step, the fold creeps:
-//! it takes 1 − exp(−h/τ) of the excess over κ, and all of it if τ is zero. This is perfect plasticity: the model of Narain,
-//! Pfaff and O'Brien (2013) without hardening, for fold angles instead of curvatures of triangles.
+//! it takes 1 − exp(−h/τ) of the excess over κ, and all of it if τ is zero. This is perfect plasticity. It is the model of
+//! Narain, Pfaff and O'Brien (2013) without hardening, for fold angles instead of curvatures of triangles.
 
 use super::hinge::Hinge;
 use crate::model::schedule::On;
@@ -70,8 +70,8 @@ impl Folds {
         }
     }
 
-    /// Returns the vertices of a fold before the cloth tore, those of the edge in ascending order, and whether that order
-    /// reverses the edge and so the normal.
+    /// Returns the vertices of a fold before the cloth tore, and whether their order reverses the edge and so the normal. Those
+    /// of the edge ascend.
     fn as_made(&self, fold: &Fold) -> ([u32; 4], bool) {
         let first_copy = self.loads.len() - self.copied.len();
         let made = |vertex: u32| {

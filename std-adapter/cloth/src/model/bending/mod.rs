@@ -13,12 +13,12 @@
 //! Bergou et al. use α = 3. That is right for a ball, but cloth hardly ever bends in two directions at once. Bent in one
 //! direction around rows of equilateral triangles, it is three times too stiff. Only the hinges across the rows bend, with |C| =
 //! κ·A for a curvature κ. There is one of them for each area A of cloth, whose energy should be ½D·κ² per area. With α = 1
-//! equilateral triangles are right in any direction. A grid of right-angled triangles with alternating diagonals, whose vertices
-//! relax to the least energy, would have 5/6 of the rigidity around its rows and 4/3 around its diagonals. With 4/3 for the legs
-//! and 2/3 for the diagonals it is 1 in every direction (by homogenisation: the least energy of a periodic cell at a given mean
-//! curvature). α = (2 + cot γ + cot δ)/3, with γ and δ the angles opposite the edge, gives both, and 1.05 for equilateral
-//! triangles. A strip that bends under its weight then shows 0.9 to 1.1 times the rigidity on grids and on irregular triangles,
-//! in any direction. If all diagonals of a grid are parallel, it shows 0.6 to 2.9.
+//! equilateral triangles are right in any direction. Take a grid of right-angled triangles with alternating diagonals, whose
+//! vertices relax to the least energy. It would have 5/6 of the rigidity around its rows and 4/3 around its diagonals. With 4/3
+//! for the legs and 2/3 for the diagonals it is 1 in every direction. This follows by homogenisation: the least energy of a
+//! periodic cell at a given mean curvature. α = (2 + cot γ + cot δ)/3, with γ and δ the angles opposite the edge, gives both, and
+//! 1.05 for equilateral triangles. A strip that bends under its weight then shows 0.9 to 1.1 times the rigidity, on grids and on
+//! irregular triangles. If all diagonals of a grid are parallel, it shows 0.6 to 2.9.
 //!
 //! **Integration.** Implicit Euler solves (M + h²Q)(x − y) = −h²Q·y for x, with y the prediction of everything else. One
 //! Gauss–Seidel sweep, hinge by hinge, hardly moves long waves on a fine mesh. A strip hangs like a string: 0.13 of its rigidity
@@ -27,8 +27,8 @@
 //! Sommeijer 1980): x = R(h²M⁻¹Q)·y with R(λ) = 1 − λ + O(λ²) for slow modes and |R| ≤ 1/[`DAMPING`](stages::DAMPING) for fast
 //! ones. The number of stages grows with the root of the largest eigenvalue; one stage suffices for edges of a centimetre.
 //!
-//! As a polynomial of a symmetric operator whose rows sum to zero, the step conserves momentum and angular momentum of a free
-//! cloth up to rounding: Σ yᵢ × (S·y)ᵢ = 0 for any symmetric S. The result does not depend on an order.
+//! The step is a polynomial of a symmetric operator whose rows sum to zero. So it conserves momentum and angular momentum of a
+//! free cloth up to rounding: Σ yᵢ × (S·y)ᵢ = 0 for any symmetric S. The result does not depend on an order.
 //!
 //! **Stability.** A step multiplies a wave by z with z² − 2R·z + R = 0 (the velocity is x − the last x): |z|² = R if R ≥ 0, and
 //! |z| ≤ 1 if R ≥ −1/3. [`Forces::fastest`] bounds the eigenvalues from above.

@@ -11,8 +11,8 @@ use std::collections::BTreeSet;
 /// The least height of a triangle over its longest side.
 const THINNEST: f64 = 0.05;
 /// The largest ratio of the path over the cloth to the straight distance in a chart. If it is larger, there is no cloth along the
-/// straight line. A path through both cells is longer by up to 1.15, at an obtuse triangle, and one over edges and across hinges
-/// by up to 1.08.
+/// straight line. A path through both cells is longer by up to 1.15, at an obtuse triangle. One over edges and across hinges is
+/// longer by up to 1.08.
 const DETOUR: f64 = 1.3;
 /// The largest inverse ratio. If it is larger, the chart has gone the wrong way round.
 const SHORTCUT: f64 = 1.05;

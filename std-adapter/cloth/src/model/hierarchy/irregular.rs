@@ -16,8 +16,8 @@ impl Random {
     }
 }
 
-/// Makes a flat sheet from (-½, -½) to (½, ½), with `cells` along each side: randomly displaced vertices, Delaunay triangles,
-/// then `rounds` of moving each vertex to the mean of its neighbours.
+/// Makes a flat sheet from (-½, -½) to (½, ½), with `cells` along each side. Vertices are displaced randomly, triangles are
+/// Delaunay's; then `rounds` times each vertex moves to the mean of its neighbours.
 pub(crate) fn sheet(cells: u32, rounds: usize) -> Mesh {
     let at = |k: u32| f64::from(k) / f64::from(cells) - 0.5;
     let inner = |k: u32| 0 < k && k < cells;

@@ -2,9 +2,10 @@
 //!
 //! At a joint b between a and c, with edges of lengths u and v at rest, e = (c − b)/v − (b − a)/u is the change of direction, up
 //! to stretch. At a curvature κ it is κ·L, where L = (u + v)/2 is the length of rope of a joint. So ½(D/L)·|e|² is the energy
-//! ½D·κ² of that length, with D the flexural rigidity. It is quadratic, like that of the [hinges of cloth](crate::model::bending)
-//! (Bergou et al. 2006, "A quadratic bending model for inextensible surfaces"), and has no twist. A joint that is bent by r at
-//! rest has ½(D/L)·|e − r·ê|², with ê the direction of e before the step: the side of the bend is free.
+//! ½D·κ² of that length, with D the flexural rigidity. It is quadratic, like that of the [hinges of
+//! cloth](crate::model::bending), and has no twist (Bergou et al. 2006, "A quadratic bending model for inextensible surfaces"). A
+//! joint that is bent by r at rest has ½(D/L)·|e − r·ê|², with ê the direction of e before the step: the side of the bend is
+//! free.
 //!
 //! Implicit Euler solves (M + h²CᵀDC/L)·d = h²f. Every vertex couples with two to either side, x, y and z separately: a band
 //! matrix, factorised as L·D·Lᵀ. It is stable for any stiffness. Kinematic vertices take part without moving, so two of them in a

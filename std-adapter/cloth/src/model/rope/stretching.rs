@@ -12,17 +12,17 @@
 //! Without it a taut rope of short edges would be unstable, as explicit steps are when waves travel farther than an edge. A
 //! compressed spring would amplify sideways motion; this term is left out (Choi and Ko 2002), so the matrix is always definite.
 //!
-//! **Tension.** Tension at the end of the step counts, since a pull travels along the whole rope within a step: at y a jerk at
-//! one end has not reached the other edges. So the equations are solved twice: first with the tension at y, from which the
-//! tension T + k·n·(d of one end − d of the other) results, then with that tension.
+//! **Tension.** Tension at the end of the step counts, since a pull travels along the whole rope within a step. At y a jerk at
+//! one end has not reached the other edges. So the equations are solved twice. The first time takes the tension at y, and gives
+//! the tension T + k·n·(d of one end − d of the other), which the second time takes.
 //!
 //! **Ties.** If a seam joins the end of a rope to one other vertex, the rope is solved together with that vertex. At the largest
 //! distance of the two, the spring between them is as stiff as possible. Otherwise a light end would give way to a heavy load, by
 //! the ratio of the masses times the load's own fall.
 //!
 //! **Elimination** keeps masses beside stiffnesses up to 10⁹ times theirs. The effective mass E of a vertex, felt through a
-//! spring K at the next vertex, is K(E + K)⁻¹E, the two in series, in which nothing is subtracted. E + K is never inverted but
-//! factorised, so that the error of a solution is its condition number times rounding, not the square of it.
+//! spring K at the next vertex, is K(E + K)⁻¹E. This is the two in series, without a subtraction. E + K is never inverted but
+//! factorised. So the error of a solution is its condition number times rounding, not the square of it.
 
 use crate::model::energy::{Configuration, StoredEnergy};
 use crate::model::step::{Constraint, TimeStep, Touches};
@@ -32,7 +32,8 @@ use crate::world::runs;
 use selvedge_core::glam::{DMat3, DVec3};
 
 /// The largest stiffness, as a multiple of the lighter vertex's mass over h², so that rounding is 10⁻⁷ of a move. A rope of n
-/// vertices then stretches under its own weight by n·g·h²/10⁹ an edge: with n = 1,000 and h = 1 ms by a hundredth of a nanometre.
+/// vertices then stretches under its own weight by n·g·h²/10⁹ an edge. For n = 1,000 and h = 1 ms this is a hundredth of a
+/// nanometre.
 const STIFFEST: f64 = 1e9;
 
 /// A tie longer than this share of its largest length is taut. Earlier stitches leave it so, up to rounding.

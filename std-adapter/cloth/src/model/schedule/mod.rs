@@ -9,8 +9,8 @@
 //! times as long.
 //!
 //! **Compliant constraints keep their multipliers** from sweep to sweep of a step (Macklin et al. 2016, algorithm 1). A
-//! constraint C of compliance α̃ = α/h² with the accumulated multiplier λ gets Δλ = −(C + α̃λ)/(∇C·W∇C + α̃) from the next sweep,
-//! so that sweeps converge to C = −α̃λ, the implicit step. Without λ each sweep would start again from the last result, and more
+//! constraint C of compliance α̃ = α/h² with the accumulated multiplier λ gets Δλ = −(C + α̃λ)/(∇C·W∇C + α̃) from the next sweep.
+//! So sweeps converge to C = −α̃λ, the implicit step. Without λ each sweep would start again from the last result, and more
 //! sweeps would be stiffer.
 //!
 //! A block in which nothing moved sleeps until a block that shares a vertex with it moves something, since its result would be

@@ -96,8 +96,7 @@ mod tests {
     use super::*;
     use crate::world::{Cloth, sheet};
 
-    /// Returns the tears of a sheet of 6 cells along x and y of a metre each, stretched by a tenth along x; `strength` selects
-    /// edges.
+    /// Returns the tears of a sheet of 6 by 6 cells of a metre, stretched by a tenth along x; `strength` selects edges.
     fn tears(strength: impl Fn([DVec3; 2]) -> Option<f64>) -> Vec<Tear> {
         let cloth = Cloth::of(sheet(DVec3::ZERO, [DVec3::X * 6.0, DVec3::Y * 6.0], [6, 6]));
         let positions: Vec<_> = { cloth.mesh.positions.iter() }

@@ -1,8 +1,8 @@
 //! The loads of edges.
 //!
 //! Stretch pulls a triangle together along warp and weft with T_u = k_u·(|w_u| − 1)·w_u/|w_u|, and T_v likewise, in newtons per
-//! metre of cloth at rest ([`stretch`](crate::effects::Stretch)). Compression does not pull. The force per metre across a line
-//! whose normal in the cloth at rest is ν is T_u·ν_u + T_v·ν_v (the first Piola–Kirchhoff stress). The load of an edge is the
+//! metre of cloth at rest ([`stretch`](crate::effects::Stretch)). Compression does not pull. Across a line whose normal in the
+//! cloth at rest is ν, the force per metre is T_u·ν_u + T_v·ν_v (the first Piola–Kirchhoff stress). The load of an edge is the
 //! mean of this force in its two triangles. It leaves out shear and the forces of a strain limit.
 
 use super::fans::Fabric;

@@ -11,7 +11,7 @@
 //! vertices are never split.
 //!
 //! This is fracture after O'Brien and Hodgins 1999 without remeshing. Splits are snapped to edges as Müller and Gross 2004 snap
-//! them to faces (both from memory), so the path of a tear depends on the mesh. Each edge has a load, instead of an eigenvector
+//! them to faces (both from memory). So the path of a tear depends on the mesh. Each edge has a load, instead of an eigenvector
 //! at a vertex. So a strength can be compared with measured strengths of seams and tears, in newtons per metre.
 //!
 //! **At most an edge per step at each end of a tear**, since a tear changes the loads around it only in the next step. If several

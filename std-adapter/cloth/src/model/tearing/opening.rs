@@ -1,9 +1,9 @@
 //! The opening of a tear: the copies of a vertex move apart a little, each into its fan, so that the parts no longer touch.
 //!
-//! A fan spans some angle around its vertex. The mean of all directions in it, Σ (u + v)·tan(φ/2) over its triangles, with u and
-//! v unit vectors along their sides and φ the angle between, bisects the angle of a flat fan. A vertex that moves so stays within
-//! its fan, away from all others. All copies move so that their centre of mass stays; they have one velocity, so momentum does
-//! not change.
+//! A fan spans some angle around its vertex. The mean of all directions in it is Σ (u + v)·tan(φ/2) over its triangles, with u
+//! and v unit vectors along their sides and φ the angle between. It bisects the angle of a flat fan. A vertex that moves along it
+//! stays within its fan, away from all others. All copies move so that their centre of mass stays; they have one velocity, so
+//! momentum does not change.
 
 use super::Tear;
 use selvedge_core::glam::DVec3;
