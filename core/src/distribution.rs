@@ -1,10 +1,10 @@
 //! Distributes a candidate triangle pair to its primitive pairs: at most 6 vertex–face and 9 edge–edge.
 //!
-//! The paper's rules, with its misprints corrected: each vertex that A represents with face B, each vertex that B represents with
-//! face A, and each edge that A represents with each edge that B represents. If every vertex and edge is represented exactly
-//! once, no primitive pair is distributed twice over all triangle pairs. Each one is distributed if the triangle pairs include
-//! every two triangles whose boxes overlap, *adjacent ones included*, since a triangle's swept box contains those of its vertices
-//! and edges.
+//! The rules are the paper's, with its misprints corrected. They pair each vertex that A represents with face B, each vertex that
+//! B represents with face A, and each edge of A with each edge of B. If every vertex and edge is represented exactly once, no
+//! primitive pair is distributed twice over all triangle pairs. Each one is distributed if the triangle pairs include every two
+//! triangles whose boxes overlap, *adjacent ones included*. Reason: a triangle's swept box contains those of its vertices and
+//! edges.
 //!
 //! Primitive pairs that share a vertex are skipped: they touch at every time, and no step could resolve them.
 

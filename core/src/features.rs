@@ -45,8 +45,8 @@ impl Features {
         (self.0 >> 2) as usize
     }
 
-    /// Returns whether two triangles with these features have a pair to test (the paper's *compatible feature pairs*): a vertex
-    /// on either side, or an edge on both.
+    /// Returns whether two triangles with these features have a pair to test: a vertex on either side, or an edge on both (the
+    /// paper's *compatible feature pairs*).
     #[inline(always)]
     #[must_use]
     pub const fn are_compatible(self, other: Self) -> bool {

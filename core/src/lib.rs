@@ -1,8 +1,8 @@
 //! Certified culling of vertex–face and edge–edge pairs of deforming triangles for continuous collision detection.
 //!
-//! This crate works on one primitive pair at a time: four points, each moving on a straight line from its position at the start
-//! of a step (time 0) to its position at the end (time 1). Its tests return a [`Verdict`]. [`Culled`](Verdict::Culled) is a proof
-//! that the pair does not touch at any time in [0, 1]; [`Kept`](Verdict::Kept) proves nothing. Positions are in any length unit.
+//! This crate works on one primitive pair at a time. Its four points move on straight lines from their positions at the start of
+//! a step (time 0) to those at the end (time 1). Its tests return a [`Verdict`]. [`Culled`](Verdict::Culled) is a proof that the
+//! pair does not touch at any time in [0, 1]; [`Kept`](Verdict::Kept) proves nothing. Positions are in any length unit.
 //!
 //! ```
 //! use selvedge_core::{filter, glam::DVec3, Motion, Verdict, PrimitivePair};
@@ -16,7 +16,7 @@
 //! ```
 //!
 //! # Guarantees
-//! * **No function of this crate misses a contact.** Decisions are certified or exact: they cover their own rounding, and never
+//! * **No function of this crate misses a contact.** Decisions are certified or exact: they cover their own rounding. They never
 //!   cull a pair that touches at some time in [0, 1], for any input.
 //! * That holds in every floating-point environment of IEEE 754 arithmetic: any rounding direction, flush-to-zero,
 //!   denormals-are-zero (see [`Rounding`](lanes::Rounding)). Verdicts may differ between environments; none of them is wrong.
@@ -45,9 +45,9 @@
 //! | `verification` | `batch`, and the kernels ([`coplanarity`], [`exact`], [`lanes`] and others) in a module of that name, for the project's laboratory and verification. These items may change in any release |
 //!
 //! # Terms
-//! The paper behind this work (Lv, He, Mi: *Improved Method in Lower Tailoring of Self-collision Detection of Arm Cloth
-//! Simulation*) says *lower tailoring* for culling primitive pairs, *higher tailoring* for the broad phase, *PCTP* for a
-//! candidate triangle pair and *basic intersection test* for the elementary test. This crate uses the terms of the field.
+//! The paper behind this work is Lv, He, Mi: *Improved Method in Lower Tailoring of Self-collision Detection of Arm Cloth
+//! Simulation*. It says *lower tailoring* for culling primitive pairs and *higher tailoring* for the broad phase. *PCTP* is a
+//! candidate triangle pair, and *basic intersection test* the elementary test. This crate uses the terms of the field.
 #![no_std]
 #![forbid(unsafe_code)]
 // Without the features, kernels that only they expose are unused, and links to them are broken.

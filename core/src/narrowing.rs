@@ -1,7 +1,7 @@
 //! Converts times and lengths from one format to another, rounded to the safe side.
 //!
 //! Conversion cuts off digits, which is not a floating-point operation. So results do not depend on the thread's rounding
-//! direction or on flushing, and order is preserved: of two numbers the smaller never becomes the larger. If a time is first in
+//! direction or on flushing. Order is preserved: of two numbers the smaller never becomes the larger. If a time is first in
 //! `f64`, it is first, or at the same time, in `f32`. Only numbers below the normal range of `f32` become zero, or its smallest
 //! normal number.
 

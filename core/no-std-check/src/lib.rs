@@ -128,8 +128,8 @@ fn advanced<S: Scalar>(pair: &PrimitivePair<S>) -> Option<S> {
     elementary::advance::time_of_impact_within(pair, &question.limits, from, S::ONE).time()
 }
 
-/// Returns one bit if the exact verdict is that there is no contact, and another if whole numbers alone, the certified time of
-/// impact, or its confirmation disagree.
+/// Returns one bit if the exact verdict is that there is no contact. Another bit shows that whole numbers alone, the certified
+/// time of impact, or its confirmation disagree.
 fn elementary_tests<S: Scalar>(pair: &PrimitivePair<S>) -> u32 {
     use elementary::{ContactVerdict, Limits, advance, contact};
     let touches = contact(pair) == ContactVerdict::Happens;
@@ -176,8 +176,7 @@ pub extern "C" fn verdicts_f32(points: &Points<f32>) -> u32 {
     vertex_face | edge_edge << 16
 }
 
-/// Returns the height of the point at which a vertex and a face meet in the middle of the step, if the normal points upwards; NaN
-/// otherwise.
+/// Returns the height at which a vertex and a face meet in the middle of the step, if the normal points upwards; NaN otherwise.
 #[unsafe(no_mangle)]
 pub extern "C" fn height(points: &Points<f64>) -> f64 {
     let motions = points.map(|[start, end]| Motion::new(start.into(), end.into()));
@@ -210,8 +209,8 @@ pub extern "C" fn near(points: &Points<f32>) -> u32 {
     near.into()
 }
 
-/// Returns one bit for each certificate that a vertex and a face keep half a unit: boxes with that separation and a smaller one,
-/// the distance at the start from below, a direction found for the step and kept for it, and a clearance. Two more bits say that
+/// Returns one bit for each certificate that a vertex and a face keep half a unit. These are boxes with that separation and a
+/// smaller one, the lower bound of the distance at the start, a direction for the step, and a clearance. Two more bits say that
 /// the vertex's course has room, and that its boxes come within one unit of the face's.
 #[unsafe(no_mangle)]
 pub extern "C" fn separations(points: &Points<f64>) -> u32 {

@@ -64,8 +64,8 @@ pub(super) fn points<L: Chunk>(token: L::Token, pairs: Sixteen<'_, L::Scalar>, f
     })
 }
 
-/// Returns, for each pair from `first` on, the difference of the two points that `ends` selects from the pair's four indices: the
-/// second minus the first. Returns `None` if an index is not in the rows.
+/// Returns, for each pair from `first` on, the difference of two points, the second minus the first. `ends` selects them from the
+/// pair's four indices. Returns `None` if an index is not in the rows.
 ///
 /// Rows are subtracted before they are transposed: one subtraction for start and end, and three edges to transpose instead of
 /// four points.

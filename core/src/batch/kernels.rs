@@ -1,6 +1,6 @@
 //! The loops of tests over the chunks of sixteen pairs.
 //!
-//! There is one function for each level, format, kind of pair and kind of work, each with a loop at the width of the machine's
+//! There is one function for each level, format, kind of pair and kind of work. Each has a loop at the width of the machine's
 //! registers. So the crate is compiled in seconds. One function with all of them, sixteen lanes wide, takes minutes and
 //! gigabytes. None of them is generic, except for tests of the caller, so they are compiled once, in this crate.
 

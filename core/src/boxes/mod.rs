@@ -13,8 +13,8 @@
 
 /// Evaluates a test of the four points' values at the start and at the end along each axis, and combines the results by or.
 ///
-/// A macro, like others in kernels: closures and `array::map` are separate functions, which the compiler does not always inline
-/// into code for a wider instruction set.
+/// This is a macro, like others in kernels. Closures and `array::map` are separate functions, which the compiler does not always
+/// inline into code for a wider instruction set.
 macro_rules! along_axes {
     ($points:expr, $test:expr) => {
         $test(values!($points.start, |p| p.x), values!($points.end, |p| p.x))

@@ -1,9 +1,9 @@
 //! Moving boxes: a set's box at the start of the step, and its box at the end.
 //!
-//! Two sets whose boxes are apart along one axis, *in the same order* at both ends of the step, are apart throughout, since each
-//! coordinate moves linearly. This is the test of [relative boxes](super::relative) for sets of any number of points, and so for
-//! the nodes of a hierarchy. It culls every pair that the overlap of swept boxes culls, and more, since it uses that the two move
-//! together. It is **exact**, since it only compares.
+//! Two sets whose boxes are apart along one axis, *in the same order* at both ends of the step, are apart throughout. Reason:
+//! each coordinate moves linearly. This is the test of [relative boxes](super::relative) for sets of any number of points, and so
+//! for the nodes of a hierarchy. It culls every pair that the overlap of swept boxes culls, and more, since it uses that the two
+//! move together. It is **exact**, since it only compares.
 //!
 //! [`MovingBox`] is one box; [`MovingBlock`] is sixteen of them side by side.
 //!

@@ -23,9 +23,9 @@
 //! ```
 //!
 //! # The method
-//! From time t = 0, the method advances to a later time up to which the pair is *proven* to be apart, until it is within δ + s,
-//! or the proof reaches the end of the step. It tries three proofs. All use only the pair's corners (`corners.rs`), so there are
-//! no special cases for parallel edges, faces without area, or coplanar motion:
+//! From time t = 0, the method advances to a later time up to which the pair is *proven* to be apart. It ends when the pair is
+//! within δ + s, or the proof reaches the end of the step. It tries three proofs. All use only the pair's corners (`corners.rs`),
+//! so there are no special cases for parallel edges, faces without area, or coplanar motion:
 //! * a separating direction (`directions.rs`) from the closest points, held constant;
 //! * from the second round on, where the closest points are inside the face or both edges, the signed volume (`volume.rs`): the
 //!   points are not coplanar;
@@ -62,8 +62,8 @@
 //! | [`NotFinite`](Reason::NotFinite) | undefined: NaN, an infinity, or a separation that is negative |
 //!
 //! V is the longest way of a corner during the step. A round that ends neither within δ + s nor within rounding of s proves that
-//! the pair is apart for the time that the distance beyond s takes at speed V, but for a few u. 4096 rounds that each prove more
-//! than a 4096th of the step pass its end.
+//! the pair is apart for some time. This is the time that the distance beyond s takes at speed V, apart from a few u. 4096 rounds
+//! that each prove more than a 4096th of the step pass its end.
 //!
 //! # Loose answers
 //! Where the sets' distance falls to the error of a product, about 20u times the size of the corners, nothing more can be proven.
@@ -454,7 +454,8 @@ impl<S: Number, const N: usize> Advance<'_, S, N> {
     }
 
     /// Returns the direction to turn from or to, of unit length but for rounding. It is the middle of those that keep the pair
-    /// apart, unless the closest point is inside the face or both edges, or that direction does not keep twice the separation.
+    /// apart. The exceptions are a closest point inside the face or both edges, and a direction that does not keep twice the
+    /// separation.
     #[inline(always)]
     fn turning(&self, at: &Snapshot<S, N>) -> Direction<S> {
         let middle = if at.closest.feature == Feature::Interior {

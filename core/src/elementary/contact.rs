@@ -4,8 +4,8 @@
 //! 1. the [certified time of impact](super::advance) with tolerance zero, whose "never" is a proof;
 //! 2. [`certain_contact`], a proof of contact around the resulting time;
 //! 3. for `f32` positions, which `f64` holds exactly, both again in `f64`, whose errors are half a billion times smaller;
-//! 4. whole numbers, [`exact::touches`], for what floating point leaves open: contacts at the very start or end, touching without
-//!    passing through, coplanar motion, distances of a rounding error.
+//! 4. whole numbers, [`exact::touches`], for pairs that floating point leaves open. Examples are contacts at the very start or
+//!    end, touching without passing through, coplanar motion, distances of a rounding error.
 //!
 //! ```
 //! use selvedge_core::elementary::{ContactVerdict, contact};

@@ -15,8 +15,8 @@ pub struct Limits<S> {
 }
 
 impl<S: Scalar> Default for Limits<S> {
-    /// Returns the limits of contact without a separation, with a tolerance of 2⁻³⁰ (`f64`, about 1e-9) or 2⁻²⁰ (`f32`, about
-    /// 1e-6): for positions in metres, a nanometre or a micrometre. A finer tolerance costs little more.
+    /// Returns the limits of contact without a separation. The tolerance is 2⁻³⁰ (`f64`, about 1e-9) or 2⁻²⁰ (`f32`, about 1e-6):
+    /// for positions in metres, a nanometre or a micrometre. A finer tolerance costs little more.
     #[inline]
     fn default() -> Self {
         Self {

@@ -40,8 +40,8 @@ impl<L: Lanes> MovingTetrahedron<L> {
         decide_beyond(self, None).culled
     }
 
-    /// Makes the decision with a separation s on any number of lanes. `culled` proves that at no time in [0, 1] the vertex is
-    /// within s of the face's plane, or the line of one edge within s of the other's.
+    /// Makes the decision with a separation s on any number of lanes. `culled` is a proof for all times in [0, 1]. The vertex is
+    /// never within s of the face's plane, or the line of one edge within s of the other's.
     ///
     /// The separation must be positive and finite. `None` means zero, and then the kind of the pair does not matter.
     #[inline(always)]

@@ -23,7 +23,7 @@
 //! A monomial of k₀ or k₃ passes through 3 differences, a product, a subtraction, a product and 2 additions: 8 roundings. One of
 //! 3k₁ or 3k₂ passes through one more addition in h and one at the end: 10.
 //!
-//! The last rounding does not count for the sign: rounding is monotone, so a computed kᵢ = fl(x) above Eᵢ, a floating-point
+//! The last rounding does not count for the sign. Rounding is monotone, so a computed kᵢ = fl(x) above Eᵢ, a floating-point
 //! number, proves x > Eᵢ. That leaves 7 and 9 roundings of 2u. Another 2u covers the second order, the powers of 1 + 2u, and the
 //! rounding of P̂ᵢ and Eᵢ: 16u(1 − 2u)¹⁰ ≥ (1 + 2u)⁷ − 1 holds for u ≤ 2⁻⁸, and 20u(1 − 2u)¹³ ≥ (1 + 2u)⁹ − 1 for u ≤ 2⁻⁹. Hence
 //!
@@ -40,11 +40,11 @@
 //! u ≤ 2⁻¹⁰. (The quotients: the product is one of computed differences, and the error's monomials are those of exact ones.)
 //!
 //! **Underflow.** Let λ be the smallest normal number. Where a thread flushes subnormal numbers to zero, an operation loses at
-//! most λ, and operands below λ vanish. A difference is then off by at most 3λ (two operands and the result), which the two other
-//! factors of each of 18 monomials multiply: 162·M²·λ. Products and sums in n and h lose 30·M·λ, those of the dot products 11·λ.
-//! Together this is at most 162·(1 + M)²·λ in 3k₁, and less in the others. η ([`Rounding::UNDERFLOW`]) is at least 512·λ, which
-//! also covers the second order and the loss of the bound itself. Where subnormal numbers are kept, sums with a subnormal result
-//! are exact, and products lose far less.
+//! most λ, and operands below λ vanish. A difference is then off by at most 3λ (two operands and the result). The two other
+//! factors of each of 18 monomials multiply it: 162·M²·λ. Products and sums in n and h lose 30·M·λ, those of the dot products
+//! 11·λ. Together this is at most 162·(1 + M)²·λ in 3k₁, and less in the others. η ([`Rounding::UNDERFLOW`]) is at least 512·λ,
+//! which also covers the second order and the loss of the bound itself. Where subnormal numbers are kept, sums with a subnormal
+//! result are exact, and products lose far less.
 //!
 //! **Overflow and NaN.** Only pairs with M < [`Rounding::LARGEST_EDGE`] are culled, so no intermediate result overflows. NaN
 //! makes a control value NaN, and the ordered comparisons that decide are then false.
@@ -56,9 +56,10 @@
 //! stays farther apart than s throughout.
 //!
 //! The computed length becomes a bound of N as follows. A component of C − B, rounded twice from rounded differences, is off by
-//! at most 8u·M; for VF a factor is off by less. A component of n₀ is off by 2·(8u + 4u + 8u)·M² = 40u·M², one of h/2 by as much
-//! and 8u·M² for one more sum. That is 64u·M² with second order, times √3 < 2 for the vector: 128u·M². Squares that underflow
-//! lose less than η together, which is added under the root. 1 + 32u covers the dozen roundings from there to the comparison.
+//! at most 8u·M; for VF a factor is off by less. A component of n₀ is off by 2·(8u + 4u + 8u)·M² = 40u·M². One of h/2 is off by
+//! as much and 8u·M² for one more sum. That is 64u·M² with second order, times √3 < 2 for the vector: 128u·M². Squares that
+//! underflow lose less than η together, which is added under the root. 1 + 32u covers the dozen roundings from there to the
+//! comparison.
 
 use crate::PairKind;
 use crate::lanes::{Lanes, Rounding};
@@ -85,7 +86,7 @@ pub struct ControlValues<L>(pub [L; 4]);
 pub struct Decision<M> {
     /// The pairs whose values are all beyond their bounds, with one sign.
     pub culled: M,
-    /// The pairs that no sharper bound can cull: two values are beyond their bounds with opposite signs, or all are zero since
+    /// The pairs that no sharper bound can cull. Two values are beyond their bounds with opposite signs, or all are zero since
     /// the pair has no extent along an axis.
     pub settled: M,
 }
@@ -148,9 +149,9 @@ impl<L: Lanes> MovingTetrahedron<L> {
         ]
     }
 
-    /// Returns a bound N of the length of the normal throughout the step, rounding included: of the plane through a, b, c for VF,
-    /// of the directions b–c and a–p for EE. See [Distance](self#distance). Requires [`largest_by_axis`](Self::largest_by_axis)
-    /// to be [in range](is_in_range).
+    /// Returns a bound N of the length of the normal throughout the step, rounding included. For VF it is the normal of the plane
+    /// through a, b, c, for EE that of the directions b–c and a–p. See [Distance](self#distance). Requires
+    /// [`largest_by_axis`](Self::largest_by_axis) to be [in range](is_in_range).
     #[inline(always)]
     #[must_use]
     pub fn largest_normal(&self, kind: PairKind) -> L {

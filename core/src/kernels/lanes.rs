@@ -9,14 +9,14 @@ use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 /// The constants of a binary floating-point format for rounding-error bounds.
 ///
 /// # Floating-point environments
-/// Bounds with these constants hold in every environment of a thread: rounding to nearest or in any direction, subnormal numbers
-/// kept or flushed to zero, as results or as operands. An operation's result differs from the exact one by at most 2u times its
-/// magnitude (u to nearest). Where subnormal numbers are flushed, λ is added, the smallest normal number, and an operand below λ
-/// may count as zero. One set of constants serves all environments: doubling them for directed rounding costs neither time nor,
-/// on real scenes, culls.
+/// Bounds with these constants hold in every environment of a thread. It may round to nearest or in any direction, and keep
+/// subnormal numbers or flush them to zero, as results or as operands. An operation's result differs from the exact one by at
+/// most 2u times its magnitude (u to nearest). Where subnormal numbers are flushed, λ is added, the smallest normal number, and
+/// an operand below λ may count as zero. One set of constants serves all environments: doubling them for directed rounding costs
+/// neither time nor, on real scenes, culls.
 pub trait Rounding: Copy {
-    /// The unit roundoff u: 2⁻²⁴ for `f32`, 2⁻⁵³ for `f64`. A result rounded to nearest differs from the exact one by at most u
-    /// times its magnitude, in any other direction by at most 2u times, unless it is subnormal.
+    /// The unit roundoff u: 2⁻²⁴ for `f32`, 2⁻⁵³ for `f64`. A result that is not subnormal differs from the exact one by at most
+    /// u times its magnitude if rounded to nearest, otherwise by 2u times.
     const UNIT_ROUNDOFF: Self;
     /// η, a bound of what underflow can add to an error, as derived in [`coplanarity`](crate::coplanarity): 2⁻¹¹⁷ for `f32`,
     /// 2⁻¹⁰⁰⁰ for `f64`.

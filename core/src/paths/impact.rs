@@ -1,14 +1,14 @@
 //! The time of impact of a pair on paths.
 //!
-//! From time t on, one part of the step is tested at a time, on the straight pieces of its four points, with the larger deviation
-//! of each side added to the separation. If the pair keeps that distance, it keeps the separation on its paths, and the next part
+//! From time t on, one part of the step is tested at a time, on the straight pieces of its four points. The larger deviation of
+//! each side is added to the separation. If the pair keeps that distance, it keeps the separation on its paths, and the next part
 //! is twice as long. Otherwise it does so until a certified time, and the next part, from there on, is half as long. When the
 //! deviations are at most the tolerance, that time is the answer.
 //!
 //! # Rounding
 //! The [sum of separation and deviations](separation_of_pieces) is rounded up. A time t in [0, 1] within the part, found for the
-//! straight pieces, is the time from + (to − from)·t of the step: three operations, and one that subtracts 16u; never less than
-//! `from`.
+//! straight pieces, is the time from + (to − from)·t of the step. It takes three operations, and one that subtracts 16u, and is
+//! never less than `from`.
 
 use super::{Path, u};
 use crate::elementary::{Impact, Limits, Reason, advance};
@@ -27,10 +27,10 @@ const SHORTEST: f64 = 1.0 / 1_073_741_824.0;
 ///
 /// # No false alarms
 /// All distances are up to [rounding](crate::elementary::advance#guarantees).
-/// * [`Reason::WithinTolerance`]: at that time the distance is at most s + 3δ. Where the paths deviate by D > δ even in parts as
-///   short as 2⁻³⁰ of the step, as they do far from the origin, it is at most s + δ + 2D.
+/// * [`Reason::WithinTolerance`]: at that time the distance is at most s + 3δ. Far from the origin, paths may deviate by D > δ
+///   even in parts as short as 2⁻³⁰ of the step. Then it is at most s + δ + 2D.
 /// * [`Reason::LastResort`]: the pair comes within s + δ + 2D at some time, with D the largest deviation in parts of a 512th of
-///   the step. (Each test passes a part and doubles it, or halves it. Some 2000 of 4096 tests pass a part of the one step, so
+///   the step. (Each test passes a part and doubles it, or halves it. Some 2000 of 4096 tests pass a part of the one step. So
 ///   parts of at most a 512th are halved, and there the pair comes so near.)
 ///
 /// ```

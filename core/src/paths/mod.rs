@@ -1,10 +1,10 @@
 //! Points that move on arcs of rotating bodies, or on several straight pieces.
 //!
-//! All tests of this crate are for straight motion. A [`Path`] is reduced to it piece by piece: for any part of the step it
-//! returns a straight [motion](Piece::motion), and a bound of the point's distance from it at any time of the part, **rounding
-//! included**. Sets that are farther apart than the bounds of both sides on straight ways cannot meet on their paths. Where that
-//! does not decide, the part is halved, and for half an arc the bound is a quarter. [`time_of_impact`] does that for one pair,
-//! and [`geometry`] returns how the pair then meets.
+//! All tests of this crate are for straight motion. A [`Path`] is reduced to it piece by piece. For any part of the step it
+//! returns a straight [motion](Piece::motion), and a bound of the point's distance from it, **rounding included**. Sets that are
+//! farther apart than the bounds of both sides on straight ways cannot meet on their paths. Where that does not decide, the part
+//! is halved, and for half an arc the bound is a quarter. [`time_of_impact`] does that for one pair, and [`geometry`] returns how
+//! the pair then meets.
 //!
 //! | path | what it is |
 //! |---|---|

@@ -60,11 +60,11 @@ pub struct RigidMotion {
 }
 
 impl RigidMotion {
-    /// Makes a motion that rotates by `angle` radians about an axis through `centre` along `axis`, anticlockwise if the axis
-    /// points at the viewer, and translates by `translation`, in the unit of the positions. `axis` may have any length.
+    /// Makes a motion that rotates by `angle` radians about an axis through `centre` along `axis`, and translates by
+    /// `translation`, in the unit of the positions. The rotation is anticlockwise if the axis points at the viewer. `axis` may
+    /// have any length.
     ///
-    /// Returns `None` if a number is not finite, if the axis has no length while the angle is not zero, or if the angle exceeds
-    /// 2²⁰.
+    /// Returns `None` if a number is not finite, the axis has no length while the angle is not zero, or the angle exceeds 2²⁰.
     #[must_use]
     pub fn new(centre: DVec3, axis: DVec3, angle: f64, translation: DVec3) -> Option<Self> {
         let is_finite = centre.is_finite() && axis.is_finite() && translation.is_finite();

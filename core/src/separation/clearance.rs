@@ -1,10 +1,10 @@
 //! Clearance: pairs that keep a distance although their points stray, and need no attention while no point strays too far.
 //!
-//! The caller looks for points that come within a distance h of each other, where each may stray by b/2 along each axis from a
-//! straight motion. A direction d that keeps two sets more than a distance apart, times its length, at the start and at the end,
-//! does so in between. Two points stray towards each other along d by at most b·(|d₁| + |d₂| + |d₃|). So d must keep h·|d| +
-//! b·(|d₁| + |d₂| + |d₃|). The test tries the axes, with h + b, and then the direction from the middle of one set to the middle
-//! of the other. The latter settles most of the remaining pairs: triangles side by side.
+//! The caller looks for points that come within a distance h of each other. Each may stray by b/2 along each axis from a straight
+//! motion. A direction d that keeps two sets more than a distance apart, times its length, at the start and at the end, does so
+//! in between. Two points stray towards each other along d by at most b·(|d₁| + |d₂| + |d₃|). So d must keep h·|d| + b·(|d₁| +
+//! |d₂| + |d₃|). The test tries the axes, with h + b, and then the direction from the middle of one set to the middle of the
+//! other. The latter settles most of the remaining pairs: triangles side by side.
 //!
 //! # Rounding
 //! (`f32`; any direction: ε = 2u = 2⁻²³ an operation.) A coordinate of at most B is rounded by at most εB, and the difference of
@@ -96,8 +96,8 @@ impl Clearance {
     /// hierarchy of boxes that skips such sets skips only pairs that would be skipped one by one; no proof depends on it. No
     /// coordinate exceeds `largest` in magnitude.
     ///
-    /// The kept distance along an axis is off by at most 4εB ([module](self)), its difference to the required one by ε of both,
-    /// the last product by 2⁻¹⁷ and ε, and `beyond` by ε. The gap adds 16εB, and 2⁻¹⁶ of the two, which is more.
+    /// The kept distance along an axis is off by at most 4εB ([module](self)), and its difference to the required one by ε of
+    /// both. The last product is off by 2⁻¹⁷ and ε, and `beyond` by ε. The gap adds 16εB, and 2⁻¹⁶ of the two, which is more.
     #[inline]
     #[must_use]
     pub fn certain_gap(&self, beyond: f64, largest: f64) -> f64 {
@@ -142,8 +142,8 @@ pub(crate) fn largest_stray<P: PairShape, L: Lanes<Scalar = f32>>(points: &PairP
     by_axis.larger(by_direction) * gap.splat(1.0 - 1.0 / 131_072.0)
 }
 
-/// Returns the distance by which the first set of a pair is ahead of the second at both ends, and that by which it is behind,
-/// given the points' places on a line.
+/// Returns the distances by which the first set of a pair is ahead of the second, and behind it, at both ends. It takes the
+/// points' places on a line.
 #[inline(always)]
 fn kept<P: PairShape, L: Lanes>(start: [L; 4], end: [L; 4]) -> [L; 2] {
     let [[low, high], [other_low, other_high]] = P::ranges(start);
@@ -154,8 +154,8 @@ fn kept<P: PairShape, L: Lanes>(start: [L; 4], end: [L; 4]) -> [L; 2] {
     ]
 }
 
-/// Returns the distance, rounded down, at which boxes of positions rounded to `f32` prove that the positions themselves are
-/// within `distance`; −∞ if no distance does. No coordinate exceeds `largest` in magnitude.
+/// Returns the distance, rounded down, at which boxes of positions rounded to `f32` prove that the positions are within
+/// `distance`; −∞ if none does. No coordinate exceeds `largest` in magnitude.
 #[inline]
 #[must_use]
 pub fn nearness(distance: f64, largest: f64) -> f32 {
@@ -183,7 +183,7 @@ fn narrowed(length: f64) -> f32 {
     length as f32
 }
 
-/// Returns the distance by which the first set of a pair is ahead of the second along each axis, and that by which it is behind.
+/// Returns the distances by which the first set of a pair is ahead of the second, and behind it, along each axis.
 #[inline(always)]
 fn gaps(kind: PairKind, [a, b, c, d]: [Vec3A; 4]) -> [Vec3A; 2] {
     let (low, high, other_low, other_high) = match kind {

@@ -1,8 +1,8 @@
 //! The geometry of a contact: the points of both sides, their weights, and the normal between them.
 //!
-//! A contact's time lies a little before the pair touches, so its closest points are near each other and the way between them is
-//! mostly rounding. So the normal does not come from that way alone: directions perpendicular to the features are tried as well.
-//! A direction is taken only if it **certainly kept the pair apart** at the time of contact, or as shortly before as can be shown
+//! A contact's time lies a little before the pair touches. So its closest points are near each other, and the way between them is
+//! mostly rounding. The normal does not come from that way alone: directions perpendicular to the features are tried as well. A
+//! direction is taken only if it **certainly kept the pair apart** at the time of contact, or shortly before
 //! ([`gap`](super::gap)). Up to the first contact, a normal therefore points from the second side to the first as they were
 //! before, in any numbering of the vertices. At a time after a pair has passed through each other, it points as they lie then.
 //!
@@ -20,8 +20,8 @@
 //!   whatever the weights. Both sides' 18u·D along each axis, 62.4u·D, are covered by 96u·D, and η and 16u of the length are
 //!   added. From below: by the normal.
 //! * The speed is within 256u·D of that of the points with these weights along this normal. Along each axis a way is within 8u·D,
-//!   weighing adds 12u·D, the difference of the two sides makes 48u·D of it, and the product with the normal at most 125u·D in
-//!   all.
+//!   and weighing adds 12u·D. The difference of the two sides makes 48u·D of it, and the product with the normal at most 125u·D
+//!   in all.
 //! * A normal has length one within 16u, and **the two sides were certainly apart along it** at [`Geometry::separated_at`]. There
 //!   is no normal if none can be shown: for a pair that touches when the step begins, or is then nearer than rounding can
 //!   resolve.
@@ -58,7 +58,7 @@ pub struct Geometry {
     pub separated_at: f64,
     /// A lower and an upper bound of the distance of the two sides at the time of contact.
     pub distance: [f64; 2],
-    /// The speed at which the first point moves away from the second along the normal: less than zero if they approach each
+    /// The speed at which the first point moves away from the second along the normal. It is negative if they approach each
     /// other, zero without a normal.
     pub speed: f64,
 }

@@ -1,7 +1,7 @@
 //! Two triangles with a common edge: a test that excludes contact beside it.
 //!
 //! Let e = u − v be the edge, and a and b the ways from v to the opposite corners. The part perpendicular to e of any point of
-//! the first triangle is that of a times a weight in [0, 1], which is zero only on the edge; for the second triangle it is that
+//! the first triangle is that of a times a weight in [0, 1], which is zero only on the edge. For the second triangle it is that
 //! of b. A common point has both: s·a⊥ = t·b⊥. Where a⊥·b⊥ < 0, the product with a⊥ gives s = 0, and the one with b⊥ gives t = 0,
 //! so the point is on the edge. So two triangles that are **wide open**, by more than a right angle, need no further test; flat
 //! ones above all. Since a⊥·b⊥·(e·e) = (a·b)(e·e) − (a·e)(b·e), only a sign is needed.
@@ -19,8 +19,8 @@ use crate::lanes::Rounding;
 use crate::scalar::Position;
 use crate::vector::Vector;
 
-/// Returns true if two triangles with a common edge certainly have no common point beside the edge, because they open by more
-/// than a right angle. The first two `points` are the ends of the edge, the others the opposite corners.
+/// Returns true if two triangles with a common edge open by more than a right angle, so that they certainly meet only there. The
+/// first two `points` are the ends of the edge, the others the opposite corners.
 ///
 /// The result is certified, in every floating-point environment. False proves nothing.
 ///

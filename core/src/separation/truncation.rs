@@ -12,7 +12,7 @@
 //! Along straight ways it is linear in time ([`gap`](super::gap)). ∎
 //!
 //! **From a base.** The step may begin at another place than x, which is then a *base* from which its points continue towards y.
-//! Then only the start needs a further test: if d keeps the pair more than m apart there too, the sets are at least m apart
+//! Then only the start needs a further test. If d keeps the pair more than m apart there too, the sets are at least m apart
 //! throughout the step from there to e. *Proof.* The statement about the end of the way from x to y concerns e alone, and
 //! straight ways from any start are linear in time. ∎ So a step that cannot go from its start towards y first goes to a base that
 //! is free, and from there as far as it can.
@@ -22,11 +22,11 @@
 //! that no point is held back. Otherwise the room is shared in proportion to how far each set goes towards the other.
 //!
 //! **Rounding.** The result has the ordinary certificate, of the stored positions: *no guarantee rests on the arithmetic here*.
-//! So that the certificate succeeds, m is the threshold of [`gap`](super::gap), plus the error that it allows for once more,
-//! which covers the rounding of e. A share is at most [`PART`] of the room.
+//! So that the certificate succeeds, m is the threshold of [`gap`](super::gap), plus the same error once more, which covers the
+//! rounding of e. A share is at most [`PART`] of the room.
 //!
 //! Shares towards planes are due to Lan, Li and others, *Divide and Truncate* (2026), and Chen and others, *Offset Geometric
-//! Contact* (2025), who leave out pairs, or let them pass, that they cannot certify.
+//! Contact* (2025). They leave out pairs, or let them pass, that they cannot certify.
 
 use super::gap::{GapError, threshold};
 use crate::kind::PairKind;
@@ -39,7 +39,7 @@ use crate::vector::Vector;
 /// rest from then on.
 pub const PART: f64 = 127.0 / 128.0;
 
-/// Returns the largest shares of their ways from `start` to `wanted` that the four points may go, each in [0, 1], so that the
+/// Returns the largest shares of their ways from `start` to `wanted` that the four points may go, each in [0, 1]. With them the
 /// pair keeps more than `separation` along `direction`. `direction` goes from the second set to the first and is no longer than
 /// one. Returns `None` if it keeps the pair no farther apart than that at the start.
 ///

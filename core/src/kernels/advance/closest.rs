@@ -75,8 +75,8 @@ impl<S: Number> Closest<S> {
     }
 }
 
-/// Finds the closest point of the triangle of three corners, or of the parallelogram of four corners, whose last two given ones
-/// are opposite to each other.
+/// Finds the closest point of the triangle of three corners, or of the parallelogram of four. Its last two given corners are
+/// opposite to each other.
 #[inline(always)]
 pub fn closest<S: Number, const N: usize>(corners: &[Vector<S>; N]) -> Closest<S> {
     let &[a, b, c, ..] = corners.as_slice() else {
@@ -177,8 +177,8 @@ fn in_parallelogram<S: Number>(a: Vector<S>, b: Vector<S>, c: Vector<S>) -> Clos
     place(s, t, feature(s_is_end, true))
 }
 
-/// Finds the closest point like [`closest`], accurately also for a hull that is nearly a line: the nearest of the closest points
-/// of all sides and of the interior, whose height above the longest side is computed separately.
+/// Finds the closest point like [`closest`], accurately also for a hull that is nearly a line. It is the nearest of the closest
+/// points of all sides and of the interior, whose height above the longest side is computed separately.
 #[cold]
 pub(crate) fn closest_of_thin<S: Number, const N: usize>(corners: &[Vector<S>; N]) -> Closest<S> {
     let &[a, b, c, ref rest @ ..] = corners.as_slice() else {

@@ -1,10 +1,10 @@
 //! Proofs in floating point that a contact happens.
 //!
 //! Drop one axis. Let the projected polygon of the pair's corners strictly contain the origin throughout an interval of time.
-//! Then the line through the origin along that axis meets the hull of the corners in one point, whose height is continuous. The
-//! height is K/n. K is the signed volume of the first three corners. n, the dropped component of their normal, keeps its sign
-//! because the polygon keeps its orientation. So if K certainly has opposite signs at the ends of the interval, the height is
-//! zero somewhere in between. There the hull contains the origin, and the sets touch.
+//! Then the line through the origin along that axis meets the hull of the corners in one point of continuous height. The height
+//! is K/n. K is the signed volume of the first three corners. n, the dropped component of their normal, keeps its sign because
+//! the polygon keeps its orientation. So if K certainly has opposite signs at the ends of the interval, the height is zero
+//! somewhere in between. There the hull contains the origin, and the sets touch.
 //!
 //! The polygon turns around the origin if the cross products of consecutive corners all have one sign. (Four turns of less than half a
 //! circle each, in one sense, make one full turn, not two.) Each is quadratic in time; its Bernstein coefficients on the
@@ -152,8 +152,8 @@ mod tests {
     use crate::{Motion, PrimitivePair};
     use glam::DVec3;
 
-    /// Makes a vertex that falls through the middle of a face with sides `a` and `b` in the plane z = 0, which it crosses at half
-    /// of the step.
+    /// Makes a vertex that falls through the middle of a face with sides `a` and `b` in the plane z = 0. It crosses it at half of
+    /// the step.
     fn fall(a: f64, b: f64, height: f64) -> PrimitivePair<f64> {
         let at = |z| DVec3::new(a / 4.0, b / 4.0, z);
         PrimitivePair::vertex_face(

@@ -1,9 +1,10 @@
 //! The corners of a pair, and the error of products with them.
 //!
-//! The corners are the differences of the pair's points, one set's minus the other's: p − a, p − b, p − c for a vertex and a
-//! face, aᵢ − bⱼ for two edges (in the order 00, 01, 10, 11). Two points of the two sets differ by a point of the corners' convex
-//! hull, a triangle or a parallelogram. So the distance of the sets is the origin's distance from that hull, and they touch when
-//! the hull contains the origin. Each corner moves linearly because the points do. Nothing below needs the points themselves.
+//! The corners are the differences of the pair's points, one set's minus the other's. They are p − a, p − b, p − c for a vertex
+//! and a face, aᵢ − bⱼ for two edges (in the order 00, 01, 10, 11). Two points of the two sets differ by a point of the corners'
+//! convex hull, a triangle or a parallelogram. So the distance of the sets is the origin's distance from that hull, and they
+//! touch when the hull contains the origin. Each corner moves linearly because the points do. Nothing below needs the points
+//! themselves.
 //!
 //! # Rounding
 //! ε is the largest relative error of one operation: u where it rounds to nearest, 2u in any other direction. Let M be the
@@ -16,7 +17,7 @@
 //! ```
 //!
 //! where S then belongs to both. The threshold is **T = 20u·Ŝ + η**. The four u above 16 cover the second order and the rounding
-//! of Ŝ and T themselves, some dozen roundings of numbers that are 20u times smaller.
+//! of Ŝ and T: some dozen roundings of numbers that are 20u times smaller.
 //!
 //! **Underflow.** λ is the smallest normal number. Where a thread flushes results to zero, an operation loses at most λ. Where it
 //! treats subnormal operands as zero, each of them loses at most λ as well. A component of ê(t) then loses at most 6λ (3 in the

@@ -36,9 +36,9 @@ pub fn beyond<L: Lanes>(like: L) -> L {
 }
 
 impl<L: Lanes, const N: usize> Corners<L, N> {
-    /// Returns whether all corners are beyond `separation` along one coordinate axis, on the same side, at both ends of the step:
-    /// the [relative boxes](crate::boxes::relative) with a separation. A computed difference is off by 2u of itself and 3λ, less
-    /// than the 8u of the separation and η by which it must exceed it.
+    /// Returns whether all corners are beyond `separation` along one coordinate axis, on the same side, at both ends of the step.
+    /// These are the [relative boxes](crate::boxes::relative) with a separation. A computed difference is off by 2u of itself and
+    /// 3λ, less than the 8u of the separation and η by which it must exceed it.
     #[inline(always)]
     #[must_use]
     pub fn are_beyond_along_an_axis(&self, separation: L) -> L::Mask {
@@ -117,7 +117,7 @@ impl<L: Lanes, const N: usize> Corners<L, N> {
 ///
 /// Both move linearly, so each product is quadratic, with the Bernstein coefficients w₀·e₀, ½(w₀·e₁ + w₁·e₀) and w₁·e₁. s·|w|
 /// lies below the line between its values at the ends, whose middle coefficient is the mean. All three coefficients above the bar
-/// prove it, where the bar of the middle one is the mean of the two: its error is at most 8ε times the mean of S₀ and S₁.
+/// prove it, where the bar of the middle one is the mean of the two. Its error is at most 8ε times the mean of S₀ and S₁.
 #[inline(always)]
 #[must_use]
 pub fn are_apart_turning<L: Lanes, const N: usize>(

@@ -4,7 +4,7 @@
 //! Between two times the corners move from `from` to `to`, and a direction turns from w₀ to w₁. Three ways to turn are tried:
 //! * straight, where the lengths of w₀ and w₁ [balance](balanced);
 //! * from and to the [middle](in_the_middle) of the directions that keep the pair apart. Next to a side, the direction of the
-//!   closest point is perpendicular to that side, but for an angle as small as the distance, which leaves no room to turn;
+//!   closest point is perpendicular to that side, up to an angle as small as the distance. It leaves no room to turn;
 //! * on a curve that stays [perpendicular to a side](along_side). Where two corners on opposite sides are far away, only
 //!   directions perpendicular to the line between them keep the pair apart.
 //!
@@ -74,8 +74,8 @@ pub(crate) fn farthest<S: Number, const N: usize>(positions: &[Vector<S>; N], w:
     best
 }
 
-/// Returns the middle of the directions that keep the pair apart, where one corner is at most an eighth as far as its two
-/// neighbours: the closest point of the three, each moved to distance one.
+/// Returns the middle of the directions that keep the pair apart, if one corner is at most an eighth as far as its two
+/// neighbours. It is the closest point of the three, each moved to distance one.
 pub(crate) fn in_the_middle<S: Number, const N: usize>(positions: &[Vector<S>; N]) -> Option<Vector<S>> {
     let &[a, b, c, ref rest @ ..] = positions.as_slice() else {
         return None;
@@ -99,8 +99,8 @@ pub(crate) fn in_the_middle<S: Number, const N: usize>(positions: &[Vector<S>; N
     (w.dot(w) > S::ZERO).then(|| unit(w))
 }
 
-/// Returns `w1` at a length at which the middle coefficients w₀·e₁ + w₁·e₀ are positive for all corners, if there is one; at most
-/// 2¹² times as long, or as short.
+/// Returns `w1` at a length at which the middle coefficients w₀·e₁ + w₁·e₀ are positive for all corners, if there is one. It
+/// becomes at most 2¹² times as long, or as short.
 #[inline(always)]
 pub(crate) fn balanced<S: Number, const N: usize>(
     w0: Vector<S>,

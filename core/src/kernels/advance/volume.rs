@@ -121,10 +121,10 @@ impl<L: Lanes> SignedVolume<L> {
 
     /// Returns the time until which the volume proves, from `time` on, that the pair is apart: one step.
     ///
-    /// The part of the cubic from there to the end, less its bounds, lies above the lower hull of its control polygon, whose
+    /// The part of the cubic from there to the end, less its bounds, lies above the lower hull of its control polygon. The hull's
     /// first zero is the next time. Its quotients pass through at most 8 roundings, which a factor 1 − 32u covers, and the last
-    /// addition through two. The hull of the whole rest is coarse. So where the part that is sixteen, or four, times as long has
-    /// only positive control values, that part is taken instead.
+    /// addition through two. The hull of the whole rest is coarse. If the part that is sixteen, or four, times as long has only
+    /// positive control values, that part is taken instead.
     ///
     /// The constant `DIVIDES_FIRST` is that of `first_zero_of_hull`.
     #[inline(always)]
@@ -217,14 +217,14 @@ fn third<L: Lanes>(like: L) -> L {
     like.splat(L::Scalar::ONE) / like.splat(L::Scalar::small(3))
 }
 
-/// Returns the place where the lower hull of the control polygon over [0, 1] first reaches zero, for a positive first value;
-/// [`beyond`] it if nowhere.
+/// Returns where the lower hull of the control polygon over [0, 1] first reaches zero, for a positive first value; [`beyond`] if
+/// it does not.
 ///
 /// The hull's lower side crosses zero on a line from one of the positive points before the first other point to a point that is
 /// not positive. Every such line crosses no earlier. (Lines from the first point alone are not enough.)
 ///
-/// On a line from the first point, 2b₀/3(b₀ − b) is rounded as often whether it divides or multiplies first, but not to the same
-/// bits. One pair alone multiplies first, several side by side divide first: each keeps its results.
+/// On a line from the first point, 2b₀/3(b₀ − b) has as many roundings whether it divides or multiplies first, but other bits.
+/// One pair alone multiplies first; several side by side divide first. Each keeps its results.
 #[inline(always)]
 fn first_zero_of_hull<L: Lanes, const DIVIDES_FIRST: bool>([b0, b1, b2, b3]: [L; 4]) -> L {
     // These are macros, because a closure is not always inlined.

@@ -143,9 +143,9 @@ impl<'a> Arithmetic for Space<'a> {
     }
 }
 
-/// Returns the number of words of [`Space`] that coordinates of `N` words need: 24 coordinates and 18 edges of N + 1; 12
-/// components of n₀, n₁ and the parts of h, and 9 of sums of those, of 2·N + 1; six products of vectors of 3·N + 2 and two sums
-/// of them; and 12·N + 1 for one product of vectors while it is computed.
+/// Returns the number of words of [`Space`] that coordinates of `N` words need. There are 24 coordinates and 18 edges of N + 1,
+/// and 12 components of n₀, n₁ and the parts of h, and 9 of sums of those, of 2·N + 1. Six products of vectors and two sums of
+/// them take 3·N + 2. One product of vectors takes 12·N + 1 while it is computed.
 pub(super) const fn space(n: usize) -> usize {
     42 * (n + 1) + 21 * (2 * n + 1) + 6 * (3 * n + 2) + 2 * (3 * n + 3) + 12 * n + 1
 }

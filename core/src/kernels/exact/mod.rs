@@ -19,11 +19,11 @@
 //! | 33 | 2,109 | all of `f64`, which has 2,098 |
 //!
 //! A call takes time and stack only for the width that its pair needs. On x86-64 that is at most 7 kB of stack for the first
-//! three, and 35 kB for all of `f64`, whose numbers are slices of one space, each of as many words as it needs.
+//! three, and 35 kB for all of `f64`. There numbers are slices of one space, each of as many words as it needs.
 //!
 //! No operation is in floating point. So the answers are exact for every finite input, subnormal and largest numbers included, in
-//! every floating-point environment. (Shewchuk's expansions, the usual method, are exact only when rounding to nearest, and in
-//! `f64` only while products neither underflow nor overflow.)
+//! every floating-point environment. (The usual method, Shewchuk's expansions, is exact only when rounding to nearest. In `f64`
+//! it also needs products that neither underflow nor overflow.)
 //!
 //! # Separation
 //! With p, b, c as below and n = b × c, the distance of the vertex from the face's plane, or of the two edges' lines, is
@@ -172,8 +172,8 @@ pub fn is_never_coplanar<S: Scalar>(pair: &PrimitivePair<S>, known: KnownSigns) 
     one_sign(pair, known, Magnitude::ZERO)
 }
 
-/// Returns true if all four control values are positive, or all four negative, and far enough from zero to prove that the vertex
-/// and the face's plane, or the two edges' lines, are more than `separation` apart at every time in [0, 1].
+/// Returns true if all four control values have one sign and are far enough from zero. This proves that the vertex and the face's
+/// plane, or the two edges' lines, are more than `separation` apart at every time in [0, 1].
 ///
 /// The result is certified in every floating-point environment, and exact up to a relative 2⁻⁶⁰ of the separation (see the
 /// module's documentation). With `separation` 0 it is the same as [`is_never_coplanar`]. It is false if a coordinate is NaN or

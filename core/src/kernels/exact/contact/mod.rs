@@ -7,13 +7,13 @@
 //! 2. along no axis do the cross products e₁×e₂, e₂×e₃, …, e_N×e₁ have components of both signs;
 //! 3. along no axis do all corners have coordinates of one strict sign.
 //!
-//! Each condition is necessary. A polygon that contains the origin turns around it, if at all, in one sense, in projection too;
-//! and it does not lie strictly on one side of any plane through the origin. They are also sufficient. If the polygon has an
-//! area, one component of its normal is not zero, and projection along that axis loses nothing. The cross products add up to
-//! twice the projected area, so they are not all zero, and 2 puts the origin on the inner side of every edge of a convex polygon.
-//! If it has no area, the corners are on one line and the cross products add up to zero, so by 2 all of them are zero. Then
-//! either that line passes through the origin, and 3 decides whether it has corners on both sides or at it; or neighbours are
-//! equal, all corners are one point, and 3 decides whether that is the origin.
+//! Each condition is necessary. A polygon that contains the origin turns around it, if at all, in one sense, in projection too.
+//! It does not lie strictly on one side of any plane through the origin. They are also sufficient. If the polygon has an area,
+//! one component of its normal is not zero, and projection along that axis loses nothing. The cross products add up to twice the
+//! projected area, so they are not all zero. So 2 puts the origin on the inner side of every edge of a convex polygon. If it has
+//! no area, the corners are on one line and the cross products add up to zero, so by 2 all of them are zero. If that line passes
+//! through the origin, 3 decides whether it has corners on both sides or at it. Otherwise neighbours are equal, all corners are
+//! one point, and 3 decides whether that is the origin.
 //!
 //! So there are no special cases for parallel edges, edges without length, or faces without area. (If along some axis cross
 //! products are not all zero, there is an area, and 3 is not needed.)
@@ -23,19 +23,19 @@
 //! * Start and end are tested first.
 //! * If K is not zero throughout, contact in between is at one of its roots. Descartes' rule, the number of changes of sign among
 //!   its coefficients, shows if there is none, or exactly one. If there may be more, the roots of the derivative divide the step
-//!   into parts in which K has at most one root: one if it changes sign from end to end. K may also be zero at those roots
+//!   into parts in which K has at most one root. It has one if it changes sign from end to end. K may also be zero at those roots
 //!   themselves, without changing sign.
 //! * If K is zero throughout, the times of contact are a closed set. Its first time, if it is not 0, is a root of one of the
-//!   quadratics or linear polynomials of 2 and 3; all of them are tried.
+//!   quadratics or linear polynomials of 2 and 3. All of them are tried.
 //!
 //! Both need signs of polynomials of degree at most three, at roots of polynomials of degree at most two: see `moment`. At a root
-//! of the cubic, the sign of a quadratic follows from the position of its roots, before or after; and these are signs of the
-//! cubic, and of its derivative, at roots of quadratics. Nothing is isolated, refined, or iterated.
+//! of the cubic, the sign of a quadratic follows from the position of its roots, before or after. These are signs of the cubic,
+//! and of its derivative, at roots of quadratics. Nothing is isolated, refined, or iterated.
 //!
 //! # Work
 //! The costly step is a sign at a root: about 17 products of numbers of up to nine times a coordinate's words. A contact at one
 //! time needs the polynomials of 2 and 3, six for each corner: at most 24. At a crossing of the cubic, a quadratic has two roots
-//! to compare with it. Each takes one sign, and two more for either end of the crossing's interval, if it has any, so a
+//! to compare with it. Each takes one sign, and two more for either end of the crossing's interval, if it has any. So a
 //! polynomial takes 10 signs; at a root, one. So there are at most
 //! * 3·24·10 + 2·(24 + 1) = 770 signs where K is not zero throughout (three crossings, two turning points),
 //! * 36·24 = 864 signs where it is (12 roots of linear polynomials, 24 of quadratics).

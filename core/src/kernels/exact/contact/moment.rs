@@ -1,8 +1,8 @@
 //! Exact times, and the signs of polynomials at them.
 //!
 //! A time t is represented by s = t/(1 − t), which takes (0, 1) to (0, ∞). A polynomial of degree n in t with Bernstein
-//! coefficients βᵢ is (1 − t)ⁿ·Σ C(n, i)βᵢ·sⁱ. So its sign is that of a polynomial in s, whose coefficients need no division and
-//! whose signs show which of its roots lie in the step (Descartes). Start and end of the step are s = 0 and s = ∞. Polynomials
+//! coefficients βᵢ is (1 − t)ⁿ·Σ C(n, i)βᵢ·sⁱ. So its sign is that of a polynomial in s, whose coefficients need no division.
+//! Their signs show which of its roots lie in the step (Descartes). Start and end of the step are s = 0 and s = ∞. Polynomials
 //! are slices of coefficients, the constant first; the last may be zero.
 //!
 //! # Head-room
@@ -27,8 +27,9 @@
 //! two. The last number is a sum of three, l² times a coefficient of q.) The largest has 16·(64·N − 2) + 26 < 1024·N bits, which
 //! is 16·N words. A linear q needs less.
 //!
-//! The space of [`terms`] is also largest in the first row: two numbers of 5·N words and two of 7·N for the remainder, a power of
-//! 4·N, and at the end four of 9·N, A among them, one of 14·N and three of 16·N: 126·N, and a few words for carries.
+//! The space of [`terms`] is also largest in the first row. There are two numbers of 5·N words and two of 7·N for the remainder,
+//! and a power of 4·N. At the end there are four of 9·N, A among them, one of 14·N and three of 16·N. This makes 126·N, and a few
+//! words for carries.
 //!
 //! All this is first tried with [`rounded`](super::rounded) numbers, from which most signs are certain.
 
