@@ -3,9 +3,9 @@
 //! `std-adapter/python/benchmarks/cut_steps.py --save FILE`, then
 //! `cargo run --release -p selvedge-verification --example cut_steps -- FILE`
 //!
-//! A step is 36 positions of three `f64` in this machine's byte order, without gaps: the 18 corners of six triangles at the start
-//! of the step, then at the cut. The program prints each pair that touches. The exit status is 1 if there is one, or the input is
-//! invalid.
+//! A step is 36 positions of three `f64` in this machine's byte order, without gaps. They are the 18 corners of six triangles at
+//! the start of the step, then at the cut. The program prints each pair that touches. The exit status is 1 if there is one, or
+//! the input is invalid.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;

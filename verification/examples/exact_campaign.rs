@@ -7,7 +7,7 @@
 //! scenes are a bending tube and the steps between the named meshes. The state is kept in FILE (by default `exact_campaign.json`
 //! in the folder for temporary files), and a run that was killed resumes from it. With `--shard I/N`, I from 1 to N, and
 //! `--seed`, it is one of N parts of the run, which `--example merge` joins. The exit status is 0 if no claim is wrong, 1 if one
-//! is or a file is invalid, and 2 if the command line is invalid.
+//! is or a file is invalid, 2 for a wrong command line.
 
 mod campaign;
 

@@ -4,7 +4,7 @@
 //!
 //! SHARDs are the state files of all shards, in any order. The joined state goes to FILE, which must not exist, unless it holds
 //! the same state. Gaps, overlaps, unfinished shards, different commits and different settings are refused; the message names the
-//! files. The exit status is 0 if no promise is broken, 1 if one is or shards are refused, and 2 if the command line is invalid.
+//! files. The exit status is 0 if no promise is broken, 1 if one is or shards are refused, 2 for a wrong command line.
 
 use selvedge_verification::campaign::{Findings, Progress, StateFile, exact, merge, read, screw_motions};
 use serde::Deserialize;

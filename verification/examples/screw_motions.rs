@@ -6,7 +6,7 @@
 //! CASES is the number of cases, by default 100 million, of both kinds of pairs. The state is kept in FILE (by default
 //! `screw_motions.json` in the folder for temporary files), and a run that was killed resumes from it. With `--shard I/N`, I from
 //! 1 to N, and `--seed`, it is one of N parts of the run, which `--example merge` joins. The exit status is 0 if no time is late,
-//! 1 if one is or the file is invalid, and 2 if the command line is invalid.
+//! 1 if one is or the file is invalid, 2 for a wrong command line.
 
 mod campaign;
 

@@ -157,8 +157,8 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Mul for Minifloat<E, F,
     }
 }
 
-/// A quotient of two such numbers that is not such a number itself differs from all of them, and from the middle of two, by at
-/// least 2⁻²ᶠ⁻² of its size. So the rounding of `f64` does not make it one.
+/// A quotient of two such numbers that is no such number differs from all of them, and their middles, by at least 2⁻²ᶠ⁻² of its
+/// size. So the rounding of `f64` does not make it one.
 impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Div for Minifloat<E, F, ENVIRONMENT> {
     type Output = Self;
 

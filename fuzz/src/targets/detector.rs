@@ -5,8 +5,8 @@ use selvedge_verification::generator::{Format, MeshCase};
 use selvedge_verification::oracle::{Pair, collides};
 use std::collections::BTreeSet;
 
-/// Every vertex–face and edge–edge pair without a common vertex whose swept boxes overlap is a candidate exactly once, and no pair that
-/// has a common vertex is one. The detector's contacts lack no pair that touches. Two threads change nothing.
+/// Every vertex–face and edge–edge pair without a common vertex whose swept boxes overlap is a candidate exactly once. No pair
+/// with a common vertex is one. The detector's contacts lack no pair that touches. Two threads change nothing.
 pub fn detector(data: &[u8]) {
     let (&first, rest) = data.split_first().unwrap_or((&0, &[]));
     let threads = if first & 0b1110 == 0b1110 { 2 } else { 1 };

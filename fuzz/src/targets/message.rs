@@ -1,7 +1,7 @@
 use std::fmt::Display;
 
-/// Checks that an error message is one readable line for any input: not empty, not endless, and free of control characters, with
-/// which a file could overwrite a terminal.
+/// Checks that an error message is one readable line for any input. It is not empty, not endless, and free of control characters,
+/// with which a file could overwrite a terminal.
 pub(super) fn check(error: &impl Display) {
     let message = error.to_string();
     assert!(!message.trim().is_empty(), "an empty message");

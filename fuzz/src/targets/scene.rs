@@ -8,8 +8,8 @@ const LARGEST: usize = 500;
 /// The number of cells, and of similar counts, from which on scenes are skipped, since they only take time and memory.
 const FINEST: u64 = 13;
 
-/// A scene file is refused with a readable message that names line and column, or it makes a scene in which everything is finite
-/// after two steps. If a scene cannot be set up, or is blocked, the message is one line, too.
+/// A scene file is rejected with a readable message that names line and column, or makes a scene that is finite after two steps.
+/// If a scene cannot be set up, or is blocked, the message is one line, too.
 pub fn scene(data: &[u8]) {
     let Ok(text) = std::str::from_utf8(data) else {
         return;

@@ -71,8 +71,8 @@ fn name(file: Option<&PathBuf>, otherwise: &str) -> String {
 /// of different counts (`1/2`, `3/4`, `4/4`) can be joined if together they have each chunk once.
 ///
 /// # Errors
-/// Returns an error if a shard is unfinished, of another run or of an unknown commit, or if a chunk is in no shard or in two. The
-/// [`Refusal`] names the files.
+/// Returns an error if a shard is unfinished, of another run or of an unknown commit. A chunk in no shard or in two is also an
+/// error. The [`Refusal`] names the files.
 pub fn merge<F: Findings>(mut shards: Vec<(PathBuf, Progress<F>)>) -> Result<Progress<F>, Refusal> {
     let (first, one) = shards.first().ok_or(Refusal::NoShards)?;
     for (file, shard) in &shards {

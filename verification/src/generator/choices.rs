@@ -1,6 +1,6 @@
 //! Decisions read from bytes.
 
-/// A stream of decisions. Every question has an answer, even with few bytes: when they are used up, each answer is the first one,
+/// A stream of decisions. Every question has an answer, even with few bytes. When they are used up, each answer is the first one,
 /// which by convention is the simplest.
 #[derive(Clone, Copy, Debug)]
 pub struct Choices<'a> {

@@ -1,10 +1,10 @@
 //! The generator of inputs for the property tests and the fuzz targets.
 //!
-//! [`Choices`] makes a case from bytes: random ones in a property test ([`pairs`], [`meshes`] and similar functions are proptest
-//! strategies), the fuzzer's in a fuzz target ([`PairCase::from_bytes`]). Cases are biased to inputs that break floating-point
-//! geometry: equal, nearly equal, collinear and coplanar points, equal coordinates, huge, tiny and subnormal numbers, neighbours
-//! in the last place, and shapes far from the origin that hardly move. Some pairs exactly touch or are exactly coplanar at a
-//! chosen time, 0 and 1 included ([`Moment`]).
+//! [`Choices`] makes a case from bytes. They are random in a property test ([`pairs`], [`meshes`] and similar functions are
+//! proptest strategies), and the fuzzer's in a fuzz target ([`PairCase::from_bytes`]). Cases are biased to inputs that break
+//! floating-point geometry. Examples are equal, nearly equal, collinear and coplanar points, and equal coordinates. Others are
+//! huge, tiny and subnormal numbers, neighbours in the last place, and shapes far from the origin that hardly move. Some pairs
+//! exactly touch or are exactly coplanar at a chosen time, 0 and 1 included ([`Moment`]).
 //!
 //! A failing case is simplified number by number, and printed as Rust that makes it.
 

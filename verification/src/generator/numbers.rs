@@ -162,8 +162,8 @@ pub(super) fn fraction<S: Format>(choices: &mut Choices<'_>) -> S {
     S::exact(whole(choices, bits), -bits.cast_signed())
 }
 
-/// Chooses any finite number: zero, a small integer, a fraction, a power of two or its neighbour, one of the smallest and largest
-/// numbers, or random bits.
+/// Chooses any finite number: zero, a small integer, a fraction, a power of two or its neighbour, an extreme number, or random
+/// bits.
 pub(super) fn finite<S: Format>(choices: &mut Choices<'_>) -> S {
     match choices.below(8) {
         0 => S::ZERO,

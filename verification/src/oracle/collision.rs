@@ -28,8 +28,8 @@ pub fn coplanar(start: &[[f64; 3]; 4], end: &[[f64; 3]; 4]) -> bool {
     roots.variations(&Integer::from(0), 0) != roots.variations(&Integer::from(1), 0)
 }
 
-/// Returns the earliest time in [0, 1] at which the closed vertex and face, or the two closed edges, share a point, or `None` if
-/// they never do.
+/// Returns the earliest time in [0, 1] at which the closed vertex and face, or the two closed edges, share a point. `None`: they
+/// never do.
 ///
 /// A rational time is known as such.
 ///

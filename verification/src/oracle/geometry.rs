@@ -1,7 +1,7 @@
 //! Exact predicates on points, segments and triangles, all of them closed and possibly degenerate.
 //!
 //! They are written once over a ring with signs. It is instantiated with integers, for points at rest, and with polynomials in
-//! the time, for points in motion, whose signs are taken at one algebraic time.
+//! the time, for points in motion. Their signs are taken at one algebraic time.
 
 use super::polynomial::Polynomial;
 use rug::Integer;

@@ -1,8 +1,8 @@
 //! Exact answers for points that move linearly during a step, and for meshes at rest.
 //!
 //! Every `f64` is a rational number, so each question below has one true answer. These functions return it, without rounding or
-//! tolerance, for all finite input: also for edges of no length, triangles of no area, parallel edges, coplanar motion and no
-//! motion. They panic on NaN and infinity.
+//! tolerance, for all finite input. This includes edges of no length, triangles of no area, parallel edges, coplanar motion and
+//! no motion. They panic on NaN and infinity.
 //!
 //! | question | function |
 //! |---|---|

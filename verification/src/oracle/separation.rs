@@ -6,8 +6,7 @@ use super::motion::{Motion, Pair, PairKind};
 use super::polynomial::Polynomial;
 use rug::{Integer, Rational};
 
-/// Returns whether the distance of the closed vertex and face, or of the two closed edges, is `separation` or less at some time
-/// in [0, 1].
+/// Returns whether the distance of the closed vertex and face, or of the two closed edges, is at most `separation` at some time.
 ///
 /// With a separation of zero this decides the same as [`collides`](super::collides), in another way.
 ///
@@ -22,8 +21,8 @@ pub fn within(pair: &Pair, separation: f64) -> bool {
 
 /// Returns the earliest time in [0, 1] at which the distance is `separation` or less, or `None` if it never is.
 ///
-/// This can take minutes if coordinates and separation differ in size by hundreds of powers of ten, since the times to be
-/// compared are then nearly equal. [`within`] does not compare times.
+/// This can take minutes if coordinates and separation differ by hundreds of powers of ten: the times to be compared are then
+/// nearly equal. [`within`] does not compare times.
 ///
 /// # Panics
 /// Panics as [`within`] does.

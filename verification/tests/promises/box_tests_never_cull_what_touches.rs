@@ -277,7 +277,7 @@ proptest! {
     }
 }
 
-/// Numbers go up to 8 on a grid of 2⁻¹⁰. If the path misses the box enlarged by 2⁻⁷ on all sides, then on a cross axis of the box
+/// Numbers go up to 8 on a grid of 2⁻¹⁰. Let the path miss the box enlarged by 2⁻⁷ on all sides. Then on a cross axis of the box
 /// itself s > 2⁻⁷(|d_j| + |d_k|). The error bound is at most 4u·32(|d_j| + |d_k|) + η, which is far less if d is not zero.
 /// Otherwise a box axis separates.
 fn a_path_clearly_past_the_box_is_culled<S: Format>() {

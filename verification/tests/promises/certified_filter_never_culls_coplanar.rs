@@ -1,5 +1,5 @@
-//! The certified non-coplanarity filter never culls four points that are coplanar at some time of the step, in any arrangement, and each
-//! constant of its bound is needed. `tiers_keep_their_promises` compares it with the oracle.
+//! The certified non-coplanarity filter never culls four points that are coplanar at some time of the step, in any arrangement.
+//! Each constant of its bound is needed. `tiers_keep_their_promises` compares it with the oracle.
 
 use proptest::prelude::*;
 use selvedge_core::PairKind;
@@ -49,9 +49,8 @@ property!(
     |moment: Moment| never_culls_a_coplanar_pair_in_any_arrangement(moment)
 );
 
-/// A computed control value above its bound proves that the exact one is at least about one unit roundoff of f32 times its
-/// permanent, which is far above the bound of f64. (To nearest, at most 7 of the 16 in the bound are needed, and at most 9 of the
-/// 20.)
+/// If a computed control value is above its bound, the exact one is at least about one unit roundoff of f32 times its permanent.
+/// This is far above the bound of f64. (To nearest, at most 7 of the 16 in the bound are needed, and at most 9 of the 20.)
 #[test]
 fn what_the_f32_filter_culls_the_f64_filter_culls_too() {
     check(300_000, pairs_of_any_kind::<f32>(), |pair| {

@@ -66,8 +66,8 @@ fn nothing_culls<S: Format>(pair: &PairCase<S>, touches: bool) -> Result<(), Tes
     Ok(())
 }
 
-/// Makes a pair of the generator, scaled so that differences or products of two or of three are subnormal, or beyond the limit
-/// from which overflow is possible.
+/// Makes a pair of the generator, scaled so that differences or products of two or three are subnormal, or so large that overflow
+/// is possible.
 fn at_the_limits<S: Format>(meeting: Meeting, choices: &mut Choices<'_>) -> PairCase<S> {
     let kind = choices.pick(&[PairKind::VertexFace, PairKind::EdgeEdge]);
     let pair = Moment::<S>::choose(kind, meeting, choices).pair();
@@ -281,8 +281,8 @@ fn with_an_eighth_of_the_rounding_bound_rounding_upward_would_cull_a_touching_pa
     is_culled_but_for::<AnEighth, f32>(Kernel::NonCoplanarity, environment, PairKind::EdgeEdge, points);
 }
 
-/// A vertex at rest above a triangle at rest, by that height, and a subnormal separation larger than it, which compares as zero
-/// if subnormal numbers are flushed.
+/// A vertex at rest above a triangle at rest, by that height. The separation is larger and subnormal; it compares as zero if
+/// subnormal numbers are flushed.
 fn keeps_within_a_subnormal_separation<S: Format>(height: S, separation: S) {
     let o = S::ZERO;
     let face = [[o, o, o], [S::ONE, o, o], [o, S::ONE, o]];

@@ -270,7 +270,7 @@ fn compared<S: Format>(pair: &PairCase<S>) -> Option<Compared> {
 
 property!(
     /// Each monomial passes through at most 8 roundings (k₀, k₃) or 10 (3k₁, 3k₂), here to nearest. Each product that underflows
-    /// loses η₀: two for a component of n, four for one of h, and at most once more in the last six additions.
+    /// loses η₀. There are two for a component of n, four for one of h, and at most one more in the last six additions.
     control_values_are_off_by_no_more_than_their_roundings,
     8_000,
     pairs_of_any_kind(),
@@ -354,8 +354,8 @@ property!(
     }
 );
 
-/// Checks that a computed bound is the documented sum of a relative and an absolute term, up to at most 16 roundings and the
-/// underflow of its products, which is less than an eighth of the absolute term.
+/// Checks that a computed bound is the documented sum of a relative and an absolute term, up to 16 roundings and the underflow of
+/// its products. The underflow is less than an eighth of the absolute term.
 fn is_documented<S: Format>(bound: &Rational, relative: Rational, absolute: &Rational) -> Result<(), TestCaseError> {
     let slack = relative_error::<S>(16) + 1_u32;
     let (documented, lost) = (relative + absolute, Rational::from(absolute / 8_u32));

@@ -1,4 +1,4 @@
-//! Every result is the same, bit for bit, on every machine and in every version: each test compares a digest of the results of
+//! Every result is the same, bit for bit, on every machine and in every version. Each test compares a digest of the results of
 //! fixed queries.
 //!
 //! The other promises exclude wrong results. Within them, a test could become less sharp, or a time earlier, without a failure;
@@ -219,7 +219,7 @@ fn boxes() {
     );
 }
 
-/// The comparison of the moving boxes of a pair's four points, in a block with empty lanes between, with each of them, on every
+/// Compares the moving boxes of a pair's four points, in a block with empty lanes between, with each of them, on every
 /// instruction set.
 struct Blocks;
 

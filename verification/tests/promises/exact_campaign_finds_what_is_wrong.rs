@@ -1,4 +1,4 @@
-//! In a small billion-pair campaign no certified claim is wrong, the false culls of an unsafe filter are found, and the findings
+//! In a small billion-pair campaign no certified claim is wrong, and the false culls of an unsafe filter are found. The findings
 //! depend on neither threads nor interruptions.
 
 use selvedge::simd::best_level;

@@ -1,6 +1,6 @@
-//! Bounds on which a caller relies for several steps are never overstated: the gap along a direction, the distance that a pair
-//! keeps although its points stray, how far they have strayed, boxes with a separation, lengths and times in fewer digits, and
-//! how wide neighbours are open. This holds in every floating-point environment.
+//! Bounds on which a caller relies for several steps are never overstated. They are the gap along a direction, the distance that
+//! a pair keeps although its points stray, and their stray. Others are boxes with a separation, lengths and times in fewer
+//! digits, and how wide neighbours are open. This holds in every floating-point environment.
 
 use crate::support::environment::Environment;
 use crate::support::point;

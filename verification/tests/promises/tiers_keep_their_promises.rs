@@ -249,7 +249,7 @@ fn a_separation_that_is_no_length_is_refused_f64() {
     a_separation_that_is_no_length_is_refused::<f64>();
 }
 
-/// Without bounds a filter is wrong here: the vertex rests on a corner of the face, and rounding gives all four control values,
+/// Without bounds a filter is wrong here. The vertex rests on a corner of the face, and rounding gives all four control values,
 /// which are zero, one sign.
 fn uncertified_culls_a_vertex_on_a_corner<S: Format>(pair: &PairCase<S>) {
     assert!(pair.points[1..].contains(&pair.points[0]));

@@ -1,5 +1,5 @@
-//! The certified time of impact never misses, is never later than the exact time, is as tight as documented, and does no more
-//! work than documented, in every floating-point environment.
+//! The certified time of impact never misses, and is never later than the exact time, in every floating-point environment. It is
+//! as tight as documented, and does no more work.
 
 use crate::support::environment::Environment;
 use proptest::prelude::*;
@@ -147,8 +147,8 @@ fn tolerance<S: Format>(pair: &PairCase<S>, choices: &mut Choices<'_>) -> S {
     choices.pick(&[S::ZERO, S::ONE]) * size(pair) * S::exact(1, -exponent)
 }
 
-/// Chooses no separation half of the time. Otherwise it is a part of the pair's size, or exactly the distance of two of its
-/// points along an axis, which for simple pairs is how close they come.
+/// Chooses no separation half of the time. Otherwise it is a part of the pair's size, or exactly the distance of two points along
+/// an axis. For simple pairs this is how close they come.
 fn separation<S: Format>(pair: &PairCase<S>, choices: &mut Choices<'_>) -> S {
     match choices.below(8) {
         0..4 => S::ZERO,
@@ -304,7 +304,7 @@ property!(
     |question| excludes_only_what_stays_apart(question)
 );
 
-/// The test above found this pair. If subnormal numbers are flushed, a subnormal separation must not compare as zero: the vertex
+/// The test above found this pair. If subnormal numbers are flushed, a subnormal separation must not compare as zero. The vertex
 /// comes within it of a corner that sinks away from below.
 #[test]
 fn a_subnormal_separation_counts_where_subnormal_numbers_are_taken_for_zero() {

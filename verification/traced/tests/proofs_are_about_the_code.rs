@@ -1,5 +1,5 @@
-//! The proofs in `gappa/` and `proofs/` are about core as it is: they read what its code gives, and the constants and counts of
-//! roundings in scripts are the code's. `gappa/check.sh` and `proofs/check.sh` check that the proofs hold.
+//! The proofs in `gappa/` and `proofs/` are about the present code of core. They read what it gives, and the constants and counts
+//! of roundings in scripts are the code's. `gappa/check.sh` and `proofs/check.sh` check that the proofs hold.
 
 use selvedge_core::Scalar;
 use selvedge_core::verification::advance::confirm::{contains_origin, doubled_bounds};

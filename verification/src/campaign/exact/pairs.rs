@@ -140,8 +140,8 @@ fn is_wide<S: Format>(case: &PairCase<S>) -> bool {
     high / low > 1e60
 }
 
-/// Makes a random pair. Three in four pairs have coordinates of so few bits that integers of one word suffice for exact
-/// arithmetic, which takes a fraction of the time.
+/// Makes a random pair. Three in four pairs have coordinates of so few bits that integers of one word suffice, which takes a
+/// fraction of the time.
 fn at_random<S: Format>(kind: PairKind, random: &mut Random) -> PairCase<S> {
     let bits = if random.below(4) > 0 { 26 } else { 52 };
     let motion = [1.0, 0.5, 1.0 / 16.0, 1.0 / 4096.0, 1.0 / 4_194_304.0][random.below(5) as usize];

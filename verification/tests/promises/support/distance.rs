@@ -72,8 +72,8 @@ pub(crate) fn distance(pair: &Pair, t: f64) -> f64 {
 /// The distance above the separation at which stepping ends.
 pub(crate) const SLACK: f64 = 1e-9;
 
-/// Returns a time not after the first one at which the distance comes down to `separation`, and at which it is less than `SLACK`
-/// above it, or `None` if there is none.
+/// Returns a time at which the distance is less than `SLACK` above `separation`, or `None`. It is not after the first time at
+/// which the distance comes down to `separation`.
 pub(crate) fn advance(pair: &Pair, separation: f64) -> Option<f64> {
     let velocity = |i: usize| DVec3::from(pair.end[i]) - DVec3::from(pair.start[i]);
     let first = match pair.kind {
