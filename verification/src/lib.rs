@@ -18,6 +18,40 @@ pub mod minifloat;
 pub mod oracle;
 pub mod plain;
 
+/// Declares a module with tests in `f32` and in `f64` of a generic function, or of a property with a number of cases and a strategy. The
+/// module has the function's name, or another one: `formats!(name is function(1_000, pairs_of_any_kind()))`.
+#[macro_export]
+macro_rules! formats {
+    ($name:ident) => {
+        $crate::formats!(@ $name, $name::<f32>(), $name::<f64>());
+    };
+    ($name:ident($cases:expr, $strategy:expr)) => {
+        $crate::formats!($name is $name($cases, $strategy));
+    };
+    ($name:ident is $property:ident($cases:expr, $strategy:expr)) => {
+        $crate::formats!(
+            @ $name,
+            $crate::generator::check($cases, $strategy, $property::<f32>),
+            $crate::generator::check($cases, $strategy, $property::<f64>)
+        );
+    };
+    (@ $name:ident, $in_f32:expr, $in_f64:expr) => {
+        mod $name {
+            use super::*;
+
+            #[test]
+            fn f32() {
+                $in_f32;
+            }
+
+            #[test]
+            fn f64() {
+                $in_f64;
+            }
+        }
+    };
+}
+
 /// Runs the examples of the project's readme as tests.
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]

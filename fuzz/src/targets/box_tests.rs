@@ -1,10 +1,9 @@
 use super::pair::{self, Numbers};
-use rug::Rational;
 use selvedge::core::boxes::{Aabb, segment::misses};
-use selvedge::core::{Motion, Scalar, Verdict};
+use selvedge::core::{Motion, Verdict};
 use selvedge_verification::culling::{self, CullingTest};
 use selvedge_verification::generator::{Format, PairCase};
-use selvedge_verification::oracle::collides;
+use selvedge_verification::oracle::{collides, rational, segment_meets_box};
 
 /// No certified test culls a pair that touches, or one with NaN or infinities. Every test culls at least what swept boxes cull,
 /// and more directions cull more. The path of a vertex misses a box only if it does so exactly, and always then if nothing is
@@ -60,32 +59,7 @@ fn path_and_box<S: Format>(points: [[[S; 3]; 2]; 4]) -> (bool, bool) {
         end: end.into(),
     });
     let target = Aabb::<S>::swept(&face);
-    (misses(&path, &target), !meets(points[0], &target))
-}
-
-/// Returns whether a segment and a closed box share a point, by cutting the segment at the box's planes in exact arithmetic.
-fn meets<S: Scalar>([start, end]: [[S; 3]; 2], target: &Aabb<S>) -> bool {
-    let exact = |x: S| Rational::from_f64(x.to_f64()).expect("finite");
-    let (mut from, mut to) = (Rational::from(0), Rational::from(1));
-    for axis in 0..3 {
-        let [start, end] = [start, end].map(|position| exact(position[axis]));
-        let [lower, upper] = [target.lower, target.upper].map(|bound| exact(bound[axis]));
-        let along = Rational::from(&end - &start);
-        if along.is_zero() {
-            if start < lower || start > upper {
-                return false;
-            }
-            continue;
-        }
-        let times = [lower, upper].map(|bound| (bound - &start) / &along);
-        let [enters, leaves] = if along.is_positive() {
-            times
-        } else {
-            let [lower, upper] = times;
-            [upper, lower]
-        };
-        from = from.max(enters);
-        to = to.min(leaves);
-    }
-    from <= to
+    let exact = |position: [S; 3]| position.map(rational);
+    let bounds = [target.lower, target.upper].map(exact);
+    (misses(&path, &target), !segment_meets_box(&points[0].map(exact), &bounds))
 }

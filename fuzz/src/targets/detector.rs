@@ -1,8 +1,8 @@
+use selvedge::core::Scalar;
 use selvedge::core::boxes::Aabb;
-use selvedge::core::{Motion, Scalar};
-use selvedge::{CandidateBoxes, CollisionDetector, Contact, PairKind, Threads, Topology};
-use selvedge_verification::generator::{Format, MeshCase};
-use selvedge_verification::oracle::{Pair, collides};
+use selvedge::{CandidateBoxes, CollisionDetector, Contact, PairKind, Threads};
+use selvedge_verification::generator::{Format, MeshCase, MeshPair, PairCase, all_pairs, with_kinds};
+use selvedge_verification::oracle::collides;
 use std::collections::BTreeSet;
 
 /// Every vertex–face and edge–edge pair without a common vertex whose swept boxes overlap is a candidate exactly once. No pair
@@ -20,16 +20,19 @@ pub fn detector(data: &[u8]) {
 fn check<S: Format>(case: &MeshCase<S>, threads: usize) {
     let topology = case.topology();
     let step = Step::new(case, 1);
-    let once = |pairs: &[PrimitivePair]| {
+    let all: BTreeSet<MeshPair> = with_kinds(all_pairs(&topology)).into_iter().collect();
+    let once = |pairs: &[MeshPair]| {
         let once: BTreeSet<_> = pairs.iter().copied().map(in_order).collect();
         assert_eq!(once.len(), pairs.len(), "a pair twice in {case:?}");
-        for &(kind, pair) in &once {
-            assert!(!share_vertex(kind, pair, &topology), "{kind:?} {pair:?} of {case:?}");
-        }
+        assert!(once.is_subset(&all), "{:?} of {case:?}", once.difference(&all).next());
         once
     };
     // Boxes are compared in single precision, so there may be more candidates than pairs whose boxes overlap.
-    let overlapping = overlapping_pairs(case, &topology);
+    let overlapping: BTreeSet<MeshPair> = all
+        .iter()
+        .copied()
+        .filter(|&pair| boxes_overlap(&case.pair(&topology, pair)))
+        .collect();
     let candidates = once(&step.candidates);
     let missing: Vec<_> = overlapping.difference(&candidates).collect();
     assert!(missing.is_empty(), "no candidates: {missing:?} of {case:?}");
@@ -38,19 +41,17 @@ fn check<S: Format>(case: &MeshCase<S>, threads: usize) {
     let found = once(&found);
     // The oracle is slow, so it decides 16 pairs of a mesh. Other targets test single pairs.
     let excluded: Vec<_> = overlapping.difference(&found).collect();
-    for &&(kind, pair) in excluded.iter().step_by(1 + excluded.len() / 16) {
-        let contact = collides(&question(case, &topology, kind, pair));
-        assert!(contact.is_none(), "{kind:?} {pair:?} of {case:?}");
+    for &&pair in excluded.iter().step_by(1 + excluded.len() / 16) {
+        let contact = collides(&case.pair(&topology, pair).question());
+        assert!(contact.is_none(), "{pair:?} of {case:?}");
     }
     if threads > 1 {
         assert_eq!(Step::new(case, threads), step, "{threads} threads, {case:?}");
     }
 }
 
-type PrimitivePair = (PairKind, [u32; 2]);
-
 /// Puts the smaller edge of two first.
-fn in_order((kind, mut pair): PrimitivePair) -> PrimitivePair {
+fn in_order((kind, mut pair): MeshPair) -> MeshPair {
     if kind == PairKind::EdgeEdge {
         pair.sort_unstable();
     }
@@ -60,7 +61,7 @@ fn in_order((kind, mut pair): PrimitivePair) -> PrimitivePair {
 /// The detector's results for a step.
 #[derive(Debug, PartialEq)]
 struct Step<S: Scalar> {
-    candidates: Vec<PrimitivePair>,
+    candidates: Vec<MeshPair>,
     contacts: Vec<Contact<S>>,
 }
 
@@ -74,64 +75,14 @@ impl<S: Format> Step<S> {
         let found = detector.candidates(&start, &end, CandidateBoxes::Swept, &mut vertex_face, &mut edge_edge);
         found.expect("finite positions");
         detector.contacts(&start, &end, &mut contacts).expect("finite positions");
-        let of_kind = |kind, pairs: Vec<[u32; 2]>| pairs.into_iter().map(move |pair| (kind, pair));
-        let candidates = of_kind(PairKind::VertexFace, vertex_face).chain(of_kind(PairKind::EdgeEdge, edge_edge));
         Self {
-            candidates: candidates.collect(),
+            candidates: with_kinds([vertex_face, edge_edge]),
             contacts,
         }
     }
 }
 
-/// Returns the pairs whose swept boxes overlap, by trying all of them.
-fn overlapping_pairs<S: Format>(case: &MeshCase<S>, topology: &Topology) -> BTreeSet<PrimitivePair> {
-    let used: BTreeSet<u32> = topology.triangles().iter().flatten().copied().collect();
-    let faces = 0..topology.triangles().len() as u32;
-    let edges = 0..topology.edges().len() as u32;
-    let vertex_face = used
-        .iter()
-        .flat_map(|&vertex| faces.clone().map(move |face| (PairKind::VertexFace, [vertex, face])));
-    let edge_edge = edges
-        .clone()
-        .flat_map(|first| (0..first).map(move |second| (PairKind::EdgeEdge, [second, first])));
-    vertex_face
-        .chain(edge_edge)
-        .filter(|&(kind, pair)| !share_vertex(kind, pair, topology))
-        .filter(|&(kind, pair)| boxes_overlap(case, topology, kind, pair))
-        .collect()
-}
-
-fn share_vertex(kind: PairKind, pair: [u32; 2], topology: &Topology) -> bool {
-    let vertices = topology.vertices_of(kind, pair);
-    let (first, second) = vertices.split_at(first_points(kind));
-    first.iter().any(|vertex| second.contains(vertex))
-}
-
-const fn first_points(kind: PairKind) -> usize {
-    match kind {
-        PairKind::VertexFace => 1,
-        PairKind::EdgeEdge => 2,
-    }
-}
-
-fn boxes_overlap<S: Format>(case: &MeshCase<S>, topology: &Topology, kind: PairKind, pair: [u32; 2]) -> bool {
-    let motions = topology.vertices_of(kind, pair).map(|vertex| {
-        let [start, end] = case.positions[vertex as usize];
-        Motion::<S> {
-            start: start.into(),
-            end: end.into(),
-        }
-    });
-    let (first, second) = motions.split_at(first_points(kind));
-    Aabb::swept(first).overlaps(&Aabb::swept(second))
-}
-
-fn question<S: Format>(case: &MeshCase<S>, topology: &Topology, kind: PairKind, pair: [u32; 2]) -> Pair {
-    let vertices = topology.vertices_of(kind, pair);
-    let at = |end: usize| vertices.map(|vertex| case.positions[vertex as usize][end].map(S::to_f64));
-    Pair {
-        kind,
-        start: at(0),
-        end: at(1),
-    }
+fn boxes_overlap<S: Format>(pair: &PairCase<S>) -> bool {
+    let [first, second] = pair.pair().sets().map(Aabb::swept);
+    first.overlaps(&second)
 }

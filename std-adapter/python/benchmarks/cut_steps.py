@@ -1,10 +1,9 @@
 """Cuts random steps of loose triangles at their `compute_collision_free_stepsize`, and tests exactly whether any pair then touches.
 
-    python benchmarks/cut_steps.py [--steps 10000] [--seed 1] [--save FILE]
+    python benchmarks/cut_steps.py [--steps 10000] [--seed 1]
 
 Half of the steps are of triangles anywhere, half of stacks of nearly parallel ones that fall onto each other. A step is cut at its size,
-rounded as numpy rounds it. Ends with 1 if a cut step touches. `--save` writes the steps, from start to where they were cut, for
-`verification/examples/cut_steps.rs`, which asks the oracle the same question.
+rounded as numpy rounds it. Ends with 1 if a cut step touches.
 """
 
 import argparse
@@ -53,7 +52,6 @@ def main() -> None:
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("--steps", type=int, default=10_000)
     arguments.add_argument("--seed", type=int, default=1)
-    arguments.add_argument("--save", type=argparse.FileType("wb"))
     given = arguments.parse_args()
     random = np.random.default_rng(given.seed)
     mesh = ipc.CollisionMesh(np.zeros((3 * TRIANGLES, 3)), faces=FACES)
@@ -67,8 +65,6 @@ def main() -> None:
         cut += size < 1.0
         touching_uncut += touches(start, end)
         reached = start + size * (end - start) if size < 1.0 else end
-        if given.save:
-            np.stack([start, reached]).tofile(given.save)
         if touches(start, reached):
             touching += 1
             print(f"step {made}: touches when cut at {size}")

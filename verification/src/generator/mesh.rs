@@ -17,6 +17,41 @@ pub struct MeshCase<S> {
     pub positions: Vec<[[S; 3]; 2]>,
 }
 
+/// Two primitives of a mesh, by their indices.
+pub type MeshPair = (PairKind, [u32; 2]);
+
+/// Returns every vertex–face and every edge–edge pair without a common vertex, by definition; the smaller edge is first. Vertices without a
+/// triangle are not part of the surface.
+#[must_use]
+pub fn all_pairs(topology: &Topology) -> [Vec<[u32; 2]>; 2] {
+    let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
+    for vertex in 0..topology.vertex_count() as u32 {
+        let has_triangle = topology.triangles().iter().any(|t| t.contains(&vertex));
+        for (face, triangle) in (0..).zip(topology.triangles()) {
+            if has_triangle && !triangle.contains(&vertex) {
+                vertex_face.push([vertex, face]);
+            }
+        }
+    }
+    for (second, b) in (0..).zip(topology.edges()) {
+        for (first, a) in (0..second).zip(topology.edges()) {
+            if !a.iter().any(|end| b.contains(end)) {
+                edge_edge.push([first, second]);
+            }
+        }
+    }
+    [vertex_face, edge_edge]
+}
+
+/// Returns pairs of either kind as one list, vertex–face pairs first.
+#[must_use]
+pub fn with_kinds([vertex_face, edge_edge]: [Vec<[u32; 2]>; 2]) -> Vec<MeshPair> {
+    let of_kind = |kind, pairs: Vec<[u32; 2]>| pairs.into_iter().map(move |pair| (kind, pair));
+    of_kind(PairKind::VertexFace, vertex_face)
+        .chain(of_kind(PairKind::EdgeEdge, edge_edge))
+        .collect()
+}
+
 impl<S: Format> MeshCase<S> {
     /// Makes a mesh from any bytes.
     #[must_use]
@@ -64,12 +99,9 @@ impl<S: Format> MeshCase<S> {
     /// # Panics
     /// Panics if there is no primitive with one of these indices.
     #[must_use]
-    pub fn pair(&self, topology: &Topology, (kind, pair): (PairKind, [u32; 2])) -> PairCase<S> {
+    pub fn pair(&self, topology: &Topology, (kind, pair): MeshPair) -> PairCase<S> {
         let points = topology.vertices_of(kind, pair).map(|vertex| self.positions[vertex as usize]);
-        match kind {
-            PairKind::VertexFace => PairCase::new(PairKind::VertexFace, points),
-            PairKind::EdgeEdge => PairCase::new(PairKind::EdgeEdge, points),
-        }
+        PairCase::new(kind, points)
     }
 
     /// Returns the positions at time 0 (for `end` 0) or 1.

@@ -21,7 +21,7 @@ mod tube;
 
 pub use case::{PairCase, side_of};
 pub use choices::Choices;
-pub use mesh::MeshCase;
+pub use mesh::{MeshCase, MeshPair, all_pairs, with_kinds};
 pub use moment::{Meeting, Moment};
 pub use numbers::Format;
 pub(crate) use numbers::power_of_two;

@@ -13,6 +13,9 @@
 //! | do two triangles at rest intersect? | [`triangles_intersect`] |
 //! | which triangles of a mesh intersect? | [`mesh_self_intersections`], [`mesh_intersections`] |
 //! | and which ropes, at rest and on their way? | [`intersections_with_loose_edges`], [`edges_that_meet`] |
+//! | which signs have the control values of the volume, and which separations do they exceed? | [`InRationals`] |
+//! | does a segment meet a box? | [`segment_meets_box`] |
+//! | where is a point of a rotating body? | `arcs` (feature `screw-motions`), in numbers of 256 bits |
 //!
 //! The method shares nothing with that of `selvedge-core`. Numbers of any length are rug's, and coordinates are scaled to
 //! integers. Motions are polynomials in the time `t`, by powers of `t`, and Sturm's theorem counts their roots. An irrational
@@ -20,14 +23,18 @@
 //! most pairs of a mesh at rest first ([`triangles_intersect_by_signs`]).
 
 mod algebraic;
+#[cfg(feature = "screw-motions")]
+pub mod arcs;
 mod collision;
 mod geometry;
 mod mesh;
 mod motion;
 mod polynomial;
 mod ropes;
+mod segment;
 mod separation;
 mod signs;
+mod volume;
 
 pub use algebraic::AlgebraicTime;
 pub use collision::{collides, coplanar, touches_at};
@@ -35,5 +42,7 @@ pub use mesh::{mesh_intersections, mesh_self_intersections, triangles_intersect}
 pub use motion::{Pair, PairKind};
 pub use polynomial::Polynomial;
 pub use ropes::{edges_that_meet, intersections_with_loose_edges};
+pub use segment::segment_meets_box;
 pub use separation::{first_within, within, within_at, within_at_rest};
 pub use signs::triangles_intersect_by_signs;
+pub use volume::{InRationals, rational};

@@ -7,10 +7,11 @@ use selvedge_core::PairKind;
 use selvedge_core::boxes::{Aabb, segment};
 use selvedge_verification::culling::CullingTest::{self, RelativeBoxes, SegmentBox, StoredSweptBoxes, SweptBoxes};
 use selvedge_verification::culling::{certified, verdict};
+use selvedge_verification::formats;
 use selvedge_verification::generator::{
     Format, Moment, PairCase, check, extraordinary_pairs, from_choices, grazes_of_a_box, pairs, pairs_of_any_kind, touching_pairs,
 };
-use selvedge_verification::oracle::collides;
+use selvedge_verification::oracle::{collides, segment_meets_box};
 
 /// This needs no oracle: the pair touches by construction.
 fn nothing_certified_culls_a_pair_built_to_touch<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
@@ -21,12 +22,7 @@ fn nothing_certified_culls_a_pair_built_to_touch<S: Format>(moment: &Moment<S>) 
     Ok(())
 }
 
-property!(
-    nothing_certified_culls_a_pair_built_to_touch,
-    60_000,
-    touching_pairs(),
-    |moment: Moment| nothing_certified_culls_a_pair_built_to_touch(moment)
-);
+formats!(nothing_certified_culls_a_pair_built_to_touch(60_000, touching_pairs()));
 
 fn nothing_certified_culls_what_collides<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
     let culling: Vec<CullingTest> = certified().filter(|&test| verdict(test, pair).is_culled()).collect();
@@ -36,12 +32,7 @@ fn nothing_certified_culls_what_collides<S: Format>(pair: &PairCase<S>) -> Resul
     Ok(())
 }
 
-property!(
-    nothing_certified_culls_what_collides,
-    25_000,
-    pairs_of_any_kind(),
-    |pair: PairCase| nothing_certified_culls_what_collides(pair)
-);
+formats!(nothing_certified_culls_what_collides(25_000, pairs_of_any_kind()));
 
 fn nothing_certified_culls_what_is_not_finite<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
     if pair.is_finite() {
@@ -53,12 +44,7 @@ fn nothing_certified_culls_what_is_not_finite<S: Format>(pair: &PairCase<S>) -> 
     Ok(())
 }
 
-property!(
-    nothing_certified_culls_nan_or_infinity,
-    15_000,
-    extraordinary_pairs(),
-    |pair: PairCase| nothing_certified_culls_what_is_not_finite(pair)
-);
+formats!(nothing_certified_culls_nan_or_infinity is nothing_certified_culls_what_is_not_finite(15_000, extraordinary_pairs()));
 
 /// Stronger tests cull more, provided that sums are finite, since relative boxes keep all other pairs.
 fn stronger_tests_cull_what_weaker_ones_cull<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
@@ -76,12 +62,7 @@ fn stronger_tests_cull_what_weaker_ones_cull<S: Format>(pair: &PairCase<S>) -> R
     Ok(())
 }
 
-property!(
-    stronger_tests_cull_what_weaker_ones_cull,
-    40_000,
-    pairs_of_any_kind(),
-    |pair: PairCase| stronger_tests_cull_what_weaker_ones_cull(pair)
-);
+formats!(stronger_tests_cull_what_weaker_ones_cull(40_000, pairs_of_any_kind()));
 
 type RationalPoint = [Rational; 3];
 
@@ -116,33 +97,7 @@ fn relative_boxes_are_what_they_say<S: Format>(pair: &PairCase<S>) -> Result<(),
     Ok(())
 }
 
-property!(
-    relative_boxes_cull_exactly_on_axes,
-    6_000,
-    pairs_of_any_kind(),
-    |pair: PairCase| relative_boxes_are_what_they_say(pair)
-);
-
-/// Returns whether the closed segment meets the closed box, by the part of the segment within each slab, in exact arithmetic.
-fn segment_meets_box(ends: &[RationalPoint; 2], [lower, upper]: &[RationalPoint; 2]) -> bool {
-    let (mut enter, mut leave) = (Rational::from(0), Rational::from(1));
-    for axis in 0..3 {
-        let start = &ends[0][axis];
-        let along = Rational::from(&ends[1][axis] - start);
-        if along.is_zero() {
-            if *start < lower[axis] || *start > upper[axis] {
-                return false;
-            }
-            continue;
-        }
-        let mut times = [&lower[axis], &upper[axis]].map(|bound| Rational::from(bound - start) / &along);
-        times.sort();
-        let [first, last] = times;
-        enter = enter.max(first);
-        leave = leave.min(last);
-    }
-    enter <= leave
-}
+formats!(relative_boxes_cull_exactly_on_axes is relative_boxes_are_what_they_say(6_000, pairs_of_any_kind()));
 
 fn swept_bounds<S: Format>(pair: &PairCase<S>) -> [RationalPoint; 2] {
     let all = || pair.points[1..].iter().flatten().copied().map(rational);
@@ -164,12 +119,7 @@ fn a_path_that_meets_the_swept_box_is_kept_f64() {
     check(40_000, pairs::<f64>(PairKind::VertexFace), a_path_that_meets_the_box_is_kept);
 }
 
-property!(
-    a_path_that_grazes_the_swept_box_is_kept,
-    40_000,
-    grazes_of_a_box(),
-    |pair: PairCase| a_path_that_meets_the_box_is_kept(pair)
-);
+formats!(a_path_that_grazes_the_swept_box_is_kept is a_path_that_meets_the_box_is_kept(40_000, grazes_of_a_box()));
 
 #[test]
 fn a_path_that_meets_the_swept_box_is_kept_f32() {
@@ -306,12 +256,4 @@ fn a_path_clearly_past_the_box_is_culled<S: Format>() {
     assert!(culled.get() > 10, "cross axes must matter: {culled:?}");
 }
 
-#[test]
-fn a_path_clearly_past_the_box_is_culled_f64() {
-    a_path_clearly_past_the_box_is_culled::<f64>();
-}
-
-#[test]
-fn a_path_clearly_past_the_box_is_culled_f32() {
-    a_path_clearly_past_the_box_is_culled::<f32>();
-}
+formats!(a_path_clearly_past_the_box_is_culled);

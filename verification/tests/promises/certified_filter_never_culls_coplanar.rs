@@ -6,6 +6,7 @@ use selvedge_core::PairKind;
 use selvedge_verification::altered::{Factors, Kernel};
 use selvedge_verification::culling::CullingTest::CertifiedNonCoplanarity;
 use selvedge_verification::culling::verdict;
+use selvedge_verification::formats;
 use selvedge_verification::generator::{Format, Moment, PairCase, check, coplanar_pairs, pairs_of_any_kind};
 use selvedge_verification::oracle::collides;
 use selvedge_verification::plain;
@@ -42,12 +43,7 @@ fn never_culls_a_coplanar_pair_in_any_arrangement<S: Format>(moment: &Moment<S>)
     Ok(())
 }
 
-property!(
-    never_culls_a_coplanar_pair_in_any_arrangement,
-    20_000,
-    coplanar_pairs(),
-    |moment: Moment| never_culls_a_coplanar_pair_in_any_arrangement(moment)
-);
+formats!(never_culls_a_coplanar_pair_in_any_arrangement(20_000, coplanar_pairs()));
 
 /// If a computed control value is above its bound, the exact one is at least about one unit roundoff of f32 times its permanent.
 /// This is far above the bound of f64. (To nearest, at most 7 of the 16 in the bound are needed, and at most 9 of the 20.)

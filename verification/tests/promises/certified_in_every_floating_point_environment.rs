@@ -11,6 +11,7 @@ use selvedge_core::batch::{BatchTest, Level, Test, Tile, culled_from_tiles};
 use selvedge_core::filter::{Filter, Tier};
 use selvedge_verification::altered::{Factors, Kernel};
 use selvedge_verification::culling;
+use selvedge_verification::formats;
 use selvedge_verification::generator::{
     Choices, Format, Meeting, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, from_choices, touching_pairs,
 };
@@ -100,39 +101,23 @@ fn scaled<S: Format>(x: S, exponent: i32) -> S {
     S::from_f64(steps.iter().fold(x.to_f64(), |x, &step| x * 2.0_f64.powi(step)))
 }
 
-macro_rules! in_both_formats {
-    ($name:ident, $property:ident) => {
-        mod $name {
-            #[test]
-            fn f32() {
-                super::$property::<f32>();
-            }
-
-            #[test]
-            fn f64() {
-                super::$property::<f64>();
-            }
-        }
-    };
-}
-
-fn touching_pairs_are_kept<S: Format>() {
+fn touching_pairs_are_kept_in_every_environment<S: Format>() {
     check(400, touching_pairs::<S>(), |moment| nothing_culls(&moment.pair(), true));
     let limits = from_choices(|choices| at_the_limits::<S>(Meeting::Touching, choices));
     check(800, limits, |pair| nothing_culls(pair, true));
 }
 
-in_both_formats!(touching_pairs_are_kept_in_every_environment, touching_pairs_are_kept);
+formats!(touching_pairs_are_kept_in_every_environment);
 
-fn coplanar_pairs_are_kept<S: Format>() {
+fn coplanar_pairs_are_kept_in_every_environment<S: Format>() {
     check(400, coplanar_pairs::<S>(), |moment| nothing_culls(&moment.pair(), false));
     let limits = from_choices(|choices| at_the_limits::<S>(Meeting::Coplanar, choices));
     check(800, limits, |pair| nothing_culls(pair, false));
 }
 
-in_both_formats!(coplanar_pairs_are_kept_in_every_environment, coplanar_pairs_are_kept);
+formats!(coplanar_pairs_are_kept_in_every_environment);
 
-fn what_is_not_finite_is_kept<S: Format>() {
+fn what_is_not_finite_is_kept_in_every_environment<S: Format>() {
     check(800, extraordinary_pairs::<S>(), |pair| {
         if pair.is_finite() {
             return Ok(());
@@ -141,7 +126,7 @@ fn what_is_not_finite_is_kept<S: Format>() {
     });
 }
 
-in_both_formats!(what_is_not_finite_is_kept_in_every_environment, what_is_not_finite_is_kept);
+formats!(what_is_not_finite_is_kept_in_every_environment);
 
 #[test]
 fn environments_are_really_set() {
@@ -317,12 +302,4 @@ fn keeps_edges_of_dust_on_one_line<S: Format>() {
     nothing_culls(&pair, true).expect("kept");
 }
 
-#[test]
-fn edges_of_dust_on_one_line_are_kept_when_results_are_flushed_f32() {
-    keeps_edges_of_dust_on_one_line::<f32>();
-}
-
-#[test]
-fn edges_of_dust_on_one_line_are_kept_when_results_are_flushed_f64() {
-    keeps_edges_of_dust_on_one_line::<f64>();
-}
+formats!(keeps_edges_of_dust_on_one_line);

@@ -1,19 +1,18 @@
 //! The detector's results agree, step by step, with the exact oracle and with each other.
 
 use proptest::prelude::*;
-use selvedge::PairKind::{self, EdgeEdge, VertexFace};
+use selvedge::PairKind::{EdgeEdge, VertexFace};
 use selvedge::Topology;
 use selvedge::glam::DVec3;
 use selvedge::simd::available_levels;
 use selvedge::{CandidateBoxes, CollisionDetector, Contact, Criterion, Frame, Position, StepError, Threads};
 use selvedge_core::Scalar;
 use selvedge_core::elementary::Limits;
-use selvedge_verification::generator::{BendingTube, Format, MeshCase, check, meshes};
+use selvedge_verification::formats;
+use selvedge_verification::generator::{BendingTube, Format, MeshCase, MeshPair, all_pairs, check, meshes, with_kinds};
 use selvedge_verification::oracle::{collides, within};
 use std::cell::Cell;
 use std::collections::BTreeMap;
-
-type MeshPair = (PairKind, [u32; 2]);
 
 fn detector<S: Format>(mesh: &MeshCase<S>) -> CollisionDetector<S> {
     CollisionDetector::new(mesh.topology())
@@ -31,34 +30,6 @@ fn by_pair<S: Scalar>(contacts: &[Contact<S>]) -> BTreeMap<MeshPair, f64> {
         .iter()
         .map(|contact| ((contact.kind, contact.pair), contact.time.to_f64()))
         .collect()
-}
-
-/// Returns all pairs without a common vertex: vertex–face and edge–edge.
-fn all_pairs(topology: &Topology) -> [Vec<[u32; 2]>; 2] {
-    let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
-    for vertex in 0..topology.vertex_count() as u32 {
-        let has_triangle = topology.triangles().iter().any(|t| t.contains(&vertex));
-        for (face, triangle) in (0..).zip(topology.triangles()) {
-            if has_triangle && !triangle.contains(&vertex) {
-                vertex_face.push([vertex, face]);
-            }
-        }
-    }
-    for (second, b) in (0..).zip(topology.edges()) {
-        for (first, a) in (0..second).zip(topology.edges()) {
-            if !a.iter().any(|end| b.contains(end)) {
-                edge_edge.push([first, second]);
-            }
-        }
-    }
-    [vertex_face, edge_edge]
-}
-
-/// Returns the same pairs, vertex–face pairs first.
-pub(crate) fn pairs_of(topology: &Topology) -> Vec<MeshPair> {
-    let [vertex_face, edge_edge] = all_pairs(topology);
-    let of_kind = |kind, pairs: Vec<[u32; 2]>| pairs.into_iter().map(move |pair| (kind, pair));
-    of_kind(VertexFace, vertex_face).chain(of_kind(EdgeEdge, edge_edge)).collect()
 }
 
 /// Runs every query whose result the oracle knows.
@@ -79,8 +50,7 @@ fn no_question_misses_a_contact<S: Format>(mesh: &MeshCase<S>) -> Result<(), Tes
     for pair in all.keys() {
         prop_assert!(own.contains_key(pair));
     }
-    let of_kind = |kind, pairs: Vec<[u32; 2]>| pairs.into_iter().map(move |pair| (kind, pair));
-    for pair in of_kind(VertexFace, vertex_face).chain(of_kind(EdgeEdge, edge_edge)) {
+    for pair in with_kinds([vertex_face, edge_edge]) {
         let Some(first) = collides(&mesh.pair(&topology, pair).question()) else {
             continue;
         };
@@ -97,9 +67,7 @@ fn no_question_misses_a_contact<S: Format>(mesh: &MeshCase<S>) -> Result<(), Tes
     Ok(())
 }
 
-property!(no_question_misses_a_contact, 150, meshes(), |mesh: MeshCase| {
-    no_question_misses_a_contact(mesh)
-});
+formats!(no_question_misses_a_contact(150, meshes()));
 
 /// With exact verdicts the contacts are those that the oracle finds, and no others.
 fn exact_contacts_are_those_that_touch<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
@@ -115,17 +83,14 @@ fn exact_contacts_are_those_that_touch<S: Format>(mesh: &MeshCase<S>) -> Result<
         .contacts_of(&start, &end, &vertex_face, &edge_edge, &mut own)
         .expect("pairs of the mesh");
     prop_assert_eq!(&by_pair(&own), &all);
-    let of_kind = |kind, pairs: Vec<[u32; 2]>| pairs.into_iter().map(move |pair| (kind, pair));
-    for pair in of_kind(VertexFace, vertex_face).chain(of_kind(EdgeEdge, edge_edge)) {
+    for pair in with_kinds([vertex_face, edge_edge]) {
         let touches = collides(&mesh.pair(&topology, pair).question()).is_some();
         prop_assert_eq!(all.contains_key(&pair), touches, "{:?}", pair);
     }
     Ok(())
 }
 
-property!(exact_contacts_are_those_that_touch, 120, meshes(), |mesh: MeshCase| {
-    exact_contacts_are_those_that_touch(mesh)
-});
+formats!(exact_contacts_are_those_that_touch(120, meshes()));
 
 #[test]
 fn no_pair_that_comes_within_the_separation_is_missed() {
@@ -139,10 +104,7 @@ fn no_pair_that_comes_within_the_separation_is_missed() {
             };
             detector.set_criterion(Criterion::Within(limits)).expect("a length");
             let found = by_pair(&contacts(&mut detector, mesh));
-            let [vertex_face, edge_edge] = all_pairs(&topology);
-            let vertex_face = vertex_face.into_iter().map(|pair| (VertexFace, pair));
-            let edge_edge = edge_edge.into_iter().map(|pair| (EdgeEdge, pair));
-            for pair in vertex_face.chain(edge_edge) {
+            for pair in with_kinds(all_pairs(&topology)) {
                 if !found.contains_key(&pair) {
                     let question = mesh.pair(&topology, pair).question();
                     prop_assert!(!within(&question, separation), "{:?}", pair);
@@ -211,9 +173,7 @@ fn what_rests_changes_nothing_for_what_moves<S: Format>(mesh: &MeshCase<S>) -> R
     Ok(())
 }
 
-property!(what_rests_changes_nothing_for_what_moves, 250, meshes(), |mesh: MeshCase| {
-    what_rests_changes_nothing_for_what_moves(mesh)
-});
+formats!(what_rests_changes_nothing_for_what_moves(250, meshes()));
 
 /// Positions in `f32`, and the same in `f64`, give the same contacts, with the same times up to rounding them down.
 #[test]
@@ -424,4 +384,28 @@ fn what_is_wrong_with_the_input_is_an_error() {
     let bad = Criterion::Touching { tolerance: f64::NAN };
     assert!(matches!(detector.set_criterion(bad), Err(StepError::BadLimit { .. })));
     assert!(detector.contacts(&frame, &frame, &mut found).is_ok());
+}
+
+/// A vertex of one triangle lies on a vertex of another, and they are different vertices. So they are a pair like any other, in
+/// contact throughout.
+#[test]
+fn a_position_in_common_is_no_vertex_in_common() {
+    let topology = Topology::new(6, vec![[0, 1, 2], [3, 4, 5]]).expect("a mesh");
+    let corner = DVec3::new(0.1, 0.2, 0.3);
+    let frame = [
+        corner,
+        corner + DVec3::X,
+        corner + DVec3::Y,
+        corner,
+        corner - DVec3::X + DVec3::Z,
+        corner - DVec3::Y + DVec3::Z,
+    ];
+    let mut contacts = Vec::new();
+    let mut detector = CollisionDetector::<f64>::new(topology.clone());
+    detector.contacts(&frame, &frame, &mut contacts).expect("finite positions");
+    let has = |kind, pair| contacts.iter().any(|contact| (contact.kind, contact.pair) == (kind, pair));
+    assert!(has(VertexFace, [0, 1]) && has(VertexFace, [3, 0]));
+    let meet = |ends: [u32; 2]| topology.edges().iter().position(|&edge| edge == ends).expect("an edge") as u32;
+    let [first, second] = [meet([0, 1]), meet([3, 4])];
+    assert!(has(EdgeEdge, [first, second]) || has(EdgeEdge, [second, first]));
 }

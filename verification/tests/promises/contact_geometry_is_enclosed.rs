@@ -3,7 +3,6 @@
 use crate::support::at;
 use crate::support::environment::Environment;
 use crate::support::geometry::Truth;
-use crate::support::rationals::rational;
 use proptest::prelude::*;
 use rug::Rational;
 use selvedge::{CollisionDetector, PairKind, StepError, Topology};
@@ -12,9 +11,9 @@ use selvedge_core::glam::DVec3;
 use selvedge_core::separation::geometry::{Geometry, geometry};
 use selvedge_core::separation::largest_coordinate;
 use selvedge_verification::generator::{
-    BendingTube, Moment, PairCase, check, extraordinary_pairs, pairs_of_any_kind, touching_pairs,
+    BendingTube, Moment, PairCase, all_pairs, check, extraordinary_pairs, pairs_of_any_kind, touching_pairs, with_kinds,
 };
-use selvedge_verification::oracle::within_at;
+use selvedge_verification::oracle::{rational, within_at};
 use std::cell::Cell;
 
 /// Checks everything that is promised, at one time. Returns whether there is a normal.
@@ -137,7 +136,7 @@ fn near_pairs_are_all_within_the_distance_and_none_is_missed() {
         };
         // Checks some of them, and some of the many others.
         assert!(keys.iter().step_by(61).all(|&pair| is_within(pair, 1.00001 * distance)));
-        let others = super::collision_detector_keeps_its_promises::pairs_of(&topology).into_iter();
+        let others = with_kinds(all_pairs(&topology)).into_iter();
         for pair in others.step_by(19_997).filter(|pair| keys.binary_search(pair).is_err()) {
             assert!(!is_within(pair, distance), "{pair:?}");
         }

@@ -8,6 +8,7 @@ use selvedge_core::PairKind;
 use selvedge_core::elementary::ContactVerdict;
 use selvedge_core::elementary::contact::contact_and_evidence;
 use selvedge_core::verification::exact::{self, Evidence};
+use selvedge_verification::formats;
 use selvedge_verification::generator::{
     Choices, Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, from_choices, pairs, pairs_of_any_kind,
     touching_pairs,
@@ -47,9 +48,7 @@ fn agree_with_the_oracle<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseEr
     both_say(pair, collides(&pair.question()).is_some())
 }
 
-property!(verdicts_are_the_oracles, 6_000, pairs_of_any_kind(), |pair| {
-    agree_with_the_oracle(pair)
-});
+formats!(verdicts_are_the_oracles is agree_with_the_oracle(6_000, pairs_of_any_kind()));
 
 /// Generates coordinates from 0 to `limit`. They give contacts at corners, along edges, at the start and end, and all kinds of
 /// degeneration.
@@ -61,22 +60,26 @@ fn on_a_grid<S: Format>(limit: u32, choices: &mut Choices<'_>) -> PairCase<S> {
     PairCase::new(kind, std::array::from_fn(|_| point()))
 }
 
-property!(
-    verdicts_are_the_oracles_on_small_whole_numbers,
+fn verdicts_are_the_oracles_on_small_whole_numbers<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    agree_with_the_oracle(pair)
+}
+
+formats!(verdicts_are_the_oracles_on_small_whole_numbers(
     4_000,
     from_choices(|choices| {
         let limit = choices.pick(&[1, 2, 3, 5, 9]);
         on_a_grid(limit, choices)
-    }),
-    |pair| agree_with_the_oracle(pair)
-);
+    })
+));
 
-property!(
-    nothing_overflows_at_the_limit_of_a_width,
+fn nothing_overflows_at_the_limit_of_a_width<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    agree_with_the_oracle(pair)
+}
+
+formats!(nothing_overflows_at_the_limit_of_a_width(
     800,
-    from_choices(at_the_limit_of_a_width),
-    |pair| agree_with_the_oracle(pair)
-);
+    from_choices(at_the_limit_of_a_width)
+));
 
 /// Returns pair number `index` of those with coordinates 0 and 1 on `axes` axes, and 0 on the others.
 fn of_bits(kind: PairKind, axes: usize, index: usize) -> PairCase<f64> {
@@ -111,19 +114,17 @@ fn verdicts_are_the_oracles_on_pairs_in_a_cube() {
     }
 }
 
-property!(
-    pairs_that_touch_by_construction_do,
-    15_000,
-    touching_pairs(),
-    |moment: Moment| both_say(&moment.pair(), true)
-);
+fn pairs_that_touch_by_construction_do<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
+    both_say(&moment.pair(), true)
+}
 
-property!(
-    verdicts_are_the_oracles_for_coplanar_pairs,
-    8_000,
-    coplanar_pairs(),
-    |moment: Moment| agree_with_the_oracle(&moment.pair())
-);
+formats!(pairs_that_touch_by_construction_do(15_000, touching_pairs()));
+
+fn verdicts_are_the_oracles_for_coplanar_pairs<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
+    agree_with_the_oracle(&moment.pair())
+}
+
+formats!(verdicts_are_the_oracles_for_coplanar_pairs(8_000, coplanar_pairs()));
 
 /// Counts each kind of evidence, so that a property cannot hold without testing anything.
 #[test]
@@ -143,14 +144,16 @@ fn every_kind_of_evidence_is_given() {
     assert!(counts.iter().all(|&count| count > 10), "{counts:?}");
 }
 
-property!(what_is_not_finite_is_undefined, 8_000, extraordinary_pairs(), |pair| {
+fn what_is_not_finite_is_undefined<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
     if pair.is_finite() {
         return agree_with_the_oracle(pair);
     }
     prop_assert_eq!(touches(pair), None);
     prop_assert_eq!(verdict(pair), (ContactVerdict::Undefined, Evidence::Nothing));
     Ok(())
-});
+}
+
+formats!(what_is_not_finite_is_undefined(8_000, extraordinary_pairs()));
 
 /// The verdict in integers is the same for a pair that is written in another way.
 fn same<S: Format>(pair: &PairCase<S>, changed: &PairCase<S>) -> Result<(), TestCaseError> {
@@ -160,86 +163,81 @@ fn same<S: Format>(pair: &PairCase<S>, changed: &PairCase<S>) -> Result<(), Test
     Ok(())
 }
 
-property!(reversing_time_changes_no_verdict, 1_200, pairs_of_any_kind(), |pair| same(
-    pair,
-    &pair.reversed()
+fn reversing_time_changes_no_verdict<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    same(pair, &pair.reversed())
+}
+
+formats!(reversing_time_changes_no_verdict(1_200, pairs_of_any_kind()));
+
+fn mirroring_and_permuting_axes_changes_no_verdict<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    for axis in 0..3 {
+        let mirrored = pair.with_positions(|mut position| {
+            position[axis] = -position[axis];
+            position
+        });
+        same(pair, &mirrored)?;
+    }
+    for axes in [[1, 2, 0], [1, 0, 2]] {
+        same(pair, &pair.with_axes(axes))?;
+    }
+    Ok(())
+}
+
+formats!(mirroring_and_permuting_axes_changes_no_verdict(800, pairs_of_any_kind()));
+
+fn permuting_the_faces_vertices_changes_no_verdict<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    [[0, 2, 3, 1], [0, 3, 1, 2], [0, 2, 1, 3]]
+        .into_iter()
+        .try_for_each(|order| same(pair, &pair.reordered(order)))
+}
+
+formats!(permuting_the_faces_vertices_changes_no_verdict(
+    1_200,
+    pairs(PairKind::VertexFace)
 ));
 
-property!(
-    mirroring_and_permuting_axes_changes_no_verdict,
+fn exchanging_edges_and_their_ends_changes_no_verdict<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    [[2, 3, 0, 1], [1, 0, 2, 3], [0, 1, 3, 2], [3, 2, 0, 1]]
+        .into_iter()
+        .try_for_each(|order| same(pair, &pair.reordered(order)))
+}
+
+formats!(exchanging_edges_and_their_ends_changes_no_verdict(
     800,
-    pairs_of_any_kind(),
-    |pair| {
-        for axis in 0..3 {
-            let mirrored = pair.with_positions(|mut position| {
-                position[axis] = -position[axis];
-                position
-            });
-            same(pair, &mirrored)?;
-        }
-        for axes in [[1, 2, 0], [1, 0, 2]] {
-            same(pair, &pair.with_axes(axes))?;
-        }
-        Ok(())
-    }
-);
+    pairs(PairKind::EdgeEdge)
+));
 
-property!(
-    permuting_the_faces_vertices_changes_no_verdict,
-    1_200,
-    pairs(PairKind::VertexFace),
-    |pair| {
-        [[0, 2, 3, 1], [0, 3, 1, 2], [0, 2, 1, 3]]
-            .into_iter()
-            .try_for_each(|order| same(pair, &pair.reordered(order)))
-    }
-);
-
-property!(
-    exchanging_edges_and_their_ends_changes_no_verdict,
-    800,
-    pairs(PairKind::EdgeEdge),
-    |pair| {
-        [[2, 3, 0, 1], [1, 0, 2, 3], [0, 1, 3, 2], [3, 2, 0, 1]]
-            .into_iter()
-            .try_for_each(|order| same(pair, &pair.reordered(order)))
-    }
-);
-
-property!(
-    scaling_by_powers_of_two_changes_no_verdict,
-    1_200,
-    pairs_of_any_kind(),
-    |pair| {
-        // Scales each axis by its own factor: coplanar points, and points in triangles, stay so.
-        for exponents in [[40, 40, 40], [-30, -30, -30], [7, -20, 60]] {
-            let factors = exponents.map(|exponent| S::exact(1, exponent));
-            let by = |x: [S; 3], factors: [S; 3]| [0, 1, 2].map(|axis| x[axis] * factors[axis]);
-            let scaled = pair.with_positions(|x| by(x, factors));
-            let inverses = exponents.map(|exponent| S::exact(1, -exponent));
-            if scaled.is_finite() && scaled.with_positions(|x| by(x, inverses)) == *pair {
-                same(pair, &scaled)?;
-            }
+fn scaling_by_powers_of_two_changes_no_verdict<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    // Scales each axis by its own factor: coplanar points, and points in triangles, stay so.
+    for exponents in [[40, 40, 40], [-30, -30, -30], [7, -20, 60]] {
+        let factors = exponents.map(|exponent| S::exact(1, exponent));
+        let by = |x: [S; 3], factors: [S; 3]| [0, 1, 2].map(|axis| x[axis] * factors[axis]);
+        let scaled = pair.with_positions(|x| by(x, factors));
+        let inverses = exponents.map(|exponent| S::exact(1, -exponent));
+        if scaled.is_finite() && scaled.with_positions(|x| by(x, inverses)) == *pair {
+            same(pair, &scaled)?;
         }
-        Ok(())
     }
-);
+    Ok(())
+}
+
+formats!(scaling_by_powers_of_two_changes_no_verdict(1_200, pairs_of_any_kind()));
 
 // Each verdict is right in any case. This also checks which pairs floating point decides; that may differ.
-property!(
-    verdicts_are_the_same_in_every_floating_point_environment,
-    600,
-    pairs_of_any_kind(),
-    |pair| {
-        let answers = |pair: &PairCase<S>| (touches(pair), verdict(pair).0);
-        let expected = answers(pair);
-        for environment in Environment::all() {
-            let answers = environment.run(pair, answers);
-            prop_assert_eq!(answers, expected, "{:?}", environment);
-        }
-        Ok(())
+fn verdicts_are_the_same_in_every_floating_point_environment<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    let answers = |pair: &PairCase<S>| (touches(pair), verdict(pair).0);
+    let expected = answers(pair);
+    for environment in Environment::all() {
+        let answers = environment.run(pair, answers);
+        prop_assert_eq!(answers, expected, "{:?}", environment);
     }
-);
+    Ok(())
+}
+
+formats!(verdicts_are_the_same_in_every_floating_point_environment(
+    600,
+    pairs_of_any_kind()
+));
 
 #[test]
 fn the_same_numbers_in_f64_have_the_same_verdict() {
@@ -266,12 +264,4 @@ fn decides_the_largest_spread_there_is<S: Format>() {
     }
 }
 
-#[test]
-fn decides_the_largest_spread_there_is_f32() {
-    decides_the_largest_spread_there_is::<f32>();
-}
-
-#[test]
-fn decides_the_largest_spread_there_is_f64() {
-    decides_the_largest_spread_there_is::<f64>();
-}
+formats!(decides_the_largest_spread_there_is);

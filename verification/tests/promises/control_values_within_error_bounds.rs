@@ -5,99 +5,11 @@ use proptest::prelude::*;
 use rug::{Float, Rational, ops::Pow};
 use selvedge_core::PairKind;
 use selvedge_core::verification::coplanarity::{MovingTetrahedron, error_bound_by_magnitudes, is_in_range};
-use selvedge_core::verification::lanes::{Lanes, Rounding};
 use selvedge_core::verification::vector::Vector;
+use selvedge_verification::formats;
 use selvedge_verification::generator::{Choices, Format, PairCase, check, from_choices, pairs_of_any_kind};
+use selvedge_verification::oracle::rational;
 use selvedge_verification::plain;
-use std::ops::{Add, Div, Mul, Neg, Sub};
-
-/// Integers, on which core's own source computes without rounding. They panic on overflow.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Exact(i128);
-
-impl Add for Exact {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        Self(self.0.checked_add(other.0).expect("in range"))
-    }
-}
-
-impl Sub for Exact {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        Self(self.0.checked_sub(other.0).expect("in range"))
-    }
-}
-
-impl Mul for Exact {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        Self(self.0.checked_mul(other.0).expect("in range"))
-    }
-}
-
-impl Div for Exact {
-    type Output = Self;
-    fn div(self, _: Self) -> Self {
-        panic!("only times are quotients")
-    }
-}
-
-impl Neg for Exact {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self(-self.0)
-    }
-}
-
-impl Rounding for Exact {
-    const UNIT_ROUNDOFF: Self = Self(0);
-    const UNDERFLOW: Self = Self(0);
-    const LARGEST_EDGE: Self = Self(i128::MAX);
-    const LARGEST_EXTENT: Self = Self(i128::MAX);
-    const EXTENT_UNDERFLOW: Self = Self(0);
-    const SAFE_SQUARE: Self = Self(0);
-    const LENGTH_UNDERFLOW: Self = Self(0);
-    const ZERO: Self = Self(0);
-    const ONE: Self = Self(1);
-    const HALF: Self = panic!("whole numbers have no half");
-    const INFINITY: Self = Self(i128::MAX);
-    fn small(count: u8) -> Self {
-        Self(count.into())
-    }
-}
-
-impl Lanes for Exact {
-    type Scalar = Self;
-    type Mask = bool;
-    fn splat(self, value: Self) -> Self {
-        value
-    }
-    fn any(mask: bool) -> bool {
-        mask
-    }
-    fn sqrt(self) -> Self {
-        panic!("only a separation takes a root")
-    }
-    fn abs(self) -> Self {
-        Self(self.0.abs())
-    }
-    fn larger(self, other: Self) -> Self {
-        Self(self.0.max(other.0))
-    }
-    fn smaller(self, other: Self) -> Self {
-        Self(self.0.min(other.0))
-    }
-    fn greater(self, other: Self) -> bool {
-        self.0 > other.0
-    }
-    fn at_most(self, other: Self) -> bool {
-        self.0 <= other.0
-    }
-    fn select(mask: bool, if_true: Self, if_false: Self) -> Self {
-        if mask { if_true } else { if_false }
-    }
-}
 
 /// Four points a, b, c, p, each at times 0 and 1.
 type WholePoints = [[[i64; 3]; 2]; 4];
@@ -106,11 +18,12 @@ fn whole_points(limit: i64) -> impl Strategy<Value = WholePoints> {
     prop::array::uniform4(prop::array::uniform2(prop::array::uniform3(-limit..=limit)))
 }
 
-fn exact(points: &WholePoints) -> [[Vector<Exact>; 2]; 4] {
-    points.map(|ends| ends.map(|position| position.map(|x| Exact(x.into())).into()))
+/// Whole numbers up to 2¹², as `f64`, on which core's own source computes without rounding: all results are below 2⁴⁸.
+fn exact(points: &WholePoints) -> [[Vector<f64>; 2]; 4] {
+    points.map(|ends| ends.map(|position| position.map(|x| x as f64).into()))
 }
 
-fn tetrahedron(points: &WholePoints) -> MovingTetrahedron<Exact> {
+fn tetrahedron(points: &WholePoints) -> MovingTetrahedron<f64> {
     let points = exact(points);
     MovingTetrahedron::from_points(points.map(|ends| ends[0]), points.map(|ends| ends[1]))
 }
@@ -131,8 +44,8 @@ proptest! {
 
     /// Two cubics that agree at four times are the same.
     #[test]
-    fn control_values_are_the_bernstein_coefficients_of_the_signed_volume(points in whole_points(1 << 30)) {
-        let [k0, k1, k2, k3] = tetrahedron(&points).control_values().0.map(|k| k.0);
+    fn control_values_are_the_bernstein_coefficients_of_the_signed_volume(points in whole_points(1 << 12)) {
+        let [k0, k1, k2, k3] = tetrahedron(&points).control_values().0.map(|k| k as i128);
         prop_assert_eq!(27 * k0, volume_at_third(&points, 0));
         prop_assert_eq!(8 * k0 + 4 * k1 + 2 * k2 + k3, volume_at_third(&points, 1));
         prop_assert_eq!(k0 + 2 * k1 + 4 * k2 + 8 * k3, volume_at_third(&points, 2));
@@ -141,10 +54,10 @@ proptest! {
 
     /// The paper's equation (14) is 2n̂ = n₀ + n₁ − (v_b − v_a)×(v_c − v_a), and its control values are 2C + F and 2D + E.
     #[test]
-    fn the_blossom_is_the_papers_expression_without_rounding(points in whole_points(1 << 30)) {
+    fn the_blossom_is_the_papers_expression_without_rounding(points in whole_points(1 << 12)) {
         let [a, b, c, p] = exact(&points);
         let [n0, n1] = [0, 1].map(|end| (b[end] - a[end]).cross(c[end] - a[end]));
-        let velocity = |x: [Vector<Exact>; 2]| x[1] - x[0];
+        let velocity = |x: [Vector<f64>; 2]| x[1] - x[0];
         let twice_middle =
             n0 + n1 - (velocity(b) - velocity(a)).cross(velocity(c) - velocity(a));
         let [p0, p1] = [0, 1].map(|end| p[end] - a[end]);
@@ -157,8 +70,9 @@ proptest! {
     #[test]
     fn without_rounding_the_filter_culls_exactly_when_all_control_values_have_one_sign(points in whole_points(3)) {
         let tetrahedron = tetrahedron(&points);
-        let signs = tetrahedron.control_values().0.map(|k| k.0.signum());
-        prop_assert_eq!(tetrahedron.is_never_coplanar(), signs == [1; 4] || signs == [-1; 4]);
+        let values = tetrahedron.control_values().0;
+        let has_one_sign = values.iter().all(|&k| k > 0.0) || values.iter().all(|&k| k < 0.0);
+        prop_assert_eq!(tetrahedron.is_never_coplanar(), has_one_sign);
     }
 
     #[test]
@@ -184,10 +98,6 @@ proptest! {
 struct ExactControlValue {
     value: Rational,
     permanent: Rational,
-}
-
-fn rational<S: Format>(x: S) -> Rational {
-    Rational::from_f64(x.to_f64()).expect("finite")
 }
 
 /// Returns the values in the order k₀, 3k₁, 3k₂, k₃, from the definition: the coefficient of (1−t)^(3−i)·t^i in det(P, B, C).
@@ -268,40 +178,39 @@ fn compared<S: Format>(pair: &PairCase<S>) -> Option<Compared> {
     })
 }
 
-property!(
-    /// Each monomial passes through at most 8 roundings (k₀, k₃) or 10 (3k₁, 3k₂), here to nearest. Each product that underflows
-    /// loses η₀. There are two for a component of n, four for one of h, and at most one more in the last six additions.
-    control_values_are_off_by_no_more_than_their_roundings,
-    8_000,
-    pairs_of_any_kind(),
-    |pair| {
-        let Some(Compared {
-            computed,
-            exact,
-            largest_p,
-            ..
-        }) = compared(pair)
-        else {
-            return Ok(());
-        };
-        for (k, (computed, exact)) in computed.iter().zip(&exact).enumerate() {
-            let outer = k == 0 || k == 3;
-            let (roundings, per_p, alone) = if outer { (8, 6, 3) } else { (10, 18, 6) };
-            let underflow = (Rational::from(&largest_p * per_p) + alone)
-                * lost_by_underflow::<S>()
-                * (relative_error::<S>(6) + 1_u32);
-            let allowed: Rational = relative_error::<S>(roundings) * &exact.permanent + underflow;
-            let error = Rational::from(computed - &exact.value).abs();
-            prop_assert!(
-                error <= allowed,
-                "control value {k}: off by {} of {}",
-                error.to_f64(),
-                allowed.to_f64()
-            );
-        }
-        Ok(())
+/// Each monomial passes through at most 8 roundings (k₀, k₃) or 10 (3k₁, 3k₂), here to nearest. Each product that underflows
+/// loses η₀. There are two for a component of n, four for one of h, and at most one more in the last six additions.
+fn control_values_are_off_by_no_more_than_their_roundings<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    let Some(Compared {
+        computed,
+        exact,
+        largest_p,
+        ..
+    }) = compared(pair)
+    else {
+        return Ok(());
+    };
+    for (k, (computed, exact)) in computed.iter().zip(&exact).enumerate() {
+        let outer = k == 0 || k == 3;
+        let (roundings, per_p, alone) = if outer { (8, 6, 3) } else { (10, 18, 6) };
+        let underflow =
+            (Rational::from(&largest_p * per_p) + alone) * lost_by_underflow::<S>() * (relative_error::<S>(6) + 1_u32);
+        let allowed: Rational = relative_error::<S>(roundings) * &exact.permanent + underflow;
+        let error = Rational::from(computed - &exact.value).abs();
+        prop_assert!(
+            error <= allowed,
+            "control value {k}: off by {} of {}",
+            error.to_f64(),
+            allowed.to_f64()
+        );
     }
-);
+    Ok(())
+}
+
+formats!(control_values_are_off_by_no_more_than_their_roundings(
+    8_000,
+    pairs_of_any_kind()
+));
 
 /// Checks that a computed value beyond its bound has the sign of the exact one.
 fn signs_are_certain(
@@ -324,35 +233,32 @@ fn bounds_by_magnitudes<S: Format>(pair: &PairCase<S>) -> [Rational; 4] {
     [outer, inner, inner, outer].map(rational)
 }
 
-property!(
-    /// The filter relies on this promise for each of the four values alone.
-    a_control_value_beyond_its_bound_has_the_exact_sign,
-    15_000,
-    pairs_of_any_kind(),
-    |pair| {
-        match compared(pair) {
-            Some(Compared {
-                computed,
-                bounds,
-                exact,
-                ..
-            }) => signs_are_certain(&computed, &bounds, &exact),
-            None => Ok(()),
-        }
+/// The filter relies on this promise for each of the four values alone.
+fn a_control_value_beyond_its_bound_has_the_exact_sign<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    match compared(pair) {
+        Some(Compared {
+            computed, bounds, exact, ..
+        }) => signs_are_certain(&computed, &bounds, &exact),
+        None => Ok(()),
     }
-);
+}
 
-property!(
-    a_control_value_beyond_its_bound_by_magnitudes_has_the_exact_sign,
+formats!(a_control_value_beyond_its_bound_has_the_exact_sign(
     15_000,
-    pairs_of_any_kind(),
-    |pair| {
-        if let Some(Compared { computed, exact, .. }) = compared(pair) {
-            signs_are_certain(&computed, &bounds_by_magnitudes(pair), &exact)?;
-        }
-        Ok(())
+    pairs_of_any_kind()
+));
+
+fn a_control_value_beyond_its_bound_by_magnitudes_has_the_exact_sign<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    if let Some(Compared { computed, exact, .. }) = compared(pair) {
+        signs_are_certain(&computed, &bounds_by_magnitudes(pair), &exact)?;
     }
-);
+    Ok(())
+}
+
+formats!(a_control_value_beyond_its_bound_by_magnitudes_has_the_exact_sign(
+    15_000,
+    pairs_of_any_kind()
+));
 
 /// Checks that a computed bound is the documented sum of a relative and an absolute term, up to 16 roundings and the underflow of
 /// its products. The underflow is less than an eighth of the absolute term.
@@ -371,51 +277,42 @@ fn underflow_term<S: Format>(largest: &Rational) -> Rational {
     (Rational::from(largest) + 1_u32).square() * rational(S::UNDERFLOW)
 }
 
-property!(
-    /// The bounds are Eᵢ = Cᵢ·P̂ᵢ + (1 + M)²·η with C = 16u, 20u.
-    error_bounds_are_the_documented_ones,
-    4_000,
-    pairs_of_any_kind(),
-    |pair| {
-        let Some(Compared {
-            bounds,
-            exact,
-            largest,
-            ..
-        }) = compared(pair)
-        else {
-            return Ok(());
-        };
-        for (k, (bound, exact)) in bounds.iter().zip(&exact).enumerate() {
-            let count = if k == 0 || k == 3 { 16_u32 } else { 20 };
-            let relative = rational(S::UNIT_ROUNDOFF) * count * &exact.permanent;
-            is_documented::<S>(bound, relative, &underflow_term::<S>(&largest))?;
-        }
-        Ok(())
+/// The bounds are Eᵢ = Cᵢ·P̂ᵢ + (1 + M)²·η with C = 16u, 20u.
+fn error_bounds_are_the_documented_ones<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    let Some(Compared {
+        bounds, exact, largest, ..
+    }) = compared(pair)
+    else {
+        return Ok(());
+    };
+    for (k, (bound, exact)) in bounds.iter().zip(&exact).enumerate() {
+        let count = if k == 0 || k == 3 { 16_u32 } else { 20 };
+        let relative = rational(S::UNIT_ROUNDOFF) * count * &exact.permanent;
+        is_documented::<S>(bound, relative, &underflow_term::<S>(&largest))?;
     }
-);
+    Ok(())
+}
 
-property!(
-    /// The bound is 96u times the product of the three largest magnitudes + (1 + M)²·η.
-    error_bounds_by_magnitudes_are_the_documented_ones,
-    4_000,
-    pairs_of_any_kind(),
-    |pair| {
-        if compared(pair).is_none() {
-            return Ok(());
-        }
-        let MovingTetrahedron { b, c, p } = pair.tetrahedron();
-        let edges = [b, c, p];
-        let along = |axis: usize| {
-            let only = |v: Vector<S>| Vector::new([v.x, v.y, v.z][axis], S::ZERO, S::ZERO);
-            largest(edges.map(|ends| ends.map(only)))
-        };
-        let [x, y, z] = [0, 1, 2].map(along);
-        let underflow = underflow_term::<S>(&largest(edges));
-        let relative = rational(S::UNIT_ROUNDOFF) * 96_u32 * (x * y * z);
-        is_documented::<S>(&bounds_by_magnitudes(pair)[0], relative, &underflow)
+formats!(error_bounds_are_the_documented_ones(4_000, pairs_of_any_kind()));
+
+/// The bound is 96u times the product of the three largest magnitudes + (1 + M)²·η.
+fn error_bounds_by_magnitudes_are_the_documented_ones<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    if compared(pair).is_none() {
+        return Ok(());
     }
-);
+    let MovingTetrahedron { b, c, p } = pair.tetrahedron();
+    let edges = [b, c, p];
+    let along = |axis: usize| {
+        let only = |v: Vector<S>| Vector::new([v.x, v.y, v.z][axis], S::ZERO, S::ZERO);
+        largest(edges.map(|ends| ends.map(only)))
+    };
+    let [x, y, z] = [0, 1, 2].map(along);
+    let underflow = underflow_term::<S>(&largest(edges));
+    let relative = rational(S::UNIT_ROUNDOFF) * 96_u32 * (x * y * z);
+    is_documented::<S>(&bounds_by_magnitudes(pair)[0], relative, &underflow)
+}
+
+formats!(error_bounds_by_magnitudes_are_the_documented_ones(4_000, pairs_of_any_kind()));
 
 /// Returns the control points n₀, h/2, n₁ of the normal, exactly, each as the square of its length.
 fn squared_normals<S: Format>(pair: &PairCase<S>) -> [Rational; 3] {
@@ -447,7 +344,7 @@ fn largest_normal<S: Format>(pair: &PairCase<S>) -> S {
     pair.tetrahedron().largest_normal(kind)
 }
 
-property!(no_normal_is_longer_than_its_bound, 15_000, pairs_of_any_kind(), |pair| {
+fn no_normal_is_longer_than_its_bound<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
     if compared(pair).is_some() {
         let bound = rational(largest_normal(pair)).square();
         for (k, squared) in squared_normals(pair).iter().enumerate() {
@@ -455,7 +352,9 @@ property!(no_normal_is_longer_than_its_bound, 15_000, pairs_of_any_kind(), |pair
         }
     }
     Ok(())
-});
+}
+
+formats!(no_normal_is_longer_than_its_bound(15_000, pairs_of_any_kind()));
 
 /// The formula is (√(|n|² + η) + 128u·M²)·(1 + 32u). On small integers everything up to the root is exact, and the rest rounds
 /// five times.
@@ -479,15 +378,7 @@ fn the_bound_of_the_normal_is_the_documented_one<S: Format>() {
     });
 }
 
-#[test]
-fn the_bound_of_the_normal_is_the_documented_one_f64() {
-    the_bound_of_the_normal_is_the_documented_one::<f64>();
-}
-
-#[test]
-fn the_bound_of_the_normal_is_the_documented_one_f32() {
-    the_bound_of_the_normal_is_the_documented_one::<f32>();
-}
+formats!(the_bound_of_the_normal_is_the_documented_one);
 
 /// Returns the root to 200 bits.
 fn rational_root(square: &Rational) -> Rational {

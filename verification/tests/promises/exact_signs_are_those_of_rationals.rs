@@ -1,7 +1,7 @@
 //! `selvedge_core::verification::exact` agrees with rational arithmetic for every finite pair.
 
 use crate::support::environment::Environment;
-use crate::support::rationals::{InRationals, rational, separations};
+use crate::support::rationals::separations;
 use crate::support::widths::at_the_limit_of_a_width;
 use proptest::prelude::*;
 use rug::Rational;
@@ -12,10 +12,11 @@ use selvedge_core::verification::exact::{
 };
 use selvedge_verification::culling::CullingTest;
 use selvedge_verification::culling::verdict;
+use selvedge_verification::formats;
 use selvedge_verification::generator::{
     Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, from_choices, pairs_of_any_kind,
 };
-use selvedge_verification::oracle::{coplanar, within};
+use selvedge_verification::oracle::{InRationals, coplanar, rational, within};
 use std::cmp::Ordering::{self, Equal, Greater, Less};
 
 fn signs<S: Format>(pair: &PairCase<S>) -> Option<[Ordering; 4]> {
@@ -30,39 +31,41 @@ fn never_within<S: Format>(pair: &PairCase<S>, separation: S, known: KnownSigns)
     is_never_within(&pair.pair(), separation, known)
 }
 
-property!(signs_are_those_of_rationals, 8_000, pairs_of_any_kind(), |pair| {
+fn signs_are_those_of_rationals<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
     prop_assert_eq!(signs(pair), Some(InRationals::new(pair).signs()));
     Ok(())
-});
+}
 
-property!(
-    nothing_overflows_at_the_limit_of_a_width,
+formats!(signs_are_those_of_rationals(8_000, pairs_of_any_kind()));
+
+fn nothing_overflows_at_the_limit_of_a_width<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    prop_assert_eq!(signs(pair), Some(InRationals::new(pair).signs()));
+    Ok(())
+}
+
+formats!(nothing_overflows_at_the_limit_of_a_width(
     2_000,
-    from_choices(at_the_limit_of_a_width),
-    |pair| {
-        prop_assert_eq!(signs(pair), Some(InRationals::new(pair).signs()));
-        Ok(())
-    }
-);
+    from_choices(at_the_limit_of_a_width)
+));
 
-property!(
-    never_coplanar_means_one_sign_whatever_is_known_before,
+fn never_coplanar_means_one_sign_whatever_is_known_before<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    let signs = signs(pair).expect("finite");
+    let one_sign = [[Greater; 4], [Less; 4]].contains(&signs);
+    for subset in 0..16 {
+        let known = [0, 1, 2, 3].map(|i| (subset >> i & 1 == 1).then_some(signs[i]));
+        prop_assert_eq!(never_coplanar(pair, known), one_sign, "{:?}", known);
+        prop_assert_eq!(never_within(pair, S::ZERO, known), one_sign);
+        prop_assert_eq!(never_within(pair, -S::ZERO, known), one_sign);
+    }
+    Ok(())
+}
+
+formats!(never_coplanar_means_one_sign_whatever_is_known_before(
     8_000,
-    pairs_of_any_kind(),
-    |pair| {
-        let signs = signs(pair).expect("finite");
-        let one_sign = [[Greater; 4], [Less; 4]].contains(&signs);
-        for subset in 0..16 {
-            let known = [0, 1, 2, 3].map(|i| (subset >> i & 1 == 1).then_some(signs[i]));
-            prop_assert_eq!(never_coplanar(pair, known), one_sign, "{:?}", known);
-            prop_assert_eq!(never_within(pair, S::ZERO, known), one_sign);
-            prop_assert_eq!(never_within(pair, -S::ZERO, known), one_sign);
-        }
-        Ok(())
-    }
-);
+    pairs_of_any_kind()
+));
 
-property!(what_is_known_is_not_asked_again, 2_000, pairs_of_any_kind(), |pair| {
+fn what_is_known_is_not_asked_again<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
     let signs = signs(pair).expect("finite");
     for i in 0..4 {
         for claimed in [Less, Equal, Greater] {
@@ -73,133 +76,120 @@ property!(what_is_known_is_not_asked_again, 2_000, pairs_of_any_kind(), |pair| {
         }
     }
     Ok(())
-});
+}
 
-property!(
-    never_culls_what_the_oracle_calls_coplanar,
-    8_000,
-    pairs_of_any_kind(),
-    |pair| {
-        let question = pair.question();
-        prop_assert!(!never_coplanar(pair, UNKNOWN) || !coplanar(&question.start, &question.end));
-        Ok(())
+formats!(what_is_known_is_not_asked_again(2_000, pairs_of_any_kind()));
+
+fn never_culls_what_the_oracle_calls_coplanar<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    let question = pair.question();
+    prop_assert!(!never_coplanar(pair, UNKNOWN) || !coplanar(&question.start, &question.end));
+    Ok(())
+}
+
+formats!(never_culls_what_the_oracle_calls_coplanar(8_000, pairs_of_any_kind()));
+
+fn signs_that_rounding_cannot_change_are_the_exact_ones<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    let tetrahedron = pair.tetrahedron();
+    if !is_in_range(tetrahedron.largest_by_axis().largest()) {
+        return Ok(());
     }
-);
+    let known = certain_signs(&tetrahedron.control_values(), tetrahedron.error_bounds());
+    let signs = signs(pair).expect("finite");
+    for i in 0..4 {
+        prop_assert!(known[i].is_none_or(|sign| sign == signs[i]), "{:?}", known);
+    }
+    let all_known = [[Some(Greater); 4], [Some(Less); 4]].contains(&known);
+    let certified = verdict(CullingTest::CertifiedNonCoplanarity, pair);
+    prop_assert!(!all_known || certified.is_culled());
+    Ok(())
+}
 
-property!(
-    signs_that_rounding_cannot_change_are_the_exact_ones,
+formats!(signs_that_rounding_cannot_change_are_the_exact_ones(
     40_000,
-    pairs_of_any_kind(),
-    |pair| {
-        let tetrahedron = pair.tetrahedron();
-        if !is_in_range(tetrahedron.largest_by_axis().largest()) {
-            return Ok(());
-        }
-        let known = certain_signs(&tetrahedron.control_values(), tetrahedron.error_bounds());
-        let signs = signs(pair).expect("finite");
-        for i in 0..4 {
-            prop_assert!(known[i].is_none_or(|sign| sign == signs[i]), "{:?}", known);
-        }
-        let all_known = [[Some(Greater); 4], [Some(Less); 4]].contains(&known);
-        let certified = verdict(CullingTest::CertifiedNonCoplanarity, pair);
-        prop_assert!(!all_known || certified.is_culled());
-        Ok(())
-    }
-);
+    pairs_of_any_kind()
+));
 
-property!(
-    culls_whatever_the_certified_filter_culls,
-    40_000,
-    pairs_of_any_kind(),
-    |pair| {
-        let certified = verdict(CullingTest::CertifiedNonCoplanarity, pair);
-        prop_assert!(!certified.is_culled() || never_coplanar(pair, UNKNOWN));
-        Ok(())
-    }
-);
+fn culls_whatever_the_certified_filter_culls<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    let certified = verdict(CullingTest::CertifiedNonCoplanarity, pair);
+    prop_assert!(!certified.is_culled() || never_coplanar(pair, UNKNOWN));
+    Ok(())
+}
 
-property!(
-    never_culls_what_is_coplanar_by_construction,
-    8_000,
-    coplanar_pairs(),
-    |moment: Moment| {
-        prop_assert!(!never_coplanar(&moment.pair(), UNKNOWN));
-        Ok(())
-    }
-);
+formats!(culls_whatever_the_certified_filter_culls(40_000, pairs_of_any_kind()));
 
-property!(
-    what_is_not_finite_has_no_signs_and_is_kept,
-    8_000,
-    extraordinary_pairs(),
-    |pair| {
-        prop_assert_eq!(signs(pair).is_some(), pair.is_finite());
-        if !pair.is_finite() {
-            prop_assert!(!never_coplanar(pair, UNKNOWN));
-            prop_assert!(!never_within(pair, S::ZERO, UNKNOWN));
-            prop_assert!(!never_coplanar(pair, [None, Some(Less), Some(Less), Some(Less)]));
-        }
-        Ok(())
+fn never_culls_what_is_coplanar_by_construction<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
+    prop_assert!(!never_coplanar(&moment.pair(), UNKNOWN));
+    Ok(())
+}
+
+formats!(never_culls_what_is_coplanar_by_construction(8_000, coplanar_pairs()));
+
+fn what_is_not_finite_has_no_signs_and_is_kept<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    prop_assert_eq!(signs(pair).is_some(), pair.is_finite());
+    if !pair.is_finite() {
+        prop_assert!(!never_coplanar(pair, UNKNOWN));
+        prop_assert!(!never_within(pair, S::ZERO, UNKNOWN));
+        prop_assert!(!never_coplanar(pair, [None, Some(Less), Some(Less), Some(Less)]));
     }
-);
+    Ok(())
+}
+
+formats!(what_is_not_finite_has_no_signs_and_is_kept(8_000, extraordinary_pairs()));
 
 fn reversed(signs: [Ordering; 4]) -> [Ordering; 4] {
     signs.map(Ordering::reverse)
 }
 
-property!(
-    mirroring_an_axis_or_exchanging_two_axes_reverses_the_signs,
-    8_000,
-    pairs_of_any_kind(),
-    |pair| {
-        let opposite = signs(pair).map(reversed);
-        for axis in 0..3 {
-            let mirrored = pair.with_positions(|mut position| {
-                position[axis] = -position[axis];
-                position
-            });
-            prop_assert_eq!(signs(&mirrored), opposite);
-        }
-        for axes in [[1, 0, 2], [0, 2, 1], [2, 1, 0]] {
-            prop_assert_eq!(signs(&pair.with_axes(axes)), opposite);
-        }
-        Ok(())
+fn mirroring_an_axis_or_exchanging_two_axes_reverses_the_signs<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    let opposite = signs(pair).map(reversed);
+    for axis in 0..3 {
+        let mirrored = pair.with_positions(|mut position| {
+            position[axis] = -position[axis];
+            position
+        });
+        prop_assert_eq!(signs(&mirrored), opposite);
     }
-);
+    for axes in [[1, 0, 2], [0, 2, 1], [2, 1, 0]] {
+        prop_assert_eq!(signs(&pair.with_axes(axes)), opposite);
+    }
+    Ok(())
+}
 
-property!(
-    exchanging_two_points_reverses_the_signs_whichever_is_the_base,
+formats!(mirroring_an_axis_or_exchanging_two_axes_reverses_the_signs(
     8_000,
-    pairs_of_any_kind(),
-    |pair| {
-        let opposite = signs(pair).map(reversed);
-        for order in [
-            [1, 0, 2, 3],
-            [2, 1, 0, 3],
-            [3, 1, 2, 0],
-            [0, 2, 1, 3],
-            [0, 3, 2, 1],
-            [0, 1, 3, 2],
-        ] {
-            prop_assert_eq!(signs(&pair.reordered(order)), opposite, "{:?}", order);
-        }
-        Ok(())
-    }
-);
+    pairs_of_any_kind()
+));
 
-property!(
-    reversing_time_reverses_the_order_of_the_signs,
-    8_000,
-    pairs_of_any_kind(),
-    |pair| {
-        let mut backwards = signs(&pair.reversed());
-        if let Some(signs) = &mut backwards {
-            signs.reverse();
-        }
-        prop_assert_eq!(signs(pair), backwards);
-        Ok(())
+fn exchanging_two_points_reverses_the_signs_whichever_is_the_base<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    let opposite = signs(pair).map(reversed);
+    for order in [
+        [1, 0, 2, 3],
+        [2, 1, 0, 3],
+        [3, 1, 2, 0],
+        [0, 2, 1, 3],
+        [0, 3, 2, 1],
+        [0, 1, 3, 2],
+    ] {
+        prop_assert_eq!(signs(&pair.reordered(order)), opposite, "{:?}", order);
     }
-);
+    Ok(())
+}
+
+formats!(exchanging_two_points_reverses_the_signs_whichever_is_the_base(
+    8_000,
+    pairs_of_any_kind()
+));
+
+fn reversing_time_reverses_the_order_of_the_signs<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    let mut backwards = signs(&pair.reversed());
+    if let Some(signs) = &mut backwards {
+        signs.reverse();
+    }
+    prop_assert_eq!(signs(pair), backwards);
+    Ok(())
+}
+
+formats!(reversing_time_reverses_the_order_of_the_signs(8_000, pairs_of_any_kind()));
 
 #[test]
 fn the_same_numbers_in_f64_have_the_same_signs() {
@@ -222,12 +212,7 @@ fn is_right_to_a_relative_2_to_the_minus_60<S: Format>(pair: &PairCase<S>) -> Re
     Ok(())
 }
 
-property!(
-    never_within_is_right_to_a_relative_2_to_the_minus_60,
-    4_000,
-    pairs_of_any_kind(),
-    |pair| is_right_to_a_relative_2_to_the_minus_60(pair)
-);
+formats!(never_within_is_right_to_a_relative_2_to_the_minus_60 is is_right_to_a_relative_2_to_the_minus_60(4_000, pairs_of_any_kind()));
 
 /// The property above found this pair: the face turns so that one of the normals between start and end is zero.
 #[test]
@@ -244,7 +229,7 @@ fn never_within_is_right_where_a_middle_normal_is_zero_and_its_control_value_is_
     is_right_to_a_relative_2_to_the_minus_60(&pair).expect("right");
 }
 
-property!(never_culls_what_the_oracle_calls_within, 800, pairs_of_any_kind(), |pair| {
+fn never_culls_what_the_oracle_calls_within<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
     let exact = InRationals::new(pair);
     for separation in separations(pair, &exact) {
         if never_within(pair, separation, UNKNOWN) {
@@ -252,19 +237,18 @@ property!(never_culls_what_the_oracle_calls_within, 800, pairs_of_any_kind(), |p
         }
     }
     Ok(())
-});
+}
 
-property!(
-    a_separation_that_is_no_length_keeps_the_pair,
-    2_000,
-    pairs_of_any_kind(),
-    |pair| {
-        for separation in [S::NAN, -S::NAN, S::INFINITY, -S::INFINITY, -S::ONE, -S::ZERO.up()] {
-            prop_assert!(!never_within(pair, separation, UNKNOWN), "{separation:?}");
-        }
-        Ok(())
+formats!(never_culls_what_the_oracle_calls_within(800, pairs_of_any_kind()));
+
+fn a_separation_that_is_no_length_keeps_the_pair<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    for separation in [S::NAN, -S::NAN, S::INFINITY, -S::INFINITY, -S::ONE, -S::ZERO.up()] {
+        prop_assert!(!never_within(pair, separation, UNKNOWN), "{separation:?}");
     }
-);
+    Ok(())
+}
+
+formats!(a_separation_that_is_no_length_keeps_the_pair(2_000, pairs_of_any_kind()));
 
 /// In this unit a high power of two is 1, and the exponent of the unit is below those of all numbers of the format.
 #[test]
@@ -298,29 +282,21 @@ fn decides_the_largest_spread_there_is<S: Format>() {
     }
 }
 
-#[test]
-fn decides_the_largest_spread_there_is_f32() {
-    decides_the_largest_spread_there_is::<f32>();
-}
+formats!(decides_the_largest_spread_there_is);
 
-#[test]
-fn decides_the_largest_spread_there_is_f64() {
-    decides_the_largest_spread_there_is::<f64>();
-}
-
-property!(
-    answers_are_the_same_in_every_floating_point_environment,
-    8_000,
-    pairs_of_any_kind(),
-    |pair| {
-        let [[x, ..], _] = pair.points[1];
-        let separation = x.abs();
-        let answers = |pair: &PairCase<S>| (signs(pair), never_within(pair, separation, UNKNOWN));
-        let expected = answers(pair);
-        for environment in Environment::all() {
-            let answers = environment.run(pair, answers);
-            prop_assert_eq!(answers, expected, "{:?}", environment);
-        }
-        Ok(())
+fn answers_are_the_same_in_every_floating_point_environment<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    let [[x, ..], _] = pair.points[1];
+    let separation = x.abs();
+    let answers = |pair: &PairCase<S>| (signs(pair), never_within(pair, separation, UNKNOWN));
+    let expected = answers(pair);
+    for environment in Environment::all() {
+        let answers = environment.run(pair, answers);
+        prop_assert_eq!(answers, expected, "{:?}", environment);
     }
-);
+    Ok(())
+}
+
+formats!(answers_are_the_same_in_every_floating_point_environment(
+    8_000,
+    pairs_of_any_kind()
+));

@@ -4,6 +4,7 @@ use proptest::prelude::*;
 use selvedge_core::PairKind;
 use selvedge_verification::culling::CullingTest::CertifiedNonCoplanarity;
 use selvedge_verification::culling::verdict;
+use selvedge_verification::formats;
 use selvedge_verification::generator::{
     Choices, Format, Meeting, MeshCase, Moment, PairCase, Simplify, check, coplanar_pairs, from_choices, meshes,
     pairs_of_any_kind, touching_pairs,
@@ -16,12 +17,7 @@ fn touches_when_it_says<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseErr
     Ok(())
 }
 
-property!(
-    a_touching_pair_touches_at_its_time,
-    4000,
-    touching_pairs(),
-    |moment: Moment| touches_when_it_says(moment)
-);
+formats!(a_touching_pair_touches_at_its_time is touches_when_it_says(4000, touching_pairs()));
 
 fn is_coplanar<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
     let pair = moment.pair().question();
@@ -29,9 +25,7 @@ fn is_coplanar<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-property!(a_coplanar_pair_is_coplanar, 4000, coplanar_pairs(), |moment: Moment| {
-    is_coplanar(moment)
-});
+formats!(a_coplanar_pair_is_coplanar is is_coplanar(4000, coplanar_pairs()));
 
 #[test]
 fn any_bytes_make_a_pair_of_finite_coordinates() {

@@ -5,7 +5,8 @@ use selvedge::glam::{DVec3, Vec3};
 use selvedge::simd::available_levels;
 use selvedge::{CollisionDetector, Intersection, Position, Threads, Topology};
 use selvedge_core::Scalar;
-use selvedge_verification::generator::{Format, MeshCase, check, meshes};
+use selvedge_verification::formats;
+use selvedge_verification::generator::{Format, MeshCase, meshes};
 use selvedge_verification::oracle::{mesh_self_intersections, triangles_intersect};
 use std::collections::BTreeSet;
 
@@ -102,9 +103,7 @@ fn has_area(positions: &[Point], [a, b, c]: [u32; 3]) -> bool {
     edges.iter().all(|&[u, v, w]| !meet(positions, &[u, v], &[w]))
 }
 
-property!(intersections_are_those_of_exact_triangles, 150, meshes(), |mesh: MeshCase| {
-    intersections_are_those_of_exact_triangles(mesh)
-});
+formats!(intersections_are_those_of_exact_triangles(150, meshes()));
 
 /// Makes two sheets of `n` by `n` squares that wave through each other.
 fn tangled_sheets(n: u32) -> (Topology, Vec<DVec3>) {

@@ -4,7 +4,6 @@
 //! All are one program, because each program would compile the lane kernels and the oracle again. `cargo test -p
 //! selvedge-verification --test promises box_tests` runs the modules whose names contain `box_tests`.
 
-#[macro_use]
 mod support;
 
 mod batches_agree_with_one_pair;
@@ -24,7 +23,6 @@ mod exact_campaign_finds_what_is_wrong;
 mod exact_signs_are_those_of_rationals;
 mod generator_makes_what_it_promises;
 mod intersections_are_exact;
-mod known_examples;
 mod minifloat_exhaustive;
 mod moving_boxes_find_what_relative_boxes_leave;
 mod oracle_collision;

@@ -1,25 +1,22 @@
 //! The broad phase of moving boxes agrees with its definition, on small degenerate meshes and on a late step of a bending tube.
 
 use proptest::prelude::*;
-use selvedge::PairKind::{self, EdgeEdge, VertexFace};
 use selvedge::StepError;
 use selvedge::Topology;
 use selvedge::broad_phase::MovingBroadPhase;
 use selvedge::glam::DVec3;
 use selvedge::simd::available_levels;
 use selvedge_core::Scalar;
-use selvedge_verification::generator::{BendingTube, Format, MeshCase, PairCase, check, meshes};
+use selvedge_verification::formats;
+use selvedge_verification::generator::{BendingTube, Format, MeshCase, MeshPair, PairCase, all_pairs, check, meshes, with_kinds};
 use selvedge_verification::oracle::within;
 use std::cell::Cell;
 use std::collections::BTreeSet;
 
-type MeshPair = (PairKind, [u32; 2]);
-
 fn candidates(broad_phase: &mut MovingBroadPhase) -> Vec<MeshPair> {
     let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
     broad_phase.candidates(&mut vertex_face, &mut edge_edge);
-    let of_kind = |kind, pairs: Vec<[u32; 2]>| pairs.into_iter().map(move |pair| (kind, pair));
-    of_kind(VertexFace, vertex_face).chain(of_kind(EdgeEdge, edge_edge)).collect()
+    with_kinds([vertex_face, edge_edge])
 }
 
 fn updated<S: Format>(mesh: &MeshCase<S>) -> MovingBroadPhase {
@@ -31,27 +28,6 @@ fn updated<S: Format>(mesh: &MeshCase<S>) -> MovingBroadPhase {
 fn update<S: Format>(broad_phase: &mut MovingBroadPhase, mesh: &MeshCase<S>) {
     let result = broad_phase.update(&mesh.frame(0), &mesh.frame(1));
     result.expect("finite positions, one for each vertex");
-}
-
-/// Returns every pair without a common vertex, by definition. Vertices without a triangle are not part of the surface.
-fn all_pairs(topology: &Topology) -> BTreeSet<MeshPair> {
-    let mut pairs = BTreeSet::new();
-    for vertex in 0..topology.vertex_count() as u32 {
-        let has_triangle = topology.triangles().iter().any(|t| t.contains(&vertex));
-        for (face, triangle) in (0..).zip(topology.triangles()) {
-            if has_triangle && !triangle.contains(&vertex) {
-                pairs.insert((VertexFace, [vertex, face]));
-            }
-        }
-    }
-    for (second, b) in (0..).zip(topology.edges()) {
-        for (first, a) in (0..second).zip(topology.edges()) {
-            if !a.iter().any(|end| b.contains(end)) {
-                pairs.insert((EdgeEdge, [first, second]));
-            }
-        }
-    }
-    pairs
 }
 
 /// Returns whether, along one axis, all of one primitive is above all of the other at the given ends, in one order.
@@ -84,7 +60,7 @@ fn is_near_origin<S: Format>(mesh: &MeshCase<S>) -> bool {
 
 fn candidates_are_those_of_the_definition<S: Format>(mesh: &MeshCase<S>, exact: &Cell<u32>) -> Result<(), TestCaseError> {
     let topology = mesh.topology();
-    let all = all_pairs(&topology);
+    let all: BTreeSet<MeshPair> = with_kinds(all_pairs(&topology)).into_iter().collect();
     for is_swept in [false, true] {
         let mut broad_phase = MovingBroadPhase::new(topology.clone());
         broad_phase.set_swept(is_swept);
@@ -170,7 +146,7 @@ fn no_pair_that_comes_within_the_separation_is_lost<S: Format>(mesh: &MeshCase<S
         prop_assert!(accepted.is_ok());
         update(&mut broad_phase, mesh);
         let found: BTreeSet<MeshPair> = candidates(&mut broad_phase).into_iter().collect();
-        for pair in all_pairs(&topology) {
+        for pair in with_kinds(all_pairs(&topology)) {
             if !found.contains(&pair) {
                 let question = mesh.pair(&topology, pair).question();
                 prop_assert!(!within(&question, separation), "{:?}", pair);
@@ -180,12 +156,7 @@ fn no_pair_that_comes_within_the_separation_is_lost<S: Format>(mesh: &MeshCase<S
     Ok(())
 }
 
-property!(
-    no_pair_that_comes_within_the_separation_is_lost,
-    60,
-    meshes(),
-    |mesh: MeshCase| no_pair_that_comes_within_the_separation_is_lost(mesh)
-);
+formats!(no_pair_that_comes_within_the_separation_is_lost(60, meshes()));
 
 #[test]
 fn a_separation_widens_boxes_by_no_more_than_it_has_to() {

@@ -24,99 +24,15 @@ fn edge_edge(start: Positions, end: Positions) -> Pair {
     }
 }
 
-#[track_caller]
-fn contact_at(pair: &Pair, numerator: i32, denominator: i32) {
-    let time = collides(pair).expect("a contact");
-    assert_eq!(time.as_rational(), Some(&Rational::from((numerator, denominator))));
-    assert!(within(pair, 0.0), "at distance zero");
-}
-
-#[track_caller]
-fn no_contact(pair: &Pair) {
-    assert_eq!(collides(pair), None);
-    assert!(!within(pair, 0.0), "not at distance zero");
-}
-
 const FACE: [[f64; 3]; 3] = [[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 3.0, 0.0]];
 
-/// A vertex that moves over a face at rest.
+/// A vertex that moves from one place to another, and a face at rest.
+fn over([a, b, c]: [[f64; 3]; 3], [start, end]: [[f64; 3]; 2]) -> Pair {
+    vertex_face([start, a, b, c], [end, a, b, c])
+}
+
 fn over_face(start: [f64; 3], end: [f64; 3]) -> Pair {
-    let with = |vertex| [vertex, FACE[0], FACE[1], FACE[2]];
-    vertex_face(with(start), with(end))
-}
-
-#[test]
-fn vertex_through_a_face() {
-    contact_at(&over_face([1.0, 1.0, 1.0], [1.0, 1.0, -2.0]), 1, 3);
-}
-
-#[test]
-fn vertex_reaches_the_face_at_the_end_of_the_step() {
-    contact_at(&over_face([1.0, 1.0, 1.0], [1.0, 1.0, 0.0]), 1, 1);
-    no_contact(&over_face([1.0, 1.0, 1.0], [1.0, 1.0, 5e-324]));
-}
-
-#[test]
-fn vertex_leaves_the_face_at_the_start_of_the_step() {
-    contact_at(&over_face([1.0, 1.0, 0.0], [1.0, 1.0, 1.0]), 0, 1);
-    no_contact(&over_face([1.0, 1.0, 5e-324], [1.0, 1.0, 1.0]));
-}
-
-#[test]
-fn vertex_through_an_edge_of_the_face_and_one_ulp_beside_it() {
-    contact_at(&over_face([1.0, 0.0, 1.0], [1.0, 0.0, -1.0]), 1, 2);
-    no_contact(&over_face([1.0, -5e-324, 1.0], [1.0, -5e-324, -1.0]));
-}
-
-#[test]
-fn vertex_through_a_corner_of_the_face_and_one_ulp_beside_it() {
-    contact_at(&over_face([3.0, 0.0, 1.0], [3.0, 0.0, -1.0]), 1, 2);
-    let beside = 3.0_f64.next_up();
-    no_contact(&over_face([beside, 0.0, 1.0], [beside, 0.0, -1.0]));
-}
-
-#[test]
-fn vertex_at_rest_on_a_face_at_rest() {
-    contact_at(&over_face([1.0, 1.0, 0.0], [1.0, 1.0, 0.0]), 0, 1);
-    no_contact(&over_face([1.0, 1.0, 1.0], [1.0, 1.0, 1.0]));
-}
-
-#[test]
-fn vertex_slides_into_a_face_in_its_plane() {
-    contact_at(&over_face([-1.0, 1.0, 0.0], [3.0, 1.0, 0.0]), 1, 4);
-}
-
-#[test]
-fn vertex_passes_a_face_in_its_plane() {
-    no_contact(&over_face([-1.0, 1.0, 0.0], [1.0, -1.0 - 1e-15, 0.0]));
-    contact_at(&over_face([-1.0, 1.0, 0.0], [1.0, -1.0, 0.0]), 1, 2);
-}
-
-#[test]
-fn vertex_meets_a_face_without_area() {
-    // The face is the segment from (0, 0, 0) to (2, 0, 0), then a point.
-    let segment = [[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]];
-    let meet = |face: [[f64; 3]; 3], from, to| {
-        let with = |vertex| [vertex, face[0], face[1], face[2]];
-        vertex_face(with(from), with(to))
-    };
-    contact_at(&meet(segment, [0.5, 0.0, 1.0], [0.5, 0.0, -3.0]), 1, 4);
-    no_contact(&meet(segment, [2.5, 0.0, 1.0], [2.5, 0.0, -3.0]));
-    no_contact(&meet(segment, [0.5, 5e-324, 1.0], [0.5, 5e-324, -3.0]));
-    contact_at(&meet([[0.0; 3]; 3], [0.0, 0.0, 1.0], [0.0, 0.0, -3.0]), 1, 4);
-    no_contact(&meet([[0.0; 3]; 3], [0.0, 5e-324, 1.0], [0.0, 5e-324, -3.0]));
-}
-
-#[test]
-fn face_collapses_onto_the_vertex_in_one_instant() {
-    let opened = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    let turned = opened.map(|p| p.map(|x: f64| -x));
-    let with = |face: [[f64; 3]; 3]| [[0.0; 3], face[0], face[1], face[2]];
-    // The volume is (1 − 2t)³: a triple root.
-    contact_at(&vertex_face(with(opened), with(turned)), 1, 2);
-    // The face stops just before the vertex.
-    let almost = opened.map(|p| p.map(|x: f64| x * 5e-324));
-    no_contact(&vertex_face(with(opened), with(almost)));
+    over(FACE, [start, end])
 }
 
 /// Two crossing edges, the second at height z.
@@ -125,18 +41,9 @@ fn crossed(z_start: f64, z_end: f64) -> Pair {
     edge_edge(at(z_start), at(z_end))
 }
 
-#[test]
-fn edge_through_an_edge() {
-    contact_at(&crossed(1.0, -2.0), 1, 3);
-    contact_at(&crossed(0.0, 1.0), 0, 1);
-    contact_at(&crossed(-1.0, 0.0), 1, 1);
-    no_contact(&crossed(1.0, 5e-324));
-}
-
-#[test]
-fn edges_that_graze_in_a_double_root() {
-    // The second edge turns about the x axis while it slides along y. With s = 1 − 2t it passes the first at height s² + gap.
-    let at = |s: f64, gap: f64| {
+/// The second edge turns about the x axis while it slides along y. With s = 1 − 2t it passes the first at height s² + gap.
+fn grazing(gap: f64) -> Pair {
+    let at = |s: f64| {
         [
             [-1.0, 0.0, 0.0],
             [1.0, 0.0, 0.0],
@@ -144,37 +51,108 @@ fn edges_that_graze_in_a_double_root() {
             [0.0, 1.0 - s, gap + s],
         ]
     };
-    contact_at(&edge_edge(at(1.0, 0.0), at(-1.0, 0.0)), 1, 2);
-    no_contact(&edge_edge(at(1.0, 1e-15), at(-1.0, 1e-15)));
-    // A little lower it passes through, twice: s² = 1/4.
-    contact_at(&edge_edge(at(1.0, -0.25), at(-1.0, -0.25)), 1, 4);
+    edge_edge(at(1.0), at(-1.0))
 }
 
-#[test]
-fn parallel_edges_slide_into_touch() {
-    let at = |x: f64, y: f64| [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [x, y, 0.0], [x + 1.0, y, 0.0]];
-    contact_at(&edge_edge(at(3.0, 0.0), at(0.0, 0.0)), 2, 3);
-    contact_at(&edge_edge(at(0.5, 2.0), at(0.5, -2.0)), 1, 2);
-    contact_at(&edge_edge(at(2.0, 0.0), at(1.0, 0.0)), 1, 1);
-    no_contact(&edge_edge(at(2.0, 0.0), at(1.0 + 1e-15, 0.0)));
-    no_contact(&edge_edge(at(2.0, 1.0), at(1.5, -1.0)));
+/// Two edges along x, the second from one place to another.
+fn parallel(start: [f64; 2], end: [f64; 2]) -> Pair {
+    let at = |[x, y]: [f64; 2]| [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [x, y, 0.0], [x + 1.0, y, 0.0]];
+    edge_edge(at(start), at(end))
 }
 
-#[test]
-fn edges_of_no_length() {
-    let at = |point: [f64; 3]| [[0.0; 3], [2.0, 0.0, 0.0], point, point];
-    contact_at(&edge_edge(at([1.0, 1.0, 0.0]), at([1.0, -3.0, 0.0])), 1, 4);
-    no_contact(&edge_edge(at([3.0, 1.0, 0.0]), at([3.0, -3.0, 0.0])));
-    let points = |x: f64| [[0.0; 3], [0.0; 3], [x, x, x], [x, x, x]];
-    contact_at(&edge_edge(points(1.0), points(-2.0)), 1, 3);
-    no_contact(&edge_edge(points(1.0), points(5e-324)));
+/// An edge at rest, and one of no length.
+fn onto_edge(edge: [f64; 3], start: [f64; 3], end: [f64; 3]) -> Pair {
+    let at = |point: [f64; 3]| [[0.0; 3], edge, point, point];
+    edge_edge(at(start), at(end))
 }
 
-#[test]
-fn huge_and_tiny_coordinates_in_one_pair() {
+/// A face that shrinks to its corners times `factor`, around a vertex at rest. For −1 the volume is (1 − 2t)³: a triple root.
+fn collapsing(factor: f64) -> Pair {
+    let with = |x: f64| [[0.0; 3], [x, 0.0, 0.0], [0.0, x, 0.0], [0.0, 0.0, x]];
+    vertex_face(with(1.0), with(factor))
+}
+
+fn huge_face(z_start: f64, z_end: f64) -> Pair {
     let at = |z| [[0.0, 0.0, z], [-1e308, -1e308, 0.0], [1e308, -1e308, 0.0], [0.0, 1e308, 0.0]];
-    contact_at(&vertex_face(at(5e-324), at(-5e-324)), 1, 2);
-    no_contact(&vertex_face(at(5e-324), at(1e308)));
+    vertex_face(at(z_start), at(z_end))
+}
+
+/// Tests that the oracle finds each contact at the given time, a quotient, and none where there is none.
+macro_rules! cases {
+    ($($name:ident { $($pair:expr => $time:expr;)* })*) => {
+        $(#[test]
+        fn $name() {
+            for (pair, time) in [$(($pair, $time)),*] {
+                let time: Option<(i32, i32)> = time;
+                let found = collides(&pair).map(|time| time.as_rational().cloned());
+                assert_eq!(found, time.map(|time| Some(Rational::from(time))), "{pair:?}");
+                assert_eq!(within(&pair, 0.0), time.is_some(), "{pair:?} at distance zero");
+            }
+        })*
+    };
+}
+
+/// The smallest number.
+const TINY: f64 = 5e-324;
+/// A face without area: the segment from (0, 0, 0) to (2, 0, 0).
+const SEGMENT: [[f64; 3]; 3] = [[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]];
+
+cases! {
+    vertex_through_a_face { over_face([1.0, 1.0, 1.0], [1.0, 1.0, -2.0]) => Some((1, 3)); }
+    vertex_reaches_the_face_at_the_end_of_the_step {
+        over_face([1.0, 1.0, 1.0], [1.0, 1.0, 0.0]) => Some((1, 1));
+        over_face([1.0, 1.0, 1.0], [1.0, 1.0, TINY]) => None;
+    }
+    vertex_leaves_the_face_at_the_start_of_the_step {
+        over_face([1.0, 1.0, 0.0], [1.0, 1.0, 1.0]) => Some((0, 1));
+        over_face([1.0, 1.0, TINY], [1.0, 1.0, 1.0]) => None;
+    }
+    vertex_through_an_edge_of_the_face_and_one_ulp_beside_it {
+        over_face([1.0, 0.0, 1.0], [1.0, 0.0, -1.0]) => Some((1, 2));
+        over_face([1.0, -TINY, 1.0], [1.0, -TINY, -1.0]) => None;
+    }
+    vertex_through_a_corner_of_the_face_and_one_ulp_beside_it {
+        over_face([3.0, 0.0, 1.0], [3.0, 0.0, -1.0]) => Some((1, 2));
+        over_face([3.0_f64.next_up(), 0.0, 1.0], [3.0_f64.next_up(), 0.0, -1.0]) => None;
+    }
+    vertex_at_rest_on_a_face_at_rest {
+        over_face([1.0, 1.0, 0.0], [1.0, 1.0, 0.0]) => Some((0, 1));
+        over_face([1.0, 1.0, 1.0], [1.0, 1.0, 1.0]) => None;
+    }
+    vertex_in_the_plane_of_a_face {
+        over_face([-1.0, 1.0, 0.0], [3.0, 1.0, 0.0]) => Some((1, 4));
+        over_face([-1.0, 1.0, 0.0], [1.0, -1.0 - 1e-15, 0.0]) => None;
+        over_face([-1.0, 1.0, 0.0], [1.0, -1.0, 0.0]) => Some((1, 2));
+    }
+    vertex_meets_a_face_without_area {
+        over(SEGMENT, [[0.5, 0.0, 1.0], [0.5, 0.0, -3.0]]) => Some((1, 4));
+        over(SEGMENT, [[2.5, 0.0, 1.0], [2.5, 0.0, -3.0]]) => None;
+        over(SEGMENT, [[0.5, TINY, 1.0], [0.5, TINY, -3.0]]) => None;
+        over([[0.0; 3]; 3], [[0.0, 0.0, 1.0], [0.0, 0.0, -3.0]]) => Some((1, 4));
+        over([[0.0; 3]; 3], [[0.0, TINY, 1.0], [0.0, TINY, -3.0]]) => None;
+    }
+    face_collapses_onto_the_vertex_in_one_instant { collapsing(-1.0) => Some((1, 2)); collapsing(TINY) => None; }
+    edge_through_an_edge {
+        crossed(1.0, -2.0) => Some((1, 3));
+        crossed(0.0, 1.0) => Some((0, 1));
+        crossed(-1.0, 0.0) => Some((1, 1));
+        crossed(1.0, TINY) => None;
+    }
+    edges_that_graze_in_a_double_root { grazing(0.0) => Some((1, 2)); grazing(1e-15) => None; grazing(-0.25) => Some((1, 4)); }
+    parallel_edges_slide_into_touch {
+        parallel([3.0, 0.0], [0.0, 0.0]) => Some((2, 3));
+        parallel([0.5, 2.0], [0.5, -2.0]) => Some((1, 2));
+        parallel([2.0, 0.0], [1.0, 0.0]) => Some((1, 1));
+        parallel([2.0, 0.0], [1.0 + 1e-15, 0.0]) => None;
+        parallel([2.0, 1.0], [1.5, -1.0]) => None;
+    }
+    edges_of_no_length {
+        onto_edge([2.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, -3.0, 0.0]) => Some((1, 4));
+        onto_edge([2.0, 0.0, 0.0], [3.0, 1.0, 0.0], [3.0, -3.0, 0.0]) => None;
+        onto_edge([0.0; 3], [1.0; 3], [-2.0; 3]) => Some((1, 3));
+        onto_edge([0.0; 3], [1.0; 3], [TINY; 3]) => None;
+    }
+    huge_and_tiny_coordinates_in_one_pair { huge_face(TINY, -TINY) => Some((1, 2)); huge_face(TINY, 1e308) => None; }
 }
 
 /// A contact at t = 1/√2: the vertex (t, 1/2) meets the edge from (0, 0) to (1, t).
@@ -243,23 +221,18 @@ fn a_time_below_the_normal_numbers_is_rounded_down() {
 
 #[test]
 fn separation_is_closed() {
-    // A vertex that passes at height 1 over the interior, over an edge, and over a corner.
-    assert!(within(&over_face([-9.0, 1.0, 1.0], [9.0, 1.0, 1.0]), 1.0));
-    assert!(!within(&over_face([-9.0, 1.0, 1.0], [9.0, 1.0, 1.0]), 1.0_f64.next_down()));
-    assert!(within(&over_face([-9.0, -3.0, 4.0], [9.0, -3.0, 4.0]), 5.0));
-    assert!(!within(&over_face([-9.0, -3.0, 4.0], [9.0, -3.0, 4.0]), 5.0_f64.next_down()));
-    assert!(within(
-        &over_face([-1.0, -2.0, -9.0], [-1.0, -2.0, 9.0]),
-        5.0_f64.sqrt().next_up()
-    ));
-    assert!(!within(
-        &over_face([-1.0, -2.0, -9.0], [-1.0, -2.0, 9.0]),
-        5.0_f64.sqrt().next_down()
-    ));
-    // Edges that cross at distance 1, and parallel ones.
-    assert!(within(&crossed(1.0, 1.0), 1.0));
-    assert!(!within(&crossed(1.0, 1.0), 1.0_f64.next_down()));
-    let parallel = |y: f64| [[0.0; 3], [1.0, 0.0, 0.0], [0.5, y, 0.0], [2.0, y, 0.0]];
-    assert!(within(&edge_edge(parallel(3.0), parallel(1.0)), 1.0));
-    assert!(!within(&edge_edge(parallel(3.0), parallel(1.0)), 1.0_f64.next_down()));
+    for (pair, [within_it, beyond]) in [
+        // A vertex that passes at height 1 over the interior, over an edge, and over a corner.
+        (over_face([-9.0, 1.0, 1.0], [9.0, 1.0, 1.0]), [1.0, 1.0_f64.next_down()]),
+        (over_face([-9.0, -3.0, 4.0], [9.0, -3.0, 4.0]), [5.0, 5.0_f64.next_down()]),
+        (
+            over_face([-1.0, -2.0, -9.0], [-1.0, -2.0, 9.0]),
+            [5.0_f64.sqrt().next_up(), 5.0_f64.sqrt().next_down()],
+        ),
+        // Edges that cross at distance 1, and parallel ones.
+        (crossed(1.0, 1.0), [1.0, 1.0_f64.next_down()]),
+        (parallel([0.5, 3.0], [0.5, 1.0]), [1.0, 1.0_f64.next_down()]),
+    ] {
+        assert!(within(&pair, within_it) && !within(&pair, beyond), "{pair:?}");
+    }
 }

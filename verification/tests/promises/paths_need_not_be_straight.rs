@@ -9,113 +9,10 @@ use selvedge_core::glam::DVec3;
 use selvedge_core::paths::{Arc, Moment, Path, Piece, Polyline, RigidMotion, geometry, time_of_impact};
 use selvedge_core::{Motion, PairKind};
 use selvedge_verification::generator::{Choices, PairCase, Screw, Simplify, check, from_choices, sliding_pairs};
+use selvedge_verification::oracle::arcs::{Place, Pose, distance, float, minus, place, plus, times};
 use selvedge_verification::oracle::within;
 use std::cell::Cell;
 use std::f64::consts::PI;
-
-const BITS: u32 = 256;
-
-type Place = [Float; 3];
-
-fn float(x: f64) -> Float {
-    Float::with_val(BITS, x)
-}
-
-fn place(point: DVec3) -> Place {
-    point.to_array().map(float)
-}
-
-fn plus(a: &Place, b: &Place) -> Place {
-    [0, 1, 2].map(|k| Float::with_val(BITS, &a[k] + &b[k]))
-}
-
-fn minus(a: &Place, b: &Place) -> Place {
-    [0, 1, 2].map(|k| Float::with_val(BITS, &a[k] - &b[k]))
-}
-
-fn times(a: &Place, factor: &Float) -> Place {
-    a.each_ref().map(|x| Float::with_val(BITS, x * factor))
-}
-
-fn dot(a: &Place, b: &Place) -> Float {
-    let mut sum = float(0.0);
-    for k in 0..3 {
-        sum += Float::with_val(BITS, &a[k] * &b[k]);
-    }
-    sum
-}
-
-fn cross(a: &Place, b: &Place) -> Place {
-    [0, 1, 2].map(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        Float::with_val(BITS, &a[i] * &b[j]) - Float::with_val(BITS, &a[j] * &b[i])
-    })
-}
-
-fn distance(a: &Place, b: &Place) -> Float {
-    let way = minus(a, b);
-    dot(&way, &way).sqrt()
-}
-
-/// The pose of a body in screw motion at a time.
-struct Pose {
-    /// The axis, of length one.
-    axis: Place,
-    sine: Float,
-    cosine: Float,
-    centre: Place,
-    /// The place of the centre at that time.
-    moved: Place,
-    translation: Place,
-    /// The axis times the angle.
-    spin: Place,
-}
-
-impl Pose {
-    fn of(screw: &Screw, time: f64) -> Self {
-        let (angle, time) = (float(screw.angle), float(time));
-        let axis = place(screw.axis);
-        let axis = times(&axis, &dot(&axis, &axis).sqrt().recip());
-        let (sine, cosine) = Float::with_val(BITS, &angle * &time).sin_cos(float(0.0));
-        let [centre, translation] = [screw.centre, screw.translation].map(place);
-        Self {
-            sine,
-            cosine,
-            moved: plus(&centre, &times(&translation, &time)),
-            spin: times(&axis, &angle),
-            axis,
-            centre,
-            translation,
-        }
-    }
-
-    /// Rotates a vector about the axis by the angle of this sine.
-    fn turned(&self, way: &Place, sine: &Float) -> Place {
-        let along = times(&self.axis, &dot(&self.axis, way));
-        let across = minus(way, &along);
-        let sideways = cross(&self.axis, way);
-        plus(&along, &plus(&times(&across, &self.cosine), &times(&sideways, sine)))
-    }
-
-    fn turned_from(&self, start: DVec3) -> Place {
-        self.turned(&minus(&place(start), &self.centre), &self.sine)
-    }
-
-    /// Returns the position of the point that started at `start`.
-    fn at(&self, start: DVec3) -> Place {
-        plus(&self.moved, &self.turned_from(start))
-    }
-
-    fn velocity(&self, start: DVec3) -> Place {
-        plus(&self.translation, &cross(&self.spin, &self.turned_from(start)))
-    }
-
-    /// Returns the start of a point that is `there`, rounded.
-    fn start_of(&self, there: &Place) -> DVec3 {
-        let back = self.turned(&minus(there, &self.moved), &-self.sine.clone());
-        DVec3::from_array(plus(&self.centre, &back).map(|x| x.to_f64()))
-    }
-}
 
 /// Two motions, and points of the bodies.
 #[derive(Clone, Debug)]
@@ -153,7 +50,7 @@ fn a_point_of_a_body_that_turns_is_where_it_is_said_to_be_and_as_fast() {
         let turn = &case.turns[0];
         for start in case.points {
             for time in [0.0, case.time, 1.0] {
-                let pose = Pose::of(turn, time);
+                let pose = Pose::at_time(turn, time);
                 let exact = (pose.at(start), pose.velocity(start));
                 for environment in Environment::all() {
                     let ask = |&(turn, start, time): &(&Screw, DVec3, f64)| turn.motion().path(start).moment(time);
@@ -239,7 +136,7 @@ fn no_path_deviates_farther_from_its_straight_pieces_than_is_said() {
         for [from, to] in [[0.0, 1.0], [from, to], [from, from + (to - from) * 1e-3]] {
             let arc = turn.motion().path(case.points[0]);
             deviates(&arc.piece(from, to), [from, to], |time| {
-                Pose::of(turn, time).at(case.points[0])
+                Pose::at_time(turn, time).at(case.points[0])
             })?;
 
             let straight = Motion::<f64>::new(case.points[0], case.points[1]);
@@ -265,7 +162,7 @@ fn no_path_deviates_farther_from_its_straight_pieces_than_is_said() {
 
 /// Returns the starts of two sets of points, one on each body, that touch at the case's time up to the rounding of the starts.
 fn sides_that_touch(case: &Turning, kind: PairKind) -> [Vec<DVec3>; 2] {
-    let [first, second] = case.turns.each_ref().map(|turn| Pose::of(turn, case.time));
+    let [first, second] = case.turns.each_ref().map(|turn| Pose::at_time(turn, case.time));
     // The positions at the time, on the first body: a vertex in the middle of a face, or two edges that cross.
     let [a, b, c, d] = case.points;
     let there = |point: DVec3| first.at(point);
@@ -341,7 +238,7 @@ fn geometry_is_kept(case: &Turning, environment: Environment, count: &Cell<[usiz
             };
             let exact = |place: Place| place.map(|x| x.to_rational().expect("a finite number"));
             let all = |time: f64, of: fn(&Pose, DVec3) -> Place| {
-                let poses = case.turns.each_ref().map(|turn| Pose::of(turn, time));
+                let poses = case.turns.each_ref().map(|turn| Pose::at_time(turn, time));
                 [0, 1, 2, 3].map(|k| exact(of(&poses[starts[k].0], starts[k].1)))
             };
             let at = |time: f64| all(time, Pose::at);

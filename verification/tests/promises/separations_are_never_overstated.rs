@@ -17,6 +17,7 @@ use selvedge_core::separation::course;
 use selvedge_core::separation::gap::{GapError, SeparatingDirection, distance_from_below};
 use selvedge_core::separation::hinge::is_wide_open;
 use selvedge_core::separation::largest_coordinate;
+use selvedge_verification::formats;
 use selvedge_verification::generator::{
     Choices, Format, Moment, PairCase, Simplify, check, extraordinary_pairs, from_choices, pairs_of_any_kind, touching_pairs,
 };
@@ -113,21 +114,18 @@ fn is_kept_apart<S: Format>(pair: &PairCase<S>, directions: &[S::Vector], separa
     })
 }
 
-property!(
-    /// The clearance holds for any direction.
-    nothing_keeps_apart_what_touches,
-    800,
-    touching_pairs(),
-    |moment: Moment| {
-        let pair = &moment.pair();
-        let directions = directions(pair);
-        for environment in Environment::all() {
-            let is_kept = environment.run(pair, |pair| is_kept_apart(pair, &directions, S::ZERO));
-            prop_assert!(!is_kept, "{environment:?}");
-        }
-        Ok(())
+/// The clearance holds for any direction.
+fn nothing_keeps_apart_what_touches<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
+    let pair = &moment.pair();
+    let directions = directions(pair);
+    for environment in Environment::all() {
+        let is_kept = environment.run(pair, |pair| is_kept_apart(pair, &directions, S::ZERO));
+        prop_assert!(!is_kept, "{environment:?}");
     }
-);
+    Ok(())
+}
+
+formats!(nothing_keeps_apart_what_touches(800, touching_pairs()));
 
 /// Returns the largest result of `f` in any environment.
 fn largest_of_all<S: Format, I>(input: &I, f: impl Fn(&I) -> Option<S>) -> Option<S> {
@@ -137,28 +135,28 @@ fn largest_of_all<S: Format, I>(input: &I, f: impl Fn(&I) -> Option<S>) -> Optio
     found.reduce(|a, b| if a < b { b } else { a })
 }
 
-property!(
-    a_pair_keeps_the_separation_that_a_direction_is_said_to_keep,
-    600,
-    pairs_of_any_kind(),
-    |pair| {
-        let directions = directions(pair);
-        let kept = largest_of_all(pair, |pair| {
-            largest_accepted(|separation| is_kept_apart(pair, &directions, separation))
-        });
-        if let Some(separation) = kept {
-            prop_assert!(!within(&pair.question(), separation.to_f64()), "{separation}");
-        }
-        Ok(())
+fn a_pair_keeps_the_separation_that_a_direction_is_said_to_keep<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    let directions = directions(pair);
+    let kept = largest_of_all(pair, |pair| {
+        largest_accepted(|separation| is_kept_apart(pair, &directions, separation))
+    });
+    if let Some(separation) = kept {
+        prop_assert!(!within(&pair.question(), separation.to_f64()), "{separation}");
     }
-);
+    Ok(())
+}
+
+formats!(a_pair_keeps_the_separation_that_a_direction_is_said_to_keep(
+    600,
+    pairs_of_any_kind()
+));
 
 /// Returns whether the distance at an end of the step is certainly at least `bound`.
 fn is_at_least(pair: &Pair, end: u32, bound: f64) -> bool {
     bound <= 0.0 || !within_at(pair, &Rational::from(end), bound.next_down())
 }
 
-property!(a_bound_of_the_distance_is_not_above_it, 600, pairs_of_any_kind(), |pair| {
+fn a_bound_of_the_distance_is_not_above_it<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
     let directions = directions(pair);
     let (question, kind) = (pair.question(), pair.kind);
     let better = |a: S, b: S| if a < b { b } else { a };
@@ -186,9 +184,11 @@ property!(a_bound_of_the_distance_is_not_above_it, 600, pairs_of_any_kind(), |pa
     let bound = at_end.unwrap_or(0.0);
     prop_assert!(is_at_least(&question, 1, bound), "stored: {bound}");
     Ok(())
-});
+}
 
-property!(what_is_not_finite_is_never_kept_apart, 800, extraordinary_pairs(), |pair| {
+formats!(a_bound_of_the_distance_is_not_above_it(600, pairs_of_any_kind()));
+
+fn what_is_not_finite_is_never_kept_apart<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
     let finite = pair.map(S::made_finite);
     let directions = directions(&finite);
     if pair.is_finite() {
@@ -201,7 +201,9 @@ property!(what_is_not_finite_is_never_kept_apart, 800, extraordinary_pairs(), |p
         prop_assert!(!is_clear, "{environment:?}");
     }
     Ok(())
-});
+}
+
+formats!(what_is_not_finite_is_never_kept_apart(800, extraordinary_pairs()));
 
 #[test]
 fn a_direction_that_is_longer_than_one_or_no_number_proves_nothing() {
@@ -249,40 +251,39 @@ fn strayed(x: f64, by: f64) -> f64 {
     }
 }
 
-property!(
-    /// Its points stray towards each other as far as they may.
-    a_clear_pair_keeps_its_distance,
-    400,
-    questions(),
-    |question: Question| {
-        let pair = in_double(&question.pair);
-        let largest = largest_coordinate(&ends(&pair).concat());
-        let share = [0.0, 1.0, 0.25, 0.5_f64.powi(10), 0.5_f64.powi(20)][question.choice as usize % 5];
-        let stray = largest.min(1e9) * share;
-        let kept = largest_of_all(&pair, |pair| largest_accepted(|distance| is_clear(pair, distance, stray)));
-        let Some(distance) = kept else { return Ok(()) };
-        keeps_it_though_strayed(&pair, distance, stray)
-    }
-);
+/// Its points stray towards each other as far as they may.
+fn a_clear_pair_keeps_its_distance<S: Format>(question: &Question<S>) -> Result<(), TestCaseError> {
+    let pair = in_double(&question.pair);
+    let largest = largest_coordinate(&ends(&pair).concat());
+    let share = [0.0, 1.0, 0.25, 0.5_f64.powi(10), 0.5_f64.powi(20)][question.choice as usize % 5];
+    let stray = largest.min(1e9) * share;
+    let kept = largest_of_all(&pair, |pair| largest_accepted(|distance| is_clear(pair, distance, stray)));
+    let Some(distance) = kept else { return Ok(()) };
+    keeps_it_though_strayed(&pair, distance, stray)
+}
 
-property!(
-    /// The points stray as far as the clearance allows.
-    a_pair_keeps_its_distance_though_its_points_stray_as_far_as_they_may,
-    400,
-    questions(),
-    |question: Question| {
-        let pair = in_double(&question.pair);
-        let Some(kept) = largest_of_all(&pair, |pair| largest_accepted(|distance| is_clear(pair, distance, 0.0))) else {
-            return Ok(());
-        };
-        let distance = kept * [0.0, 1.0, 0.5, 0.999, 0.5_f64.powi(10)][question.choice as usize % 5];
-        let stray = f64::from(largest_stray(&pair, distance));
-        if stray < 0.0 {
-            return Ok(());
-        }
-        keeps_it_though_strayed(&pair, distance, stray)
+formats!(a_clear_pair_keeps_its_distance(400, questions()));
+
+/// The points stray as far as the clearance allows.
+fn a_pair_keeps_its_distance_though_its_points_stray_as_far_as_they_may<S: Format>(
+    question: &Question<S>,
+) -> Result<(), TestCaseError> {
+    let pair = in_double(&question.pair);
+    let Some(kept) = largest_of_all(&pair, |pair| largest_accepted(|distance| is_clear(pair, distance, 0.0))) else {
+        return Ok(());
+    };
+    let distance = kept * [0.0, 1.0, 0.5, 0.999, 0.5_f64.powi(10)][question.choice as usize % 5];
+    let stray = f64::from(largest_stray(&pair, distance));
+    if stray < 0.0 {
+        return Ok(());
     }
-);
+    keeps_it_though_strayed(&pair, distance, stray)
+}
+
+formats!(a_pair_keeps_its_distance_though_its_points_stray_as_far_as_they_may(
+    400,
+    questions()
+));
 
 fn keeps_it_though_strayed(pair: &PairCase<f64>, distance: f64, stray: f64) -> Result<(), TestCaseError> {
     let first = if pair.kind == PairKind::EdgeEdge { 2 } else { 1 };
@@ -376,40 +377,37 @@ fn course_of<S: Format>(question: &Question<S>) -> Option<Course<S>> {
     })
 }
 
-property!(
-    who_has_room_has_not_strayed_farther_from_the_course,
-    1_500,
-    questions(),
-    |question: Question| {
-        for environment in Environment::all() {
-            let Some(course) = environment.run(question, |question| course_of(question)) else {
-                continue;
+fn who_has_room_has_not_strayed_farther_from_the_course<S: Format>(question: &Question<S>) -> Result<(), TestCaseError> {
+    for environment in Environment::all() {
+        let Some(course) = environment.run(question, |question| course_of(question)) else {
+            continue;
+        };
+        let exact = |x: S| Rational::from_f64(x.to_f64()).expect("finite");
+        let position_of = |vector: S::Vector| {
+            let position: [S; 3] = vector.into();
+            point(position.map(S::to_f64))
+        };
+        let share = exact(course.time) / exact(course.span);
+        let [origin, end, position] = [course.origin, course.end, course.position].map(position_of);
+        for axis in 0..3 {
+            let on_course = Rational::from(&end[axis] - &origin[axis]) * &share + &origin[axis];
+            let strayed = Rational::from(&position[axis] - &on_course).abs();
+            // The condition is 2·strayed ≤ stray + spare/√3.
+            let more = strayed * 2_u32 - exact(course.stray);
+            let (spare, squared) = (exact(course.spare), Rational::from(more.square_ref()) * 3_u32);
+            let is_within = match (more > 0, spare > 0) {
+                (true, true) => squared <= spare.square(),
+                (true, false) => false,
+                (false, true) => true,
+                (false, false) => squared >= spare.square(),
             };
-            let exact = |x: S| Rational::from_f64(x.to_f64()).expect("finite");
-            let position_of = |vector: S::Vector| {
-                let position: [S; 3] = vector.into();
-                point(position.map(S::to_f64))
-            };
-            let share = exact(course.time) / exact(course.span);
-            let [origin, end, position] = [course.origin, course.end, course.position].map(position_of);
-            for axis in 0..3 {
-                let on_course = Rational::from(&end[axis] - &origin[axis]) * &share + &origin[axis];
-                let strayed = Rational::from(&position[axis] - &on_course).abs();
-                // The condition is 2·strayed ≤ stray + spare/√3.
-                let more = strayed * 2_u32 - exact(course.stray);
-                let (spare, squared) = (exact(course.spare), Rational::from(more.square_ref()) * 3_u32);
-                let is_within = match (more > 0, spare > 0) {
-                    (true, true) => squared <= spare.square(),
-                    (true, false) => false,
-                    (false, true) => true,
-                    (false, false) => squared >= spare.square(),
-                };
-                prop_assert!(is_within, "{environment:?}: {course:?}");
-            }
+            prop_assert!(is_within, "{environment:?}: {course:?}");
         }
-        Ok(())
     }
-);
+    Ok(())
+}
+
+formats!(who_has_room_has_not_strayed_farther_from_the_course(1_500, questions()));
 
 #[test]
 fn nobody_has_room_without_numbers_or_after_the_course() {
@@ -469,7 +467,7 @@ fn cut_short(pair: &Pair, until: f64) -> Option<Pair> {
     Some(cut)
 }
 
-property!(boxes_that_are_apart_keep_their_separation, 600, pairs_of_any_kind(), |pair| {
+fn boxes_that_are_apart_keep_their_separation<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
     for until in [1.0, 0.0625] {
         let Some(cut) = cut_short(&pair.question(), until) else {
             continue;
@@ -483,29 +481,28 @@ property!(boxes_that_are_apart_keep_their_separation, 600, pairs_of_any_kind(), 
         }
     }
     Ok(())
-});
+}
 
-property!(
-    boxes_that_are_drawn_in_keep_the_smaller_separation,
-    400,
-    pairs_of_any_kind(),
-    |pair| {
-        let kept = largest_of_all(pair, |pair| {
-            largest_accepted(|separation| are_boxes_apart(pair, separation, S::ONE))
+formats!(boxes_that_are_apart_keep_their_separation(600, pairs_of_any_kind()));
+
+fn boxes_that_are_drawn_in_keep_the_smaller_separation<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    let kept = largest_of_all(pair, |pair| {
+        largest_accepted(|separation| are_boxes_apart(pair, separation, S::ONE))
+    });
+    // The factors lead from a separation that the pair keeps to one that the boxes of all its points are far within.
+    for factor in [0.75, 1.0, 3.0, 300.0] {
+        let separation = kept.unwrap_or(S::ONE) * S::from_f64(factor);
+        let smaller = largest_of_all(pair, |pair| {
+            largest_accepted(|smaller| are_drawn_in_boxes_apart(pair, separation, smaller))
         });
-        // The factors lead from a separation that the pair keeps to one that the boxes of all its points are far within.
-        for factor in [0.75, 1.0, 3.0, 300.0] {
-            let separation = kept.unwrap_or(S::ONE) * S::from_f64(factor);
-            let smaller = largest_of_all(pair, |pair| {
-                largest_accepted(|smaller| are_drawn_in_boxes_apart(pair, separation, smaller))
-            });
-            if let Some(smaller) = smaller {
-                prop_assert!(!within(&pair.question(), smaller.to_f64()), "{smaller} of {separation}");
-            }
+        if let Some(smaller) = smaller {
+            prop_assert!(!within(&pair.question(), smaller.to_f64()), "{smaller} of {separation}");
         }
-        Ok(())
     }
-);
+    Ok(())
+}
+
+formats!(boxes_that_are_drawn_in_keep_the_smaller_separation(400, pairs_of_any_kind()));
 
 #[test]
 fn boxes_that_are_drawn_in_show_nearly_all_that_is_kept_and_nothing_that_cannot_be_told() {
@@ -532,102 +529,99 @@ fn boxes_that_are_drawn_in_show_nearly_all_that_is_kept_and_nothing_that_cannot_
     assert!(!everywhere.drawn_in(inset.for_bounds(&everywhere)).is_apart_from(&second));
 }
 
-property!(
-    boxes_of_what_is_not_finite_are_not_apart,
-    800,
-    extraordinary_pairs(),
-    |pair| {
-        // A single point is neither finite nor apart from anything.
-        for k in 0..4 {
-            let mut one = pair.map(S::made_finite);
-            one.points[k] = pair.points[k];
-            if one.is_finite() {
-                continue;
-            }
-            for separation in [S::ZERO, S::ONE] {
-                let mapping = Mapping::new(&Aabb::everything(), separation, S::ONE, false);
-                let [a, b] = [k, (k + 1) % 4].map(|k| mapping.vertex(one.points[k][0], one.points[k][1]));
-                prop_assert!(!a.is_apart_from(&b) && !a.merged(&b).is_apart_from(&b));
-            }
+fn boxes_of_what_is_not_finite_are_not_apart<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    // A single point is neither finite nor apart from anything.
+    for k in 0..4 {
+        let mut one = pair.map(S::made_finite);
+        one.points[k] = pair.points[k];
+        if one.is_finite() {
+            continue;
         }
-        Ok(())
-    }
-);
-
-property!(
-    narrowing_makes_nothing_less_or_later_and_hardly_more_or_earlier,
-    400,
-    pairs_of_any_kind(),
-    |pair| {
-        let exact = |x: f64| Rational::from_f64(x).expect("finite");
-        let near = Rational::from((1, 1 << 22));
-        let least_normal = exact(f32::MIN_POSITIVE.into());
-        for value in pair.coordinates().map(|x| x.to_f64().abs()) {
-            // The value is used unchanged, and as a time of the step.
-            for value in [value, value / (1.0 + value), value * 1e-200] {
-                for environment in Environment::all() {
-                    let (up, down, same) = environment.run(&value, |&value| {
-                        (
-                            rounded_up::<f32>(value),
-                            rounded_down::<f32>(value),
-                            rounded_down::<f64>(value),
-                        )
-                    });
-                    prop_assert!(up >= 0.0 && down >= 0.0);
-                    let most = exact(value) * (Rational::from(1) + &near) + &least_normal;
-                    if up.is_finite() {
-                        let up = exact(f64::from(up));
-                        prop_assert!(up >= exact(value) && up <= most, "{environment:?}: {value} up to {up}");
-                    } else {
-                        prop_assert!(value > f64::from(f32::MAX), "{environment:?}: {value}");
-                    }
-                    if value <= f64::from(f32::MAX) {
-                        let least = exact(value) * (Rational::from(1) - &near) - &least_normal;
-                        let down = exact(f64::from(down));
-                        prop_assert!(
-                            down <= exact(value) && down >= least,
-                            "{environment:?}: {value} down to {down}"
-                        );
-                    }
-                    prop_assert_eq!(same.to_bits(), value.to_bits());
-                }
-            }
+        for separation in [S::ZERO, S::ONE] {
+            let mapping = Mapping::new(&Aabb::everything(), separation, S::ONE, false);
+            let [a, b] = [k, (k + 1) % 4].map(|k| mapping.vertex(one.points[k][0], one.points[k][1]));
+            prop_assert!(!a.is_apart_from(&b) && !a.merged(&b).is_apart_from(&b));
         }
-        Ok(())
     }
-);
+    Ok(())
+}
 
-property!(
-    narrowing_exchanges_no_two_numbers_in_any_environment,
-    400,
-    pairs_of_any_kind(),
-    |pair| {
-        let value = pair
-            .coordinates()
-            .map(|x| x.to_f64().abs())
-            .next()
-            .expect("there are coordinates");
-        let nearest = f64::from(value as f32);
-        // The numbers are near a number of `f32` and half-way to the next, where rounding to nearest changes direction.
-        let about = [
-            value,
-            value / (1.0 + value),
-            value * 1e-30,
-            nearest,
-            nearest * (1.0 + 0.5_f64.powi(24)),
-        ];
-        for value in about {
-            let neighbours = [value.next_down().max(0.0), value, value.next_up()];
+formats!(boxes_of_what_is_not_finite_are_not_apart(800, extraordinary_pairs()));
+
+fn narrowing_makes_nothing_less_or_later_and_hardly_more_or_earlier<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    let exact = |x: f64| Rational::from_f64(x).expect("finite");
+    let near = Rational::from((1, 1 << 22));
+    let least_normal = exact(f32::MIN_POSITIVE.into());
+    for value in pair.coordinates().map(|x| x.to_f64().abs()) {
+        // The value is used unchanged, and as a time of the step.
+        for value in [value, value / (1.0 + value), value * 1e-200] {
             for environment in Environment::all() {
-                let narrowed = environment.run(&neighbours, |neighbours| {
-                    (neighbours.map(rounded_up::<f32>), neighbours.map(rounded_down::<f32>))
+                let (up, down, same) = environment.run(&value, |&value| {
+                    (
+                        rounded_up::<f32>(value),
+                        rounded_down::<f32>(value),
+                        rounded_down::<f64>(value),
+                    )
                 });
-                prop_assert!(narrowed.0.is_sorted() && narrowed.1.is_sorted(), "{environment:?}: {value:e}");
+                prop_assert!(up >= 0.0 && down >= 0.0);
+                let most = exact(value) * (Rational::from(1) + &near) + &least_normal;
+                if up.is_finite() {
+                    let up = exact(f64::from(up));
+                    prop_assert!(up >= exact(value) && up <= most, "{environment:?}: {value} up to {up}");
+                } else {
+                    prop_assert!(value > f64::from(f32::MAX), "{environment:?}: {value}");
+                }
+                if value <= f64::from(f32::MAX) {
+                    let least = exact(value) * (Rational::from(1) - &near) - &least_normal;
+                    let down = exact(f64::from(down));
+                    prop_assert!(
+                        down <= exact(value) && down >= least,
+                        "{environment:?}: {value} down to {down}"
+                    );
+                }
+                prop_assert_eq!(same.to_bits(), value.to_bits());
             }
         }
-        Ok(())
     }
-);
+    Ok(())
+}
+
+formats!(narrowing_makes_nothing_less_or_later_and_hardly_more_or_earlier(
+    400,
+    pairs_of_any_kind()
+));
+
+fn narrowing_exchanges_no_two_numbers_in_any_environment<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    let value = pair
+        .coordinates()
+        .map(|x| x.to_f64().abs())
+        .next()
+        .expect("there are coordinates");
+    let nearest = f64::from(value as f32);
+    // The numbers are near a number of `f32` and half-way to the next, where rounding to nearest changes direction.
+    let about = [
+        value,
+        value / (1.0 + value),
+        value * 1e-30,
+        nearest,
+        nearest * (1.0 + 0.5_f64.powi(24)),
+    ];
+    for value in about {
+        let neighbours = [value.next_down().max(0.0), value, value.next_up()];
+        for environment in Environment::all() {
+            let narrowed = environment.run(&neighbours, |neighbours| {
+                (neighbours.map(rounded_up::<f32>), neighbours.map(rounded_down::<f32>))
+            });
+            prop_assert!(narrowed.0.is_sorted() && narrowed.1.is_sorted(), "{environment:?}: {value:e}");
+        }
+    }
+    Ok(())
+}
+
+formats!(narrowing_exchanges_no_two_numbers_in_any_environment(
+    400,
+    pairs_of_any_kind()
+));
 
 /// Returns (a·b)(e·e) − (a·e)(b·e) for the vectors from the first point to the others, with e to the second: less than zero
 /// beyond a right angle.
@@ -669,12 +663,4 @@ fn only_what_is_beyond_a_right_angle_is_wide_open<S: Format>() {
     assert!(found > 1_000 && all > found, "{found} of {all}");
 }
 
-#[test]
-fn only_what_is_beyond_a_right_angle_is_wide_open_f32() {
-    only_what_is_beyond_a_right_angle_is_wide_open::<f32>();
-}
-
-#[test]
-fn only_what_is_beyond_a_right_angle_is_wide_open_f64() {
-    only_what_is_beyond_a_right_angle_is_wide_open::<f64>();
-}
+formats!(only_what_is_beyond_a_right_angle_is_wide_open);

@@ -1,15 +1,16 @@
 //! The promises of each tier for one pair at a time: the pairs that it never culls, and which of two tiers culls more.
 
 use crate::support::distance::distance;
-use crate::support::rationals::{InRationals, separations};
+use crate::support::rationals::separations;
 use proptest::prelude::*;
 use selvedge_core::PairKind;
 use selvedge_core::filter::{Filter, Tier};
 use selvedge_verification::altered::{Factors, Kernel};
+use selvedge_verification::formats;
 use selvedge_verification::generator::{
     Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, grazes_of_a_box, pairs_of_any_kind, touching_pairs,
 };
-use selvedge_verification::oracle::{collides, coplanar, within};
+use selvedge_verification::oracle::{InRationals, collides, coplanar, rational, within};
 
 /// Error bounds of zero.
 struct NoBounds;
@@ -43,69 +44,55 @@ fn nothing_culls_what_it_must_not<S: Format>(pair: &PairCase<S>) -> Result<(), T
     Ok(())
 }
 
-property!(
-    nothing_certified_culls_what_the_oracle_calls_coplanar,
-    100_000,
-    pairs_of_any_kind(),
-    |pair| nothing_culls_what_it_must_not(pair)
-);
+formats!(nothing_certified_culls_what_the_oracle_calls_coplanar is nothing_culls_what_it_must_not(100_000, pairs_of_any_kind()));
 
-property!(nothing_certified_culls_a_graze, 8_000, grazes_of_a_box(), |pair| {
-    nothing_culls_what_it_must_not(pair)
-});
+formats!(nothing_certified_culls_a_graze is nothing_culls_what_it_must_not(8_000, grazes_of_a_box()));
 
-property!(
-    nothing_certified_culls_what_is_not_finite,
-    40_000,
-    extraordinary_pairs(),
-    |pair| {
-        if pair.is_finite() {
-            return nothing_culls_what_it_must_not(pair);
-        }
-        for tier in Tier::ALL {
-            prop_assert!(!culls(tier, pair), "{tier:?}");
-            prop_assert!(!culls_beyond(tier, S::ONE, pair), "{tier:?}");
-        }
-        Ok(())
+fn nothing_certified_culls_what_is_not_finite<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    if pair.is_finite() {
+        return nothing_culls_what_it_must_not(pair);
     }
-);
-
-property!(
-    nothing_certified_culls_what_is_built_to_touch,
-    25_000,
-    touching_pairs(),
-    |moment: Moment| {
-        let pair = moment.pair();
-        for tier in Tier::ALL {
-            prop_assert!(!culls(tier, &pair), "{tier:?}");
-        }
-        Ok(())
+    for tier in Tier::ALL {
+        prop_assert!(!culls(tier, pair), "{tier:?}");
+        prop_assert!(!culls_beyond(tier, S::ONE, pair), "{tier:?}");
     }
-);
+    Ok(())
+}
 
-property!(
-    nothing_certified_culls_what_is_built_to_be_coplanar,
-    25_000,
-    coplanar_pairs(),
-    |moment: Moment| {
-        let pair = moment.pair();
-        for tier in Tier::ALL {
-            prop_assert!(!culls(tier, &pair), "{tier:?}");
-        }
-        Ok(())
+formats!(nothing_certified_culls_what_is_not_finite(40_000, extraordinary_pairs()));
+
+fn nothing_certified_culls_what_is_built_to_touch<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
+    let pair = moment.pair();
+    for tier in Tier::ALL {
+        prop_assert!(!culls(tier, &pair), "{tier:?}");
     }
-);
+    Ok(())
+}
 
-property!(
-    exact_culls_exactly_when_the_rational_control_values_have_one_sign,
+formats!(nothing_certified_culls_what_is_built_to_touch(25_000, touching_pairs()));
+
+fn nothing_certified_culls_what_is_built_to_be_coplanar<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
+    let pair = moment.pair();
+    for tier in Tier::ALL {
+        prop_assert!(!culls(tier, &pair), "{tier:?}");
+    }
+    Ok(())
+}
+
+formats!(nothing_certified_culls_what_is_built_to_be_coplanar(25_000, coplanar_pairs()));
+
+fn exact_culls_exactly_when_the_rational_control_values_have_one_sign<S: Format>(
+    pair: &PairCase<S>,
+) -> Result<(), TestCaseError> {
+    let one_sign = InRationals::new(pair).have_one_sign();
+    prop_assert_eq!(culls(Tier::Exact, pair), one_sign);
+    Ok(())
+}
+
+formats!(exact_culls_exactly_when_the_rational_control_values_have_one_sign(
     8_000,
-    pairs_of_any_kind(),
-    |pair| {
-        let one_sign = InRationals::new(pair).have_one_sign();
-        prop_assert_eq!(culls(Tier::Exact, pair), one_sign);
-        Ok(())
-    }
-);
+    pairs_of_any_kind()
+));
 
 /// Checks that the second tier culls whatever the first culls, for the given separations and for none.
 fn is_at_least_as_sharp<S: Format>(
@@ -130,61 +117,63 @@ fn lengths<S: Format>(pair: &PairCase<S>) -> Vec<S> {
     vec![x.abs(), y.abs() * fine, (z - x2).abs().made_finite(), fine]
 }
 
-property!(sharper_tiers_cull_whatever_others_cull, 40_000, pairs_of_any_kind(), |pair| {
+fn sharper_tiers_cull_whatever_others_cull<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
     use Tier::{Exact, Permanent, Widened};
     let lengths = lengths(pair);
     for pair_of_tiers in [[Permanent, Widened], [Widened, Exact], [Permanent, Exact]] {
         is_at_least_as_sharp(pair, &lengths, pair_of_tiers)?;
     }
     Ok(())
-});
+}
 
-property!(
-    a_larger_separation_never_culls_more_and_none_is_zero,
+formats!(sharper_tiers_cull_whatever_others_cull(40_000, pairs_of_any_kind()));
+
+fn a_larger_separation_never_culls_more_and_none_is_zero<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    let mut lengths = lengths(pair);
+    lengths.extend([S::ZERO, -S::ZERO, S::ZERO.up(), S::LARGEST]);
+    lengths.sort_by(|a, b| a.partial_cmp(b).expect("finite"));
+    for tier in Tier::ALL {
+        let culled: Vec<_> = lengths.iter().map(|&length| culls_beyond(tier, length, pair)).collect();
+        prop_assert!(culled.is_sorted_by(|a, b| a >= b), "{tier:?}: {culled:?}");
+        prop_assert_eq!(culls_beyond(tier, S::ZERO, pair), culls(tier, pair));
+        prop_assert_eq!(culls_beyond(tier, -S::ZERO, pair), culls(tier, pair));
+    }
+    Ok(())
+}
+
+formats!(a_larger_separation_never_culls_more_and_none_is_zero(
     20_000,
-    pairs_of_any_kind(),
-    |pair| {
-        let mut lengths = lengths(pair);
-        lengths.extend([S::ZERO, -S::ZERO, S::ZERO.up(), S::LARGEST]);
-        lengths.sort_by(|a, b| a.partial_cmp(b).expect("finite"));
-        for tier in Tier::ALL {
-            let culled: Vec<_> = lengths.iter().map(|&length| culls_beyond(tier, length, pair)).collect();
-            prop_assert!(culled.is_sorted_by(|a, b| a >= b), "{tier:?}: {culled:?}");
-            prop_assert_eq!(culls_beyond(tier, S::ZERO, pair), culls(tier, pair));
-            prop_assert_eq!(culls_beyond(tier, -S::ZERO, pair), culls(tier, pair));
-        }
-        Ok(())
-    }
-);
+    pairs_of_any_kind()
+));
 
-property!(
-    /// The promise is about the plane of the face and the lines of the edges, whose distance is at most that of the sets. The
-    /// separations are those at which the rational control values change their answer, where the tiers must err to the safe side.
-    nothing_certified_culls_what_comes_within_the_separation,
-    600,
-    pairs_of_any_kind(),
-    |pair| {
-        let exact = InRationals::new(pair);
-        for separation in separations(pair, &exact) {
-            let culling: Vec<_> = Tier::ALL
-                .into_iter()
-                .filter(|&tier| culls_beyond(tier, separation, pair))
-                .collect();
-            if culling.is_empty() {
-                continue;
-            }
-            let within = within(&pair.question(), separation.to_f64());
-            prop_assert!(!within, "{culling:?} by {separation}");
-            for tier in culling {
-                prop_assert!(
-                    exact.are_beyond(&crate::support::rationals::rational(separation)),
-                    "{tier:?} by {separation}, nearer to the plane or the line"
-                );
-            }
+/// The promise is about the plane of the face and the lines of the edges, whose distance is at most that of the sets. The
+/// separations are those at which the rational control values change their answer, where the tiers must err to the safe side.
+fn nothing_certified_culls_what_comes_within_the_separation<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    let exact = InRationals::new(pair);
+    for separation in separations(pair, &exact) {
+        let culling: Vec<_> = Tier::ALL
+            .into_iter()
+            .filter(|&tier| culls_beyond(tier, separation, pair))
+            .collect();
+        if culling.is_empty() {
+            continue;
         }
-        Ok(())
+        let within = within(&pair.question(), separation.to_f64());
+        prop_assert!(!within, "{culling:?} by {separation}");
+        for tier in culling {
+            prop_assert!(
+                exact.are_beyond(&rational(separation)),
+                "{tier:?} by {separation}, nearer to the plane or the line"
+            );
+        }
     }
-);
+    Ok(())
+}
+
+formats!(nothing_certified_culls_what_comes_within_the_separation(
+    600,
+    pairs_of_any_kind()
+));
 
 /// The separation is slightly more than the distance at some time in floating point, so that the pair certainly comes within it,
 /// or slightly less.
@@ -214,15 +203,7 @@ fn nothing_certified_culls_beyond_the_distance_at_a_time<S: Format>() {
     assert!(culled.get() > 100, "{culled:?} culled: nothing was tested");
 }
 
-#[test]
-fn nothing_certified_culls_beyond_the_distance_at_a_time_f32() {
-    nothing_certified_culls_beyond_the_distance_at_a_time::<f32>();
-}
-
-#[test]
-fn nothing_certified_culls_beyond_the_distance_at_a_time_f64() {
-    nothing_certified_culls_beyond_the_distance_at_a_time::<f64>();
-}
+formats!(nothing_certified_culls_beyond_the_distance_at_a_time);
 
 fn a_separation_that_is_no_length_is_refused<S: Format>() {
     for tier in Tier::ALL {
@@ -239,15 +220,7 @@ fn a_separation_that_is_no_length_is_refused<S: Format>() {
     }
 }
 
-#[test]
-fn a_separation_that_is_no_length_is_refused_f32() {
-    a_separation_that_is_no_length_is_refused::<f32>();
-}
-
-#[test]
-fn a_separation_that_is_no_length_is_refused_f64() {
-    a_separation_that_is_no_length_is_refused::<f64>();
-}
+formats!(a_separation_that_is_no_length_is_refused);
 
 /// Without bounds a filter is wrong here. The vertex rests on a corner of the face, and rounding gives all four control values,
 /// which are zero, one sign.

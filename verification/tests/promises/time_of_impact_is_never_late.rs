@@ -15,6 +15,7 @@ use selvedge_core::elementary::{Impact, Limits, Reason};
 use selvedge_core::glam::DVec3;
 use selvedge_core::verification::advance::Work;
 use selvedge_core::{Motion, PrimitivePair, Scalar};
+use selvedge_verification::formats;
 use selvedge_verification::generator::{
     Choices, Format, Moment, PairCase, Simplify, check, coplanar_pairs, extraordinary_pairs, from_choices, pairs_of_any_kind,
     touching_pairs,
@@ -165,24 +166,6 @@ fn separation<S: Format>(pair: &PairCase<S>, choices: &mut Choices<'_>) -> S {
     }
 }
 
-macro_rules! property {
-    ($name:ident, $cases:expr, $strategy:ident, |$case:ident| $body:expr) => {
-        mod $name {
-            use super::*;
-
-            #[test]
-            fn f64() {
-                check($cases, $strategy::<f64>(), |$case| $body);
-            }
-
-            #[test]
-            fn f32() {
-                check($cases, $strategy::<f32>(), |$case| $body);
-            }
-        }
-    };
-}
-
 fn is_not_late<S: Format>(question: &Question<S>) -> Result<(), TestCaseError> {
     never_is_late(question, question.answer().0)
 }
@@ -226,13 +209,9 @@ fn never_is_late<S: Format>(question: &Question<S>, impact: Impact<S>) -> Result
     Ok(())
 }
 
-property!(is_never_later_than_the_exact_time, 12_000, questions, |question| {
-    is_not_late(question)
-});
+formats!(is_never_later_than_the_exact_time is is_not_late(12_000, questions()));
 
-property!(is_never_later_than_the_exact_time_in_sweeps, 6_000, questions, |question| {
-    is_not_late_in_sweeps(question)
-});
+formats!(is_never_later_than_the_exact_time_in_sweeps is is_not_late_in_sweeps(6_000, questions()));
 
 /// The time of contact is known without the oracle.
 fn finds_what_touches<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
@@ -246,9 +225,7 @@ fn finds_what_touches<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError
     Ok(())
 }
 
-property!(finds_every_pair_that_touches, 80_000, touching_pairs, |moment| {
-    finds_what_touches(moment)
-});
+formats!(finds_every_pair_that_touches is finds_what_touches(80_000, touching_pairs()));
 
 /// The time holds in every environment of a thread.
 fn finds_what_touches_in_every_environment<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
@@ -267,12 +244,7 @@ fn finds_what_touches_in_every_environment<S: Format>(moment: &Moment<S>) -> Res
     Ok(())
 }
 
-property!(
-    finds_every_pair_that_touches_in_every_environment,
-    8_000,
-    touching_pairs,
-    |moment| finds_what_touches_in_every_environment(moment)
-);
+formats!(finds_every_pair_that_touches_in_every_environment is finds_what_touches_in_every_environment(8_000, touching_pairs()));
 
 /// With a separation, the oracle decides whether the pair comes that close.
 fn excludes_only_what_stays_apart<S: Format>(question: &Question<S>) -> Result<(), TestCaseError> {
@@ -297,12 +269,7 @@ fn excludes_only_what_stays_apart<S: Format>(question: &Question<S>) -> Result<(
     Ok(())
 }
 
-property!(
-    excludes_only_what_stays_apart_in_every_environment,
-    2_000,
-    questions,
-    |question| excludes_only_what_stays_apart(question)
-);
+formats!(excludes_only_what_stays_apart_in_every_environment is excludes_only_what_stays_apart(2_000, questions()));
 
 /// The test above found this pair. If subnormal numbers are flushed, a subnormal separation must not compare as zero. The vertex
 /// comes within it of a corner that sinks away from below.
@@ -334,9 +301,7 @@ fn is_not_late_when_coplanar<S: Format>(moment: &Moment<S>) -> Result<(), TestCa
     })
 }
 
-property!(is_not_late_for_coplanar_pairs, 12_000, coplanar_pairs, |moment| {
-    is_not_late_when_coplanar(moment)
-});
+formats!(is_not_late_for_coplanar_pairs is is_not_late_when_coplanar(12_000, coplanar_pairs()));
 
 /// The distance is what the module's documentation says for each reason.
 fn comes_near<S: Format>(question: &Question<S>) -> Result<(), TestCaseError> {
@@ -369,9 +334,7 @@ fn comes_near<S: Format>(question: &Question<S>) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-property!(comes_as_near_as_its_reason_says, 12_000, questions, |question| {
-    comes_near(question)
-});
+formats!(comes_as_near_as_its_reason_says is comes_near(12_000, questions()));
 
 /// Generates a pair that slides, without a separation or with one that it nearly keeps.
 fn sliding_questions<S: Format>() -> impl Strategy<Value = Question<S>> + Clone {
@@ -388,20 +351,11 @@ fn sliding_questions<S: Format>() -> impl Strategy<Value = Question<S>> + Clone 
     })
 }
 
-property!(
-    comes_as_near_as_its_reason_says_where_it_slides,
-    12_000,
-    sliding_questions,
-    |question| { comes_near(question) }
-);
+formats!(comes_as_near_as_its_reason_says_where_it_slides is comes_near(12_000, sliding_questions()));
 
-property!(is_not_late_where_it_slides, 6_000, sliding_questions, |question| {
-    is_not_late(question)
-});
+formats!(is_not_late_where_it_slides is is_not_late(6_000, sliding_questions()));
 
-property!(is_not_late_in_sweeps_where_it_slides, 3_000, sliding_questions, |question| {
-    is_not_late_in_sweeps(question)
-});
+formats!(is_not_late_in_sweeps_where_it_slides is is_not_late_in_sweeps(3_000, sliding_questions()));
 
 /// The test counts the results of 6,000 pairs that slide in `f64`, and their mean and largest numbers of rounds.
 #[test]
@@ -446,9 +400,11 @@ fn does_not_work_more_than_stated(work: Work) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-property!(does_no_more_work_than_stated, 40_000, questions, |question| {
+fn does_no_more_work_than_stated<S: Format>(question: &Question<S>) -> Result<(), TestCaseError> {
     does_not_work_more_than_stated(question.answer().1)
-});
+}
+
+formats!(does_no_more_work_than_stated(40_000, questions()));
 
 /// A relative box may cull a pair of huge but finite numbers; nothing culls one that is not finite.
 fn excludes_nothing_that_is_not_finite<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
@@ -472,9 +428,7 @@ fn excludes_nothing_that_is_not_finite<S: Format>(pair: &PairCase<S>) -> Result<
     Ok(())
 }
 
-property!(excludes_nothing_from_bad_input, 20_000, extraordinary_pairs, |pair| {
-    excludes_nothing_that_is_not_finite(pair)
-});
+formats!(excludes_nothing_from_bad_input is excludes_nothing_that_is_not_finite(20_000, extraordinary_pairs()));
 
 /// Counts the confirmed contacts.
 type Confirmed = Cell<u32>;
@@ -499,7 +453,7 @@ fn confirms_only_contacts<S: Format>(
     Ok(())
 }
 
-fn confirms_many<S: Format>() {
+fn confirms_contacts_and_nothing_else<S: Format>() {
     let (asked, confirmed) = (Cell::new(0), Confirmed::default());
     check(20_000, pairs_of_any_kind::<S>(), |pair| {
         asked.set(asked.get() + 1);
@@ -510,17 +464,9 @@ fn confirms_many<S: Format>() {
     assert!(confirmed > asked / 100, "{confirmed} of {asked}");
 }
 
-#[test]
-fn confirms_contacts_and_nothing_else_f64() {
-    confirms_many::<f64>();
-}
+formats!(confirms_contacts_and_nothing_else);
 
-#[test]
-fn confirms_contacts_and_nothing_else_f32() {
-    confirms_many::<f32>();
-}
-
-fn confirms_in_every_environment<S: Format>() {
+fn confirms_contacts_and_nothing_else_in_every_environment<S: Format>() {
     let confirmed = Confirmed::default();
     check(2_000, pairs_of_any_kind::<S>(), |pair| {
         for environment in Environment::all() {
@@ -531,12 +477,4 @@ fn confirms_in_every_environment<S: Format>() {
     assert!(Environment::all().is_empty() || confirmed.get() > 200);
 }
 
-#[test]
-fn confirms_contacts_and_nothing_else_in_every_environment_f64() {
-    confirms_in_every_environment::<f64>();
-}
-
-#[test]
-fn confirms_contacts_and_nothing_else_in_every_environment_f32() {
-    confirms_in_every_environment::<f32>();
-}
+formats!(confirms_contacts_and_nothing_else_in_every_environment);

@@ -192,61 +192,24 @@ fn random_points<const F: u32, const ENVIRONMENT: u32>(random: &mut Random) -> P
     [(); 4].map(|()| [(); 2].map(|()| [(); 3].map(|()| coordinate())))
 }
 
-/// Checks a turning direction, from that of the closest corner at one time to that at another, at seventeen times in between.
-fn random_turning_directions<const ENVIRONMENT: u32>() -> u64 {
-    let mut random = Random(u64::from(ENVIRONMENT));
-    let times: [Number<8, ENVIRONMENT>; 2] = numbers([0.125, 0.75]);
-    let mut proven = 0;
-    for _ in 0..20_000 {
-        let points = pair_points(&random_points::<8, ENVIRONMENT>(&mut random));
-        let corners = Corners::of_edge_edge(&points);
-        let [from, to] = times.map(|time| corners.at(time));
-        let directions = [from, to].map(|positions| {
-            let [a, b, c, d] = positions;
-            corners.direction((a + b) + (c + d), None)
-        });
-        if !are_apart_turning(&directions[0], &from, &directions[1], &to) {
-            continue;
-        }
-        proven += 1;
-        let [before, after] = directions.map(|direction| units(direction.w));
-        for corner in exact_corners(PairKind::EdgeEdge, &points) {
-            for step in 0..=16 {
-                // The time is in 128ths: from 1/8 to 3/4 is five eighths of 16 times 8.
-                let time = 16 + 5 * step;
-                let w = std::array::from_fn(|k| before[k] * (16 - step) + after[k] * step);
-                assert!(exact_product(w, corner, time, 128) > 0, "{points:?} {step}");
-            }
-        }
-    }
-    proven
-}
-
-#[test]
-fn random_turning_directions_with_9_bits() {
-    for proven in [
-        random_turning_directions::<TO_NEAREST>(),
-        random_turning_directions::<DOWNWARD>(),
-        random_turning_directions::<UPWARD>(),
-        random_turning_directions::<{ TOWARDS_ZERO | FLUSHING }>(),
-    ] {
-        assert!(proven > 20, "{proven}");
-    }
-}
-
-/// Checks a direction on a curve, whose control points are those of the corners' middles at three times, at seventeen times.
-fn random_curving_directions<const ENVIRONMENT: u32>() -> u64 {
+/// Checks that a direction over the corners' middles at two times, which turns, or on a curve through three times, keeps the corners apart
+/// at seventeen times in between. Returns the number of proofs.
+fn random_directions<const ENVIRONMENT: u32>(is_curved: bool) -> u64 {
     let mut random = Random(u64::from(ENVIRONMENT));
     let times: [Number<8, ENVIRONMENT>; 3] = numbers([0.125, 0.437_5, 0.75]);
     let mut proven = 0;
     for _ in 0..20_000 {
         let points = pair_points(&random_points::<8, ENVIRONMENT>(&mut random));
         let corners = Corners::of_edge_edge(&points);
-        let [from, middle, to] = times.map(|time| corners.at(time));
-        let curve = [from, middle, to].map(|[a, b, c, d]| (a + b) + (c + d));
-        let [before, middle, after] = curve;
+        let positions = times.map(|time| corners.at(time));
+        let [before, middle, after] = positions.map(|[a, b, c, d]| (a + b) + (c + d));
         let curve = [before, middle + middle, after].map(|w| corners.direction(w, None));
-        if !are_apart_curving(&curve, &from, &to) {
+        let [from, _, to] = &positions;
+        let is_proven = match is_curved {
+            true => are_apart_curving(&curve, from, to),
+            false => are_apart_turning(&curve[0], from, &curve[2], to),
+        };
+        if !is_proven {
             continue;
         }
         proven += 1;
@@ -255,7 +218,10 @@ fn random_curving_directions<const ENVIRONMENT: u32>() -> u64 {
             for step in 0..=16 {
                 // The time is in 128ths: from 1/8 to 3/4 is five eighths of 16 times 8.
                 let (time, rest) = (16 + 5 * step, 16 - step);
-                let w = std::array::from_fn(|k| before[k] * rest * rest + doubled[k] * rest * step + after[k] * step * step);
+                let w = std::array::from_fn(|k| match is_curved {
+                    true => before[k] * rest * rest + doubled[k] * rest * step + after[k] * step * step,
+                    false => before[k] * rest + after[k] * step,
+                });
                 assert!(exact_product(w, corner, time, 128) > 0, "{points:?} {step}");
             }
         }
@@ -264,14 +230,16 @@ fn random_curving_directions<const ENVIRONMENT: u32>() -> u64 {
 }
 
 #[test]
-fn random_curving_directions_with_9_bits() {
-    for proven in [
-        random_curving_directions::<TO_NEAREST>(),
-        random_curving_directions::<DOWNWARD>(),
-        random_curving_directions::<UPWARD>(),
-        random_curving_directions::<{ TOWARDS_ZERO | FLUSHING }>(),
-    ] {
-        assert!(proven > 20, "{proven}");
+fn random_turning_and_curving_directions_with_9_bits() {
+    for is_curved in [false, true] {
+        for proven in [
+            random_directions::<TO_NEAREST>(is_curved),
+            random_directions::<DOWNWARD>(is_curved),
+            random_directions::<UPWARD>(is_curved),
+            random_directions::<{ TOWARDS_ZERO | FLUSHING }>(is_curved),
+        ] {
+            assert!(proven > 20, "{proven}");
+        }
     }
 }
 

@@ -1,6 +1,5 @@
 //! A truncated step is free of contact by exact arithmetic, for any wanted step, and points are held back only if needed.
 
-use super::collision_detector_keeps_its_promises::pairs_of;
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use selvedge::{CollisionDetector, Criterion, Threads};
@@ -10,7 +9,7 @@ use selvedge_core::separation::gap::{GapError, SeparatingDirection};
 use selvedge_core::separation::largest_coordinate;
 use selvedge_core::separation::truncation::shares;
 use selvedge_core::{Motion, PairKind};
-use selvedge_verification::generator::{Format, MeshCase, PairCase, check, meshes};
+use selvedge_verification::generator::{Format, MeshCase, PairCase, all_pairs, check, meshes, with_kinds};
 use selvedge_verification::oracle::{Pair, collides, within};
 use std::cell::Cell;
 
@@ -50,7 +49,7 @@ fn is_free<S: Format>(mesh: &MeshCase<S>, criterion: Criterion<S>, met: &Met) ->
             .map(|(&[start, _], &end)| [start, end.into()])
             .collect(),
     };
-    for pair in pairs_of(&topology) {
+    for pair in with_kinds(all_pairs(&topology)) {
         let vertices = topology
             .vertices_of(pair.0, pair.1)
             .map(|vertex| step.positions[vertex as usize]);

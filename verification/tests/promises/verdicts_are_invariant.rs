@@ -29,7 +29,8 @@ use selvedge_core::PairKind;
 use selvedge_core::Verdict;
 use selvedge_verification::culling::CullingTest::{self, CertifiedNonCoplanarity, RelativeBoxes, SegmentBox, SweptBoxes};
 use selvedge_verification::culling::verdict;
-use selvedge_verification::generator::{Choices, Format, PairCase, check, from_choices, pairs, pairs_of_any_kind};
+use selvedge_verification::formats;
+use selvedge_verification::generator::{Choices, Format, PairCase, from_choices, pairs, pairs_of_any_kind};
 
 const EXACT_BOXES: [CullingTest; 2] = [SweptBoxes, RelativeBoxes];
 
@@ -57,61 +58,76 @@ fn mirrored<S: Format>(pair: &PairCase<S>, axis: usize) -> PairCase<S> {
     })
 }
 
-property!(
-    reversing_time_changes_no_verdict_but_the_segment_box_test,
+fn reversing_time_changes_no_verdict_but_the_segment_box_test<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    same(all_but([SegmentBox]), pair, &pair.reversed())
+}
+
+formats!(reversing_time_changes_no_verdict_but_the_segment_box_test(
     30_000,
-    pairs_of_any_kind(),
-    |pair| same(all_but([SegmentBox]), pair, &pair.reversed())
-);
+    pairs_of_any_kind()
+));
 
-property!(mirroring_an_axis_changes_no_verdict, 30_000, pairs_of_any_kind(), |pair| (0
-    ..3)
-    .try_for_each(|axis| same(all_but([]), pair, &mirrored(pair, axis))));
+fn mirroring_an_axis_changes_no_verdict<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    (0..3).try_for_each(|axis| same(all_but([]), pair, &mirrored(pair, axis)))
+}
 
-property!(exchanging_x_and_y_changes_no_verdict, 30_000, pairs_of_any_kind(), |pair| {
+formats!(mirroring_an_axis_changes_no_verdict(30_000, pairs_of_any_kind()));
+
+fn exchanging_x_and_y_changes_no_verdict<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
     same(all_but([]), pair, &pair.with_axes([1, 0, 2]))
-});
+}
 
-property!(
-    permuting_axes_changes_no_verdict_of_a_box_test,
-    30_000,
-    pairs_of_any_kind(),
-    |pair| [[1, 2, 0], [2, 0, 1], [2, 1, 0], [0, 2, 1]]
+formats!(exchanging_x_and_y_changes_no_verdict(30_000, pairs_of_any_kind()));
+
+fn permuting_axes_changes_no_verdict_of_a_box_test<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    [[1, 2, 0], [2, 0, 1], [2, 1, 0], [0, 2, 1]]
         .into_iter()
         .try_for_each(|axes| same(all_but([CertifiedNonCoplanarity]), pair, &pair.with_axes(axes)))
-);
+}
 
-property!(
-    exchanging_the_faces_second_and_third_vertex_changes_no_verdict,
-    30_000,
-    pairs(PairKind::VertexFace),
-    |pair| same(all_but([]), pair, &pair.reordered([0, 1, 3, 2]))
-);
+formats!(permuting_axes_changes_no_verdict_of_a_box_test(30_000, pairs_of_any_kind()));
 
-property!(
-    permuting_the_faces_vertices_changes_no_verdict_of_a_box_test,
+fn exchanging_the_faces_second_and_third_vertex_changes_no_verdict<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    same(all_but([]), pair, &pair.reordered([0, 1, 3, 2]))
+}
+
+formats!(exchanging_the_faces_second_and_third_vertex_changes_no_verdict(
     30_000,
-    pairs(PairKind::VertexFace),
-    |pair| [[0, 2, 3, 1], [0, 3, 1, 2], [0, 2, 1, 3], [0, 3, 2, 1]]
+    pairs(PairKind::VertexFace)
+));
+
+fn permuting_the_faces_vertices_changes_no_verdict_of_a_box_test<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    [[0, 2, 3, 1], [0, 3, 1, 2], [0, 2, 1, 3], [0, 3, 2, 1]]
         .into_iter()
         .try_for_each(|order| same(all_but([CertifiedNonCoplanarity]), pair, &pair.reordered(order)))
-);
+}
 
-property!(
-    exchanging_the_first_edges_ends_changes_no_verdict,
+formats!(permuting_the_faces_vertices_changes_no_verdict_of_a_box_test(
     30_000,
-    pairs(PairKind::EdgeEdge),
-    |pair| same(all_but([]), pair, &pair.reordered([1, 0, 2, 3]))
-);
+    pairs(PairKind::VertexFace)
+));
 
-property!(
-    exchanging_the_edges_or_the_seconds_ends_changes_no_verdict_of_a_box_test,
+fn exchanging_the_first_edges_ends_changes_no_verdict<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    same(all_but([]), pair, &pair.reordered([1, 0, 2, 3]))
+}
+
+formats!(exchanging_the_first_edges_ends_changes_no_verdict(
     30_000,
-    pairs(PairKind::EdgeEdge),
-    |pair| [[2, 3, 0, 1], [0, 1, 3, 2], [3, 2, 1, 0]]
+    pairs(PairKind::EdgeEdge)
+));
+
+fn exchanging_the_edges_or_the_seconds_ends_changes_no_verdict_of_a_box_test<S: Format>(
+    pair: &PairCase<S>,
+) -> Result<(), TestCaseError> {
+    [[2, 3, 0, 1], [0, 1, 3, 2], [3, 2, 1, 0]]
         .into_iter()
         .try_for_each(|order| same(all_but([CertifiedNonCoplanarity]), pair, &pair.reordered(order)))
-);
+}
+
+formats!(exchanging_the_edges_or_the_seconds_ends_changes_no_verdict_of_a_box_test(
+    30_000,
+    pairs(PairKind::EdgeEdge)
+));
 
 /// Chooses multiples of 2⁻¹⁰ up to 16 in magnitude. A permanent of them is at least 2⁻³⁰, or zero; then the value is zero, too,
 /// and its sign is never certain. With u = 2⁻²⁴ the bound is at least 2⁻⁵⁰, of which the last bit is worth 2⁻⁷³, and (1 + M)²·η <
@@ -138,20 +154,22 @@ fn grids<S: Format>() -> impl Strategy<Value = PairCase<S>> {
     })
 }
 
-property!(scaling_by_a_power_of_two_changes_no_verdict, 30_000, grids(), |pair| [
-    -12, -1, 1, 12
-]
-.into_iter()
-.try_for_each(|exponent| {
-    let factor = S::exact(1, exponent);
-    same(all_but([]), pair, &pair.map(|x| x * factor))
-}));
+fn scaling_by_a_power_of_two_changes_no_verdict<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    [-12, -1, 1, 12].into_iter().try_for_each(|exponent| {
+        let factor = S::exact(1, exponent);
+        same(all_but([]), pair, &pair.map(|x| x * factor))
+    })
+}
+
+formats!(scaling_by_a_power_of_two_changes_no_verdict(30_000, grids()));
 
 // Integer multiples of 2⁻¹⁰ below 2⁵ stay exact when moved by multiples of 2⁻¹⁰ up to 2⁸, and so do sums of two of them.
-property!(an_exact_translation_changes_no_verdict, 30_000, grids(), |pair| {
+fn an_exact_translation_changes_no_verdict<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
     let by = [1 << 18, -102_528, 2].map(|whole| S::exact(whole, -10));
     let moved = pair.with_positions(|x| std::array::from_fn(|axis| x[axis] + by[axis]));
     let back = moved.with_positions(|x| std::array::from_fn(|axis| x[axis] - by[axis]));
     prop_assert_eq!(back, *pair);
     same(all_but([]), pair, &moved)
-});
+}
+
+formats!(an_exact_translation_changes_no_verdict(30_000, grids()));

@@ -5,7 +5,7 @@ use selvedge::core::elementary::Limits;
 use selvedge::glam::{DQuat, DVec3};
 use selvedge::{
     CollisionDetector, CollisionFilter, Criterion, Geometry, Groups, MeshHandle, MeshMotion, PairKind, Position, Scalar,
-    StepError, Threads, Topology, World, WorldContact, WorldContactGeometry, WorldError,
+    StepError, Threads, Topology, World, WorldContact, WorldError,
 };
 use selvedge_core::separation::closest::ClosestPoints;
 use selvedge_verification::generator::side_of;
@@ -64,7 +64,7 @@ struct Model<S> {
 }
 
 #[derive(Clone)]
-enum Way<S> {
+enum Movement<S> {
     Rests,
     Deforms(Vec<[S; 3]>, Vec<[S; 3]>),
     Goes([(DQuat, DVec3); 2]),
@@ -79,11 +79,11 @@ fn wide<S: Scalar>(point: [S; 3]) -> DVec3 {
 }
 
 impl<S: Scalar> Model<S> {
-    fn frames(&self, way: &Way<S>) -> [Vec<[S; 3]>; 2] {
+    fn frames(&self, way: &Movement<S>) -> [Vec<[S; 3]>; 2] {
         match way {
-            Way::Rests => [self.at.clone(), self.at.clone()],
-            Way::Deforms(start, end) => [start.clone(), end.clone()],
-            Way::Goes(poses) => poses.map(|(rotation, origin)| {
+            Movement::Rests => [self.at.clone(), self.at.clone()],
+            Movement::Deforms(start, end) => [start.clone(), end.clone()],
+            Movement::Goes(poses) => poses.map(|(rotation, origin)| {
                 let posed = |&point: &[S; 3]| narrow(rotation.normalize() * wide(point) + origin);
                 self.shape.iter().map(posed).collect()
             }),
@@ -91,46 +91,24 @@ impl<S: Scalar> Model<S> {
     }
 }
 
-/// A contact, and its properties other than its time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Told<S> {
-    kind: PairKind,
-    meshes: [MeshHandle; 2],
-    pair: [u32; 2],
-    time: S,
-    vertices: [u32; 4],
-    geometry: Geometry,
+/// A contact, its vertices and its geometry.
+type Known<S> = (WorldContact<S>, [u32; 4], Geometry);
+
+fn sorted<S>(mut known: Vec<Known<S>>) -> Vec<Known<S>> {
+    known.sort_by_key(|(own, ..)| (own.kind, own.meshes, own.pair));
+    known
 }
 
-fn sorted<S>(mut told: Vec<Told<S>>) -> Vec<Told<S>> {
-    told.sort_by_key(|own| (own.kind, own.meshes, own.pair));
-    told
-}
-
-fn told<P: Position>(world: &World<P>, contacts: &[WorldContact<P::Scalar>]) -> Result<Vec<Told<P::Scalar>>, TestCaseError> {
+fn known<P: Position>(world: &World<P>, contacts: &[WorldContact<P::Scalar>]) -> Result<Vec<Known<P::Scalar>>, TestCaseError> {
     let mut geometries = Vec::new();
     prop_assert_eq!(world.contact_geometries(contacts, &mut geometries), Ok(()));
-    let mut told = Vec::new();
+    let mut known = Vec::new();
     for (contact, own) in contacts.iter().zip(&geometries) {
-        let &WorldContact {
-            kind,
-            meshes,
-            pair,
-            time,
-        } = contact;
-        prop_assert_eq!((own.kind, own.meshes, own.pair), (kind, meshes, pair));
+        prop_assert_eq!((own.kind, own.meshes, own.pair), (contact.kind, contact.meshes, contact.pair));
         prop_assert_eq!(world.contact_geometry(contact), Ok(*own));
-        let &WorldContactGeometry { vertices, geometry, .. } = own;
-        told.push(Told {
-            kind,
-            meshes,
-            pair,
-            time,
-            vertices,
-            geometry,
-        });
+        known.push((*contact, own.vertices, own.geometry));
     }
-    Ok(sorted(told))
+    Ok(sorted(known))
 }
 
 /// Checks that the other queries to a world agree with its contacts.
@@ -148,7 +126,7 @@ fn agrees<P: Position>(
 }
 
 /// Returns the contacts of some of the meshes, by a detector for all their triangles as one mesh.
-fn by_one_detector<S: Scalar>(models: &[(&Model<S>, &Way<S>)], criterion: Criterion<S>) -> Vec<Told<S>>
+fn by_one_detector<S: Scalar>(models: &[(&Model<S>, &Movement<S>)], criterion: Criterion<S>) -> Vec<Known<S>>
 where
     [S; 3]: Position<Scalar = S>,
 {
@@ -175,14 +153,20 @@ where
     }
     let mut detector = CollisionDetector::<S>::new(Topology::new(start.len(), triangles).expect("as they were"));
     detector.set_criterion(criterion).expect("lengths");
-    let known: Vec<(bool, bool, Groups)> = models
+    let rules: Vec<(bool, bool, Groups)> = models
         .iter()
-        .map(|(model, way)| (!matches!(way, Way::Rests), matches!(way, Way::Deforms(..)), model.groups))
+        .map(|(model, way)| {
+            (
+                !matches!(way, Movement::Rests),
+                matches!(way, Movement::Deforms(..)),
+                model.groups,
+            )
+        })
         .collect();
     let meshes_of = of_vertex.clone();
     let rule = move |_, _, vertices: [u32; 4]| {
         let [a, b] = [vertices[0], vertices[3]].map(|vertex| meshes_of[vertex as usize]);
-        let ((moves, deforms, groups), (other_moves, _, other_groups)) = (known[a], known[b]);
+        let ((moves, deforms, groups), (other_moves, _, other_groups)) = (rules[a], rules[b]);
         groups.collide(other_groups) && if a == b { deforms } else { moves || other_moves }
     };
     detector
@@ -191,9 +175,9 @@ where
     let mut contacts = Vec::new();
     detector.contacts(&start, &end, &mut contacts).expect("finite positions");
     let mut geometries = Vec::new();
-    let found = detector.contact_geometries(&start, &end, &contacts, &mut geometries);
-    found.expect("contacts of the step");
-    let mut told = Vec::new();
+    let result = detector.contact_geometries(&start, &end, &contacts, &mut geometries);
+    result.expect("contacts of the step");
+    let mut found = Vec::new();
     for (contact, geometry) in contacts.iter().zip(geometries) {
         let of = |item: u32, what: usize| firsts.iter().rposition(|first| first[what] <= item).expect("from zero on");
         let whats = match contact.kind {
@@ -203,16 +187,15 @@ where
         let meshes = [0, 1].map(|side| of(contact.pair[side], whats[side]));
         let pair = [0, 1].map(|side| contact.pair[side] - firsts[meshes[side]][whats[side]]);
         let vertices = [0, 1, 2, 3].map(|corner| geometry.vertices[corner] - firsts[meshes[side_of(contact.kind, corner)]][0]);
-        told.push(Told {
+        let contact = WorldContact {
             kind: contact.kind,
             meshes: meshes.map(|index| models[index].0.handle),
             pair,
             time: contact.time,
-            vertices,
-            geometry: geometry.geometry,
-        });
+        };
+        found.push((contact, vertices, geometry.geometry));
     }
-    sorted(told)
+    sorted(found)
 }
 
 /// A change of a world.
@@ -314,7 +297,7 @@ where
                 let way = |model: &Model<S>, random: &mut Random| {
                     let far = random.pick(&[0.1, 0.5, 2.0]);
                     match random.below(5) {
-                        0 | 1 => Way::Rests,
+                        0 | 1 => Movement::Rests,
                         2 | 3 => {
                             let on_lattice = random.below(2) == 0;
                             let start = model.at.clone();
@@ -323,7 +306,7 @@ where
                                 let bend = random.point(on_lattice) * 0.5 * far;
                                 narrow(wide(point) + if on_lattice { bend } else { by + bend })
                             });
-                            Way::Deforms(start.clone(), end.collect())
+                            Movement::Deforms(start.clone(), end.collect())
                         }
                         _ => {
                             let rotation = if random.below(2) == 0 {
@@ -331,19 +314,19 @@ where
                             } else {
                                 random.rotation()
                             };
-                            Way::Goes([(rotation, random.vector() * far), (rotation, random.vector() * far)])
+                            Movement::Goes([(rotation, random.vector() * far), (rotation, random.vector() * far)])
                         }
                     }
                 };
-                let ways: Vec<Way<S>> = models.iter().map(|model| way(model, &mut random)).collect();
+                let ways: Vec<Movement<S>> = models.iter().map(|model| way(model, &mut random)).collect();
                 let motions: Vec<(MeshHandle, MeshMotion<'_, [S; 3]>)> = models
                     .iter()
                     .zip(&ways)
                     .filter_map(|(model, way)| {
                         let motion = match way {
-                            Way::Rests => return None,
-                            Way::Deforms(start, end) => MeshMotion::Deforming { start, end },
-                            &Way::Goes([start, end]) => MeshMotion::Rigid { start, end },
+                            Movement::Rests => return None,
+                            Movement::Deforms(start, end) => MeshMotion::Deforming { start, end },
+                            &Movement::Goes([start, end]) => MeshMotion::Rigid { start, end },
                         };
                         Some((model.handle, motion))
                     })
@@ -359,7 +342,7 @@ where
                     agrees(world, &motions, &found)?;
                 }
                 let all: Vec<_> = models.iter().zip(&ways).collect();
-                let found = told(&worlds[0], &found)?;
+                let found = known(&worlds[0], &found)?;
                 if S::UNIT_ROUNDOFF.to_f64() > f64::EPSILON {
                     prop_assert_eq!(&found, &by_one_detector(&all, criterion));
                 } else {
@@ -370,12 +353,12 @@ where
                         expected.extend(by_one_detector(&[one], criterion));
                         for &other in &all[index + 1..] {
                             let both = by_one_detector(&[one, other], criterion);
-                            expected.extend(both.into_iter().filter(|own| own.meshes[0] != own.meshes[1]));
+                            expected.extend(both.into_iter().filter(|(own, ..)| own.meshes[0] != own.meshes[1]));
                         }
                     }
                     prop_assert_eq!(&found, &sorted(expected));
                 }
-                for own in &found {
+                for (own, ..) in &found {
                     done.contacts[usize::from(own.meshes[0] != own.meshes[1])] += 1;
                 }
                 for (model, way) in models.iter_mut().zip(&ways) {
@@ -426,11 +409,21 @@ fn triangle() -> Topology {
     Topology::new(3, vec![[0, 1, 2]]).expect("a triangle")
 }
 
+/// The motion of a mesh whose vertices move.
+fn deforms<'a>(start: &'a [DVec3], end: &'a [DVec3]) -> MeshMotion<'a, DVec3> {
+    MeshMotion::Deforming { start, end }
+}
+
+/// The motion of a body from one pose to another.
+fn moves<P>(start: (DQuat, DVec3), end: (DQuat, DVec3)) -> MeshMotion<'static, P> {
+    MeshMotion::Rigid { start, end }
+}
+
 const CORNERS: [DVec3; 3] = [DVec3::ZERO, DVec3::X, DVec3::Y];
 const AT_REST: (DQuat, DVec3) = (DQuat::IDENTITY, DVec3::ZERO);
 
 #[test]
-fn what_is_out_of_order_is_told_and_nothing_is_lost() {
+fn what_is_out_of_order_is_an_error_and_nothing_is_lost() {
     let mut world = World::<DVec3>::new();
     let floor = world.insert(triangle(), &CORNERS, Groups::ALL).expect("in order");
     let above = CORNERS.map(|corner| corner + DVec3::new(0.1, 0.1, 1.0));
@@ -439,13 +432,7 @@ fn what_is_out_of_order_is_told_and_nothing_is_lost() {
     world.remove(gone).expect("it is there");
 
     let below = above.map(|corner| corner - 2.0 * DVec3::Z);
-    let falls = (
-        mesh,
-        MeshMotion::Deforming {
-            start: &above,
-            end: &below,
-        },
-    );
+    let falls = (mesh, deforms(&above, &below));
     let mut expected = Vec::new();
     world.contacts(&[falls], &mut expected).expect("in order");
     assert!(!expected.is_empty());
@@ -463,44 +450,26 @@ fn what_is_out_of_order_is_told_and_nothing_is_lost() {
     assert!(refused.iter().all(Result::is_err), "{refused:?}");
 
     let nan = [DVec3::NAN; 3];
-    let rests = |pose| MeshMotion::Rigid {
-        start: AT_REST,
-        end: pose,
-    };
+    let rests = |pose| moves(AT_REST, pose);
     let of_mesh = |motion| (mesh, motion);
     let far = DVec3::splat(f64::MAX);
+    let turned = (DQuat::from_rotation_x(1.0), far);
+    let [no_turn, no_number] = [[0.0, 0.0], [f64::NAN, 1.0]].map(|[x, w]| DQuat::from_xyzw(x, 0.0, 0.0, w));
+    let short = StepError::WrongLength {
+        frame: selvedge::Frame::Start,
+        found: 2,
+        expected: 3,
+    };
     for (motion, error) in [
         ((gone, rests(AT_REST)), WorldError::NoSuchMesh { mesh: gone }),
         (falls, WorldError::MovedTwice { mesh }),
         (of_mesh(rests((DQuat::IDENTITY, DVec3::NAN))), WorldError::BadPose { mesh }),
+        (of_mesh(rests((no_turn, DVec3::ZERO))), WorldError::BadPose { mesh }),
+        (of_mesh(rests((no_number, DVec3::ZERO))), WorldError::BadPose { mesh }),
+        (of_mesh(moves((DQuat::IDENTITY, -far), turned)), WorldError::BadPose { mesh }),
         (
-            of_mesh(rests((DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0), DVec3::ZERO))),
-            WorldError::BadPose { mesh },
-        ),
-        (
-            of_mesh(rests((DQuat::from_xyzw(f64::NAN, 0.0, 0.0, 1.0), DVec3::ZERO))),
-            WorldError::BadPose { mesh },
-        ),
-        (
-            of_mesh(MeshMotion::Rigid {
-                start: (DQuat::IDENTITY, -far),
-                end: (DQuat::from_rotation_x(1.0), far),
-            }),
-            WorldError::BadPose { mesh },
-        ),
-        (
-            of_mesh(MeshMotion::Deforming {
-                start: &above[1..],
-                end: &below,
-            }),
-            WorldError::BadPositions {
-                mesh,
-                error: StepError::WrongLength {
-                    frame: selvedge::Frame::Start,
-                    found: 2,
-                    expected: 3,
-                },
-            },
+            of_mesh(deforms(&above[1..], &below)),
+            WorldError::BadPositions { mesh, error: short },
         ),
     ] {
         let motions = match error {
@@ -510,18 +479,11 @@ fn what_is_out_of_order_is_told_and_nothing_is_lost() {
         assert_eq!(world.contacts(&motions, &mut Vec::new()), Err(error));
         assert!(!error.to_string().is_empty());
     }
-    let not_finite = of_mesh(MeshMotion::Deforming {
-        start: &above,
-        end: &nan,
-    });
-    let refused = world.contacts(&[not_finite], &mut Vec::new()).expect_err("not finite");
-    assert!(matches!(
-        refused,
-        WorldError::BadPositions {
-            error: StepError::NotFinite { vertex: 0, .. },
-            ..
-        }
-    ));
+    let refused = world.contacts(&[of_mesh(deforms(&above, &nan))], &mut Vec::new());
+    let Err(WorldError::BadPositions { error, .. }) = refused else {
+        panic!("{refused:?}")
+    };
+    assert!(matches!(error, StepError::NotFinite { vertex: 0, .. }));
 
     // The step is cut short by the number of pairs, and then by another thread.
     world.set_pair_limit(Some(1));
@@ -550,11 +512,7 @@ fn geometry_of_what_the_last_step_does_not_have_is_an_error() {
     let floor = world.insert(loose, &corners, Groups::ALL).expect("in order");
     let above = CORNERS.map(|corner| corner + DVec3::new(0.1, 0.1, 1.0));
     let mesh = world.insert(triangle(), &above, Groups::ALL).expect("in order");
-    let start = (DQuat::IDENTITY, DVec3::ZERO);
-    let falls = MeshMotion::Rigid {
-        start,
-        end: (DQuat::IDENTITY, -2.0 * DVec3::Z),
-    };
+    let falls = moves(AT_REST, (DQuat::IDENTITY, -2.0 * DVec3::Z));
     let contact = world.earliest(&[(mesh, falls)]).expect("in order").expect("it goes through");
     let found = world.contact_geometry(&contact).expect("a contact of the step");
     assert_eq!(found.geometry.normal.map(|normal| normal.z.abs()), Some(1.0));
@@ -588,7 +546,7 @@ fn geometry_of_what_the_last_step_does_not_have_is_an_error() {
     assert_eq!((at_rest.geometry.speed, at_rest.geometry.distance[1] > 0.9), (0.0, true));
     world.remove(mesh).expect("it is there");
     assert_eq!(world.contact_geometry(&contact), Err(WorldError::NoSuchMesh { mesh }));
-    assert_eq!(kept, [found], "what was told before is kept");
+    assert_eq!(kept, [found], "an earlier result is kept");
 }
 
 #[test]
@@ -601,11 +559,10 @@ fn pairs_that_rest_or_that_groups_exclude_are_not_looked_at() {
     }
     let ghost = world.insert(triangle(), &CORNERS, Groups::new(2, 2)).expect("in order");
     let [above, below] = [DVec3::Z, -DVec3::Z].map(touching);
-    let falls = |start, end| MeshMotion::Deforming { start, end };
     let mut contacts = Vec::new();
     world.set_pair_limit(Some(0));
     world.contacts(&[], &mut contacts).expect("nothing is looked at");
-    let step = [(ghost, falls(&above, &below))];
+    let step = [(ghost, deforms(&above, &below))];
     world.contacts(&step, &mut contacts).expect("nothing is looked at");
     world.set_groups(ghost, Groups::ALL).expect("it is there");
     let limit = StepError::TooManyPairs { limit: 0 };
@@ -690,15 +647,12 @@ fn turning_bodies_are_not_missed(seed: u64, count: &Cell<[usize; 3]>) -> Result<
     };
     let [a, b] = shapes.map(|shape| world.insert(triangle(), &shape, Groups::ALL).expect("in order"));
     let c = world.insert(triangle(), &sheet_end[0], Groups::ALL).expect("in order");
-    let rigid = |turn: &Turn| MeshMotion::Rigid {
-        start: turn.start,
-        end: turn.end(),
-    };
-    let deforming = MeshMotion::Deforming {
-        start: &sheet_end[0],
-        end: &sheet_end[1],
-    };
-    let motions = [(a, rigid(&turns[0])), (b, rigid(&turns[1])), (c, deforming)];
+    let [first_moves, second_moves] = turns.map(|turn| moves(turn.start, turn.end()));
+    let motions = [
+        (a, first_moves),
+        (b, second_moves),
+        (c, deforms(&sheet_end[0], &sheet_end[1])),
+    ];
     let mut contacts = Vec::new();
     prop_assert_eq!(world.contacts(&motions, &mut contacts), Ok(()));
     let mut again = Vec::new();
@@ -724,10 +678,8 @@ fn turning_bodies_are_not_missed(seed: u64, count: &Cell<[usize; 3]>) -> Result<
     let edges = world.topology(a).expect("it is there").edges().to_vec();
     // The geometry of each contact is right up to the rounding of the positions.
     world.set_threads(Threads::Calling).expect("no threads");
-    let told = told(&world, &contacts)?;
-    for own in &told {
-        let at = |time: f64| [0, 1, 2, 3].map(|k| place(own.meshes[side_of(own.kind, k)], own.vertices[k] as usize, time));
-        let geometry = own.geometry;
+    for (own, vertices, geometry) in known(&world, &contacts)? {
+        let at = |time: f64| [0, 1, 2, 3].map(|k| place(own.meshes[side_of(own.kind, k)], vertices[k] as usize, time));
         let distance = ClosestPoints::from_points(own.kind, at(own.time)).distance();
         let [from, to] = geometry.distance;
         prop_assert!(
@@ -771,7 +723,7 @@ fn turning_bodies_are_not_missed(seed: u64, count: &Cell<[usize; 3]>) -> Result<
                 for i in 0..3_u32 {
                     let seconds = if kind == PairKind::VertexFace { 1 } else { 3 };
                     for j in 0..seconds {
-                        let told = found(kind, meshes, [i, j]);
+                        let first = found(kind, meshes, [i, j]);
                         let distance = |time: f64| {
                             let own = |vertex: u32| place(meshes[0], vertex as usize, time);
                             let others = |vertex: u32| place(meshes[1], vertex as usize, time);
@@ -784,15 +736,15 @@ fn turning_bodies_are_not_missed(seed: u64, count: &Cell<[usize; 3]>) -> Result<
                             };
                             ClosestPoints::from_points(kind, points).distance()
                         };
-                        let until = told.unwrap_or(1.0);
+                        let until = first.unwrap_or(1.0);
                         for k in 0..=40 {
                             let time = until * f64::from(k) / 40.0;
                             // The positions are rounded, and so is the distance.
                             let is_apart = distance(time) > separation - 1e-10;
-                            let is_told = told.is_some_and(|told| time >= told);
-                            prop_assert!(is_apart || is_told, "{kind:?} {meshes:?} {i} {j} at {time}: {turns:?}");
+                            let is_found = first.is_some_and(|first| time >= first);
+                            prop_assert!(is_apart || is_found, "{kind:?} {meshes:?} {i} {j} at {time}: {turns:?}");
                         }
-                        match told {
+                        match first {
                             None => apart += 1,
                             Some(time) => {
                                 near += 1;
@@ -844,10 +796,7 @@ fn a_plank_that_spins_hits_the_post_beside_it() {
     let post = world.insert(triangle(), &post, Groups::ALL);
     let [plank, post] = [plank, post].map(|mesh| mesh.expect("in order"));
     let turn = |angle| (DQuat::from_rotation_z(angle), DVec3::ZERO);
-    let spins = MeshMotion::Rigid {
-        start: turn(0.0),
-        end: turn(3.0),
-    };
+    let spins = moves(turn(0.0), turn(3.0));
     let mut contacts = Vec::new();
     world.contacts(&[(plank, spins)], &mut contacts).expect("in order");
     let first = contacts.iter().map(|contact| contact.time).fold(1.0, f32::min);

@@ -9,7 +9,7 @@ use clap::CommandFactory;
 use clap::error::ErrorKind;
 use selvedge_cloth::{Scene, Simulation};
 use selvedge_laboratory::methods::Preset;
-use selvedge_laboratory::report::{comparison_csv, comparison_html, comparison_markdown, figure_3, json, tables};
+use selvedge_laboratory::report::{comparison_csv, comparison_html, figure_3, json, tables};
 use selvedge_laboratory::scene::ArmScene;
 use selvedge_laboratory::study::{self, ArmFrames, Comparison, Frames, SimulatedSteps, TwoFrames, busiest_step, step_candidates};
 use std::path::{Path, PathBuf};
@@ -72,7 +72,7 @@ pub(crate) struct Compare {
     /// Write the table to this file
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
-    /// Write the comparison (CSV, HTML, Markdown) and a picture of candidates (PNG) to this folder
+    /// Write the comparison (CSV, HTML) and a picture of candidates (PNG) to this folder
     #[arg(long, value_name = "DIR")]
     output: Option<PathBuf>,
 }
@@ -168,7 +168,7 @@ fn read_frames(start: &Path, end: &Path) -> Result<TwoFrames, Failure> {
     })
 }
 
-/// Adds the files of a report: the table as CSV, page and Markdown, and the paper's Figure 3. The figure shows the step in which
+/// Adds the files of a report: the table as CSV and as a page, and the paper's Figure 3. The figure shows the step in which
 /// our method leaves the most candidates.
 pub(super) fn add_report(
     files: &mut OutputFiles,
@@ -179,7 +179,6 @@ pub(super) fn add_report(
     let _progress = Progress::spinner("drawing");
     files.add(folder.join("comparison.csv"), |out| comparison_csv(comparison, out))?;
     files.add_bytes(folder.join("comparison.html"), comparison_html(comparison).as_bytes())?;
-    files.add_bytes(folder.join("comparison.md"), comparison_markdown(comparison).as_bytes())?;
 
     let threads = comparison.threads;
     let step = busiest_step(frames, Preset::Selvedge, threads)?;

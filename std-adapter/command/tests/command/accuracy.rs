@@ -136,15 +136,10 @@ fn elementary_tests_are_measured_at_every_tolerance_and_the_unsafe_ones_are_caug
 }
 
 #[test]
-fn without_only_one_document_has_both_parts_and_a_plot_needs_its_part() {
+fn without_only_one_document_has_both_parts() {
     let document: Value = serde_json::from_str(Run::of_accuracy().read("rows.json")).unwrap();
     assert_eq!(
         keys(&document),
         ["seed", "repeat", "separation", "sets", "rows", "elementary"]
-    );
-    let message = Workplace::new().refusal(1, &[&SHORT[..], &["--elementary-svg", "a.svg"]].concat());
-    assert!(
-        message.contains("--elementary-svg needs the part that --only leaves out"),
-        "{message}"
     );
 }

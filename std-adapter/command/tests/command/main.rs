@@ -1,13 +1,10 @@
-//! Tests the `selvedge` command as its users run it: the real program, real files, and the exit status.
+//! Tests the `selvedge` command as its users run it: the real program, real files, and the exit status. Most cases are rows of `tables/`.
 
 mod accuracy;
-mod bad_input;
 mod check;
 mod compare;
 mod cull;
-mod hard_cases;
-mod queries;
 mod simulate;
 mod support;
+mod tables;
 mod terminal;
-mod walker;

@@ -138,21 +138,6 @@ impl Workplace {
     pub(crate) fn json(&self, arguments: &[&str]) -> Value {
         serde_json::from_str(&self.stdout(arguments)).unwrap()
     }
-
-    /// Returns the error message, without earlier notes, of a run that must fail with `status`, print nothing and leave no file
-    /// behind.
-    #[track_caller]
-    pub(crate) fn refusal(&self, status: i32, arguments: &[&str]) -> String {
-        let before = self.listing();
-        let output = self.run(arguments);
-        let text = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(status), "{text}");
-        assert!(output.stdout.is_empty());
-        assert!(!text.contains("panicked"), "{text}");
-        assert_eq!(self.listing(), before, "files were left behind");
-        let start = text.find("error: ").expect("no error message");
-        text[start..].to_owned()
-    }
 }
 
 /// A run that several tests share, since it takes seconds: its output, its notes, and its files.

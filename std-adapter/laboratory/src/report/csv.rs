@@ -4,21 +4,55 @@ use super::distributed;
 use super::paper::paper_row;
 use crate::methods::Stage;
 use crate::pipeline::Contact;
-use crate::study::{Comparison, ComparisonRow, MeanCounts};
+use crate::study::{Comparison, ComparisonRow};
 use ::csv::Writer;
 use selvedge::PairKind;
 use selvedge::Topology;
 use selvedge_core::Scalar;
 use std::io::{self, Write};
 
-/// The stages with a column of seconds, in the order of the data flow.
-const STAGES: [(Stage, &str); 6] = [
-    (Stage::Distribution, "distribution_seconds"),
-    (Stage::Boxes, "boxes_seconds"),
-    (Stage::RelativeBoxes, "relative_boxes_seconds"),
-    (Stage::Subspace, "subspace_seconds"),
-    (Stage::NonCoplanarity, "non_coplanarity_seconds"),
-    (Stage::Elementary, "elementary_seconds"),
+/// A column and its field, empty where the method lacks it.
+type Column = (&'static str, fn(&ComparisonRow) -> Option<String>);
+
+/// The pairs after a stage, and the seconds of a stage.
+macro_rules! field {
+    ($row:ident.$counts:ident.$kind:ident) => {
+        |$row| Some($row.$counts.$kind.to_string())
+    };
+    (seconds of $stage:ident) => {
+        |row| Some(row.stages.iter().find(|own| own.stage == Stage::$stage)?.seconds.to_string())
+    };
+}
+
+const COLUMNS: [Column; 24] = [
+    ("pipeline", |row| Some(row.preset.to_string())),
+    ("reconstructed", |row| Some(row.preset.is_reconstructed().to_string())),
+    ("triangle_pairs", |row| {
+        row.has_triangle_pairs.then(|| row.triangle_pairs.to_string())
+    }),
+    ("vf_distributed", |row| Some(distributed(row)?.vertex_face.to_string())),
+    ("vf_after_boxes", field!(row.after_boxes.vertex_face)),
+    ("vf_after_filter", field!(row.candidates.vertex_face)),
+    ("vf_contacts", field!(row.contacts.vertex_face)),
+    ("ee_distributed", |row| Some(distributed(row)?.edge_edge.to_string())),
+    ("ee_after_boxes", field!(row.after_boxes.edge_edge)),
+    ("ee_after_filter", field!(row.candidates.edge_edge)),
+    ("ee_contacts", field!(row.contacts.edge_edge)),
+    ("frames_per_second", |row| Some(row.frames_per_second.to_string())),
+    ("vf_missed", field!(row.missed.vertex_face)),
+    ("ee_missed", field!(row.missed.edge_edge)),
+    ("broad_phase_seconds", |row| Some(row.broad_phase_seconds.to_string())),
+    ("distribution_seconds", field!(seconds of Distribution)),
+    ("boxes_seconds", field!(seconds of Boxes)),
+    ("relative_boxes_seconds", field!(seconds of RelativeBoxes)),
+    ("subspace_seconds", field!(seconds of Subspace)),
+    ("non_coplanarity_seconds", field!(seconds of NonCoplanarity)),
+    ("elementary_seconds", field!(seconds of Elementary)),
+    ("paper_vf", |row| Some(paper_row(row.preset)?.vertex_face.to_string())),
+    ("paper_ee", |row| Some(paper_row(row.preset)?.edge_edge.to_string())),
+    ("paper_frames_per_second", |row| {
+        Some(paper_row(row.preset)?.frames_per_second.to_string())
+    }),
 ];
 
 /// Writes a comparison, one row for each method. Counts are means per step, times are seconds per step. The last three columns
@@ -28,56 +62,11 @@ const STAGES: [(Stage, &str); 6] = [
 /// Returns the errors of `out`.
 pub fn comparison_csv(comparison: &Comparison, out: impl Write) -> io::Result<()> {
     let mut writer = Writer::from_writer(out);
-    let mut header = vec!["pipeline", "reconstructed", "triangle_pairs"];
-    header.extend(["vf_distributed", "vf_after_boxes", "vf_after_filter"]);
-    header.extend(["vf_contacts", "ee_distributed", "ee_after_boxes"]);
-    header.extend(["ee_after_filter", "ee_contacts", "frames_per_second"]);
-    header.extend(["vf_missed", "ee_missed", "broad_phase_seconds"]);
-    header.extend(STAGES.map(|(_, column)| column));
-    header.extend(["paper_vf", "paper_ee", "paper_frames_per_second"]);
-    writer.write_record(header)?;
+    writer.write_record(COLUMNS.map(|(name, _)| name))?;
     for row in &comparison.rows {
-        writer.write_record(comparison_record(row))?;
+        writer.write_record(COLUMNS.map(|(_, field)| field(row).unwrap_or_default()))?;
     }
     writer.flush()
-}
-
-fn comparison_record(row: &ComparisonRow) -> Vec<String> {
-    let distributed = distributed(row);
-    let survivors = [row.after_boxes, row.candidates, row.contacts].map(Some);
-    let survivors = std::iter::once(distributed).chain(survivors);
-    let of_kind = |pick: fn(&MeanCounts) -> f64| {
-        let text = move |counts: Option<MeanCounts>| counts.map_or_else(String::new, |counts| pick(&counts).to_string());
-        survivors.clone().map(text)
-    };
-    let mut record = vec![
-        row.preset.to_string(),
-        row.preset.is_reconstructed().to_string(),
-        if row.has_triangle_pairs {
-            row.triangle_pairs.to_string()
-        } else {
-            String::new()
-        },
-    ];
-    record.extend(of_kind(|counts| counts.vertex_face));
-    record.extend(of_kind(|counts| counts.edge_edge));
-    record.push(row.frames_per_second.to_string());
-    record.push(row.missed.vertex_face.to_string());
-    record.push(row.missed.edge_edge.to_string());
-    record.push(row.broad_phase_seconds.to_string());
-    record.extend(STAGES.map(|(wanted, _)| {
-        let stage = row.stages.iter().find(|stage| stage.stage == wanted);
-        stage.map_or_else(String::new, |stage| stage.seconds.to_string())
-    }));
-    match paper_row(row.preset) {
-        None => record.extend([(); 3].map(|()| String::new())),
-        Some(paper) => record.extend([
-            paper.vertex_face.to_string(),
-            paper.edge_edge.to_string(),
-            paper.frames_per_second.to_string(),
-        ]),
-    }
-    record
 }
 
 /// Writes contacts as `kind,i0,i1,i2,i3,time`: vertex–face first, each kind in the order given. For VF, i0 is the vertex and i1

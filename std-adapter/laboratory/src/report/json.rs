@@ -2,7 +2,6 @@
 //! unless the name says nanoseconds.
 
 use super::distributed;
-use super::findings::findings;
 use super::n_log_n_ratios;
 use super::paper::paper_row;
 use super::recording::{EDGES_99, LONGEST_EDGE, Measure, MeasureKind, Recording};
@@ -88,10 +87,6 @@ pub fn comparison(comparison: &Comparison) -> Value {
         "threads": comparison.threads,
         "rounds": comparison.rounds,
         "rows": comparison.rows.iter().map(comparison_row).collect::<Vec<_>>(),
-        "findings": findings(comparison)
-            .iter()
-            .map(|finding| json!({"text": finding.text, "as_expected": finding.as_expected}))
-            .collect::<Vec<_>>(),
     })
 }
 

@@ -8,7 +8,6 @@ mod colours;
 mod comparison;
 mod csv;
 mod figure;
-mod findings;
 pub mod gltf;
 pub mod json;
 mod number;
@@ -23,9 +22,8 @@ pub mod tables;
 mod tangles;
 
 pub use self::csv::{comparison_csv, contacts_csv, pairs_csv};
-pub use comparison::{comparison_html, comparison_markdown};
+pub use comparison::comparison_html;
 pub use figure::{FIGURE_SIZE, figure_3};
-pub use findings::{Finding, findings};
 pub use paper::{PaperRow, paper_row};
 pub use plot::{accuracy_svg, elementary_svg, scaling_svg};
 pub use recording::{About, Added, FrameError, Knob, Measure, MeasureKind, Part, PartKind, RecordedFrame};

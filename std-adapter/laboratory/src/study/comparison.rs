@@ -64,7 +64,7 @@ pub struct Comparison {
     pub edges: usize,
     /// The number of the mesh's triangles.
     pub triangles: usize,
-    /// The number of steps.
+    /// Returns the number of steps.
     pub steps: usize,
     /// The number of threads that each method used.
     pub threads: usize,
@@ -72,14 +72,6 @@ pub struct Comparison {
     pub rounds: usize,
     /// One row for each method.
     pub rows: Vec<ComparisonRow>,
-}
-
-impl Comparison {
-    /// Returns the row of a method, if it took part.
-    #[must_use]
-    pub fn row(&self, preset: Preset) -> Option<&ComparisonRow> {
-        self.rows.iter().find(|row| row.preset == preset)
-    }
 }
 
 /// Runs every step of `frames` through each of `presets`.

@@ -2,6 +2,7 @@
 
 use proptest::prelude::*;
 use selvedge_laboratory::study::elementary::{ExactAnswer, WIDEST, exact_answer};
+use selvedge_verification::formats;
 use selvedge_verification::generator::{Format, PairCase, check, coplanar_pairs, pairs_of_any_kind, touching_pairs};
 use selvedge_verification::oracle::collides;
 use std::cell::Cell;
@@ -45,12 +46,4 @@ fn answers_are_true<S: Format>() {
     assert!(touching > 5_000 && with_time > 250, "{with_time} of {touching}");
 }
 
-#[test]
-fn answers_are_true_f64() {
-    answers_are_true::<f64>();
-}
-
-#[test]
-fn answers_are_true_f32() {
-    answers_are_true::<f32>();
-}
+formats!(answers_are_true);

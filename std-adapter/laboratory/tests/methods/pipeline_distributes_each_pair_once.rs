@@ -4,7 +4,6 @@
 use proptest::prelude::*;
 use selvedge::PairCounts;
 use selvedge::PairKind::{self, EdgeEdge, VertexFace};
-use selvedge::Topology;
 use selvedge::broad_phase::MovingBroadPhase;
 use selvedge_core::elementary::advance::time_of_impact;
 use selvedge_core::elementary::{ContactVerdict, Limits, contact};
@@ -13,48 +12,19 @@ use selvedge_laboratory::baselines::cubic;
 use selvedge_laboratory::methods::{ElementaryTest, Preset, Redundancy, Source, Stage, Stages};
 use selvedge_laboratory::pipeline::Pipeline;
 use selvedge_laboratory::scene::ArmScene;
-use selvedge_verification::generator::{Format, MeshCase, PairCase, check, meshes};
+use selvedge_verification::formats;
+use selvedge_verification::generator::{Format, MeshCase, MeshPair, PairCase, all_pairs, check, meshes, with_kinds};
 use selvedge_verification::oracle::collides;
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 
 const KINDS: [PairKind; 2] = [VertexFace, EdgeEdge];
 
-/// A pair of a mesh. The two edges of an edge–edge pair are in ascending order.
-type MeshPair = (PairKind, [u32; 2]);
-
 fn in_order(kind: PairKind, [a, b]: [u32; 2]) -> MeshPair {
     match kind {
         VertexFace => (kind, [a, b]),
         EdgeEdge => (kind, [a.min(b), a.max(b)]),
     }
-}
-
-fn points<S: Format>(mesh: &MeshCase<S>, topology: &Topology, (kind, pair): MeshPair) -> PairCase<S> {
-    let of_pair = topology.vertices_of(kind, pair);
-    PairCase::new(kind, of_pair.map(|vertex| mesh.positions[vertex as usize]))
-}
-
-/// Returns every vertex–face and edge–edge pair of the mesh without a common vertex, by definition. Vertices without a triangle
-/// are not part of the surface.
-fn all_pairs(topology: &Topology) -> Vec<MeshPair> {
-    let mut pairs = Vec::new();
-    for vertex in 0..topology.vertex_count() as u32 {
-        let has_triangle = topology.triangles().iter().any(|t| t.contains(&vertex));
-        for (face, triangle) in (0..).zip(topology.triangles()) {
-            if has_triangle && !triangle.contains(&vertex) {
-                pairs.push((VertexFace, [vertex, face]));
-            }
-        }
-    }
-    for (second, b) in (0..).zip(topology.edges()) {
-        for (first, a) in (0..second).zip(topology.edges()) {
-            if !a.iter().any(|end| b.contains(end)) {
-                pairs.push((EdgeEdge, [first, second]));
-            }
-        }
-    }
-    pairs
 }
 
 /// Returns whether the closed boxes that the two primitives sweep have a point in common, by definition.
@@ -127,11 +97,11 @@ fn as_set(pairs: &[MeshPair]) -> BTreeSet<MeshPair> {
 
 fn every_overlapping_pair_is_distributed_exactly_once<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
     let topology = mesh.topology();
-    let all = all_pairs(&topology);
+    let all = with_kinds(all_pairs(&topology));
     let overlapping: BTreeSet<MeshPair> = all
         .iter()
         .copied()
-        .filter(|&pair| swept_boxes_overlap(&points(mesh, &topology, pair)))
+        .filter(|&pair| swept_boxes_overlap(&mesh.pair(&topology, pair)))
         .collect();
     let all = as_set(&all);
     let [in_full, once, represented] = [Redundancy::Kept, Redundancy::HashSets, Redundancy::RepresentativeTriangles]
@@ -156,15 +126,7 @@ fn every_overlapping_pair_is_distributed_exactly_once<S: Format>(mesh: &MeshCase
     Ok(())
 }
 
-#[test]
-fn every_overlapping_pair_is_distributed_exactly_once_f64() {
-    check(600, meshes::<f64>(), every_overlapping_pair_is_distributed_exactly_once);
-}
-
-#[test]
-fn every_overlapping_pair_is_distributed_exactly_once_f32() {
-    check(600, meshes::<f32>(), every_overlapping_pair_is_distributed_exactly_once);
-}
+formats!(every_overlapping_pair_is_distributed_exactly_once(600, meshes()));
 
 /// The mesh is ten million units from the origin, where the broad phase's `f32` has steps of 1.
 #[test]
@@ -234,7 +196,7 @@ fn every_preset_ends_with_what_its_own_tests_leave<S: Format>(mesh: &MeshCase<S>
         };
         prop_assert_eq!(report.survivors(Stage::Distribution), Some(counts(&left)));
         for &test in stages.tests {
-            left.retain(|&pair| !test.culls(&points(mesh, &topology, pair).pair()));
+            left.retain(|&pair| !test.culls(&mesh.pair(&topology, pair).pair()));
             let found = report.survivors(test.stage());
             prop_assert_eq!(found, Some(counts(&left)), "{} after {:?}", preset, test);
         }
@@ -243,7 +205,7 @@ fn every_preset_ends_with_what_its_own_tests_leave<S: Format>(mesh: &MeshCase<S>
         prop_assert_eq!(&candidates, &left, "{}", preset);
 
         let time = |&pair: &MeshPair| {
-            let pair = points(mesh, &topology, pair).pair();
+            let pair = mesh.pair(&topology, pair).pair();
             let certified = time_of_impact(&pair, &Limits::default()).time();
             match stages.elementary {
                 ElementaryTest::Cubic => cubic::time_of_impact(&pair),
@@ -263,22 +225,14 @@ fn every_preset_ends_with_what_its_own_tests_leave<S: Format>(mesh: &MeshCase<S>
     Ok(())
 }
 
-#[test]
-fn every_preset_ends_with_what_its_own_tests_leave_f64() {
-    check(150, meshes::<f64>(), every_preset_ends_with_what_its_own_tests_leave);
-}
-
-#[test]
-fn every_preset_ends_with_what_its_own_tests_leave_f32() {
-    check(150, meshes::<f32>(), every_preset_ends_with_what_its_own_tests_leave);
-}
+formats!(every_preset_ends_with_what_its_own_tests_leave(150, meshes()));
 
 /// The contacts agree with the exact oracle, from the mesh on.
 fn the_exact_preset_finds_the_pairs_that_collide_and_no_other<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
     let topology = mesh.topology();
-    let colliding: BTreeSet<MeshPair> = all_pairs(&topology)
+    let colliding: BTreeSet<MeshPair> = with_kinds(all_pairs(&topology))
         .into_iter()
-        .filter(|&pair| collides(&points(mesh, &topology, pair).question()).is_some())
+        .filter(|&pair| collides(&mesh.pair(&topology, pair).question()).is_some())
         .collect();
     let run = Run::new(mesh, Preset::SelvedgeExact.stages(), 1);
     let contacts = run.pipeline.contacts().iter();
@@ -287,23 +241,7 @@ fn the_exact_preset_finds_the_pairs_that_collide_and_no_other<S: Format>(mesh: &
     Ok(())
 }
 
-#[test]
-fn the_exact_preset_finds_the_pairs_that_collide_and_no_other_f64() {
-    check(
-        150,
-        meshes::<f64>(),
-        the_exact_preset_finds_the_pairs_that_collide_and_no_other,
-    );
-}
-
-#[test]
-fn the_exact_preset_finds_the_pairs_that_collide_and_no_other_f32() {
-    check(
-        150,
-        meshes::<f32>(),
-        the_exact_preset_finds_the_pairs_that_collide_and_no_other,
-    );
-}
+formats!(the_exact_preset_finds_the_pairs_that_collide_and_no_other(150, meshes()));
 
 /// Another test is about the candidates of moving boxes; this one is about the later stages. Times differ in the last bits from
 /// those of one pair alone, because several pairs advance side by side first.
@@ -314,15 +252,13 @@ fn moving_boxes_end_with_what_the_certified_tests_leave<S: Format>(mesh: &MeshCa
     let update = broad_phase.update(&mesh.frame(0), &mesh.frame(1));
     update.expect("finite positions, one for each vertex");
     broad_phase.candidates(&mut vertex_face, &mut edge_edge);
-    let of_kind = |kind, pairs: Vec<[u32; 2]>| pairs.into_iter().map(move |pair| (kind, pair));
-    let found = of_kind(VertexFace, vertex_face).chain(of_kind(EdgeEdge, edge_edge));
-    let mut left: Vec<MeshPair> = found.collect();
+    let mut left = with_kinds([vertex_face, edge_edge]);
     let run = Run::new(mesh, Preset::Selvedge.stages(), 1);
     let report = run.pipeline.report();
     prop_assert_eq!(report.broad_phase_pairs.map(PairCounts::total), Some(left.len() as u64));
     // The f64 filter decides what the f32 filter leaves open.
     let filter = Filter::<S>::new(Tier::Widened);
-    left.retain(|&pair| !filter.verdict(&points(mesh, &topology, pair).pair()).is_culled());
+    left.retain(|&pair| !filter.verdict(&mesh.pair(&topology, pair).pair()).is_culled());
     prop_assert_eq!(&run.candidates(), &left);
 
     let mut contacts = BTreeMap::new();
@@ -334,7 +270,7 @@ fn moving_boxes_end_with_what_the_certified_tests_leave<S: Format>(mesh: &MeshCa
         prop_assert!(left.contains(pair), "{:?} was culled", pair);
     }
     for pair in left {
-        if let Some(first) = collides(&points(mesh, &topology, pair).question()) {
+        if let Some(first) = collides(&mesh.pair(&topology, pair).question()) {
             let time = contacts.get(&pair).map(|time| time.to_f64());
             let is_in_time = time.is_some_and(|time| first.cmp_f64(time).is_ge());
             prop_assert!(is_in_time, "{:?} at {:?}, not {:?}", pair, time, first);
@@ -343,22 +279,14 @@ fn moving_boxes_end_with_what_the_certified_tests_leave<S: Format>(mesh: &MeshCa
     Ok(())
 }
 
-#[test]
-fn moving_boxes_end_with_what_the_certified_tests_leave_f64() {
-    check(150, meshes::<f64>(), moving_boxes_end_with_what_the_certified_tests_leave);
-}
-
-#[test]
-fn moving_boxes_end_with_what_the_certified_tests_leave_f32() {
-    check(150, meshes::<f32>(), moving_boxes_end_with_what_the_certified_tests_leave);
-}
+formats!(moving_boxes_end_with_what_the_certified_tests_leave(150, meshes()));
 
 /// The candidates agree with the exact oracle, from the mesh on.
 fn no_certified_preset_loses_a_pair_that_collides<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
     let topology = mesh.topology();
-    let colliding: Vec<MeshPair> = all_pairs(&topology)
+    let colliding: Vec<MeshPair> = with_kinds(all_pairs(&topology))
         .into_iter()
-        .filter(|&pair| collides(&points(mesh, &topology, pair).question()).is_some())
+        .filter(|&pair| collides(&mesh.pair(&topology, pair).question()).is_some())
         .collect();
     let is_certified = |preset: &Preset| preset.stages().tests.iter().all(|test| test.is_certified());
     for preset in Preset::ALL.into_iter().filter(is_certified) {
@@ -370,15 +298,7 @@ fn no_certified_preset_loses_a_pair_that_collides<S: Format>(mesh: &MeshCase<S>)
     Ok(())
 }
 
-#[test]
-fn no_certified_preset_loses_a_pair_that_collides_f64() {
-    check(150, meshes::<f64>(), no_certified_preset_loses_a_pair_that_collides);
-}
-
-#[test]
-fn no_certified_preset_loses_a_pair_that_collides_f32() {
-    check(150, meshes::<f32>(), no_certified_preset_loses_a_pair_that_collides);
-}
+formats!(no_certified_preset_loses_a_pair_that_collides(150, meshes()));
 
 #[test]
 fn no_certified_preset_loses_a_pair_that_collides_far_from_the_origin() {
@@ -398,15 +318,7 @@ fn threads_change_nothing<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseE
     Ok(())
 }
 
-#[test]
-fn threads_change_nothing_f64() {
-    check(40, meshes::<f64>(), threads_change_nothing);
-}
-
-#[test]
-fn threads_change_nothing_f32() {
-    check(40, meshes::<f32>(), threads_change_nothing);
-}
+formats!(threads_change_nothing(40, meshes()));
 
 /// The mesh is large enough for many batches, and for the broad phase to split its work.
 #[test]

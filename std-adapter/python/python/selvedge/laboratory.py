@@ -41,7 +41,7 @@ def compare(step: Step | None = None, *, pipelines: Sequence[str] = (), threads:
     :param threads: 0 is one for each core
     :param rounds: how often each method runs each step; the fastest counts
     :returns: ``methods``, a row each, with pairs and contacts a step, missed contacts, frames per second, and the paper's own figures
-        if it has them; ``stages``, a row for each stage of each method, with seconds a step; ``findings``, sentences
+        if it has them; ``stages``, a row for each stage of each method, with seconds a step
     :raises InputError: if the command rejects the arguments; the message is the command's
     :raises CommandError: if the command is missing or has another version
     """
@@ -51,11 +51,7 @@ def compare(step: Step | None = None, *, pipelines: Sequence[str] = (), threads:
     with _meshes(step) as files:
         document = _run("compare", *files, *arguments, "--json")
     stages = [{"pipeline": row["pipeline"], **stage} for row in document["rows"] for stage in row.pop("stages")]
-    return {
-        "methods": _table(document["rows"]),
-        "stages": _table(stages),
-        "findings": _table(document["findings"]),
-    }
+    return {"methods": _table(document["rows"]), "stages": _table(stages)}
 
 
 def accuracy(

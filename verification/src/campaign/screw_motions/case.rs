@@ -1,7 +1,7 @@
 //! Two bodies in screw motion, with a set of points on each. The sets meet at a known time, up to rounding.
 
-use super::interval::Interval;
 use crate::generator::{Choices, Screw, side_of, vector};
+use crate::oracle::arcs::{Place, Pose, distance, float, minus, place, plus, times};
 use selvedge_core::PairKind;
 use selvedge_core::elementary::Limits;
 use selvedge_core::glam::DVec3;
@@ -10,80 +10,6 @@ use std::f64::consts::{PI, TAU};
 
 /// Angles by which bodies rotate. Few are large, since each turn takes many straight pieces.
 const ANGLES: [f64; 16] = [0.0, 1e-9, 1e-4, 0.01, 0.1, 0.1, 0.5, 0.5, 1.0, 1.0, 2.0, 2.0, PI, PI, PI, TAU];
-
-type Box = [Interval; 3];
-
-fn about(point: DVec3) -> Box {
-    point.to_array().map(Interval::from)
-}
-
-fn each(a: Box, b: Box, f: impl Fn(Interval, Interval) -> Interval) -> Box {
-    [0, 1, 2].map(|axis| f(a[axis], b[axis]))
-}
-
-fn times(a: Box, factor: Interval) -> Box {
-    a.map(|x| x * factor)
-}
-
-fn dot(a: Box, b: Box) -> Interval {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: Box, b: Box) -> Box {
-    [0, 1, 2].map(|axis| {
-        let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
-        a[i] * b[j] - a[j] * b[i]
-    })
-}
-
-/// An enclosure of a body's pose at some time.
-struct Turned {
-    centre: Box,
-    /// The place of the centre at that time.
-    moved: Box,
-    axis: Box,
-    sine: Interval,
-    cosine: Interval,
-}
-
-impl Turned {
-    fn new(screw: &Screw, time: f64) -> Self {
-        let [sine, cosine] = Interval::sine_and_cosine(screw.angle, time);
-        let centre = about(screw.centre);
-        // Divides by the largest coordinate first, since the square may overflow.
-        let axis = about(screw.axis);
-        let axis = axis.map(|x| x / Interval::from(screw.axis.abs().max_element()));
-        let length = (axis[0].square() + axis[1].square() + axis[2].square()).root();
-        Self {
-            centre,
-            moved: each(centre, times(about(screw.translation), time.into()), |a, b| a + b),
-            axis: axis.map(|x| x / length),
-            sine,
-            cosine,
-        }
-    }
-
-    /// Returns the position of the point that starts at `start`.
-    fn at(&self, start: DVec3) -> Box {
-        let way = each(about(start), self.centre, |a, b| a - b);
-        let along = times(self.axis, dot(self.axis, way));
-        let across = each(way, along, |a, b| a - b);
-        let turned = each(times(across, self.cosine), times(cross(self.axis, way), self.sine), |a, b| {
-            a + b
-        });
-        each(self.moved, each(along, turned, |a, b| a + b), |a, b| a + b)
-    }
-}
-
-/// Returns the start of a point that is `there` at `time`, rounded.
-fn start_of(screw: &Screw, there: DVec3, time: f64) -> DVec3 {
-    let axis = screw.axis / screw.axis.abs().max_element();
-    let axis = axis / axis.length();
-    let way = there - screw.centre - screw.translation * time;
-    let (sine, cosine) = (-screw.angle * time).sin_cos();
-    let along = axis * axis.dot(way);
-    screw.centre + along + (way - along) * cosine + axis.cross(way) * sine
-}
 
 /// A case of the campaign; see the [module](super).
 #[derive(Clone, Debug)]
@@ -132,31 +58,25 @@ impl Case {
                 [a, b, second, second + way]
             }
         };
-        let side = |corner: usize| side_of(kind, corner);
+        let poses = screws.each_ref().map(|screw| Pose::at_time(screw, time));
+        let pose = |corner: usize| &poses[side_of(kind, corner)];
         let corners = [0, 1, 2, 3];
-        let starts = corners.map(|corner| start_of(&screws[side(corner)], places[corner], time));
+        let starts = corners.map(|corner| pose(corner).start_of(&place(places[corner])));
         if !starts.iter().all(|start| start.is_finite()) {
             return None;
         }
 
-        // Encloses the distance of a point on the one set and a point on the other.
-        let turned = screws.each_ref().map(|screw| Turned::new(screw, time));
-        let [a, b, c, d] = corners.map(|corner| turned[side(corner)].at(starts[corner]));
-        let part = |from: Box, to: Box, share: f64| times(each(to, from, |x, y| x - y), share.into());
-        let apart = match kind {
-            PairKind::VertexFace => {
-                let inside = each(part(b, c, u), part(b, d, v), |x, y| x + y);
-                each(a, each(b, inside, |x, y| x + y), |x, y| x - y)
-            }
-            PairKind::EdgeEdge => {
-                let on_first = each(a, part(a, b, u), |x, y| x + y);
-                let on_second = each(c, part(c, d, v), |x, y| x + y);
-                each(on_first, on_second, |x, y| x - y)
-            }
+        // The distance of a point on the one set and a point on the other.
+        let [a, b, c, d] = corners.map(|corner| pose(corner).at(starts[corner]));
+        let part = |from: &Place, to: &Place, share: f64| times(&minus(to, from), &float(share));
+        let [first, second] = match kind {
+            PairKind::VertexFace => [a, plus(&b, &plus(&part(&b, &c, u), &part(&b, &d, v)))],
+            PairKind::EdgeEdge => [plus(&a, &part(&a, &b, u)), plus(&c, &part(&c, &d, v))],
         };
-        let distance = (apart[0].square() + apart[1].square() + apart[2].square()).root().high;
         let far = screws.iter().flat_map(|screw| [screw.centre, screw.translation]);
         let far = far.map(|point| point.abs().max_element()).fold(size, f64::max);
+        // The error of 256 bits is far less than what is added.
+        let distance = (distance(&first, &second).to_f64() + 1e-60 * far).next_up();
         (distance < 1e-9 * far).then_some(Self {
             kind,
             screws,

@@ -1,11 +1,11 @@
 //! Checks the promises about a contact's geometry against the motion of four points without rounding.
 
-use super::rationals::rational;
 use super::{Point, dot, point};
 use proptest::prelude::*;
 use rug::Rational;
 use selvedge_core::PairKind;
 use selvedge_core::separation::geometry::Geometry;
+use selvedge_verification::oracle::rational;
 use selvedge_verification::oracle::within_at_rest;
 
 /// The exact motion of four points.

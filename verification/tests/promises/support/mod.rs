@@ -11,33 +11,6 @@ pub(crate) mod widths;
 
 use rug::Rational;
 
-/// Defines a property of pairs of format `S`, or of other inputs, with a test for each format.
-macro_rules! property {
-    ($(#[$about:meta])* $name:ident, $cases:expr, $strategy:expr, |$pair:ident| $property:expr) => {
-        property!($(#[$about])* $name, $cases, $strategy, |$pair: PairCase| $property);
-    };
-    ($(#[$about:meta])* $name:ident, $cases:expr, $strategy:expr, |$input:ident: $type:ident| $property:expr) => {
-        $(#[$about])*
-        mod $name {
-            use super::*;
-
-            fn holds<S: Format>($input: &$type<S>) -> Result<(), TestCaseError> {
-                $property
-            }
-
-            #[test]
-            fn f32() {
-                check($cases, $strategy, holds::<f32>);
-            }
-
-            #[test]
-            fn f64() {
-                check($cases, $strategy, holds::<f64>);
-            }
-        }
-    };
-}
-
 pub(crate) type Point = [Rational; 3];
 
 pub(crate) fn point(coordinates: [f64; 3]) -> Point {

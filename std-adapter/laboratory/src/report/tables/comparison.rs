@@ -2,11 +2,10 @@ use super::table;
 use crate::methods::Stage;
 use crate::report::number::{counted, few};
 use crate::report::paper::printed;
-use crate::report::{distributed, findings, mesh_size};
+use crate::report::{distributed, mesh_size};
 use crate::study::{Comparison, ComparisonRow, MeanCounts};
 
-/// Returns tables of every method on the same steps: the paper's Table 1 beside its own numbers, each stage's survivors and time,
-/// and the findings.
+/// Returns tables of every method on the same steps: the paper's Table 1 beside its own numbers, and each stage's survivors and time.
 #[must_use]
 pub fn comparison(comparison: &Comparison) -> String {
     let mut text = format!(
@@ -115,32 +114,5 @@ fn notes(comparison: &Comparison) -> String {
         text += "* reconstructed: the original could not be read; no reproduction is claimed.\n";
     }
     text += "Steps a second count culling and elementary tests. The paper's frames a second\nare those of its whole simulation, on its own mesh and machine.\n";
-    let findings = findings(comparison);
-    if !findings.is_empty() {
-        text += "\nFindings (! marks disagreement with the paper or with our own promise)\n\n";
-    }
-    for finding in findings {
-        let mark = if finding.as_expected { ' ' } else { '!' };
-        text += &wrapped(&finding.text, mark);
-    }
     text
-}
-
-/// Wraps a paragraph to 80 columns, with `mark` before the first line.
-fn wrapped(text: &str, mark: char) -> String {
-    let mut lines = format!("{mark} ");
-    let mut column = 2;
-    for (index, word) in text.split(' ').enumerate() {
-        let length = word.chars().count();
-        if index > 0 && column + 1 + length > 80 {
-            lines += "\n  ";
-            column = 2;
-        } else if index > 0 {
-            lines.push(' ');
-            column += 1;
-        }
-        lines += word;
-        column += length;
-    }
-    lines + "\n"
 }

@@ -1,0 +1,27 @@
+//! A segment and a box.
+
+use rug::Rational;
+
+type Point = [Rational; 3];
+
+/// Returns whether the closed segment meets the closed box, by the part of the segment within each slab, in exact arithmetic.
+#[must_use]
+pub fn segment_meets_box(ends: &[Point; 2], [lower, upper]: &[Point; 2]) -> bool {
+    let (mut enter, mut leave) = (Rational::from(0), Rational::from(1));
+    for axis in 0..3 {
+        let start = &ends[0][axis];
+        let along = Rational::from(&ends[1][axis] - start);
+        if along.is_zero() {
+            if *start < lower[axis] || *start > upper[axis] {
+                return false;
+            }
+            continue;
+        }
+        let mut times = [&lower[axis], &upper[axis]].map(|bound| Rational::from(bound - start) / &along);
+        times.sort();
+        let [first, last] = times;
+        enter = enter.max(first);
+        leave = leave.min(last);
+    }
+    enter <= leave
+}
