@@ -116,6 +116,7 @@ impl Pose {
         plus(&self.moved, &self.turned_from(start))
     }
 
+    /// Returns the velocity of the point that started at `start`.
     #[must_use]
     pub fn velocity(&self, start: DVec3) -> Place {
         plus(&self.translation, &cross(&self.spin, &self.turned_from(start)))
