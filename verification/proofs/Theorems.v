@@ -5,6 +5,7 @@ From Coq Require Import Reals ZArith Lra Lia.
 From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Magnitudes.
 From Selvedge Require Orders Boxes Apart Certificates Nearest Witnesses Integers.
+From Selvedge Require Machine Corners Advance Advancing.
 Open Scope R_scope.
 
 (* 1. Both formats are ones that the theorems below hold for. *)
@@ -208,8 +209,33 @@ Theorem control_values_fit_three_times_the_words n x : (1 <= n)%Z -> (Z.abs x <=
   (- Integers.word ^ (3 * n) <= 2 * x < Integers.word ^ (3 * n))%Z.
 Proof. intro h. exact (Integers.three_words_suffice n h x). Qed.
 
-(* 10. What the certificates of the time of impact, of a separation and of truncation rest on stands in Certificates.v, in exact numbers: a
-       direction held or turning over a part of the step, the volume there, shares of ways. *)
+(* 10. **The time of impact**, without a separation, from the operations to the geometry. Its constants: both formats are ones that the
+       following theorems hold for. *)
+Theorem constants_of_the_time_of_impact : Corners.reasonable_constants Advance.binary32 /\ Corners.reasonable_constants Advance.binary64.
+Proof. destruct formats_are_reasonable. split; constructor; try assumption; cbn; lia. Qed.
+(* The code goes in rounds from a time up to which the pair is proven to be apart to a later one. `Advancing.step` says what a round has:
+   coordinates, directions and moments of any origin; an execution of the traced terms (Advance.v) in any environment (Machine.v); and the
+   comparisons of one proof, which come out true. `Advancing.reaches` is a chain of rounds, in either format, whose times may be rounded down.
+   If the code answers a time, a chain reaches it; if it answers `Never`, one reaches 1 or the end of the requested time. *)
+Theorem no_contact_of_a_vertex_and_a_face_before place begin until t : Advancing.reaches Advancing.of_a_vertex_and_a_face place begin until ->
+  begin <= t <= until -> t <= 1 ->
+  ~ vertex_in_triangle (at_ (path_of place 0) t) (at_ (path_of place 1) t) (at_ (path_of place 2) t) (at_ (path_of place 3) t).
+Proof.
+  rewrite Advancing.vertex_and_face_corners. intros chain between t1.
+  destruct (Advancing.rounds_keep_ahead _ _ _ _ chain t between t1) as (given & same & ahead).
+  exact (Advancing.ahead_excludes_contact_of_a_vertex_and_a_face place given t same ahead).
+Qed.
+Theorem no_contact_of_two_edges_before place begin until t : Advancing.reaches Advancing.of_two_edges place begin until ->
+  begin <= t <= until -> t <= 1 ->
+  ~ segments_meet (at_ (path_of place 0) t) (at_ (path_of place 1) t) (at_ (path_of place 2) t) (at_ (path_of place 3) t).
+Proof.
+  rewrite Advancing.two_edges_corners. intros chain between t1.
+  destruct (Advancing.rounds_keep_ahead _ _ _ _ chain t between t1) as (given & same & ahead).
+  exact (Advancing.ahead_excludes_contact_of_two_edges place given t same ahead).
+Qed.
+
+(* 11. What the certificates of a separation and of truncation rest on stands in Certificates.v, in exact numbers: a direction held or turning
+       over a part of the step, the volume there, shares of ways. *)
 
 Print Assumptions formats_are_reasonable.
 Print Assumptions an_operation_is_nearly_exact.
@@ -236,6 +262,9 @@ Print Assumptions control_values_fit_three_times_the_words.
 Print Assumptions Integers.carries_are_right.
 Print Assumptions Integers.what_fits_is_exact.
 Print Assumptions Integers.control_values_have_room.
+Print Assumptions constants_of_the_time_of_impact.
+Print Assumptions no_contact_of_a_vertex_and_a_face_before.
+Print Assumptions no_contact_of_two_edges_before.
 Print Assumptions Certificates.a_product_bounds_the_distance.
 Print Assumptions Certificates.ahead_of_the_triangle.
 Print Assumptions Certificates.between_two_ahead.

@@ -25,8 +25,8 @@
 //! So that the certificate succeeds, m is the threshold of [`gap`](super::gap), plus the same error once more, which covers the
 //! rounding of e. A share is at most [`PART`] of the room.
 //!
-//! Shares towards planes are due to Lan, Li and others, *Divide and Truncate* (2026), and Chen and others, *Offset Geometric
-//! Contact* (2025). They leave out pairs, or let them pass, that they cannot certify.
+//! Shares towards planes are due to Chen, Hsu, Ayman and Macklin, *Divide and Truncate* (2026, arXiv 2604.15513), and Chen and
+//! others, *Offset Geometric Contact* (2025). Both leave out pairs, or let them pass, that they cannot certify.
 
 use super::gap::{GapError, threshold};
 use crate::kind::PairKind;

@@ -1,4 +1,4 @@
-//! Terms of Coq for the computations of the certified filter and the box tests, written from core's kernels themselves.
+//! Terms of Coq for what the certified filter, the box tests and the time of impact compute, written from core's kernels.
 //!
 //! The proofs in `verification/proofs` are about these terms: the numbers that they compute, and the claims that their signs
 //! prove.
@@ -7,6 +7,9 @@ use crate::Text;
 use crate::gappa::tetrahedron;
 use crate::symbols::{Mask, MaskStep, Step, Trace, Traced, if_any, trace};
 use selvedge_core::Scalar;
+use selvedge_core::verification::advance::corners::Corners;
+use selvedge_core::verification::advance::directions::{are_apart_curving, are_apart_turning};
+use selvedge_core::verification::advance::volume::SignedVolume;
 use selvedge_core::verification::coplanarity::MovingTetrahedron;
 use selvedge_core::verification::lanes::Rounding;
 use selvedge_core::verification::points::{EdgeEdge, PairPoints, PairShape, VertexFace};
@@ -30,10 +33,19 @@ From Selvedge Require Import Expressions Orders.
 
 ";
 
+const ADVANCE_HEAD: &str = "\
+(* What the time of impact computes: core/src/kernels/advance/corners.rs, directions.rs, volume.rs. Directions and moments have numbers.
+   Written from the code by verification/traced/src/coq.rs. *)
+From Coq Require Import ZArith.
+From Selvedge Require Import Arithmetic Expressions Machine.
+From Selvedge Require Filter.
+
+";
+
 /// The files that `verification/proofs` builds on.
 #[must_use]
 pub fn files() -> Vec<Text> {
-    [("Filter.v", filter()), ("Boxes.v", boxes())]
+    [("Filter.v", filter()), ("Boxes.v", boxes()), ("Advance.v", advance())]
         .map(|(name, text)| (name.to_owned(), text))
         .into()
 }
@@ -74,6 +86,64 @@ fn boxes() -> String {
     box_tests::<VertexFace>("a_vertex_and_a_face", &mut text);
     box_tests::<EdgeEdge>("two_edges", &mut text);
     text
+}
+
+fn advance() -> String {
+    let mut text = String::from(ADVANCE_HEAD);
+    constants::<f32>("binary32", &mut text);
+    constants::<f64>("binary64", &mut text);
+    proofs_of_advance("a_vertex_and_a_face", Corners::of_vertex_face, &mut text);
+    proofs_of_advance("two_edges", Corners::of_edge_edge, &mut text);
+    text
+}
+
+/// The exponents of the constants that only the time of impact has.
+fn constants<S: Scalar>(name: &str, text: &mut String) {
+    let [underflow, largest] = [S::EXTENT_UNDERFLOW, S::LARGEST_EXTENT].map(|constant| exponent(constant.to_f64()));
+    writeln!(text, "Definition {name} := Constants Filter.{name} ({underflow}) {largest}.").expect("a string");
+}
+
+/// Writes what each proof of one round asks and gives, for corners in range.
+fn proofs_of_advance<const N: usize>(of: &str, corners: fn(&PairPoints<Traced>) -> Corners<Traced, N>, text: &mut String) {
+    let direction = |number: usize| Vector::from(["X", "Y", "Z_"].map(|axis| Traced::input(format!("Along {number} {axis}"))));
+    let ((masks, times), steps) = trace(|| {
+        let corners = corners(&coordinates());
+        let in_range = corners.are_in_range();
+        let moments = [0, 1].map(|number| Traced::input(format!("Moment {number}")));
+        let [now, later] = moments.map(|moment| corners.at(moment));
+        let [first, second, third] = [0, 1, 2].map(|number| corners.direction(direction(number), None));
+        let held = corners.apart_along(&first, &now, in_range);
+        let volume = SignedVolume::new(&corners, None);
+        let clipped = volume.clipped::<false>(moments[0]);
+        let divided_first = volume.clipped::<true>(moments[0]);
+        let masks = [
+            ("in_range", in_range),
+            ("held", held.is_apart),
+            ("turning", are_apart_turning(&first, &now, &second, &later)),
+            ("curving", are_apart_curving(&[first, second, third], &now, &later)),
+            ("volume_throughout", volume.proves_apart_throughout()),
+            ("volume_to_the_end", clipped.to_the_end),
+        ];
+        let times = [
+            ("held", held.until),
+            ("volume", clipped.until),
+            ("volume_side_by_side", divided_first.until),
+        ];
+        (masks, times)
+    });
+    let mut terms = Terms::new("number", &steps);
+    terms.input = |name| match name.split(' ').next() {
+        Some("Coordinate") => format!("Input (Place ({name}))"),
+        _ => format!("Input ({name})"),
+    };
+    for (name, mask) in masks {
+        let formula = terms.mask(mask);
+        writeln!(terms.text, "Definition {name} : mask := {formula}.").expect("a string");
+    }
+    for (name, time) in times {
+        terms.define(&format!("until_{name}"), time);
+    }
+    writeln!(text, "Module {of}.\n{}End {of}.\n", terms.text).expect("a string");
 }
 
 fn box_tests<P: PairShape>(of: &str, text: &mut String) {
@@ -165,6 +235,8 @@ struct Terms<'a> {
     steps: BTreeMap<usize, String>,
     masks: BTreeMap<usize, String>,
     number_type: &'static str,
+    /// Returns the term of an input from its name.
+    input: fn(&str) -> String,
     text: String,
 }
 
@@ -176,13 +248,14 @@ impl<'a> Terms<'a> {
             steps: BTreeMap::new(),
             masks: BTreeMap::new(),
             number_type,
+            input: leaf,
             text: String::new(),
         }
     }
 
     fn define(&mut self, name: &str, number: Traced) {
         let term = self.number(number);
-        writeln!(self.text, "Definition {name} : expr := {term}.").expect("a string");
+        writeln!(self.text, "Definition {name} : {} := {term}.", self.number_type).expect("a string");
     }
 
     /// Returns the name of a term, and defines the term if it has none.
@@ -199,26 +272,30 @@ impl<'a> Terms<'a> {
     fn number(&mut self, number: Traced) -> String {
         let Traced::Step(index) = number else {
             return match number {
-                Traced::UnitRoundoff | Traced::Underflow | Traced::LargestEdge | Traced::Half => {
-                    format!("(Constant {number:?})")
-                }
                 Traced::Small(count) => format!("(Constant (Small {count}))"),
-                other => panic!("{other:?} is not known to the proof"),
+                Traced::Infinity => panic!("{number:?} is not known to the proof"),
+                _ => format!("(Constant {number:?})"),
             };
         };
         if let Some(name) = self.steps.get(&index) {
             return name.clone();
         }
         let term = match self.trace.steps[index].clone() {
-            Step::Input(name) => leaf(&name),
+            Step::Input(name) => (self.input)(&name),
             Step::Sum(a, b) => self.operation("Sum", a, b),
             Step::Difference(a, b) => self.operation("Minus", a, b),
             Step::Product(a, b) => self.operation("Product", a, b),
+            Step::Quotient(a, b) => self.operation("Quotient", a, b),
             Step::Larger(a, b) => self.operation("Larger", a, b),
             Step::Smaller(a, b) => self.operation("Smaller", a, b),
             Step::Negative(a) => format!("Negative {}", self.number(a)),
             Step::Magnitude(a) => format!("Magnitude {}", self.number(a)),
-            other => panic!("{other:?} is not known to the proof"),
+            Step::Selected(mask, a, b) => {
+                let mask = self.mask(mask);
+                let (a, b) = (self.number(a), self.number(b));
+                format!("Select {mask} {a} {b}")
+            }
+            other @ Step::Root(_) => panic!("{other:?} is not known to the proof"),
         };
         let name = self.named('s', self.number_type, term);
         self.steps.insert(index, name.clone());
@@ -248,6 +325,7 @@ impl<'a> Terms<'a> {
                 let (a, b) = (self.mask(a), self.mask(b));
                 format!("(Either {a} {b})")
             }
+            MaskStep::Not(a) => format!("(Not {})", self.mask(a)),
             other => panic!("{other:?} is not known to the proof"),
         };
         self.masks.insert(mask.index, term.clone());

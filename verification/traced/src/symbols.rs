@@ -58,8 +58,8 @@ pub enum Step {
     Larger(Traced, Traced),
     /// The smaller of two, exactly.
     Smaller(Traced, Traced),
-    /// One of two, exactly, as a mask selects.
-    Selected(Traced, Traced),
+    /// The first of two where the mask is true, else the second; exactly.
+    Selected(Mask, Traced, Traced),
 }
 
 /// A truth value that knows how it was computed.
@@ -286,8 +286,8 @@ impl Lanes for Traced {
     fn at_most(self, other: Self) -> Mask {
         !self.greater(other)
     }
-    fn select(_: Mask, if_true: Self, if_false: Self) -> Self {
-        Self::record(Step::Selected(if_true, if_false))
+    fn select(mask: Mask, if_true: Self, if_false: Self) -> Self {
+        Self::record(Step::Selected(mask, if_true, if_false))
     }
 }
 
@@ -364,7 +364,7 @@ impl Trace {
                 products
             }
             Step::Negative(a) | Step::Magnitude(a) => self.paths_with_last_step(*a, last),
-            Step::Larger(a, b) | Step::Smaller(a, b) | Step::Selected(a, b) => {
+            Step::Larger(a, b) | Step::Smaller(a, b) | Step::Selected(_, a, b) => {
                 let both = [a, b].map(|&x| self.paths_with_last_step(x, last));
                 union(both, 0)
             }
