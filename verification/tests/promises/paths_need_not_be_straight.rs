@@ -292,7 +292,7 @@ fn no_contact_of_bodies_in_screw_motion_is_missed() {
 }
 
 /// If a polyline is straight up to the rounding of a knot, a contact comes within three tolerances and the rounding of knots and
-/// places. This is far less than 2⁻⁴⁰.
+/// places. That rounding is far less than 2⁻⁴⁰.
 fn comes_near_on_polylines(case: &PairCase<f64>) -> Result<(), TestCaseError> {
     let knots = case.points.map(|ends| {
         let [start, end] = ends.map(DVec3::from);
