@@ -9,7 +9,7 @@ use selvedge_core::{Verdict, filter};
 pub enum CullingTest {
     /// Axis-aligned boxes that the two primitives sweep.
     SweptBoxes,
-    /// The same boxes, merged from those of single points.
+    /// Axis-aligned boxes that the two primitives sweep, merged from those of single points.
     StoredSweptBoxes,
     /// The vertex's path against the face's box; for two edges, their swept boxes.
     SegmentBox,

@@ -36,7 +36,7 @@ pub struct RoundQuestion<S> {
     pub limits: Limits<S>,
     /// The time up to which pairs matter, at most 1.
     pub until: S,
-    /// Whether to use the signed volume as well. It costs half as much again, which pays for pairs that come close to contact. It
+    /// True to use the signed volume as well. It costs half as much again, which pays for pairs that come close to contact. It
     /// requires a separation of zero.
     pub with_volume: bool,
 }

@@ -67,7 +67,7 @@ pub struct Mapping {
     half: f64,
     /// The time of the step at which the end's boxes are taken.
     until: f64,
-    /// Whether both boxes are the swept one.
+    /// True if both boxes are the swept one.
     is_swept: bool,
 }
 

@@ -15,7 +15,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 /// The constants of [`Altered`] numbers.
 pub trait Constants {
-    /// Whether operations are declared free of rounding: the unit roundoff is zero.
+    /// True if operations count as free of rounding: the unit roundoff is zero.
     const IS_EXACT: bool = false;
 
     /// Alters a constant of [`Rounding`] where a kernel takes it by [`Lanes::splat`].
@@ -25,7 +25,7 @@ pub trait Constants {
     }
 }
 
-/// The same number with other constants.
+/// A number of a format whose constants are altered.
 pub struct Altered<C, S>(pub S, PhantomData<C>);
 
 impl<C, S> Altered<C, S> {

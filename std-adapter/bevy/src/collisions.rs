@@ -74,7 +74,7 @@ struct Body {
     place: Place,
     /// The vertices of a deforming body at the end of the last step.
     positions: Vec<DVec3>,
-    /// Whether the place must be set, even if the body does not move.
+    /// True if the place must be set, even if the body does not move.
     is_new: bool,
 }
 

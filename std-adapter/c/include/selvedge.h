@@ -414,7 +414,7 @@ typedef struct selvedge_geometry {
    */
   uint32_t vertices[4];
   /**
-   * Whether there is a normal. There is none if the two cannot be shown to have been apart: they touch at the start of the step or
+   * True if there is a normal. There is none if the two cannot be shown to have been apart: they touch at the start of the step or
    * earlier in it; or, at rest, they touch.
    */
   bool has_normal;

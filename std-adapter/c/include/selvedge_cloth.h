@@ -100,7 +100,7 @@ typedef struct selvedge_progress {
    */
   size_t tolerated_pairs;
   /**
-   * Whether the state is certified free of the intersections that the scene's contact effects name. It is false without a contact
+   * True if the state is certified free of the intersections that the scene's contact effects name. It is false without a contact
    * effect, while a body is let through, and while a tangled start is tolerated.
    */
   bool is_certified;

@@ -106,7 +106,7 @@ pub struct GeometryRow {
     pub pair: Pair,
     /// The vertex and the face's three, or the ends of the first edge and of the second.
     pub vertices: [u32; 4],
-    /// Whether there is a normal. There is none if the two cannot be shown to have been apart: they touch at the start of the step or
+    /// True if there is a normal. There is none if the two cannot be shown to have been apart: they touch at the start of the step or
     /// earlier in it; or, at rest, they touch.
     pub has_normal: bool,
     /// Barycentric weights of the four vertices, in [0, 1]. The weights of each side add up to one.

@@ -21,7 +21,7 @@ pub struct RoundInput<L> {
     pub separation: Option<L>,
     /// The time up to which pairs matter, at most 1.
     pub until: L,
-    /// Whether to use the signed volume as well, if there is no separation.
+    /// True to use the signed volume as well, if there is no separation.
     pub with_volume: bool,
 }
 

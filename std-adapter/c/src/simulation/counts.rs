@@ -49,7 +49,7 @@ pub struct ProgressRow {
     pub blocked_steps: u64,
     /// The number of pairs without a guarantee, in a scene that tolerates a tangled start.
     pub tolerated_pairs: usize,
-    /// Whether the state is certified free of the intersections that the scene's contact effects name. It is false without a contact
+    /// True if the state is certified free of the intersections that the scene's contact effects name. It is false without a contact
     /// effect, while a body is let through, and while a tangled start is tolerated.
     pub is_certified: bool,
 }

@@ -87,7 +87,8 @@ impl ClosestOfSome {
     }
 }
 
-/// When a pair comes within `separation` on the way from `start` to `end`; `None` if it certainly does not. Stores the direction
+/// Returns when a pair comes within `separation` on the way from `start` to `end`; `None` if it certainly does not. Stores the
+/// direction
 /// that proves this in the pair.
 pub(super) fn impact(pair: &mut Candidate, path: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> Option<f64> {
     if pair.keeps_apart(path, separation, error) {

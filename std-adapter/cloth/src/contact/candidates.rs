@@ -15,7 +15,8 @@ use std::sync::Arc;
 /// Pairs near the state.
 pub(super) type Candidates = NearPairs<OfContact>;
 
-/// How far beyond the thickness the search for candidates goes, in thicknesses. A larger value makes longer lists that last
+/// The distance beyond the thickness to which the search for candidates goes, in thicknesses. A larger value makes longer lists
+/// that last
 /// longer. Most of the work of a step is what it does with each candidate, unless vertices move far because steps are long. The
 /// processor times with 0.3 and 0.2 are: a sleeve of 40 thousand triangles 77 and 68 s (73 s with 0.13), sheets of 10 and 50
 /// thousand that land on a ball 6.8 and 6.7 s, 24 and 22 s. A shirt on a figure that walks in steps of 4 ms takes 6.0 and 6.9 s.
@@ -24,7 +25,8 @@ const REACH: f64 = 0.2;
 const REACH_OF_LONG: f64 = 0.3;
 /// The longest of short steps, in seconds; it lies between the measured steps of 1 ms and of 4 ms.
 const SHORT: f64 = 2.5e-3;
-/// How far beyond the thickness the search goes along directions other than the axes, in thicknesses. The values are for
+/// The distance beyond the thickness to which the search goes along other directions than the axes, in thicknesses. The values
+/// are for
 /// neighbours, other pairs of cloth, and pairs with a body. Pairs of cloth that come that [near](MARGIN) are pushed apart before
 /// they are within the thickness. With a smaller value, tightly folded cloth slipped more. The cloth between neighbours holds
 /// them apart. With zero for them a sheet of 130 thousand triangles that lands on a ball has half as many candidates, and takes
@@ -152,7 +154,7 @@ impl OfContact {
         &self.topology
     }
 
-    /// Whether there is such a pair.
+    /// Returns whether there is such a pair.
     pub(super) fn has(&self, (kind, [first, second]): &PairKey) -> bool {
         let edges = self.topology.edges().len();
         let [firsts, seconds] = match kind {
@@ -172,7 +174,7 @@ impl OfContact {
         }
     }
 
-    /// Whether an edge of the cloth passes through a face of a body, or an edge of the body through a face of the cloth.
+    /// Returns whether an edge of the cloth passes through a face of a body, or an edge of the body through a face of the cloth.
     pub(super) fn passes_through(&self, body: Carrier, positions: &[DVec3]) -> bool {
         let found = CrossingFinder::new(&self.topology);
         let is_of_body = |a, b| self.body_of_pair(a, b) == Some(body);

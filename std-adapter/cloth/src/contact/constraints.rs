@@ -57,7 +57,7 @@ struct Class {
     begun: Vec<(u32, u32)>,
     /// The other candidates; the field exists to use its memory again.
     others: Vec<u32>,
-    /// Whether each has had its first turn.
+    /// True if each has had its first turn.
     is_found: bool,
 }
 
@@ -315,7 +315,7 @@ impl Contacts {
     }
 }
 
-/// Whether a pair may need a push. It uses no branch, since no branch here could be predicted.
+/// Returns whether a pair may need a push. It uses no branch, since no branch here could be predicted.
 #[inline(always)]
 fn is_open(pair: &Candidate, predicted: &[DVec3]) -> bool {
     let aim = pair.data.aim.length();
@@ -325,14 +325,14 @@ fn is_open(pair: &Candidate, predicted: &[DVec3]) -> bool {
     !pair.is_kept_at(distance, predicted)
 }
 
-/// Whether a pair may be nearer than its thickness, judged by its stored direction: at the start of the step, or after bodies
-/// have come nearer by `closing`.
+/// Returns whether a pair may be nearer than its thickness, judged by its stored direction: at the start of the step, or after
+/// bodies have come nearer by `closing`.
 #[inline(always)]
 fn may_miss(pair: &Candidate, closing: f64) -> bool {
     f64::from(pair.gap()) < (1.0 - LEAST_MISSING) * pair.data.aim.length() + closing
 }
 
-/// How far the fastest kinematic vertex goes in the step.
+/// The longest way of a kinematic vertex in the step.
 fn farthest_way(step: &TimeStep<'_>, positions: &[DVec3]) -> f64 {
     let ways = step.start.iter().zip(positions).zip(step.inverse_masses);
     let kinematic = ways.filter(|(_, inverse_mass)| **inverse_mass == 0.0);
@@ -340,7 +340,7 @@ fn farthest_way(step: &TimeStep<'_>, positions: &[DVec3]) -> f64 {
     squared.fold(0.0, f64::max).sqrt()
 }
 
-/// Whether the direction that a pair stores keeps it at its thickness, up to a difference that is not worth a push.
+/// Returns whether the direction that a pair stores keeps it at its thickness, up to a difference that is not worth a push.
 #[inline(always)]
 fn is_kept(pair: &Candidate, positions: &[DVec3]) -> bool {
     pair.is_kept_at((1.0 - LEAST_MISSING) * pair.data.aim.length(), positions)
@@ -406,7 +406,8 @@ fn near(
     Some((near, distance))
 }
 
-/// Whether the point of the body is the closest point of its [surface](super::cones), and not only of one of its faces or edges.
+/// Returns whether the point of the body is the closest point of its [surface](super::cones), and not only of one of its faces or
+/// edges.
 fn is_of_surface(pair: &Candidate, closest: &ClosestPoints, rules: Rules<'_>, positions: &[DVec3]) -> bool {
     let of_first = match pair.kind {
         PairKind::VertexFace => 1,

@@ -15,7 +15,7 @@
 //! The negative gradient of this length is the way out. With x = −y = d/2 it is the paper's equation r − 2(r·e / n·e)·n, apart
 //! from a factor of a half. Both triangles at the edge have a segment from p.
 //!
-//! **The side that has gone through**, along the normal. Where contours are parallel, as where a pleat lies in the next one,
+//! **The side that has gone through** moves along the normal. Where contours are parallel, as where a pleat lies in the next one,
 //! their length does not change. A part that has gone through a closed body is inside it, and moves outwards. For cloth it is the
 //! [smaller side](super::sides) of the contour. The edge moves to where its other end is, by ±n times the difference of the two
 //! sides.

@@ -23,7 +23,7 @@ use selvedge_core::glam::DVec3;
 /// The pairs that certificates leave out.
 #[derive(Debug)]
 pub(crate) struct Exempt {
-    /// Whether the pairs of each body are exempt.
+    /// True for bodies whose pairs are exempt.
     pub(crate) yielding: Vec<bool>,
     /// The tangle, if the simulation starts tangled.
     pub(super) tangle: Option<Tangle>,
@@ -40,7 +40,7 @@ pub(crate) struct Tangle {
     links: Vec<[u32; 2]>,
     /// The pairs without such vertices that are not yet apart by their separation, in order.
     parting: Vec<PairKey>,
-    /// Whether each vertex has links.
+    /// True for vertices with links.
     is_linked: Vec<bool>,
 }
 
@@ -52,25 +52,25 @@ impl Exempt {
         }
     }
 
-    /// Whether certificates leave this pair out.
+    /// Returns whether certificates leave this pair out.
     #[inline]
     pub(super) fn has(&self, pair: &Candidate) -> bool {
         pair.data.is_with_body() && self.yielding[pair.data.body as usize]
             || self.tangle.as_ref().is_some_and(|tangle| tangle.has(pair))
     }
 
-    /// Whether something may be tangled.
+    /// Returns whether something may be tangled.
     pub(super) fn has_tangle(&self) -> bool {
         self.tangle.is_some()
     }
 
-    /// Whether the pair has vertices of an edge and a face that meet: the direction to push it is not known.
+    /// Returns whether the pair has vertices of an edge and a face that meet: the direction to push it is not known.
     #[inline]
     pub(super) fn is_tangled(&self, pair: &Candidate) -> bool {
         self.tangle.as_ref().is_some_and(|tangle| tangle.links(pair))
     }
 
-    /// Whether the pair had such vertices, and is not yet apart by its separation.
+    /// Returns whether the pair had such vertices, and is not yet apart by its separation.
     pub(super) fn is_parting(&self, pair: &Candidate) -> bool {
         self.tangle.as_ref().is_some_and(|tangle| tangle.is_parting(pair))
     }
@@ -90,7 +90,7 @@ impl Exempt {
         self.tangle.as_ref().map(Tangle::parting)
     }
 
-    /// Whether every pair is certified.
+    /// Returns whether every pair is certified.
     pub(crate) fn is_empty(&self) -> bool {
         self.tangle.is_none() && !self.yielding.contains(&true)
     }
@@ -117,7 +117,7 @@ impl Tangle {
         &self.parting
     }
 
-    /// Whether nothing is left out.
+    /// Returns whether nothing is left out.
     pub(super) fn is_empty(&self) -> bool {
         self.links.is_empty() && self.parting.is_empty()
     }
@@ -167,7 +167,7 @@ impl Tangle {
         self.parting.binary_search(&pair.key()).is_ok()
     }
 
-    /// Whether the pair has vertices of an edge and a face that meet.
+    /// Returns whether the pair has vertices of an edge and a face that meet.
     #[inline]
     pub(super) fn links(&self, pair: &Candidate) -> bool {
         let of_first = match pair.kind {

@@ -12,8 +12,8 @@ use selvedge::core::separation::closest::ClosestPoints;
 use selvedge_core::glam::DVec3;
 use std::sync::Arc;
 
-/// Whether more pairs of one cloth are [so near](NEIGHBOURS_AT_REST) each other at rest than it has edges. Then it pays to look
-/// them up. The cloth's vertices are those below `cloth_vertices`.
+/// Returns whether more pairs of one cloth are [so near](NEIGHBOURS_AT_REST) each other at rest than it has edges. Then it pays
+/// to look them up. The cloth's vertices are those below `cloth_vertices`.
 pub(super) fn are_many(topology: &Arc<Topology>, rest: &[DVec3], cloth_vertices: usize, settings: &ContactSettings) -> bool {
     let Some(distance) = settings.of_cloths().iter().map(|own| at_rest(*own)).reduce(f64::max) else {
         return false;
@@ -46,7 +46,7 @@ pub(super) fn at_rest(own: Thickness) -> f64 {
     NEIGHBOURS_AT_REST * own.thickness
 }
 
-/// Whether the boxes of a pair come within `distance` of each other at rest: then the pair is one of neighbours.
+/// Returns whether the boxes of a pair come within `distance` of each other at rest: then the pair is one of neighbours.
 pub(super) fn are_neighbours(kind: PairKind, rest: [DVec3; 4], distance: f64) -> bool {
     let [a, b, c, d] = rest;
     let (low, high, other_low, other_high) = match kind {

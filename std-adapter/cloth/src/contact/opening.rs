@@ -53,7 +53,7 @@ impl ContactSolver {
     }
 }
 
-/// Whether the two sides of a pair had a vertex in common.
+/// Returns whether the two sides of a pair had a vertex in common.
 fn were_one(pair: &Candidate, from: &[u32]) -> bool {
     let vertices = pair.vertices.map(|vertex| from[vertex as usize]);
     let of_first = match pair.kind {

@@ -64,7 +64,7 @@ pub(super) struct Effort {
     pub(super) closures: usize,
     /// The number of rounds each time.
     pub(super) rounds: usize,
-    /// Whether the relaxation stops at the first time that all rounds do not keep the pairs apart.
+    /// True if the relaxation stops at the first time that all rounds do not keep the pairs apart.
     pub(super) gives_up: bool,
 }
 
@@ -319,7 +319,7 @@ impl<'a> Unsettled<'a> {
     }
 }
 
-/// Whether the pair keeps its separation, or a reduced one if it starts nearer.
+/// Returns whether the pair keeps its separation, or a reduced one if it starts nearer.
 pub(super) fn is_free(pair: &mut Candidate, path: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> bool {
     pair.keeps_apart(path, separation, error) || is_free_by_time(pair, path, separation, error)
 }
@@ -333,8 +333,8 @@ fn is_free_by_time(pair: &mut Candidate, path: [&[DVec3]; 2], separation: f64, e
     kept < separation && (is_kept_along_start(pair, path, kept, error) || impact(pair, path, kept, error).is_none())
 }
 
-/// Whether the direction of the closest points at the start certainly keeps the pair more than `kept` apart on the way. The gap
-/// along it is linear in time.
+/// Returns whether the direction of the closest points at the start certainly keeps the pair more than `kept` apart on the way.
+/// The gap along it is linear in time.
 fn is_kept_along_start(pair: &Candidate, path: [&[DVec3]; 2], kept: f64, error: GapError<f64>) -> bool {
     let direction = pair.closest(path[0]).direction;
     let bound = |positions| distance_from_below(pair.kind, pair.points(positions), direction, error);

@@ -37,7 +37,7 @@ struct Active {
     direction: DVec3,
     /// The distance to keep along the direction.
     kept: f64,
-    /// Whether all points have to keep it, and not only the closest.
+    /// True if all points have to keep it, and not only the closest.
     of_all: bool,
 }
 

@@ -9,7 +9,7 @@ pub(crate) struct ContactSettings {
     cloth: Option<Asked>,
     /// The request for pairs of cloth and bodies.
     bodies: Option<Asked>,
-    /// Whether [neighbours](super::neighbours) have a smaller thickness.
+    /// True if [neighbours](super::neighbours) have a smaller thickness.
     pub(super) has_neighbours: bool,
     /// The vertex after the last one of each cloth.
     ends: Vec<u32>,
@@ -119,7 +119,7 @@ impl ContactSettings {
         self.ends.partition_point(|&end| end <= vertex)
     }
 
-    /// Whether both are vertices of one cloth.
+    /// Returns whether both are vertices of one cloth.
     pub(super) fn are_of_one_cloth(&self, one: u32, other: u32) -> bool {
         self.ends.len() == 1 || self.cloth_of(one) == self.cloth_of(other)
     }
@@ -164,12 +164,12 @@ impl ContactSettings {
         self.cloth.as_ref().map_or(&[], |asked| &asked.of_cloths)
     }
 
-    /// Whether an effect requests contacts with bodies, or those of cloth.
+    /// Returns whether an effect requests contacts with bodies, or those of cloth.
     pub(super) fn asks(&self, with_body: bool) -> bool {
         self.asked(with_body).is_some()
     }
 
-    /// Whether an effect requests contacts.
+    /// Returns whether an effect requests contacts.
     pub(crate) fn asks_for_any(&self) -> bool {
         self.asks(false) || self.asks(true)
     }

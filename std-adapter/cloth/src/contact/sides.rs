@@ -78,7 +78,7 @@ impl Sides {
         }
     }
 
-    /// How much smaller the side of a cut edge's first end is than that of its second, as a share of both: from −1 to 1.
+    /// Returns how much smaller the side of a cut edge's first end is than that of its second, as a share of both: from −1 to 1.
     pub(super) fn excess(&mut self, edge: u32) -> f64 {
         let node = self.nodes[edge as usize];
         let [first, second] = [node, node + 1].map(|node| self.root(node) as usize);
@@ -187,7 +187,7 @@ mod tests {
         (topology, mesh.positions, found)
     }
 
-    /// How much smaller the side at lower x is, for each cut edge of the lying sheet.
+    /// Returns how much smaller the side at lower x is, for each cut edge of the lying sheet.
     fn excess(x: f64, until: f64) -> Vec<f64> {
         let (topology, positions, found) = crossed(x, until);
         let mut sides = Sides::new(&topology, &positions);

@@ -47,7 +47,7 @@ pub(crate) struct ContactSolver {
     pub(super) zones: ImpactZones,
     /// The pairs that certificates leave out.
     pub(super) exempt: Exempt,
-    /// Whether contacts push; they do not during untangling, since they would push tangled cloth to the wrong side.
+    /// True if contacts push; they do not during untangling, since they would push tangled cloth to the wrong side.
     pub(super) pushes: bool,
     pub(crate) counts: ContactCounts,
     pub(crate) stages: ContactSeconds,

@@ -70,7 +70,7 @@ impl Touch {
 struct Recovery {
     touch: Touch,
     mobility: f64,
-    /// Whether a whole side is kinematic.
+    /// True if a whole side is kinematic.
     is_on_kinematic: bool,
     /// The missing distance at the start of the step, and at its end in `at_end`.
     missing: f64,
@@ -89,7 +89,7 @@ pub struct Touches {
     recoveries: Vec<Recovery>,
     /// The shift of each vertex; empty if nothing is too near.
     shift: Vec<DVec3>,
-    /// Whether the shift has been found.
+    /// True if the shift has been found.
     is_shifted: bool,
 }
 

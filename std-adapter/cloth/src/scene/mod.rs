@@ -118,7 +118,7 @@ pub struct Scene {
 const TIME_STEP: Field = Field::new("time_step", TIME, 1e-6, 0.1);
 const FRAME_RATE: Field = Field::new("frames_per_second", FREQUENCY, 0.001, 1e6);
 
-/// At least a time step, and at most a little more than a day.
+/// Returns the field of a duration: at least a time step, and at most a little more than a day.
 fn duration_field(time_step: f64) -> Field {
     Field::new("duration", TIME, time_step, LARGEST_TIME)
 }

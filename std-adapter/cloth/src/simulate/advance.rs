@@ -118,7 +118,7 @@ impl Simulation {
         Ok(of_the_step)
     }
 
-    /// Whether an edge is longer than its limit by more than is [tolerated](OVERSTRETCHED).
+    /// Returns whether an edge is longer than its limit by more than is [tolerated](OVERSTRETCHED).
     fn is_overstretched(&self) -> bool {
         let limiting = self.made.bounding.iter().map(|&index| &self.made.constraints[index].action);
         let mut over = limiting.filter_map(|action| action.over_limit(&self.state.positions));
@@ -163,8 +163,8 @@ impl Simulation {
         h
     }
 
-    /// Whether a body that carries no cloth cannot meet any within `h` seconds, however it turns: the ball about its centre of rotation that has all of
-    /// it keeps away from the box of the cloth by more than the two can move.
+    /// Returns whether a body that carries no cloth cannot meet any within `h` seconds, however it turns: the ball about its
+    /// centre of rotation that has all of it keeps away from the box of the cloth by more than the two can move.
     fn is_far(&self, carrier: usize, h: f64) -> bool {
         let Assembly {
             body_vertices,

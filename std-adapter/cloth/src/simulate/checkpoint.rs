@@ -37,8 +37,8 @@ pub(super) struct TornCloth {
 }
 
 impl TornCloth {
-    /// Whether it is that cloth, perhaps torn. If copies count as their originals its triangles are the same, and they and its
-    /// loose edges have all vertices.
+    /// Returns whether it is that cloth, perhaps torn. If copies count as their originals its triangles are the same, and they
+    /// and its loose edges have all vertices.
     pub(super) fn is_of(&self, cloth: &Cloth) -> bool {
         let made = cloth.vertices_as_made();
         let are_before = (made..).zip(&self.copied).all(|(copy, &vertex)| (vertex as usize) < copy);
@@ -113,7 +113,7 @@ pub(super) struct Checkpoint {
     /// The tears; `None` if nothing tears.
     pub(super) torn: Option<Torn>,
     pub(super) state: State,
-    /// Whether each body is let pass; empty without contact.
+    /// True for bodies that are let pass; empty without contact.
     pub(super) yielding: Vec<bool>,
     /// The pairs of a tangle at the start that no longer meet and are not yet apart; `None` if there is no tangle.
     pub(super) parting: Option<Vec<PairKey>>,

@@ -275,8 +275,8 @@ impl Simulation {
         self.untangled.as_ref()
     }
 
-    /// Whether the state is certified to be free of intersections of whatever the scene's contact effects name: not without any,
-    /// not while a body is let pass, and not while what was tangled at the start is tolerated.
+    /// Returns whether the state is certified to be free of intersections of whatever the scene's contact effects name: not
+    /// without any, not while a body is let pass, and not while what was tangled at the start is tolerated.
     #[must_use]
     pub fn is_certified(&self) -> bool {
         let contact = self.made.contact.as_ref();

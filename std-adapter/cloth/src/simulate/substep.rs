@@ -321,7 +321,7 @@ impl<'a> Substep<'a> {
         }
     }
 
-    /// Whether all lengths that constraints limit are within their limits and the tolerance.
+    /// Returns whether all lengths that constraints limit are within their limits and the tolerance.
     fn holds(&mut self) -> bool {
         self.bounding.iter().all(|&index| {
             let Entry { effect, action } = &self.constraints[index];

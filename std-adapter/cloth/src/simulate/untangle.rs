@@ -33,7 +33,7 @@ const PATIENCE: u32 = 20;
 const RELAXING: f64 = 0.01;
 
 impl Simulation {
-    /// Whether nothing is tangled.
+    /// Returns whether nothing is tangled.
     pub(super) fn is_apart(&self) -> bool {
         self.made.contact.as_ref().is_none_or(|contact| contact.exempt().is_empty())
     }

@@ -7,7 +7,7 @@ use crate::world::Incidence;
 pub(crate) struct Run {
     /// Vertices, each joined with the next. In a closed row the last is the first again.
     vertices: Vec<u32>,
-    /// Whether the row is closed, and no other edge starts where it closes.
+    /// True if the row is closed, and no other edge starts where it closes.
     is_ring: bool,
 }
 

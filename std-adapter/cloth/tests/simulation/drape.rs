@@ -61,7 +61,7 @@ fn cotton() -> String {
     std::fs::read_to_string(scene_file("drape-cotton.toml")).unwrap()
 }
 
-/// The same scene with a named material instead of numbers.
+/// Returns the scene of `cotton` with a named material instead of numbers.
 pub(crate) fn of_material(name: &str) -> String {
     let text = cotton();
     let (before, rest) = text.split_once("[effects.stretch]").unwrap();

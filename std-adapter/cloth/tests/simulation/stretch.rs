@@ -56,7 +56,7 @@ fn grid(cells: u32) -> String {
     )
 }
 
-/// The same cloth from a mesh one metre wide.
+/// Makes the simulation of the scene with a mesh one metre wide.
 fn of_mesh(mesh: &Mesh, name: &str, scene: &str) -> Simulation {
     let mut text = String::new();
     for p in &mesh.positions {

@@ -14,7 +14,7 @@ pub(super) struct Prices {
 pub(super) struct Degradation {
     /// Box tests for each unit of size just after the build, if a search was measured then. The size is that of items, at their price, and pairs.
     fresh: Option<f64>,
-    /// The same ratio for other searches.
+    /// Box tests for each unit of size just after the build, for other searches.
     fresh_of_others: Option<f64>,
     /// Box tests beyond that, summed since the build.
     excess: f64,

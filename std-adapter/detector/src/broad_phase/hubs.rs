@@ -21,7 +21,7 @@ const VALENCE: u32 = GROUP as u32;
 
 #[derive(Debug, Default)]
 pub(super) struct Hubs {
-    /// Whether each vertex is a hub; empty if none is.
+    /// True for hubs; empty if no vertex is one.
     is_hub: Vec<bool>,
 }
 

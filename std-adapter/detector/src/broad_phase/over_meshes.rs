@@ -17,7 +17,7 @@ pub(crate) struct MeshHierarchy {
     boxes: Vec<MovingBox<f32>>,
     groups: Vec<Groups>,
     moves: Vec<bool>,
-    /// Whether the box of each mesh differs from that in the tree.
+    /// True for meshes with another box than in the tree.
     are_changed: Vec<bool>,
     stack: Vec<BlockPair>,
     tasks: Vec<BlockPair>,

@@ -44,13 +44,13 @@ pub(super) struct Tree<const N: usize> {
     pub(super) primitives: Vec<u32>,
     /// The positions of the primitive's vertices in the tree of vertices.
     pub(super) vertices: Vec<[u32; N]>,
-    /// The same positions side by side for each block of primitives, with [`NONE`] in empty lanes.
+    /// The positions in `vertices`, side by side for each block of primitives, with [`NONE`] in empty lanes.
     pub(super) corners: Vec<[[u32; LANES]; N]>,
     /// The shape at rest of each block of primitives, if there are [neighbours](super::Neighbours).
     pub(super) rest: Vec<RestBlock>,
     /// The levels, from the lowest, whose blocks hold primitives.
     pub(super) levels: Vec<TreeLevel>,
-    /// Whether nodes may have a hub.
+    /// True if nodes may have a hub.
     pub(super) has_hubs: bool,
     centres: Vec<Centre>,
 }

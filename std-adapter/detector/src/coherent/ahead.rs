@@ -16,7 +16,7 @@ pub(super) struct Ahead {
     steps: u32,
     /// The cost since the last choice.
     work: f64,
-    /// Whether the next trial is with more steps or fewer.
+    /// True if the next trial has more steps, false if fewer.
     tries_more: bool,
     /// The number of steps until the next trial.
     patience: f64,

@@ -56,7 +56,7 @@ impl Interest for OfMoving {
 pub(crate) struct Followed {
     moving: Option<Vec<bool>>,
     filter: Option<Arc<CollisionFilter>>,
-    /// Whether each vertex has a triangle.
+    /// True for vertices with a triangle.
     used: Vec<bool>,
     /// The near pairs, made in the first step.
     near: Option<NearPairs<OfMoving>>,
@@ -67,7 +67,7 @@ pub(crate) struct Followed {
     step: [Vec<DVec3>; 2],
     /// The pairs that may come within the distance, VF and EE.
     pub(crate) open: [Vec<[u32; 2]>; 2],
-    /// Whether all positions of vertices that have a triangle are `f32` numbers.
+    /// True if all positions of vertices that have a triangle are `f32` numbers.
     pub(crate) is_single: bool,
 }
 

@@ -48,7 +48,7 @@ pub struct Reach {
     pub farthest: u32,
     /// The cost of a listed pair in a step, in units of the cost of finding a pair.
     pub upkeep: f64,
-    /// Whether each pair gets the length by which its vertices may stray before it needs attention.
+    /// True if each pair gets the length by which its vertices may stray before it needs attention.
     pub is_graded: bool,
 }
 

@@ -43,7 +43,7 @@ pub struct NearPairs<I: Interest> {
     reach: Reach,
     /// The largest stray along an axis for which the list holds every pair within its distance.
     slack: f64,
-    /// The same stray for every pair that may come closer than it has to keep.
+    /// The largest stray along an axis for which the list holds every pair that may come too close.
     room: f64,
     /// The stray of each vertex, in the measure of [`Reach::beyond`].
     pub(super) strays: Vec<f32>,

@@ -20,12 +20,12 @@ pub(super) struct Search<I> {
     interest: I,
     /// The vertices of which a pair of interest has at least one.
     wanted: Vec<bool>,
-    /// Whether the broad phase finds pairs of few vertices only.
+    /// True if the broad phase finds pairs of few vertices only.
     is_narrowed: bool,
     broad_phase: MovingBroadPhase,
     /// The largest number of bytes of candidates and near pairs.
     memory_limit: u64,
-    /// Whether the last search needed more bytes. It then found no pairs.
+    /// True if the last search needed more bytes. It then found no pairs.
     pub(super) is_over_limit: bool,
     sieve: Sieve,
     vertex_face: Vec<[u32; 2]>,

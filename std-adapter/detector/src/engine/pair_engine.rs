@@ -202,7 +202,7 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// Whether one contact is found, and the caller wants no more.
+    /// Returns whether one contact is found, and the caller wants no more.
     fn has_enough(&self) -> bool {
         self.wanted == Wanted::Any && self.bound.is_lowered()
     }

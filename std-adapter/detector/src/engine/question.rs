@@ -19,9 +19,9 @@ pub(crate) enum Wanted {
 pub(crate) struct Question {
     pub(crate) limits: Limits<f64>,
     pub(crate) wanted: Wanted,
-    /// Whether the caller also wants the pairs that the filter keeps.
+    /// True if the caller also wants the pairs that the filter keeps.
     pub(crate) keeps_filtered: bool,
-    /// Whether the exact verdict decides on contact.
+    /// True if the exact verdict decides on contact.
     pub(crate) is_exact: bool,
 }
 

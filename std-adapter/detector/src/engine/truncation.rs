@@ -43,7 +43,7 @@ struct Held<'a> {
     error: GapError<f64>,
     /// The share of its way that each vertex goes.
     shares: Vec<f64>,
-    /// Whether the share of each vertex changed in this round.
+    /// True for vertices whose share changed in this round.
     changed: Vec<bool>,
     /// Pairs whose planes have been used.
     parted: BTreeSet<(PairKind, [u32; 2])>,

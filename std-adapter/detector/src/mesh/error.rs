@@ -19,7 +19,7 @@ pub enum TopologyError {
     LooseVertexOutOfRange {
         /// The first such edge or point in its list.
         index: usize,
-        /// Whether it is a point.
+        /// True for a point.
         is_point: bool,
         /// The vertex that it names.
         vertex: u32,

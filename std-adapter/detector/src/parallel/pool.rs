@@ -138,7 +138,7 @@ impl Workers {
 }
 
 thread_local! {
-    /// Whether this thread shares no work.
+    /// True if this thread shares no work.
     static IS_ALONE: Cell<bool> = const { Cell::new(false) };
 }
 

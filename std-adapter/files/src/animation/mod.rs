@@ -42,7 +42,7 @@ pub struct Choice<'a> {
     pub node: Option<&'a str>,
     /// The name of an animation. With `None` it is the only one, if there is one.
     pub animation: Option<&'a str>,
-    /// Whether the figure rests in the pose of its nodes, without an animation.
+    /// True if the figure rests in the pose of its nodes, without an animation.
     pub at_rest: bool,
 }
 

@@ -108,7 +108,7 @@ pub struct LeftOut {
     pub count: usize,
     /// The line of the first, in a file with lines.
     pub line: Option<usize>,
-    /// Whether the part may have an area. If so, the file may have contacts that the mesh does not have.
+    /// True if the part may have an area. Then the file may have contacts that the mesh does not have.
     pub may_have_area: bool,
 }
 

@@ -46,9 +46,9 @@ pub enum SequenceProblem {
     MissingFrame {
         /// The first number that is missing.
         missing: u64,
-        /// The last one before.
+        /// The last number before the gap.
         before: u64,
-        /// The first one after.
+        /// The first number after the gap.
         after: u64,
     },
     /// Two files have the same number.

@@ -20,7 +20,7 @@ pub fn non_coplanarity<S: Scalar>(pair: &PrimitivePair<S>) -> Verdict {
     Verdict::culled_if(of_kind!(pair.kind, P => has_one_sign::<P, S>(&pair.into())))
 }
 
-/// The same decision for batches: [`ByPoints`](selvedge_core::batch::ByPoints).
+/// The decision of [`non_coplanarity`] for batches: [`ByPoints`](selvedge_core::batch::ByPoints).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Plain;
 

@@ -11,8 +11,8 @@ table! {
     pub enum CullingTest of Stage {
         /// Swept axis-aligned boxes of the two primitives, made for each pair. The test is exact.
         SweptBoxes = "swept_boxes": Stage::Boxes,
-        /// The same test with stored boxes. They are made once for every vertex, edge and face, and refitted each step. The test
-        /// is exact.
+        /// Swept axis-aligned boxes that are stored. They are made once for every vertex, edge and face, and refitted each step.
+        /// The test is exact.
         StoredSweptBoxes = "stored_swept_boxes": Stage::Boxes,
         /// Swept 18-DOPs, stored for every vertex, edge and face and refitted each step. The test is exact.
         StoredDop18 = "dop_18": Stage::Boxes,

@@ -11,12 +11,13 @@ pub enum ElementaryTest {
     /// The test [`selvedge_core::elementary::advance`] with the default tolerance. It is certified: a contact's time is not after
     /// the exact one. A pair within the tolerance, or too close for rounding to decide, may count as a contact.
     TimeOfImpact,
-    /// The same test, then [`selvedge_core::elementary::contact()`]: exactly the pairs that touch are contacts, and their times
+    /// The test of [`TimeOfImpact`](Self::TimeOfImpact), then [`selvedge_core::elementary::contact()`]: exactly the pairs that
+    /// touch are contacts, and their times
     /// are certified.
     Exact,
     /// [`TimeOfImpact`](Self::TimeOfImpact) with this tolerance.
     Certified(f64),
-    /// The same test without error bounds. **Not certified.**
+    /// [`Certified`](Self::Certified) without error bounds. **Not certified.**
     Uncertified(f64),
     /// [`tight_inclusion`], the bisection of Wang et al. 2021. It never misses.
     TightInclusion(f64),

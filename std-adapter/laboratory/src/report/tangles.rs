@@ -21,9 +21,9 @@ pub struct MeshCheck {
     pub vertices: usize,
     /// The number of triangles, without loose edges and points.
     pub triangles: usize,
-    /// Whether it is free of intersections: the file was read whole, and its mesh has none.
+    /// True if it is free of intersections: the file was read whole, and its mesh has none.
     pub is_free: bool,
-    /// Whether the mesh has intersections.
+    /// True if the mesh has intersections.
     pub is_tangled: bool,
     /// The intersections with the vertices of both features; `None` if the check ended at the first one.
     pub intersections: Option<Vec<(Intersection, Vec<u32>)>>,

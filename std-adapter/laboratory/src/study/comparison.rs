@@ -34,7 +34,7 @@ pub struct ComparisonRow {
     pub preset: Preset,
     /// The candidate triangle pairs per step: the same for every method that has them, otherwise zero.
     pub triangle_pairs: f64,
-    /// Whether it has triangle pairs. Otherwise its broad phase finds primitive pairs: those of
+    /// True if it has triangle pairs. Otherwise its broad phase finds primitive pairs: those of
     /// [`after_boxes`](Self::after_boxes).
     pub has_triangle_pairs: bool,
     /// The seconds of the broad phase per step, in the fastest round.

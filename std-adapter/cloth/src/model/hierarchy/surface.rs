@@ -13,9 +13,9 @@ pub(super) struct Surface<'a> {
     /// together. Paths along edges alone would be up to half again as long.
     pub(super) ways: Grouped<(u32, f64)>,
     pub(super) triangles: Grouped<u32>,
-    /// Whether a vertex ends an edge without exactly two triangles: a boundary, or a seam of several panels.
+    /// True for ends of an edge without exactly two triangles: a boundary, or a seam of several panels.
     pub(super) is_border: Vec<bool>,
-    /// Whether the border turns at a vertex.
+    /// True for vertices at which the border turns.
     pub(super) is_corner: Vec<bool>,
     /// The connected part of each vertex, numbered from 0.
     pub(super) part: Vec<u32>,

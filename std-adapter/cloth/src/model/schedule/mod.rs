@@ -37,7 +37,7 @@ pub(crate) struct Schedule<C: Local<N>, const N: usize> {
     blocks: Vec<Block<C, N>>,
     colours: Vec<Range<usize>>,
     sweeps: u64,
-    /// Whether each block may have something to move.
+    /// True for blocks that may move vertices.
     is_awake: Vec<bool>,
 }
 

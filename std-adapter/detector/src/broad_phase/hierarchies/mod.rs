@@ -32,7 +32,7 @@ pub(super) const PRICES: Prices = Prices { build: 0.65, item: 16.0 };
 pub(crate) struct Fit {
     /// The distance beyond which a pair is no candidate; finite and not negative.
     pub(crate) separation: f64,
-    /// The same distance for neighbours, if it is smaller.
+    /// The distance beyond which neighbours are no candidates, if it is smaller.
     pub(crate) of_neighbours: f64,
     /// The time of the step at which the boxes of the end are taken, in (0, 1].
     pub(crate) until: f64,

@@ -57,7 +57,7 @@ pub(crate) struct RowsAt {
     /// The arrangement of rows for which the place is valid.
     pub(crate) arrangement: u64,
     pub(crate) first: u32,
-    /// Whether the rows are those of the hierarchies.
+    /// True if the rows are those of the hierarchies.
     pub(crate) are_current: bool,
 }
 

@@ -20,11 +20,11 @@ pub(crate) struct Stage {
     hierarchy: MeshHierarchy,
     /// The meshes in the hierarchy, in ascending order.
     handles: Vec<MeshHandle>,
-    /// Whether meshes or groups differ from those in the hierarchy.
+    /// True if meshes or groups differ from those in the hierarchy.
     pub(crate) are_others: bool,
     pub(crate) engine: PairEngine,
     pub(crate) vertices: usize,
-    /// Whether boxes were made for another separation.
+    /// True if boxes were made for another separation.
     pub(crate) must_fit: bool,
     /// The meshes that moved in the last step.
     moved: Vec<MeshHandle>,

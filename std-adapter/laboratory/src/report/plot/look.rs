@@ -24,7 +24,7 @@ pub(super) enum Shape {
 impl Look {
     /// Methods that decide by rounded arithmetic and a bound.
     pub(super) const CERTIFIED: Self = Self::new("#0072b2", Shape::Disc);
-    /// The same methods, one pair at a time.
+    /// Methods that decide by rounded arithmetic and a bound, one pair at a time.
     pub(super) const ONE_AT_A_TIME: Self = Self::new("#0072b2", Shape::Ring);
     /// Methods that decide by exact arithmetic.
     pub(super) const EXACT: Self = Self::new("#007a58", Shape::Diamond);

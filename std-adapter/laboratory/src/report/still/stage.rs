@@ -20,7 +20,7 @@ pub(super) struct Stage {
     radius: f64,
     /// The points that must be in view.
     sample: Vec<DVec3>,
-    /// Whether the scene is deeper than wide, so that it is seen from its side.
+    /// True if the scene is deeper than wide, so that it is seen from its side.
     is_deep: bool,
     /// The height of the floor, a little below all that moves.
     pub(super) floor: f64,
