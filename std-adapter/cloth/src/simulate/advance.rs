@@ -17,7 +17,7 @@ const SHORTEST: f64 = 1.0 / 64.0;
 /// An edge that is longer than this, over its limit, is reported.
 const OVERSTRETCHED: f64 = 1.05;
 
-/// What the clock of bodies and pins did in a step.
+/// The progress of the clock of bodies and pins in a step.
 enum BodyClock {
     Went,
     Waited,
@@ -27,8 +27,9 @@ impl Simulation {
     /// Does one step.
     ///
     /// # Errors
-    /// Returns an error if bodies or pins force the cloth where it cannot go without intersecting, and the scene wants to stop
-    /// then. What is done of the step stays.
+    ///
+    /// Returns an error if bodies or pins force the cloth where it cannot go without intersecting, and the scene stops then. The
+    /// part of the step that was made remains.
     pub fn step(&mut self) -> Result<(), Blocked> {
         let h = self.time_step;
         self.drive(h, |simulation| {
@@ -57,7 +58,7 @@ impl Simulation {
         })
     }
 
-    /// Runs steps that take so many seconds in all, through which the caller's bodies and pins move evenly.
+    /// Runs steps of so many seconds in all, during which the caller's bodies and pins move evenly.
     fn drive(&mut self, seconds: f64, steps: impl FnOnce(&mut Self) -> Result<BodyClock, Blocked> + Send) -> Result<(), Blocked> {
         // Taken out so that they can run what borrows the rest.
         let threads = std::mem::take(&mut self.threads);
@@ -163,8 +164,8 @@ impl Simulation {
         h
     }
 
-    /// Returns whether a body that carries no cloth cannot meet any within `h` seconds, however it turns: the ball about its
-    /// centre of rotation that has all of it keeps away from the box of the cloth by more than the two can move.
+    /// Returns whether a body that carries no cloth cannot meet any within `h` seconds, however it turns. The ball about its
+    /// centre of rotation that contains it must be farther from the box of the cloth than the two can move.
     fn is_far(&self, carrier: usize, h: f64) -> bool {
         let Assembly {
             body_vertices,

@@ -1,12 +1,12 @@
-//! Frames: a time that the caller wants to pass, in as many steps as the cloth needs.
+//! Frames: the cloth makes as many steps as a frame of the caller needs.
 //!
 //! A step is good if little happens in it. Two measures are known before it is made:
 //!
 //! * **Stiffness.** A step passes a pull on once, over the mesh and its [levels](crate::effects), whatever the stiffness and the mesh. So the stretch that
 //!   is left grows with the square of the step: by the forces of a step, which move a vertex by g·h². Sheets of 1.3 and 10 thousand triangles with a
 //!   strain limit that are dropped on a ball keep within a few percent of it at steps of 4 ms, and at no longer ones. So none is longer than [`LONGEST`].
-//! * **Speed.** Contacts push along directions at the start of a step, which turn where cloth passes a face. So nothing passes more than [`FARTHEST`] of
-//!   the mean edge of the cloth in a step, relative to the mean of the cloth, that is near the cloth.
+//! * **Speed.** Contacts push along directions at the start of a step, which turn where cloth passes a face. So nothing near the
+//!   cloth moves more than [`FARTHEST`] of the cloth's mean edge in a step, relative to the mean of the cloth.
 //!
 //! The number of steps follows from the state and the scene alone. So it is the same for any number of threads, and after a resume.
 
@@ -23,7 +23,7 @@ const FARTHEST: f64 = 0.5;
 const MOST: u32 = 64;
 const SECONDS: Field = Field::new("seconds", TIME, 1e-6, 1.0);
 
-/// How a frame was made.
+/// The steps of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Frame {
     /// The number of steps that were done.
@@ -44,7 +44,7 @@ pub enum FrameError {
 }
 
 impl Simulation {
-    /// Lets time pass, from a microsecond to a second, in as many steps as the cloth needs, at most 64: a frame of a game or a film.
+    /// Advances by a frame of a game or a film, from a microsecond to a second, in as many steps as the cloth needs, at most 64.
     ///
     /// The scene's own time step has no part in it. Bodies and pins that the caller moves do so evenly throughout the frame.
     ///
@@ -69,7 +69,7 @@ impl Simulation {
         self.advance_within(seconds, MOST)
     }
 
-    /// Does the same as [`advance`](Self::advance) in at most `most` steps, but in no fewer than one.
+    /// Advances like [`advance`](Self::advance), in at most `most` steps, but at least one.
     ///
     /// # Errors
     /// Returns the errors of [`advance`](Self::advance).

@@ -29,10 +29,12 @@ impl Simulation {
         Some(checkpoint.write(self.fingerprint))
     }
 
-    /// Goes on from a checkpoint of the same scene: with the same bits as if it had never ended. Counters and times go on as well.
+    /// Continues from a checkpoint of the same scene, with the same bits as an uninterrupted simulation. Counters and times
+    /// continue as well.
     ///
     /// # Errors
-    /// Returns an error if it is not a checkpoint, is damaged, or is one of another scene; then nothing has changed.
+    ///
+    /// Returns an error if the bytes are no checkpoint, damaged, or of another scene; then nothing has changed.
     pub fn resume(&mut self, checkpoint: &[u8]) -> Result<(), CheckpointError> {
         let triangles = self.triangles_of_cloths();
         let (torn, reader) = Checkpoint::begin(checkpoint, self.fingerprint, triangles.as_deref())?;
@@ -84,12 +86,12 @@ impl Simulation {
         Ok(())
     }
 
-    /// What all constraints remember, one after the other.
+    /// Returns the memories of all constraints, one after the other.
     pub(super) fn remembered(&self) -> Vec<f64> {
         self.made.memories().flat_map(Memory::numbers).collect()
     }
 
-    /// Takes back what was [`remembered`](Self::remembered) once.
+    /// Restores memories that [`remembered`](Self::remembered) returned.
     pub(super) fn recall(&mut self, mut numbers: &[f64]) {
         for &index in &self.made.remembering {
             if let Some(memory) = self.made.constraints[index].action.memory_mut() {

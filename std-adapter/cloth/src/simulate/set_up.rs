@@ -1,4 +1,4 @@
-//! From a scene to a simulation.
+//! Makes a simulation from a scene.
 
 use super::assembly::Assembly;
 use super::errors::SetupError;
@@ -19,13 +19,14 @@ impl Simulation {
     /// Sets a scene up, on `threads` threads (0: one for each core). The number of threads changes no bit of the result.
     ///
     /// # Errors
-    /// Returns an error if something in the scene cannot be, it starts with an intersection, or the operating system refuses the
-    /// threads.
+    ///
+    /// Returns an error if the scene is not valid or starts with an intersection, or the operating system refuses the threads.
     pub fn new(scene: Scene, threads: usize) -> Result<Self, SetupError> {
         Self::with_progress(scene, threads, &mut |_| ())
     }
 
-    /// The same, and tells how untangling goes, before each of its steps, if the scene is [to be untangled](TangledStart::Untangle).
+    /// Sets a scene up like [`new`](Self::new). If the scene is [to be untangled](TangledStart::Untangle), calls `tell` with the
+    /// progress before each of its steps.
     ///
     /// # Errors
     /// Returns the errors of [`new`](Self::new).
@@ -106,7 +107,7 @@ fn at_start(scene: &Scene, made: &mut Assembly) -> (Vec<DVec3>, State) {
     let poses: Vec<Pose> = motions.iter().map(|motion| motion.pose(0.0)).collect();
     let mut carried = rest.clone();
     for (point, &carrier) in carried[..*cloth_vertices].iter_mut().zip(&*carriers) {
-        // Pins that follow a driven body start where the cloth is, wherever that body stands.
+        // Pins that follow a driven body start where the cloth is, wherever that body is.
         let body = motions
             .get(carrier as usize)
             .filter(|_| (carrier as usize) < scene.bodies.len());

@@ -1,4 +1,4 @@
-//! A simulation, and what can be read of it between two steps.
+//! A simulation, and the results that a caller can read between two steps.
 
 use super::assembly::Assembly;
 use super::measures::{EdgeStretch, EffectTime};
@@ -48,9 +48,9 @@ pub struct Simulation {
     pub(super) time_step: f64,
     pub(super) fingerprint: u64,
     pub(super) cloth_names: Vec<String>,
-    /// What its meshes and effects are put together to.
+    /// The data from meshes and effects.
     pub(super) made: Assembly,
-    /// Of kinematic vertices, where what carries them takes them from.
+    /// The points that carriers move, for kinematic vertices.
     pub(super) carried: Vec<DVec3>,
     pub(super) effects: Vec<EffectTime>,
     pub(super) on_blocked: OnBlocked,
@@ -59,24 +59,24 @@ pub struct Simulation {
     pub(super) threads: Workers,
     pub(super) state: State,
     pub(super) work: Work,
-    /// Before the first step.
+    /// The result of untangling before the first step.
     pub(super) untangled: Option<Untangled>,
-    /// If cloths may tear.
+    /// The state of tears, if cloths may tear.
     pub(super) tearing: Option<Box<Tearing>>,
 }
 
-/// Filled anew in each step.
+/// Buffers of a step; their memory is used again.
 #[derive(Debug, Default)]
 pub(super) struct Work {
     pub(super) velocities: Vec<DVec3>,
     pub(super) predicted: Vec<DVec3>,
     pub(super) poses: Vec<[Pose; 2]>,
     pub(super) touches: Touches,
-    /// Vertices that constraints hold, and by how much heavier each is, in kg.
+    /// Vertices that constraints hold, and the mass in kg that this adds to each.
     pub(super) held: Vec<(u32, f64)>,
-    /// As constraints see them, if any are held.
+    /// The inverse masses that constraints see, if vertices are held.
     pub(super) inverse_masses: Vec<f64>,
-    /// Where the step starts, shifted, if vertices are.
+    /// The shifted positions at the start of the step, if vertices are shifted.
     pub(super) shifted: Vec<DVec3>,
 }
 
@@ -99,27 +99,27 @@ impl Simulation {
         self.state.time(self.time_step)
     }
 
-    /// Where everything is: the vertices of each cloth, then the bodies'. Where cloth [tears](crate::effects::Tearing) there are more from then
-    /// on.
+    /// Returns all positions in metres: the vertices of each cloth, then the bodies'. After cloth
+    /// [tears](crate::effects::Tearing) there are more.
     #[must_use]
     pub fn positions(&self) -> &[DVec3] {
         &self.state.positions
     }
 
-    /// Triangles on [`positions`](Self::positions): those of each cloth, then the bodies'. Always as many, in the same order; where cloth
-    /// [tears](crate::effects::Tearing) some name other vertices from then on.
+    /// Returns the triangles on [`positions`](Self::positions): those of each cloth, then the bodies'. Their number and order
+    /// never change; after cloth [tears](crate::effects::Tearing) some name other vertices.
     #[must_use]
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.made.triangles
     }
 
-    /// Edges of cloths that belong to no triangle, of ropes, laces and fringes, on [`positions`](Self::positions).
+    /// Returns the edges of cloths that belong to no triangle (ropes, laces and fringes), on [`positions`](Self::positions).
     #[must_use]
     pub fn loose_edges(&self) -> &[[u32; 2]] {
         &self.made.loose_edges
     }
 
-    /// How fast each of the [`positions`](Self::positions) moves, in m/s.
+    /// Returns the velocities of [`positions`](Self::positions), in m/s.
     #[must_use]
     pub fn velocities(&self) -> &[DVec3] {
         &self.state.velocities
@@ -149,25 +149,25 @@ impl Simulation {
         self.made.body_vertices.get(body).cloned()
     }
 
-    /// The pairs that came near each other in the last part of the last step, as contact saw them at its start, but for those that pushes
-    /// between others were seen to keep apart. None without a contact effect.
+    /// Returns the pairs that came near each other in the last part of the last step, at the start of that part. Pairs that
+    /// pushes of others kept apart are left out. Empty without a contact effect.
     pub fn near_pairs(&self) -> impl Iterator<Item = ProximityPair> {
         self.made.contact.iter().flat_map(|contact| contact.near_pairs())
     }
 
-    /// How many of the vertices are of cloth.
+    /// Returns the number of the cloths' vertices.
     #[must_use]
     pub fn cloth_vertices(&self) -> usize {
         self.made.cloth_vertices
     }
 
-    /// How many of the triangles are of cloth.
+    /// Returns the number of the cloths' triangles.
     #[must_use]
     pub fn cloth_triangles(&self) -> usize {
         self.made.cloth_triangles
     }
 
-    /// How much cloth is stretched now, of all cloths together, loose edges included. Finds the edges anew, in O(n log n) time.
+    /// Returns the stretch of all cloths together, loose edges included. Finds the edges again, in O(n log n) time.
     #[must_use]
     pub fn edge_stretch(&self) -> EdgeStretch {
         let cloth = self.made.triangles[..self.made.cloth_triangles].iter();
@@ -187,9 +187,11 @@ impl Simulation {
         }
     }
 
-    /// The energy that the cloth has now: of its motion, and what its effects hold. Takes about as long as the effects' share of a step.
+    /// Returns the present energy of the cloth: of its motion, and of its effects. It takes about as long as the effects' share
+    /// of a step.
     ///
-    /// Each step takes some of it, as implicit steps do: in free fall ½·m·g²·h·t, of a mass m after a time t in steps of h.
+    /// Each step takes some of the energy, as implicit steps do: in free fall ½·m·g²·h·t, for a mass m after a time t in steps of
+    /// h.
     #[must_use]
     pub fn energy(&self) -> Energy {
         let now = Configuration {
@@ -211,26 +213,26 @@ impl Simulation {
         energy
     }
 
-    /// The vertices that [`Attachments`](crate::effects::Attachments) have let go of so far, in their order; what effects of a caller's own
-    /// [remember](crate::effects::Memory) may add to it.
+    /// Returns the vertices that [`Attachments`](crate::effects::Attachments) have released so far, in their order. Other effects
+    /// [with a memory](crate::effects::Memory) may add some.
     #[must_use]
     pub fn released(&self) -> Vec<Release> {
         self.made.memories().flat_map(|memory| memory.released()).collect()
     }
 
-    /// The effects that were constructed, in the order in which they run, and the time that each has taken.
+    /// Returns the effects of the scene, in the order in which they run, and the time that each has taken.
     #[must_use]
     pub fn effects(&self) -> &[EffectTime] {
         &self.effects
     }
 
-    /// What contact has counted so far; `None` if the scene has no contact effect.
+    /// Returns the counts of contact so far; `None` if the scene has no contact effect.
     #[must_use]
     pub fn contact_counts(&self) -> Option<&ContactCounts> {
         self.made.contact.as_ref().map(|contact| &contact.counts)
     }
 
-    /// What contact has taken so far, besides the pushes; `None` if the scene has no contact effect.
+    /// Returns the times of contact so far, without pushes; `None` if the scene has no contact effect.
     #[must_use]
     pub fn contact_seconds(&self) -> Option<&ContactSeconds> {
         self.made.contact.as_ref().map(|contact| &contact.stages)
@@ -249,44 +251,44 @@ impl Simulation {
         self.state.overstretched_steps
     }
 
-    /// Edges that meet faces now although effects are to keep them apart, of a scene that starts tangled and
-    /// [tolerates](TangledStart::Tolerate) that; empty for good once all is apart.
+    /// Returns the edges and faces that meet although effects should keep them apart, in a scene that starts tangled and
+    /// [tolerates](TangledStart::Tolerate) that. It stays empty after all are apart.
     #[must_use]
     pub fn crossings(&self) -> &[Crossing] {
         self.made.contact.as_ref().map_or(&[], |contact| contact.exempt().crossings())
     }
 
-    /// How many pairs have left the promise since the start: those about [`crossings`](Self::crossings), and those that are not apart by their
-    /// separation yet.
+    /// Returns the number of pairs without a guarantee since the start: those about [`crossings`](Self::crossings), and those
+    /// that are not yet apart by their separation.
     #[must_use]
     pub fn tolerated_pairs(&self) -> usize {
         self.made.contact.as_ref().map_or(0, |contact| contact.tolerated_pairs())
     }
 
-    /// What the scene wants of a tangled start.
+    /// Returns the scene's treatment of a tangled start.
     #[must_use]
     pub fn tangled_start(&self) -> TangledStart {
         self.tangled_start
     }
 
-    /// What was untangled before the first step; `None` if nothing was.
+    /// Returns the result of untangling before the first step; `None` without untangling.
     #[must_use]
     pub fn untangled(&self) -> Option<&Untangled> {
         self.untangled.as_ref()
     }
 
-    /// Returns whether the state is certified to be free of intersections of whatever the scene's contact effects name: not
-    /// without any, not while a body is let pass, and not while what was tangled at the start is tolerated.
+    /// Returns whether the state is certified free of the intersections that the scene's contact effects name. It is false
+    /// without a contact effect, while a body is let pass, and while a tangled start is tolerated.
     #[must_use]
     pub fn is_certified(&self) -> bool {
         let contact = self.made.contact.as_ref();
         contact.is_some_and(|contact| contact.exempt().is_empty())
     }
 
-    /// How far bodies and pins are behind their keyframes, in seconds.
+    /// Returns the time by which bodies and pins lag behind their keyframes, in seconds.
     #[must_use]
     pub fn lag(&self) -> f64 {
-        // Below a millionth of a step it is rounding.
+        // A lag below a millionth of a step is rounding.
         let lag = self.time() - self.state.clock;
         if lag > 1e-6 * self.time_step { lag } else { 0.0 }
     }
