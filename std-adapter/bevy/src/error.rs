@@ -60,7 +60,8 @@ pub enum SelvedgeError {
         /// The entity.
         entity: Entity,
     },
-    /// The fixed time step changed after the cloth had started. The cloth keeps its own, and runs slower or faster than the rest.
+    /// The fixed time step changed after the cloth had started. The cloth keeps the old one, and runs slower or faster than the
+    /// app.
     #[error("the fixed time step is now {fixed} s, but the cloth started with steps of {step} s")]
     TimeStep {
         /// The time step of the cloth, in seconds.

@@ -13,7 +13,7 @@ pub trait Format: Scalar {
     const MAX_EXPONENT: i32;
     /// The largest finite number.
     const LARGEST: Self;
-    /// Not a number.
+    /// The number is NaN.
     const NAN: Self;
 
     /// Returns the number with these bits (the low ones, for `f32`).

@@ -10,7 +10,7 @@ type Point = [Rational; 3];
 /// Returns the same number.
 ///
 /// # Panics
-/// If it is not finite.
+/// Panics if it is not finite.
 pub fn rational<S: Scalar>(x: S) -> Rational {
     Rational::from_f64(x.to_f64()).expect("finite")
 }
@@ -107,7 +107,7 @@ impl InRationals {
     /// Returns the square of the largest separation that they exceed, if there is a largest one.
     ///
     /// # Panics
-    /// If all normals are zero, and so are the values.
+    /// Panics if all normals and all values are zero.
     #[must_use]
     pub fn squared_separation(&self) -> Option<Rational> {
         // If the normal is zero, the value, which is not, exceeds it times any separation.

@@ -35,7 +35,7 @@ pub struct RopeBend {
 /// The shape of a rope at rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RopeShape {
-    /// Straight, in whatever shape the scene lays the rope.
+    /// The rope is straight, in whatever shape the scene lays it.
     #[default]
     Straight,
     /// The angle at each vertex is that in the scene, in any direction.

@@ -77,7 +77,7 @@ impl WorldMesh {
         mesh
     }
 
-    /// Sets the motion of the next step. Boxes hold `separation`.
+    /// Sets the motion of the next step. Makes boxes for `separation`.
     pub(crate) fn set_motion(&mut self, motions: &dyn Motions, moves: Moves, separation: f64) {
         let separation = match moves {
             // A box holds half of the separation on each side, and the whole deviation.
