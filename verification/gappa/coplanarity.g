@@ -2,13 +2,13 @@
 #
 # Lemma (not Gappa's, a line of algebra): a computed value is the sum of its monomials m, each times a product of as many
 # factors 1 + d, |d| <= 2u, as it passes through roundings; so it is off by at most the sum of |m| times the largest
-# |product - 1|. The bound computed from the same monomials is at least that sum times a power of 1 - 2u. How many roundings
-# there are is counted on the code, by traced/tests/proofs_are_about_the_code.rs:
+# |product - 1|. The bound computed from the same monomials is at least that sum times a power of 1 - 2u. The test
+# traced/tests/proofs_are_about_the_code.rs counts the roundings on the code:
 #= k0 7 11
 #= 3k1 9 13
-# (monomials of k0 and k3, but for the last addition, which is compared; of the bound, one more for a separation).
+# (monomials of k0 and k3, without the last addition, which is compared; of the bound, one more for a separation).
 #
-# By magnitudes: 95u and 380u are what traced/k0.g and traced/3k1.g prove for components of at most 1.
+# By magnitudes: traced/k0.g and traced/3k1.g prove 95u and 380u for components of at most 1.
 # Underflow: traced/k0.g and traced/3k1.g prove 41 + 163 times lambda (1 + M)^2 at most. The bound itself loses at most lambda in
 # its product with u, 41 * 20u lambda in the permanent, and 4 lambda in a separation's product and three times that.
 

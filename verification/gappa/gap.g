@@ -7,9 +7,9 @@
 # 3. A length of d that is accepted: d.d, three terms of 3 roundings each, is at most sigma as computed; so the square of the length is at
 #    most sigma / (1 - 2u)^3. With two more roundings of a length (the quotient and the difference) it is less than the square of sigma;
 #    so it is in f64 with another one, to f32, in which it is stored.
-# 4. A threshold passes through sigma's square, the product and the sum: 3; m sigma^2 then exceeds m |d|, and what is stored exceeds it.
+# 4. A threshold passes through sigma's square, the product and the sum: 3; m sigma^2 then exceeds m |d|, and the stored threshold exceeds it.
 # 5. Underflow: 3 components of B and 3 of d flushed, 5 results, all twice; the difference, and three operations of the bound. 64u B covers
-#    what is times B: lambda / u is far below u.
+#    the losses times B: lambda / u is far below u.
 
 of_coordinates = 64; #! core/src/separation/gap.rs: Self(S::small(64) * S::UNIT_ROUNDOFF * largest + S::UNDERFLOW)
 #~ core/src/separation/gap.rs: S::from_f64(1.0 + 1.0 / 1_048_576.0)

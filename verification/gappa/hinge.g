@@ -2,9 +2,9 @@
 #
 # Everything scales with (a.a + b.b)(e.e) = 1, without rounding, which bounds the sum of all monomials' magnitudes.
 # 1. A monomial passes through 4 differences, 3 roundings in each of two dot products, their product and the difference: 12.
-# 2. In what is computed of the bound each square is of 2 differences and passes through 3 roundings of its dot product; a.a + b.b through
+# 2. In the computed bound each square is of 2 differences and passes through 3 roundings of its dot product; a.a + b.b through
 #    another; the product; that with 32u, and the sum: 14.
-# 3. Underflow: 256 lambda of (1 + M^2)^2, which the squares exceed but for their roundings, 6 of each factor; their product, that with eta
+# 3. Underflow: 256 lambda of (1 + M^2)^2, which the squares exceed apart from their roundings, 6 of each factor; their product, that with eta
 #    and the sum.
 
 once = 32; #! core/src/separation/hinge.rs: P::Scalar::small(32) * P::Scalar::UNIT_ROUNDOFF * (squares * ee)

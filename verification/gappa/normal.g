@@ -5,9 +5,9 @@
 #
 # 1. Factors: a square and two sums, and eta added, are rounded under the root (which halves the exponent: 2 of 4); the
 #    root, the sum with 128u M^2, the slack, the separation, three times that and the sum with the error bound: 6 more.
-# 2. What is added for the components: M * M, its product with 128u, and the last four of those.
-# 3. Underflow of components: no more than 20 lambda (1 + M). Where M is middling or more, 24u M^2 of what is added is to
-#    spare; where it is less, all lengths are at most 8 M^2, less than the root of eta. (For f64 the root of 2^-1000 is 2^-500.)
+# 2. The number added for the components: M * M, its product with 128u, and the last four of those.
+# 3. Underflow of components: no more than 20 lambda (1 + M). For medium and large M, 24u M^2 of the added number remains.
+#    For small M all lengths are at most 8 M^2, less than the root of eta. (For f64 the root of 2^-1000 is 2^-500.)
 # 4. Three squares and two halvings that underflow lose at most 7 lambda of the squared length, to which eta is added.
 
 slack = 32;  #! core/src/kernels/coplanarity.rs: let slack = constant(L::Scalar::ONE) + constant(L::Scalar::small(32)) * roundoff;

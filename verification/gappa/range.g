@@ -1,6 +1,6 @@
-# Nothing overflows where pairs are decided: core/src/kernels/lanes.rs, Rounding::LARGEST_EDGE; core/src/kernels/advance/corners.rs.
+# No decision about a pair overflows: core/src/kernels/lanes.rs, Rounding::LARGEST_EDGE; core/src/kernels/advance/corners.rs.
 #
-# Rounding towards zero returns the largest finite number for what overflows, which no comparison notices. Sizes, with 1.01 for all
+# Rounding towards zero turns an overflow into the largest finite number, which no comparison notices. Sizes, with 1.01 for all
 # roundings:
 # 1. Four control values and their bounds: 18 monomials, and a sum of four of them.
 # 2. The normal of EE: components of c - b at most 2M, of n0 4M^2, of h 8M^2; the largest square is h.h.

@@ -1,15 +1,15 @@
 # The signed volume of an advancing pair: core/src/kernels/advance/volume.rs.
 #
-# The monomials of a control value sum up to at most S = 6 MxMyMz (3k1: a third of 18), which `permanent` is; exact differences are at
+# The monomials of a control value sum up to at most S = 6 MxMyMz (3k1: a third of 18), the number `permanent`; exact differences are at
 # most 1/(1 - 2u) larger than computed ones.
 # 1. 10 roundings to 3k1 (traced/tests/proofs_are_about_the_code.rs counts them), 2 by a rounded third, 9 by blossoming (three times
-#    1 - t, product, sum), 1 by subtracting what must be exceeded, 9 by looking ahead: 31. Counted on the code it is one
-#    less; the roundings of the bound and its constant are counted as well:
+#    1 - t, product, sum), 1 by subtracting the bound, 9 by looking ahead: 31. The count on the code is one less;
+#    the roundings of the bound and its constant are counted as well:
 #= volume 30 10 64
 # 2. The bound: three sums with mu, product, sum, product, two sums in the permanent, its product with 64u, the sum with eta
 #    (1 + M)^2: 10; and the sum with a separation.
-# 3. Underflow: 202 lambda (1 + M)^2 for 3k1 and its last addition (traced/3k1.g), of which a third counts and 3 more, 40 for what
-#    follows: looked at as 54 + 63 + 36 in the module; both are less than 128.
+# 3. Underflow: 202 lambda (1 + M)^2 for 3k1 and its last addition (traced/3k1.g), of which a third counts and 3 more, 40 for the
+#    rest: the module has 54 + 63 + 36; both are less than 128.
 # 4. Time: a quotient of the hull, at most 6 roundings; 1 - t; two products; these are below their exact values by the factor 1 - 32u.
 #    The sum with the time and the last product: by 1 - 8u.
 # 5. Normal, for M = 1: a component of an edge is a difference of two rounded differences, 4u + 4u; interpolated, which is bisected in
@@ -43,7 +43,7 @@ D0 = A0 - C0;
 D1 = A1 - C1;
 D = (1 - t) * D0 + t * D1;
 
-# A component of an edge, and of the normal, from components that are as far off.
+# A component of an edge, and of the normal, from components with that error.
 N = X * Y - Z * W;
 H = (N1 + N2) * 0.5;
 
