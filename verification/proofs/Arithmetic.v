@@ -24,7 +24,7 @@ Definition rounds f z r :=
 (* An operand below the normal numbers may count as zero. *)
 Definition counts_as f x x' := x' = x \/ (Rabs x < lam f /\ x' = 0).
 
-(* What is assumed of a format in what follows; `Theorems.v` shows it of both. *)
+(* The assumptions on a format in the following proofs; `Theorems.v` shows them for both formats. *)
 Record reasonable f : Prop := {
   precise : (24 <= precision f)%Z;
   deep : (least_exponent f + precision f - 1 <= -60)%Z;

@@ -161,7 +161,7 @@ Lemma steps_bounded (a : expr) : polynomial a = true ->
   (of_steps a <= 4096)%Z /\ (monomials a <= 64)%Z /\ (depth a <= 16)%nat /\ (of_differences a <= 4096)%Z.
 Proof. intro h. destruct a; parts h; auto. Qed.
 
-(* By differences that are off. *)
+(* The loss by the errors of differences. *)
 Fixpoint signed e : bool := match e with
   | Difference _ => true
   | Sum a b | Minus a b | Product a b => signed a && signed b
@@ -233,7 +233,7 @@ Proof.
     apply Rplus_le_compat_l. rewrite !Rmult_assoc. apply Rmult_le_compat_l; [lra|]. apply Rmult_le_compat_r; lra.
 Qed.
 
-(* By the steps. *)
+(* The loss by the steps. *)
 Variables from to : component -> R.
 Variable value_of : expr -> value.
 Hypothesis run : execution f from to value_of.

@@ -1,5 +1,5 @@
-(* In exact numbers: what the certificates of the time of impact, of a separation and of truncation rest on. Their roundings are not proven
-   here. *)
+(* The lemmas behind the certificates of the time of impact, of a separation and of truncation, in exact numbers. Their roundings are not
+   proven here. *)
 From Coq Require Import Reals Lra Psatz.
 From Selvedge Require Import Geometry.
 From Selvedge Require Apart.

@@ -1,4 +1,4 @@
-(* What the pieces of the filter's decision mean: range, underflow, bounds, comparisons. *)
+(* The meaning of the parts of the filter's decision: range, underflow, bounds, comparisons. *)
 From Coq Require Import Reals ZArith Lra Lia Bool Psatz.
 From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic Expressions Errors Bounds.
@@ -90,7 +90,7 @@ Proof.
     apply orb_prop in o as [o|o]; [apply IHe1|apply IHe2]; assumption.
 Qed.
 
-(* In range: every difference is a number. *)
+(* If the pair is in range, every difference is a number. *)
 Theorem range_of e c : maxima e = true -> occurs c e = true -> greater f (value_of (Constant LargestEdge)) (value_of e) ->
   exists x, value_of (Difference c) = Number x /\ Rabs x <= L.
 Proof.
@@ -157,7 +157,7 @@ Proof.
   rewrite v, d_value in m. exact m.
 Qed.
 
-(* What a step gives, from below: operands that are not subnormal count as they are. *)
+(* A lower bound of the result of a step: operands that are not subnormal count unchanged. *)
 Lemma unflushed x x' : l <= x -> counts_as f x x' -> x' = x.
 Proof. pose proof l0. intros big [->|[small ->]]; [reflexivity|]. fold l in small. rewrite Rabs_pos_eq in small; lra. Qed.
 Lemma rounds_below z r : rounds f z r -> 0 <= z -> (1 - e1) * z - l <= r.

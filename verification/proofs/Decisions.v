@@ -160,7 +160,7 @@ Proof.
   lra.
 Qed.
 
-(* How near a control value, a sum, is to the exact one before its last rounding; and its sign, from a bound. *)
+(* The distance of a control value, a sum, from the exact one before its last rounding; and its sign, from a bound. *)
 Definition losses a b := (of_steps a + 1 + (of_steps b + 1) + of_differences (Sum a b))%Z.
 Theorem near a b n : polynomial (Sum a b) = true -> signed (Sum a b) = true -> fits (Sum a b) = true ->
   degree (Sum a b) = 3%nat -> (depth a <= n)%nat -> (depth b <= n)%nat ->

@@ -79,7 +79,7 @@ Definition is_short k := forall a, Rabs (along k a) <= G.
 Lemma along_operand k a : operand (value_of (component (direction k) a)) (along k a) (Rabs (along k a)) 0 0.
 Proof. unfold direction. rewrite component_each, (run (Input (Along k a))). apply operand_exact. Qed.
 
-(* What the products of a direction are at most, and how far they may be off. *)
+(* The largest magnitude of the products of a direction, and their largest error. *)
 Definition sizes k := sum3 (fun a => Rabs (along k a) * p a).
 Definition lengths k := sum3 (fun a => Rabs (along k a)).
 Definition err k := 8.01 * e1 * sizes k + l * (2.3 * sizes k + 12 * lengths k + 11).

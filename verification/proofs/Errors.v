@@ -1,10 +1,10 @@
-(* How far an execution can be from exact arithmetic: nothing overflows, and the error theorems. *)
+(* The distance of an execution from exact arithmetic: no number overflows, and errors have bounds. *)
 From Coq Require Import Reals ZArith Lra Lia Bool Psatz.
 From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic Expressions.
 Open Scope R_scope.
 
-(* What differences may be at most: four times the largest edge, since those of corners in range are. *)
+(* The largest magnitude of differences: four times the largest edge, as for corners in range. *)
 Definition reach f := 4 * power (largest_edge f).
 
 Section Errors.
@@ -75,7 +75,7 @@ Proof.
   - injection e as <-. exists 0. split; [reflexivity|right; auto].
 Qed.
 
-(* What each step gives, with operands that may count as zero. *)
+(* The result of each step, with operands that may count as zero. *)
 Definition step (op : R -> R -> R) a b e := exists x y, counts_as f (val a) x /\ counts_as f (val b) y /\ rounds f (op x y) (val e).
 Definition node e := match e with
   | Sum a b => step Rplus a b e

@@ -1,4 +1,4 @@
-(* What a kernel computes: its expressions, what an execution of them is, and how far it can be from exact arithmetic. *)
+(* The expressions of a kernel, their executions, and the distance of an execution from exact arithmetic. *)
 From Coq Require Import Reals ZArith Lra Lia Bool Psatz.
 From Selvedge Require Import Arithmetic.
 Open Scope R_scope.
@@ -80,7 +80,7 @@ Definition execution (from to : component -> R) (value_of : expr -> value) := fo
   | Magnitude a => value_of e = magnitude (value_of a)
   | Larger a b => larger (value_of a) (value_of b) (value_of e)
   | Smaller a b => smaller (value_of a) (value_of b) (value_of e) end.
-(* That a mask may be true. *)
+(* The condition that a mask may be true. *)
 Fixpoint says (value_of : expr -> value) (m : mask) := match m with
   | Greater a b => greater (value_of a) (value_of b)
   | Both a b => says value_of a /\ says value_of b
@@ -147,7 +147,7 @@ Fixpoint depth (e : expr) : nat := match e with
   | Product a b => S (depth a + depth b)
   | Magnitude a | Negative a => depth a
   | _ => 0 end.
-(* What underflow adds, in units of lambda: by the steps of an expression, and by its differences, each off by 3. *)
+(* The loss by underflow, in units of lambda: by the steps of an expression, and by its differences, each off by 3. *)
 Fixpoint of_steps (e : expr) : Z := match e with
   | Sum a b | Minus a b => (of_steps a + 1) + (of_steps b + 1) + 2
   | Product a b => monomials a * (of_steps b + 1) + (of_steps a + 1) * monomials b + 3

@@ -100,7 +100,7 @@ Lemma signed_same n ws : words_of n ws -> exists k, natural ws = signed ws + wor
 Proof.
   intro h. unfold signed. rewrite (modulus_of n ws h). destruct (_ <=? _); [exists 1|exists 0]; ring.
 Qed.
-(* What is the right number but for multiples of the modulus, and fits, is right. *)
+(* A number that is right up to multiples of the modulus, and fits, is right. *)
 Theorem right_if_it_fits n ws x k : words_of n ws -> fits n x -> natural ws = x + word ^ Z.of_nat n * k -> signed ws = x.
 Proof.
   intros h fx E. destruct (signed_same n ws h) as [j E']. apply (what_fits_is_exact (word ^ Z.of_nat n)); [apply word_pos|exact (signed_fits n ws h)|exact fx|].

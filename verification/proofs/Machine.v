@@ -1,4 +1,4 @@
-(* What the time of impact computes: numbers and masks, in one floating-point environment of a thread. *)
+(* The computation of the time of impact: numbers and masks, in one floating-point environment of a thread. *)
 From Coq Require Import Reals ZArith Lra Lia Bool.
 From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic.
@@ -35,7 +35,7 @@ Section Machine.
 Variable f : constants.
 Variable env : environment f.
 
-(* What an operand counts as. *)
+(* The number that an operand counts as. *)
 Definition seen x := if flushes_operands env then if Rlt_dec (Rabs x) (lam f) then 0 else x else x.
 Definition seen_value v := match v with Number x => Number (seen x) | _ => v end.
 
@@ -54,7 +54,7 @@ Definition product v w out := match seen_value v, seen_value w with
   | NaN, _ | _, NaN => out = NaN
   | Infinite s, Number y => 0 < y -> out = Infinite s
   | _, _ => True end.
-(* By zero: 0/0 is NaN, and other quotients are infinite. They have the dividend's sign if the zero is what is left of a positive
+(* If the divisor is zero, 0/0 is NaN, and other quotients are infinite. They have the dividend's sign if the zero is a flushed positive
    number. *)
 Definition quotient v w (divisor_is_positive : Prop) out := match seen_value v, seen_value w with
   | Number x, Number y => (y <> 0 -> result (x / y) out) /\ (y = 0 -> x = 0 -> out = NaN) /\
@@ -90,7 +90,7 @@ Fixpoint says m : Prop := match m with
   | Both a b => says a /\ says b
   | Either a b => says a \/ says b
   | Not a => ~ says a end.
-(* What a number is the rounded result of, positive. *)
+(* The unrounded result of a number is positive. *)
 Fixpoint is_positive_unrounded e : Prop := match e with
   | Minus a b => greater (value_of a) (value_of b)
   | Product (Constant (Small count)) b => (0 < count)%Z /\ is_positive_unrounded b

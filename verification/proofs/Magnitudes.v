@@ -1,4 +1,4 @@
-(* What the certified filter decides by three magnitudes, its first alternative, proves of the exact control values. *)
+(* The decision of the certified filter by three magnitudes, its first alternative, proves that exact control values have one sign. *)
 From Coq Require Import Reals ZArith Lra Lia Bool Psatz.
 From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Filter Permanent.
@@ -181,7 +181,7 @@ Proof.
   rewrite !Rmax_left by assumption. assert (0 <= l * m * m) by nra. unfold t. lra.
 Qed.
 
-(* Which of the three bounds a difference, and how many monomials a control value then has. *)
+(* The bound, one of three, that applies to a difference, and the number of monomials of a control value. *)
 Inductive which := First | Second | Third.
 Variable part : component -> which.
 Definition of_which w := match w with First => x | Second => y | Third => z end.
@@ -238,12 +238,12 @@ Lemma outer_representable : representable f (val outer). Proof. now apply (repre
 Lemma inner_representable : representable f (val inner). Proof. now apply (representable_product f ok from to value_of run in_range). Qed.
 End Magnitudes.
 
-(* Of the code. *)
+(* The bounds in the code. *)
 Definition part_by_axis c := match c with Component _ _ X => First | Component _ _ Y => Second | Component _ _ Z_ => Third end.
 (* The largest along an axis of all differences. *)
 Definition by_axis := Larger (Larger s121 s129) s138.
 Definition inner_by_axis := inner by_axis s121 s129 s138.
-(* Of the permanent's tier, where no lane needs the permanent; this is its first alternative. *)
+(* The decision of the permanent's tier if no lane needs the permanent; this is its first alternative. *)
 Definition least := Smaller (Smaller control_value_0 control_value_1) (Smaller control_value_2 control_value_3).
 Definition greatest := Larger (Larger control_value_0 control_value_1) (Larger control_value_2 control_value_3).
 Definition sum_of_all := Sum (Sum control_value_0 control_value_1) (Sum control_value_2 control_value_3).
@@ -327,7 +327,7 @@ Proof.
 Qed.
 End InRange.
 
-(* What the decision proves. *)
+(* The decision proves one sign. *)
 Theorem alone_proves_one_sign : says f value_of culled_by_permanent_alone -> exactly_one_sign.
 Proof.
   rewrite the_code_decides_alone_so. intros [signs small].

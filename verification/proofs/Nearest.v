@@ -29,7 +29,7 @@ Definition to_nearest z := round radix2 fexp (round_mode mode_NE) z.
 Lemma nearest_rounds z : rounds f z (to_nearest z).
 Proof. right. exists (round_mode mode_NE). split; [apply valid_rnd_round_mode|reflexivity]. Qed.
 
-(* In real numbers, for any coordinates. *)
+(* An execution in real numbers, for any coordinates. *)
 Variables from to : component -> R.
 Definition settled r := if Rle_dec (Rabs r) (omega f) then Number r else Infinite (if Rlt_dec 0 r then true else false).
 Definition lifted (op : R -> R -> R) v w := match v, w with Number x, Number y => settled (to_nearest (op x y)) | _, _ => NaN end.
@@ -73,7 +73,7 @@ Proof.
     pose proof (is_below_spec _ _ nv nw) as s. destruct (is_below _ _); [left|right]; split; auto; now left.
 Qed.
 
-(* In binary numbers, as long as all are finite. *)
+(* An execution in binary numbers, as long as all are finite. *)
 Variables from_ to_ : component -> number.
 Hypothesis same_from : forall c, from c = B2R (from_ c).
 Hypothesis same_to : forall c, to c = B2R (to_ c).

@@ -1,4 +1,4 @@
-(* How far the numbers of an execution can be from exact ones, operation by operation. *)
+(* The distance of the numbers of an execution from exact ones, operation by operation. *)
 From Coq Require Import Reals ZArith Lra Lia Bool Psatz.
 From Flocq Require Import Core Relative Plus_error.
 From Selvedge Require Import Arithmetic Machine.
@@ -175,7 +175,7 @@ Proof.
   assert (e1 * A_ <= / 8388608 * A_) by (apply Rmult_le_compat_r; lra). unfold A_ in *. lra.
 Qed.
 
-(* The same of values: a result that is a number, and an operand as it is seen. *)
+(* The distance for values: a result that is a number, and an operand in the form that operations see. *)
 Definition holds v X p n a := exists x, v = Number x /\ representable f x /\ near x X p n a.
 Definition operand v X p n a := exists x, seen_value v = Number x /\ near x X p n a.
 Lemma seen_operand v X p n a : holds v X p n a -> operand v X p n (a + 1).

@@ -17,7 +17,7 @@ Section Machine.
 Variable f : format.
 Variable of : environment.
 Definition flushed (x : R) := if Rlt_dec (Rabs x) (lam f) then 0 else x.
-(* What an operand counts as. *)
+(* The number that an operand counts as. *)
 Definition seen x := if flushes_operands of then flushed x else x.
 Variable place : coordinate -> R.
 (* One of the two, as a comparison has it, and perhaps as it is seen. *)
@@ -67,7 +67,7 @@ Proof.
   destruct c as [[le [-> | ->]]|[le [-> | ->]]]; rewrite ?seen_opposite, ?seen_twice, ?seen_opposite, ?Ropp_involutive in *;
     [rewrite Rmin_left|rewrite Rmin_left|rewrite Rmin_right|rewrite Rmin_right]; lra.
 Qed.
-(* What is seen of a number, whichever of two equal ones a maximum is. *)
+(* The number that operations see, whichever of two equal ones a maximum is. *)
 Fixpoint sight e := match e with
   | Value c => seen (place c)
   | Larger a b => Rmax (sight a) (sight b)

@@ -1,4 +1,4 @@
-(* What the certified filter decides by the permanent, as the code has it, proves of the exact control values. *)
+(* The decision of the certified filter by the permanent, in the code's terms, proves that exact control values have one sign. *)
 From Coq Require Import Reals ZArith Lra Lia Bool Psatz.
 From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Filter.
@@ -61,7 +61,7 @@ Proof. intro h. destruct (step_of _ h) as (x & y & _ & _ & r). exact (result_is_
 Lemma representable_product a b : fits (Product a b) = true -> representable f (val (Product a b)).
 Proof. intro h. destruct (step_of _ h) as (x & y & _ & _ & r). exact (result_is_representable f ok _ _ r). Qed.
 
-(* By the permanent. *)
+(* The decision by the permanent. *)
 Theorem by_permanent a b n p count : fine a b n = true -> polynomial p = true -> fits p = true ->
   fits (Sum (roundoffs count p) margin) = true -> degree p = 3%nat -> (of_steps p <= 400)%Z ->
   exact d p = permanent d (Sum a b) -> permanent d p = permanent d (Sum a b) ->
@@ -94,14 +94,14 @@ Qed.
 End InRange.
 End Proof.
 
-(* Of the code: M, the largest magnitude, and the parts of its bounds. *)
+(* The code's M, the largest magnitude, and the parts of its bounds. *)
 Definition largest := s139.
 Definition first_of e := match e with Sum a _ => a | _ => e end.
 Definition second_of e := match e with Sum _ b => b | _ => e end.
 (* From (16u P) + margin. *)
 Definition permanent_of (bound : expr) := match bound with Sum (Product _ p) _ => p | _ => bound end.
 
-(* What the filter compares in its last part, by the permanent. *)
+(* The comparisons in the last part of the filter, by the permanent. *)
 Definition last_part := Both
   (Either
     (Both (Both (Greater control_value_0 error_bound_0) (Greater control_value_1 error_bound_1))
@@ -158,7 +158,7 @@ Proof.
 Qed.
 End InRange.
 
-(* What the last part culls has exact control values of one sign. *)
+(* A pair that the last part culls has exact control values of one sign. *)
 Theorem the_last_part_proves_one_sign : says f value_of last_part ->
   let e := exact (exactly from to) in
   (0 < e control_value_0 /\ 0 < e control_value_1 /\ 0 < e control_value_2 /\ 0 < e control_value_3) \/

@@ -1,4 +1,4 @@
-(* What is proven, for a reader who reads nothing else. Words are defined in Geometry.v (contact, volume), Arithmetic.v (one operation),
+(* The theorems, for a reader who reads no other file. Words are defined in Geometry.v (contact, volume), Arithmetic.v (one operation),
    Expressions.v (an execution), and Filter.v (what the code of the certified filter computes); for boxes in Orders.v (an
    execution) and Boxes.v. *)
 From Coq Require Import Reals ZArith Lra Lia.
@@ -29,7 +29,7 @@ Definition differences (of : component -> coordinate * coordinate) c := place (f
 Definition control a b c p := (of_control (fun b0 _ c0 _ p0 _ => k0 b0 c0 p0) a b c p, of_control k1 a b c p,
   of_control k2 a b c p, of_control (fun _ b1 _ c1 _ p1 => k3 b1 c1 p1) a b c p).
 
-(* 3. What the code computes are, but for rounding, the control values of the moving volume: VF, EE. *)
+(* 3. Apart from rounding, the code computes the control values of the moving volume: VF, EE. *)
 Theorem the_code_computes_control_values_of_a_vertex_and_a_face : let e := exact (differences vertex_face) in
   (e control_value_0, e control_value_1, e control_value_2, e control_value_3) = control (path_of 1) (path_of 2) (path_of 3) (path_of 0).
 Proof.
@@ -65,7 +65,7 @@ Qed.
       finite numbers; `value_of` any execution of the code's operations, in any rounding direction, with subnormal numbers kept or
       flushed, operands and results; `says` that the comparisons may come out so. *)
 Inductive decision := PermanentOfNoLane | PermanentOfSomeLane.
-(* What the code decides, word by word: Filter.v. The permanent's tier leaves out its second half where no lane needs it. *)
+(* The code's decisions, term by term, from Filter.v. The permanent's tier leaves out its second half if no lane needs it. *)
 Definition culled_by decision := match decision with
   | PermanentOfNoLane => culled_by_permanent_alone
   | PermanentOfSomeLane => culled_by_permanent end.
@@ -85,7 +85,7 @@ Theorem culled_edges_do_not_touch f tier value_of t : reasonable f -> executed f
   ~ segments_meet (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
 Proof. intros ok run culled. apply one_sign_excludes_contact_of_two_edges. eapply culled_has_one_sign; eassumption. Qed.
 
-(* 6. The widened tier asks binary64 where binary32 does not decide: the same coordinates, the same code. *)
+(* 6. The widened tier computes in binary64 if binary32 does not decide: the same coordinates, the same code. *)
 Definition culled_widened of := exists f value_of, (f = binary32 \/ f = binary64) /\ executed f of value_of /\
   says f value_of (culled_by PermanentOfSomeLane).
 Theorem widened_culls_no_vertex_and_face_that_touch t : culled_widened vertex_face ->
@@ -142,7 +142,7 @@ Definition culls_some_pair {component : Type} f (of : component -> coordinate * 
 Theorem every_decision_culls_some_pair tier f : f = binary32 \/ f = binary64 ->
   culls_some_pair f vertex_face (culled_by tier) /\ culls_some_pair f edge_edge (culled_by tier).
 Proof. intro which. apply (Witnesses.every_decision_culls_some (culled_by tier) f); [destruct tier; cbn; tauto|exact which]. Qed.
-(* By the permanent itself: what the code asks last. *)
+(* The permanent alone, which the code tests last, culls some pair. *)
 Theorem the_permanent_culls_some_pair : culls_some_pair binary32 vertex_face last_part /\ culls_some_pair binary32 edge_edge last_part.
 Proof. exact Witnesses.the_last_part_culls_some. Qed.
 Theorem every_box_test_culls_some_pair f test : exists environment place place' value_of value_of',

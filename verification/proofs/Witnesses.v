@@ -57,7 +57,7 @@ End InAFormat.
 Definition single {component : Type} := holds_of (component := component) 24 128 (-117) 30 gt24 lt24.
 Definition double {component : Type} := holds_of (component := component) 53 1024 (-1000) 250 gt53 lt53.
 
-(* At rest far above, all tiers cull, in both formats; close above only the permanent itself, the last part of the decision, does. *)
+(* All tiers cull a pair at rest far above, in both formats; close above, only the permanent, the last part of the decision, culls it. *)
 Definition decisions := [culled_by_permanent_alone; culled_by_permanent].
 Lemma all_tiers_cull_what_is_far : forall m, In m decisions ->
   single 4 4 in_vertex_face vertex_face m = true /\ single 4 4 in_edge_edge edge_edge m = true /\
