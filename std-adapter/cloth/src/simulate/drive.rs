@@ -1,6 +1,7 @@
 //! Motions that the caller sets from step to step: of bodies and pins, and of the wind.
 
 use super::simulation::Simulation;
+use super::state::FASTEST;
 use crate::effects::Wind;
 use crate::input::{Field, LARGEST_COORDINATE, LENGTH, ValueError};
 use crate::world::{Driven, Placement};
@@ -38,6 +39,14 @@ pub enum DriveError {
         expected: usize,
         /// The number of positions.
         found: usize,
+    },
+    /// There is no such vertex of cloth.
+    #[error("there is no vertex {vertex} of cloth: the scene has {vertices}, numbered from 0")]
+    NoVertex {
+        /// The vertex.
+        vertex: u32,
+        /// The number of vertices of cloth.
+        vertices: usize,
     },
     /// A number is not finite, or out of its range.
     #[error(transparent)]
@@ -115,6 +124,26 @@ impl Simulation {
             tearing.wind = Some(velocity);
         }
         if is_taken { Ok(()) } else { Err(DriveError::NoWind) }
+    }
+
+    /// Sets the velocity, in m/s, with which vertices of cloth start the next step, as if a hand pulled them. Pinned vertices keep theirs. The next
+    /// step is certified like any other.
+    ///
+    /// # Errors
+    /// If a vertex is not of cloth, or a component of the velocity is not finite or not below [`FASTEST`].
+    pub fn set_velocity(&mut self, vertices: &[u32], velocity: DVec3) -> Result<(), DriveError> {
+        const SPEED: Field = Field::vector("velocity", crate::input::SPEED, FASTEST);
+        SPEED.check_vector(velocity)?;
+        let cloth = self.made.cloth_vertices;
+        if let Some(&vertex) = vertices.iter().find(|&&vertex| vertex as usize >= cloth) {
+            return Err(DriveError::NoVertex { vertex, vertices: cloth });
+        }
+        for &vertex in vertices {
+            if self.made.inverse_masses[vertex as usize] > 0.0 {
+                self.state.velocities[vertex as usize] = velocity;
+            }
+        }
+        Ok(())
     }
 
     fn driven_body(&mut self, body: usize) -> Result<&mut Driven, DriveError> {

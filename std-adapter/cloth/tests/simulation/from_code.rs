@@ -628,3 +628,19 @@ fn moving_what_cannot_be_moved_is_an_error_and_changes_nothing() {
     simulation.step().unwrap();
     assert_eq!(bits(&simulation)[169..], before, "bodies stay where they are");
 }
+
+#[test]
+fn a_pulled_vertex_moves_a_pinned_one_does_not_and_unknown_ones_are_refused() {
+    let sheet = Cloth::sheet(DVec3::ZERO, [DVec3::X, DVec3::Y], [2, 2], 0.1).unwrap();
+    let mut scene = Scene::new(sheet, 1e-3);
+    scene.add(resting(vec![0])).add(Stretch::isotropic(100.0));
+    let mut simulation = Simulation::new(scene, 1).unwrap();
+    let before = simulation.positions().to_vec();
+    simulation.set_velocity(&[0, 8], DVec3::Z).unwrap();
+    simulation.step().unwrap();
+    assert_eq!(simulation.positions()[0], before[0]);
+    assert!(simulation.positions()[8].z > 5e-4);
+    let refused = simulation.set_velocity(&[9], DVec3::Z).unwrap_err();
+    assert_eq!(refused.to_string(), "there is no vertex 9 of cloth: the scene has 9, numbered from 0");
+    assert!(simulation.set_velocity(&[0], DVec3::splat(f64::NAN)).is_err());
+}

@@ -17,8 +17,10 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 const STYLE: &str = include_str!("assets/page.css");
 /// The scripts, each after those that it needs.
-const SCRIPTS: [(&str, &str); 4] = [
+const SCRIPTS: [(&str, &str); 6] = [
     ("data", include_str!("assets/data.js")),
+    ("algebra", include_str!("assets/algebra.js")),
+    ("shaders", include_str!("assets/shaders.js")),
     ("viewer", include_str!("assets/viewer.js")),
     ("charts", include_str!("assets/charts.js")),
     ("player", include_str!("assets/player.js")),

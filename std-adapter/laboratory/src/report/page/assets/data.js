@@ -24,6 +24,7 @@ function readRecording() {
     measure.values = measured.subarray(i * count, (i + 1) * count);
     measure.steps = recording.measuredSteps;
   });
+  recording.write = (frame, out) => writeFrame(recording, frame, out);
   recording.frameTimes = recording.frameSteps.map((step) => step * recording.timeStep);
   return recording;
 }

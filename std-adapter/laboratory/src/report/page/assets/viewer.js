@@ -3,7 +3,8 @@
 /**
  * Draws frames on a canvas with WebGL 2, or returns null without it.
  *
- * The viewer has its own axes: x to the right, y up, z towards the reader, the scene's middle at 0.
+ * The viewer has its own axes: x to the right, y up, z towards the reader, the scene's middle at 0. A recording has its direction `up`, the
+ * number of `vertices`, `triangles`, `parts` of them, `frameSteps`, `bounds` of each frame, and `write(frame, out)`, which writes positions.
  */
 function createViewer(canvas, recording, onChange) {
   const gl = canvas.getContext("webgl2", { alpha: true, antialias: true });
@@ -33,6 +34,8 @@ function createViewer(canvas, recording, onChange) {
   elements(gl, recording.triangles);
   gl.bindVertexArray(null);
   let edges = null;
+  // Without tints this attribute is the constant 0 0 0 0.
+  const tintBuffer = gl.createBuffer();
 
   const shadowMap = gl.createTexture();
   gl.bindTexture(gl.TEXTURE_2D, shadowMap);
@@ -70,13 +73,68 @@ function createViewer(canvas, recording, onChange) {
   }
 
   function setFrame(frame) {
-    writeFrame(recording, frame, points);
+    recording.write(frame, points);
     scene.place(points);
     writeNormals(recording.triangles, points, normals);
     gl.bindBuffer(gl.ARRAY_BUFFER, pointBuffer);
     gl.bufferSubData(gl.ARRAY_BUFFER, 0, points);
     gl.bindBuffer(gl.ARRAY_BUFFER, normalBuffer);
     gl.bufferSubData(gl.ARRAY_BUFFER, 0, normals);
+  }
+
+  /** Mixes a colour into the surface at each vertex: red, green, blue as linear light, and the share. `null`: nothing is mixed in. */
+  function setTints(tints) {
+    gl.bindVertexArray(vertices);
+    if (tints) {
+      gl.bindBuffer(gl.ARRAY_BUFFER, tintBuffer);
+      gl.bufferData(gl.ARRAY_BUFFER, tints, gl.DYNAMIC_DRAW);
+      gl.vertexAttribPointer(2, 4, gl.FLOAT, false, 0, 0);
+      gl.enableVertexAttribArray(2);
+    } else {
+      gl.disableVertexAttribArray(2);
+      gl.vertexAttrib4f(2, 0, 0, 0, 0);
+    }
+    gl.bindVertexArray(null);
+    onChange();
+  }
+
+  /** Replaces the triangles where they have changed, as after a tear. */
+  function setTriangles(triangles) {
+    recording.triangles = triangles;
+    gl.bindVertexArray(vertices);
+    elements(gl, triangles);
+    gl.bindVertexArray(null);
+    edges = null;
+  }
+
+  /** The projection of the last draw, from the viewer's axes to the canvas. */
+  let projected = null;
+
+  /** Returns the vertex below a place on the canvas, from 0 to 1, and its depth; `null` if none is within a share `reach` of the height. */
+  function pick(across, down, reach) {
+    if (!projected) return null;
+    const aspect = canvas.width / canvas.height;
+    let best = null;
+    for (let v = 0; v < recording.vertices; v++) {
+      const [x, y, , w] = transformed(projected, points.subarray(3 * v, 3 * v + 3));
+      if (!(w > 0)) continue;
+      const distance = Math.hypot((0.5 + 0.5 * x / w - across) * aspect, 0.5 - 0.5 * y / w - down);
+      // Of the vertices below the place, the nearest to the eye.
+      if (distance < reach && (!best || w + 20 * distance * scene.radius < best.rank)) {
+        best = { vertex: v, depth: w, rank: w + 20 * distance * scene.radius };
+      }
+    }
+    return best;
+  }
+
+  /** Returns the point of the recording at a place on the canvas and at a depth. */
+  function pointAt(across, down, depth) {
+    const toEye = lookAt(added(camera.target, eyeOffset()), camera.target);
+    const tall = Math.tan(FIELD / 2) * depth, wide = (tall * canvas.width) / canvas.height;
+    const seen = [(2 * across - 1) * wide, (1 - 2 * down) * tall, -depth];
+    const eye = added(camera.target, eyeOffset());
+    const p = [0, 1, 2].map((i) => eye[i] + toEye[4 * i] * seen[0] + toEye[4 * i + 1] * seen[1] + toEye[4 * i + 2] * seen[2]);
+    return scene.unplace(p);
   }
 
   function eyeOffset() {
@@ -94,6 +152,7 @@ function createViewer(canvas, recording, onChange) {
     const near = Math.max(0.02 * camera.distance, away - 2.8 * scene.radius);
     const projection = perspective(FIELD, width / height, near, away + 3 * scene.radius);
     const matrix = multiplied(projection, lookAt(eye, camera.target));
+    projected = matrix;
     const colours = themeColours(canvas);
 
     gl.enable(gl.DEPTH_TEST);
@@ -206,7 +265,9 @@ function createViewer(canvas, recording, onChange) {
     }
   }
 
-  return { setFrame, draw, reset, turn, zoom, shift, resize, shown, gridSpacing: scene.gridSpacing };
+  return {
+    setFrame, setTints, setTriangles, draw, reset, turn, zoom, shift, resize, pick, pointAt, shown, gridSpacing: scene.gridSpacing,
+  };
 }
 
 /** Lets pointers and keys rotate, zoom and pan the view. */
@@ -290,12 +351,17 @@ function placeScene(recording) {
     }
   };
 
+  const unplace = (p) => {
+    const q = added(p, middle);
+    return [0, 1, 2].map((i) => rows[0][i] * q[0] + rows[1][i] * q[1] + rows[2][i] * q[2]);
+  };
+
   // A few thousand points of a few frames determine the view.
   const points = new Float32Array(3 * recording.vertices);
   const sample = [];
   const stride = Math.max(1, Math.floor(recording.vertices / 400));
   for (let k = 0; k < 12; k++) {
-    writeFrame(recording, Math.round((k / 11) * (frames - 1)), points);
+    recording.write(Math.round((k / 11) * (frames - 1)), points);
     place(points);
     for (let v = 0; v < recording.vertices; v += stride) sample.push(...points.subarray(3 * v, 3 * v + 3));
   }
@@ -304,7 +370,7 @@ function placeScene(recording) {
   radius = Math.max(radius, 1e-9);
   const gridSpacing = niceStep(2 * radius, 10);
   return {
-    place, radius, gridSpacing,
+    place, unplace, radius, gridSpacing,
     sample: Float32Array.from(sample),
     gridOrigin: [middle[0], middle[2]],
     // A little lower, so that objects on the ground do not intersect it.
@@ -368,27 +434,6 @@ function elements(gl, indices) {
   gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, indices, gl.STATIC_DRAW);
 }
 
-function program(gl, vertexSource, fragmentSource) {
-  const made = gl.createProgram();
-  for (const [kind, source] of [[gl.VERTEX_SHADER, vertexSource], [gl.FRAGMENT_SHADER, fragmentSource]]) {
-    const shader = gl.createShader(kind);
-    gl.shaderSource(shader, source);
-    gl.compileShader(shader);
-    gl.attachShader(made, shader);
-  }
-  gl.linkProgram(made);
-  if (!gl.getProgramParameter(made, gl.LINK_STATUS) && !gl.isContextLost()) {
-    const logs = gl.getAttachedShaders(made).map((shader) => gl.getShaderInfoLog(shader));
-    throw new Error(`a shader does not build: ${gl.getProgramInfoLog(made)} ${logs.join(" ")}`);
-  }
-  const places = new Map();
-  const at = (name) => {
-    if (!places.has(name)) places.set(name, gl.getUniformLocation(made, name));
-    return places.get(name);
-  };
-  return { program: made, at };
-}
-
 /** Returns the theme's colours, as linear light. */
 function themeColours(canvas) {
   const style = getComputedStyle(canvas);
@@ -399,165 +444,3 @@ function themeColours(canvas) {
   const cloths = [0, 1, 2, 3].map((colour) => linear(`--cloth-${colour}`));
   return { cloths, lining: linear("--lining"), body: linear("--body"), grid: linear("--grid") };
 }
-
-const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const crossed = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-const scaled = (a, s) => [a[0] * s, a[1] * s, a[2] * s];
-const added = (a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
-const normalized = (a) => scaled(a, 1 / Math.hypot(...a));
-
-// Matrices are stored by columns.
-
-function multiplied(a, b) {
-  const product = new Float32Array(16);
-  for (let column = 0; column < 4; column++) {
-    for (let row = 0; row < 4; row++) {
-      for (let k = 0; k < 4; k++) product[4 * column + row] += a[4 * k + row] * b[4 * column + k];
-    }
-  }
-  return product;
-}
-
-function transformed(m, p) {
-  return [0, 1, 2].map((row) => m[row] * p[0] + m[4 + row] * p[1] + m[8 + row] * p[2] + m[12 + row]);
-}
-
-function perspective(field, aspect, near, far) {
-  const f = 1 / Math.tan(field / 2), d = 1 / (near - far);
-  return new Float32Array([f / aspect, 0, 0, 0, 0, f, 0, 0, 0, 0, (near + far) * d, -1, 0, 0, 2 * near * far * d, 0]);
-}
-
-function orthographic(halfWidth, halfHeight, far) {
-  return new Float32Array([1 / halfWidth, 0, 0, 0, 0, 1 / halfHeight, 0, 0, 0, 0, -2 / far, 0, 0, 0, -1, 1]);
-}
-
-function lookAt(eye, target) {
-  const z = normalized(added(eye, scaled(target, -1)));
-  const x = normalized(crossed([0, 1, 0], z));
-  const y = crossed(z, x);
-  return new Float32Array([
-    x[0], y[0], z[0], 0, x[1], y[1], z[1], 0, x[2], y[2], z[2], 0, -dot(x, eye), -dot(y, eye), -dot(z, eye), 1,
-  ]);
-}
-
-const SUNLIGHT = `
-uniform mediump sampler2DShadow shadowMap;
-
-// The share of sunlight at a point, over a few texels around its place on the map.
-float sunlight(vec4 place) {
-  vec3 p = place.xyz * 0.5 + 0.5;
-  if (any(greaterThan(abs(p - 0.5), vec3(0.5)))) return 1.0;
-  float sum = 0.0;
-  for (int y = -2; y <= 2; y++) {
-    for (int x = -2; x <= 2; x++) sum += texture(shadowMap, p + vec3(vec2(x, y) * (1.2 / 2048.0), 0.0));
-  }
-  return sum / 25.0;
-}
-`;
-
-const SURFACE_VERTEX = `#version 300 es
-layout(location = 0) in vec3 point;
-layout(location = 1) in vec3 normal;
-uniform mat4 matrix;
-uniform mat4 sunMatrix;
-uniform vec3 sun;
-uniform float lift;
-out vec3 where;
-out vec3 outward;
-out vec4 sunPlace;
-void main() {
-  where = point;
-  // Sums of areas may be so small that their squares underflow.
-  outward = normal / max(max(abs(normal.x), abs(normal.y)), max(abs(normal.z), 1e-30));
-  // The lookup is a little off the surface, towards the sun, so that coarse triangles do not shade themselves.
-  vec3 lifted = point + normalize(outward) * sign(dot(outward, sun)) * lift;
-  sunPlace = sunMatrix * vec4(lifted, 1.0);
-  gl_Position = matrix * vec4(point, 1.0);
-}`;
-
-const SURFACE_FRAGMENT = `#version 300 es
-precision highp float;
-in vec3 where;
-in vec3 outward;
-in vec4 sunPlace;
-uniform vec3 eye;
-uniform vec3 sun;
-uniform vec3 front;
-uniform vec3 back;
-uniform float sheen;
-out vec4 colour;
-${SUNLIGHT}
-void main() {
-  vec3 n = normalize(outward) * (gl_FrontFacing ? 1.0 : -1.0);
-  vec3 toEye = normalize(eye - where);
-  vec3 base = gl_FrontFacing ? front : back;
-  float facing = dot(n, sun);
-  float direct = max((facing + 0.2) / 1.2, 0.0) * mix(0.1, 1.0, sunlight(sunPlace));
-  vec3 ambient = mix(vec3(0.13, 0.12, 0.115), vec3(0.30, 0.32, 0.36), 0.5 + 0.5 * n.y);
-  // A lamp at the eye keeps folds in the shade legible.
-  float lamp = 0.14 * max(dot(n, toEye), 0.0);
-  float rim = pow(1.0 - max(dot(n, toEye), 0.0), 3.0);
-  float gloss = pow(max(dot(n, normalize(sun + toEye)), 0.0), 32.0);
-  vec3 light = base * (ambient + lamp + 0.85 * direct * vec3(1.0, 0.97, 0.92));
-  light += sheen * 0.16 * rim * (base + 0.15) + (1.0 - sheen) * 0.08 * gloss * direct;
-  colour = vec4(pow(light, vec3(1.0 / 2.2)), 1.0);
-}`;
-
-const DEPTH_VERTEX = `#version 300 es
-layout(location = 0) in vec3 point;
-uniform mat4 matrix;
-void main() { gl_Position = matrix * vec4(point, 1.0); }`;
-
-const DEPTH_FRAGMENT = `#version 300 es
-void main() {}`;
-
-const LINE_VERTEX = `#version 300 es
-layout(location = 0) in vec3 point;
-uniform mat4 matrix;
-uniform vec3 eye;
-uniform float lift;
-// Lines are nearer to the eye than their triangles.
-void main() { gl_Position = matrix * vec4(point + normalize(eye - point) * lift, 1.0); }`;
-
-const LINE_FRAGMENT = `#version 300 es
-precision highp float;
-uniform vec4 colour;
-out vec4 result;
-void main() { result = colour; }`;
-
-const FLOOR_VERTEX = `#version 300 es
-uniform mat4 matrix;
-uniform mat4 sunMatrix;
-uniform float height;
-uniform float radius;
-out vec2 place;
-out vec4 sunPlace;
-void main() {
-  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
-  place = corner * 3.0 * radius;
-  vec4 point = vec4(place.x, height, place.y, 1.0);
-  sunPlace = sunMatrix * point;
-  gl_Position = matrix * point;
-}`;
-
-const FLOOR_FRAGMENT = `#version 300 es
-precision highp float;
-in vec2 place;
-in vec4 sunPlace;
-uniform float radius;
-uniform float spacing;
-uniform vec2 origin;
-uniform vec3 ink;
-out vec4 colour;
-${SUNLIGHT}
-void main() {
-  float fade = 1.0 - smoothstep(0.9, 2.6, length(place) / radius);
-  vec2 cell = (place + origin) / spacing;
-  vec2 width = fwidth(cell);
-  vec2 distance = abs(fract(cell - 0.5) - 0.5) / max(width, vec2(1e-6));
-  vec2 strength = clamp(1.0 - distance + 0.3, 0.0, 1.0) * clamp(0.35 / max(width, vec2(1e-6)), 0.0, 1.0);
-  float line = max(strength.x, strength.y) * 0.55 * fade;
-  float shade = (1.0 - sunlight(sunPlace)) * 0.28 * fade;
-  float alpha = 1.0 - (1.0 - line) * (1.0 - shade);
-  colour = vec4(pow(ink, vec3(1.0 / 2.2)) * line * (1.0 - shade), alpha);
-}`;
