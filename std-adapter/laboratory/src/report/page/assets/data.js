@@ -1,8 +1,8 @@
 "use strict";
 
-/** Returns the page's data blocks: the header with the arrays added. Numbers are little endian, as on every machine with a browser. */
-function readRecording() {
-  const text = (id) => document.getElementById(id).textContent;
+/** Returns the data blocks of a page: the header with the arrays added. Numbers are little endian, as on every machine with a browser. */
+function readRecording(page = document) {
+  const text = (id) => page.getElementById(id).textContent;
   const buffer = (id) => {
     const binary = atob(text(id));
     const bytes = new Uint8Array(binary.length);

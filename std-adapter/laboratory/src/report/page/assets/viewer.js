@@ -34,8 +34,8 @@ function createViewer(canvas, recording, onChange) {
   elements(gl, recording.triangles);
   gl.bindVertexArray(null);
   let edges = null;
-  // Without tints this attribute is the constant 0 0 0 0.
   const tintBuffer = gl.createBuffer();
+  gl.vertexAttrib4f(2, 0, 0, 0, 0); // Nothing is mixed in.
 
   const shadowMap = gl.createTexture();
   gl.bindTexture(gl.TEXTURE_2D, shadowMap);
