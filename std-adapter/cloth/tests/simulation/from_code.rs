@@ -641,6 +641,9 @@ fn a_pulled_vertex_moves_a_pinned_one_does_not_and_unknown_ones_are_refused() {
     assert_eq!(simulation.positions()[0], before[0]);
     assert!(simulation.positions()[8].z > 5e-4);
     let refused = simulation.set_velocity(&[9], DVec3::Z).unwrap_err();
-    assert_eq!(refused.to_string(), "there is no vertex 9 of cloth: the scene has 9, numbered from 0");
+    assert_eq!(
+        refused.to_string(),
+        "there is no vertex 9 of cloth: the scene has 9, numbered from 0"
+    );
     assert!(simulation.set_velocity(&[0], DVec3::splat(f64::NAN)).is_err());
 }
