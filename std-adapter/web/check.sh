@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# Checks the npm package and the page: builds them, runs the package in Node, compares its bits and its speed with native ones, checks the
+# declarations, packs, bundles with Vite, and drives the page in Chromium. SELVEDGE_TIMES=no leaves out bounds of time, for a busy machine.
+#
+# Installs what is missing and says so: Debian's chromium, and its rustc-web, cargo-web and rust-web-src unless rustup has the target; Node's
+# packages by `npm ci`.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+
+say() { printf '\n== %s (%s s)\n' "$*" "$SECONDS"; }
+
+missing=()
+rustup target add wasm32-unknown-unknown >/dev/null 2>&1 || [ -d /usr/lib/rustlib/src ] || missing+=(rustc-web cargo-web rust-web-src)
+command -v npm >/dev/null || missing+=(nodejs npm)
+CHROMIUM=${CHROMIUM:-$(command -v chromium || command -v google-chrome || true)}
+[ -n "$CHROMIUM" ] || missing+=(chromium)
+if [ "${#missing[@]}" -gt 0 ]; then
+    say "installing ${missing[*]}"
+    sudo=$([ "$(id -u)" = 0 ] || echo sudo)
+    $sudo apt-get -q update && DEBIAN_FRONTEND=noninteractive $sudo apt-get -q install -y --no-install-recommends "${missing[@]}"
+fi
+export CHROMIUM=${CHROMIUM:-/usr/bin/chromium}
+
+say "tools of Node"
+npm ci --no-audit --no-fund
+
+./build.sh
+out=$(cd "${CARGO_TARGET_DIR:-$PWD/../../target}/web" && pwd)
+
+say "formatting and lints"
+cargo fmt --check
+CARGO_TARGET_DIR=$out cargo clippy --locked --all-features --workspace --lib --bins -- -D warnings
+
+say "native answers"
+CARGO_TARGET_DIR=$out cargo build --quiet --locked --release --package selvedge-native
+export SELVEDGE_WEB=$out SELVEDGE_NATIVE=$out/release/selvedge-native
+
+say "the package: pack, types, bundle"
+(cd "$out/package" && npm pack --pack-destination "$out")
+work=$out/bundle
+rm -rf "$work" && mkdir -p "$work/node_modules/selvedge"
+cp -r tests/bundle/. tests/types.mts tests/tsconfig.json "$work"
+tar -xzf "$out"/selvedge-0.1.0.tgz -C "$work/node_modules/selvedge" --strip-components 1
+ln -s "$PWD"/node_modules/{three,@types} "$work/node_modules/"
+node_modules/.bin/tsc --project "$work/tsconfig.json"
+node_modules/.bin/vite build --logLevel warn "$work"
+
+say "the package in Node"
+node --test tests/node.test.mjs
+
+say "the page"
+node --test --test-timeout=240000 tests/page.test.mjs
+say "the web: everything passed"

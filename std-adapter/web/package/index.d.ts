@@ -1,0 +1,8 @@
+export * from "./cloth/selvedge.js";
+
+/**
+ * Loads the WebAssembly module. Call it once, before anything else.
+ *
+ * `source`: where the module comes from, if not from beside this file: a URL, a response, its bytes, or a compiled module.
+ */
+export function load(source?: URL | Response | BufferSource | WebAssembly.Module): Promise<void>;

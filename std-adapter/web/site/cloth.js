@@ -1,0 +1,203 @@
+// The third experiment: cloth that runs live.
+
+/* global readRecording */
+
+import { Costs } from "./costs.js";
+import { Remote } from "./remote.js";
+import { SCENES, loadScene, without } from "./scenes.js";
+import { createView } from "./view.js";
+import { Strain, contactTints } from "./tints.js";
+import { Hand } from "./hand.js";
+
+const find = (id) => document.getElementById(id);
+/** Milliseconds of a frame that may go into steps: three quarters of it, within limits. */
+const budget = (frame) => Math.min(60, Math.max(12, 750 * frame));
+
+export async function startCloth() {
+  const remote = new Remote();
+  const view = createView(find("cloth-canvas"));
+  const costs = new Costs((off) => create(off));
+  const hand = new Hand(find("cloth-canvas"), view, remote, () => scene);
+  let scene = null; // What the worker made.
+  let source = null; // Text and files.
+  let report = null; // The recording of a report that is shown instead.
+  let strain = null;
+  let last = null; // The worker's last answer.
+  let playing = false;
+  let isBusy = false;
+  let before = null;
+  let owed = 0; // Seconds to simulate.
+  let frames = [];
+  let run = 0;
+
+  for (const { file, name } of SCENES) find("scene").append(new Option(name, file));
+
+  function complain(message) {
+    find("cloth-message").textContent = message;
+    find("cloth-message").hidden = !message;
+  }
+
+  /** Makes the scene again, without the effects that are switched off. */
+  async function create(off) {
+    const own = ++run;
+    complain("");
+    try {
+      const text = off.reduce(without, source.text);
+      const made = await remote.call("create", text, source.files);
+      if (own !== run) return;
+      scene = made;
+      last = made;
+      owed = 0;
+      report = null;
+      hand.release();
+      strain = new Strain(made);
+      view.openMesh(made);
+      costs.begin(made);
+      show(made);
+    } catch (error) {
+      if (own === run) complain(error.message);
+    }
+  }
+
+  async function choose(file) {
+    try {
+      source = await loadScene(file);
+      find("scrub").hidden = true;
+      find("live").hidden = false;
+      costs.forget();
+      await create([]);
+    } catch (error) {
+      complain(error.message);
+    }
+  }
+
+  function show(state) {
+    last = state;
+    view.show(state.positions);
+    const ratios = strain.measure(state.positions);
+    const colours = find("colours").value;
+    view.tint(colours === "strain" ? strain.tints(ratios) : colours === "contacts" ? contactTints(scene, state.contacts) : null);
+    find("time").textContent = `${state.time.toFixed(3)} s`;
+    find("certified").textContent = state.hasContact ? `${state.certified.toLocaleString("en")} of ${state.stepsDone.toLocaleString("en")}` : "no contact effect";
+    find("stretch").textContent = `${Math.max(...ratios).toFixed(3)}× rest`;
+    if (state.done) {
+      find("step-time").textContent = `${(state.milliseconds / state.done).toFixed(2)} ms`;
+      costs.add(state);
+    }
+  }
+
+  /** Lets the worker run `count` steps, unless it still does. */
+  async function advance(count, milliseconds = 60) {
+    if (isBusy || !scene) return;
+    isBusy = true;
+    const own = run;
+    try {
+      const state = await remote.call("run", count, milliseconds, find("colours").value === "contacts");
+      if (own === run) show(state);
+    } catch (error) {
+      if (own === run) {
+        setPlaying(false);
+        complain(error.message);
+      }
+    }
+    isBusy = false;
+  }
+
+  function tick(now) {
+    if (!playing) return;
+    requestAnimationFrame(tick);
+    frames = [...frames.filter((at) => now - at < 1000), now];
+    find("frame-rate").textContent = frames.length;
+    const passed = before === null ? 0 : Math.min(0.1, (now - before) / 1000);
+    before = now;
+    if (report) return play(passed);
+    owed = Math.min(owed + passed * Number(find("speed").value), 0.05);
+    const count = Math.floor(owed / scene.timeStep);
+    if (isBusy || count < 1) return;
+    const end = scene.steps * scene.timeStep;
+    if (find("repeat").checked && last.time > end + 1 && !hand.isHolding) return restart();
+    owed -= count * scene.timeStep;
+    advance(count, budget(passed));
+  }
+
+  function restart() {
+    if (report) return showFrame(0);
+    create(costs.off);
+  }
+
+  function setPlaying(wanted) {
+    playing = wanted && Boolean(scene || report);
+    find("play").textContent = playing ? "Pause" : "Play";
+    before = null;
+    if (playing) requestAnimationFrame(tick);
+  }
+
+  // A report of `selvedge simulate` brings its recording along.
+  async function openReport(file) {
+    try {
+      const text = await file.text();
+      report = readRecording(new DOMParser().parseFromString(text, "text/html"));
+    } catch {
+      return complain(`${file.name} is not a report of selvedge simulate`);
+    }
+    complain("");
+    run++;
+    hand.release();
+    view.open(report);
+    find("scrub").max = report.frameSteps.length - 1;
+    find("scrub").hidden = false;
+    find("live").hidden = true;
+    showFrame(0);
+  }
+
+  function showFrame(frame) {
+    report.frame = frame;
+    report.time = report.frameTimes[frame];
+    find("scrub").value = frame;
+    find("time").textContent = `${report.time.toFixed(3)} s`;
+    view.viewer?.setFrame(frame);
+    view.refresh();
+  }
+
+  function play(seconds) {
+    const times = report.frameTimes;
+    const time = report.time + seconds * Number(find("speed").value);
+    const next = times.findIndex((at) => at > time);
+    if (next < 0) showFrame(find("repeat").checked ? 0 : times.length - 1);
+    else {
+      if (next - 1 !== report.frame) showFrame(Math.max(next - 1, 0));
+      report.time = time;
+    }
+  }
+
+  find("scene").addEventListener("change", async (event) => {
+    await choose(event.target.value);
+  });
+  find("colours").addEventListener("change", () => scene && !report && show(last));
+  find("report").addEventListener("change", (event) => event.target.files[0] && openReport(event.target.files[0]));
+  find("scrub").addEventListener("input", (event) => showFrame(Number(event.target.value)));
+  find("play").addEventListener("click", () => setPlaying(!playing));
+  find("one-step").addEventListener("click", () => {
+    setPlaying(false);
+    if (report) showFrame(Math.min(report.frame + 1, report.frameSteps.length - 1));
+    else advance(1);
+  });
+  find("restart").addEventListener("click", restart);
+  find("edges").addEventListener("change", (event) => {
+    view.showEdges(event.target.checked);
+  });
+  // Cloth that nobody sees does not run.
+  let wasPlaying = false;
+  new IntersectionObserver(([{ isIntersecting }]) => {
+    if (!isIntersecting && playing) {
+      wasPlaying = true;
+      setPlaying(false);
+    } else if (isIntersecting && wasPlaying) {
+      wasPlaying = false;
+      setPlaying(true);
+    }
+  }).observe(find("cloth"));
+
+  await choose(SCENES[0].file);
+  if (!matchMedia("(prefers-reduced-motion: reduce)").matches) setPlaying(true);
+}

@@ -1,0 +1,407 @@
+//! The class `Detector`.
+
+use crate::values::{
+    array, exception, floats, get, input_error, kind_number, object, rows_of, set, take_positions, view, whole_numbers,
+};
+use js_sys::{Float64Array, Uint8Array, Uint32Array};
+use selvedge::{
+    CandidateBoxes, CollisionDetector, CollisionFilter, Contact, ContactGeometry, Criterion, Groups, Intersection, StepError,
+    Topology,
+};
+use selvedge_core::elementary::Limits;
+use wasm_bindgen::{JsCast, JsValue, prelude::wasm_bindgen};
+
+/// Finds the contacts of a moving triangle mesh, one step after another, and never misses one.
+///
+/// Positions hold x, y, z for each vertex. Methods that take them may be called without: they then use what `start` and `end` hold, where
+/// you can write without a copy.
+#[wasm_bindgen]
+pub struct Detector {
+    detector: CollisionDetector<f64>,
+    start: Vec<[f64; 3]>,
+    end: Vec<[f64; 3]>,
+    contacts: Vec<Contact<f64>>,
+    geometries: Vec<ContactGeometry>,
+}
+
+fn step_error(error: &StepError) -> JsValue {
+    let name = match error {
+        StepError::TooManyPairs { .. } => "TooManyPairsError",
+        StepError::TooMuchMemory { .. } => "TooMuchMemoryError",
+        _ => "InputError",
+    };
+    exception(name, &error.to_string())
+}
+
+#[wasm_bindgen]
+impl Detector {
+    /// Makes a detector for a mesh: three vertices for each triangle, two for each loose edge (rope, hair), one for each loose point.
+    ///
+    /// Throws an `InputError` if there is no primitive or one names a vertex that does not exist.
+    #[wasm_bindgen(constructor)]
+    pub fn new(
+        #[wasm_bindgen(js_name = vertexCount)] vertex_count: u32,
+        triangles: &[u32],
+        #[wasm_bindgen(js_name = looseEdges)] loose_edges: Option<Vec<u32>>,
+        #[wasm_bindgen(js_name = loosePoints)] loose_points: Option<Vec<u32>>,
+    ) -> Result<Detector, JsValue> {
+        let edges = rows_of(&loose_edges.unwrap_or_default(), "looseEdges")?;
+        let triangles = rows_of(triangles, "triangles")?;
+        let points = loose_points.unwrap_or_default();
+        let topology = Topology::with_loose_features(vertex_count as usize, triangles, &edges, &points);
+        let topology = topology.map_err(|error| input_error(&error))?;
+        Ok(Self {
+            start: vec![[0.0; 3]; topology.vertex_count()],
+            end: vec![[0.0; 3]; topology.vertex_count()],
+            detector: CollisionDetector::new(topology),
+            contacts: Vec::new(),
+            geometries: Vec::new(),
+        })
+    }
+
+    /// A view of the positions at the start of the step. Write here to save a copy.
+    #[wasm_bindgen(getter)]
+    pub fn start(&mut self) -> Float64Array {
+        view(self.start.as_mut_ptr() as usize, self.start.len())
+    }
+
+    /// A view of the positions at the end of the step. Write here to save a copy.
+    #[wasm_bindgen(getter)]
+    pub fn end(&mut self) -> Float64Array {
+        view(self.end.as_mut_ptr() as usize, self.end.len())
+    }
+
+    /// Finds all contacts of the step, with points, normals, distances and speeds if `geometry` is true.
+    ///
+    /// Throws an `InputError` if a frame has the wrong length or a coordinate is NaN or infinite.
+    #[wasm_bindgen(unchecked_return_type = "Contacts")]
+    pub fn contacts(
+        &mut self,
+        #[wasm_bindgen(unchecked_param_type = "Positions | undefined")] start: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Positions | undefined")] end: &JsValue,
+        geometry: Option<bool>,
+    ) -> Result<JsValue, JsValue> {
+        self.take(start, end)?;
+        let Self {
+            detector,
+            start,
+            end,
+            contacts,
+            geometries,
+        } = self;
+        detector.contacts(start, end, contacts).map_err(|error| step_error(&error))?;
+        geometries.clear();
+        if geometry == Some(true) {
+            detector
+                .contact_geometries(start, end, contacts, geometries)
+                .map_err(|error| step_error(&error))?;
+        }
+        Ok(self.columns(geometry == Some(true)))
+    }
+
+    /// Finds the earliest contact. The step is certainly free before its time, and throughout if the result is undefined.
+    #[wasm_bindgen(unchecked_return_type = "Contact | undefined")]
+    pub fn earliest(
+        &mut self,
+        #[wasm_bindgen(unchecked_param_type = "Positions | undefined")] start: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Positions | undefined")] end: &JsValue,
+    ) -> Result<JsValue, JsValue> {
+        self.take(start, end)?;
+        let earliest = self
+            .detector
+            .earliest(&self.start, &self.end)
+            .map_err(|error| step_error(&error))?;
+        Ok(earliest.map_or(JsValue::UNDEFINED, |contact| {
+            let vertices = self.detector.topology().vertices_of(contact.kind, contact.pair);
+            let properties = [
+                ("kind", contact.kind.to_string().into()),
+                ("pair", array(contact.pair)),
+                ("time", contact.time.into()),
+                ("vertices", array(vertices)),
+            ];
+            object(properties).into()
+        }))
+    }
+
+    /// Decides whether the step is certainly free of contact. The search ends at the first contact.
+    #[wasm_bindgen(js_name = isFree)]
+    pub fn is_free(
+        &mut self,
+        #[wasm_bindgen(unchecked_param_type = "Positions | undefined")] start: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Positions | undefined")] end: &JsValue,
+    ) -> Result<bool, JsValue> {
+        self.take(start, end)?;
+        self.detector
+            .is_free(&self.start, &self.end)
+            .map_err(|error| step_error(&error))
+    }
+
+    /// Finds the pairs that bounding boxes keep: two numbers each, vertices and faces, and edges and edges.
+    #[wasm_bindgen(unchecked_return_type = "{ vertexFace: Uint32Array; edgeEdge: Uint32Array }")]
+    pub fn candidates(
+        &mut self,
+        #[wasm_bindgen(unchecked_param_type = "Positions | undefined")] start: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Positions | undefined")] end: &JsValue,
+        swept: Option<bool>,
+    ) -> Result<JsValue, JsValue> {
+        self.take(start, end)?;
+        let boxes = if swept == Some(true) {
+            CandidateBoxes::Swept
+        } else {
+            CandidateBoxes::Moving
+        };
+        let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
+        let found = self
+            .detector
+            .candidates(&self.start, &self.end, boxes, &mut vertex_face, &mut edge_edge);
+        found.map_err(|error| step_error(&error))?;
+        let pairs = |pairs: &[[u32; 2]]| whole_numbers(pairs.as_flattened());
+        Ok(object([("vertexFace", pairs(&vertex_face)), ("edgeEdge", pairs(&edge_edge))]).into())
+    }
+
+    /// Finds all pairs of a mesh at rest within a distance, with their closest points. None is missed.
+    #[wasm_bindgen(unchecked_return_type = "Contacts")]
+    pub fn near(
+        &mut self,
+        #[wasm_bindgen(unchecked_param_type = "Positions")] positions: &JsValue,
+        distance: f64,
+    ) -> Result<JsValue, JsValue> {
+        take_positions(positions, "positions", &mut self.start)?;
+        let Self {
+            detector,
+            start,
+            contacts,
+            geometries,
+            ..
+        } = self;
+        detector
+            .near(start, distance, geometries)
+            .map_err(|error| step_error(&error))?;
+        contacts.clear();
+        contacts.extend(geometries.iter().map(|near| Contact {
+            kind: near.kind,
+            pair: near.pair,
+            time: 0.0,
+        }));
+        Ok(self.columns(true))
+    }
+
+    /// Moves each vertex as far towards `wanted` as its neighbourhood allows, so that the step is certainly free of contact.
+    #[wasm_bindgen(unchecked_return_type = "Truncation")]
+    pub fn truncate(
+        &mut self,
+        #[wasm_bindgen(unchecked_param_type = "Positions | undefined")] start: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Positions | undefined")] wanted: &JsValue,
+    ) -> Result<JsValue, JsValue> {
+        self.take(start, wanted)?;
+        let mut end = Vec::new();
+        let truncation = self
+            .detector
+            .truncate(&self.start, &self.end, &mut end)
+            .map_err(|error| step_error(&error))?;
+        let properties = [
+            ("end", floats(end.as_flattened())),
+            ("heldBack", truncation.held_back.into()),
+            ("inContact", truncation.in_contact.into()),
+        ];
+        Ok(object(properties).into())
+    }
+
+    /// Finds all intersections of a mesh at rest, exactly, touching included.
+    #[wasm_bindgen(unchecked_return_type = "Intersections")]
+    pub fn intersections(
+        &mut self,
+        #[wasm_bindgen(unchecked_param_type = "Positions")] positions: &JsValue,
+    ) -> Result<JsValue, JsValue> {
+        take_positions(positions, "positions", &mut self.start)?;
+        let mut found = Vec::new();
+        self.detector
+            .intersections(&self.start, &mut found)
+            .map_err(|error| step_error(&error))?;
+        let row = |intersection: &Intersection| match *intersection {
+            Intersection::EdgeFace { edge, face } => (0_u8, [edge, face]),
+            Intersection::VertexFace { vertex, face } => (1, [vertex, face]),
+            Intersection::EdgeEdge { edges } => (2, edges),
+        };
+        let (kinds, pairs): (Vec<_>, Vec<_>) = found.iter().map(row).unzip();
+        let properties = [
+            ("count", found.len().into()),
+            ("kind", Uint8Array::from(&kinds[..]).into()),
+            ("pair", whole_numbers(pairs.as_flattened())),
+        ];
+        Ok(object(properties).into())
+    }
+
+    /// Decides whether there is any intersection. The search ends at the first.
+    #[wasm_bindgen(js_name = hasIntersections)]
+    pub fn has_intersections(
+        &mut self,
+        #[wasm_bindgen(unchecked_param_type = "Positions")] positions: &JsValue,
+    ) -> Result<bool, JsValue> {
+        take_positions(positions, "positions", &mut self.start)?;
+        self.detector
+            .has_intersections(&self.start)
+            .map_err(|error| step_error(&error))
+    }
+
+    /// Sets what counts as a contact.
+    #[wasm_bindgen(js_name = setLimits)]
+    pub fn set_limits(&mut self, #[wasm_bindgen(unchecked_param_type = "Limits")] limits: &JsValue) -> Result<(), JsValue> {
+        let number = |name| get(limits, name).and_then(|value| value.as_f64());
+        let tolerance = number("tolerance").unwrap_or(Limits::<f64>::default().tolerance);
+        let separation = number("separation").unwrap_or(0.0);
+        let touching = get(limits, "touching").is_some_and(|value| value.is_truthy());
+        let criterion = match (touching, separation == 0.0) {
+            (true, true) => Criterion::Touching { tolerance },
+            (true, false) => return Err(input_error(&"with touching there is no separation")),
+            (false, _) => Criterion::Within(Limits { tolerance, separation }),
+        };
+        self.detector.set_criterion(criterion).map_err(|error| step_error(&error))
+    }
+
+    /// Names the moving vertices by a number that is not zero. Without an argument all vertices move.
+    #[wasm_bindgen(js_name = setMoving)]
+    pub fn set_moving(&mut self, moving: Option<Vec<u8>>) -> Result<(), JsValue> {
+        let moving: Option<Vec<bool>> = moving.map(|moving| moving.iter().map(|&moves| moves != 0).collect());
+        self.detector
+            .set_moving(moving.as_deref())
+            .map_err(|error| step_error(&error))
+    }
+
+    /// Sets which pairs may collide; it replaces the previous filter.
+    #[wasm_bindgen(js_name = setCollisionFilter)]
+    pub fn set_collision_filter(
+        &mut self,
+        #[wasm_bindgen(unchecked_param_type = "CollisionFilter")] filter: &JsValue,
+    ) -> Result<(), JsValue> {
+        let list = |name: &str| match get(filter, name) {
+            None => Ok(None),
+            Some(list) => list
+                .dyn_ref()
+                .map(Uint32Array::to_vec)
+                .map(Some)
+                .ok_or_else(|| input_error(&format!("{name} must be a Uint32Array"))),
+        };
+        let mut made = CollisionFilter::new();
+        if let Some(groups) = list("groups")? {
+            let groups = rows_of::<2>(&groups, "groups")?;
+            made = made.with_groups(
+                groups
+                    .into_iter()
+                    .map(|[memberships, filter]| Groups::new(memberships, filter))
+                    .collect(),
+            );
+        }
+        if let Some(patches) = list("patches")? {
+            made = made.with_patches(patches);
+        }
+        if let Some(excluded) = list("excluded")? {
+            made = made.without_vertex_pairs(rows_of::<2>(&excluded, "excluded")?);
+        }
+        self.detector.set_collision_filter(made).map_err(|error| step_error(&error))
+    }
+
+    /// Sets whether each step starts where the last one ended. Such steps are faster; the contacts are the same.
+    #[wasm_bindgen(js_name = setCoherent)]
+    pub fn set_coherent(&mut self, coherent: bool) {
+        self.detector.set_coherent(coherent);
+    }
+
+    /// Limits the pairs that a step may look at; more throw a `TooManyPairsError`. Without an argument there is no limit.
+    #[wasm_bindgen(js_name = setPairLimit)]
+    pub fn set_pair_limit(&mut self, limit: Option<f64>) {
+        self.detector.set_pair_limit(limit.map(|limit| limit as u64));
+    }
+
+    /// Limits the memory of pairs and contacts, in bytes; a step that needs more throws a `TooMuchMemoryError`.
+    #[wasm_bindgen(js_name = setMemoryLimit)]
+    pub fn set_memory_limit(&mut self, limit: Option<f64>) {
+        self.detector.set_memory_limit(limit.map(|limit| limit as u64));
+    }
+
+    /// The counts of the last step.
+    #[wasm_bindgen(getter, unchecked_return_type = "Statistics")]
+    pub fn statistics(&self) -> JsValue {
+        let statistics = self.detector.statistics();
+        let properties = [
+            ("candidates", (statistics.candidates.total() as f64).into()),
+            ("filtered", (statistics.filtered.total() as f64).into()),
+            ("contacts", (statistics.contacts.total() as f64).into()),
+            ("seconds", statistics.seconds.into()),
+        ];
+        object(properties).into()
+    }
+
+    /// The vertices of each triangle.
+    #[wasm_bindgen(getter)]
+    pub fn triangles(&self) -> Vec<u32> {
+        self.detector.topology().proper_triangles().as_flattened().to_vec()
+    }
+
+    /// The vertices of each edge, in the order of their numbers.
+    #[wasm_bindgen(getter)]
+    pub fn edges(&self) -> Vec<u32> {
+        self.detector.topology().edges().as_flattened().to_vec()
+    }
+
+    /// The connected component of each vertex. As `patches`, they let only different components collide.
+    #[wasm_bindgen(getter)]
+    pub fn components(&self) -> Vec<u32> {
+        self.detector.topology().components()
+    }
+
+    fn take(&mut self, start: &JsValue, end: &JsValue) -> Result<(), JsValue> {
+        if !start.is_undefined() {
+            take_positions(start, "start", &mut self.start)?;
+        }
+        if !end.is_undefined() {
+            take_positions(end, "end", &mut self.end)?;
+        }
+        Ok(())
+    }
+
+    /// Returns the contacts as arrays.
+    fn columns(&self, with_geometry: bool) -> JsValue {
+        let (contacts, topology) = (&self.contacts, self.detector.topology());
+        let kinds: Vec<u8> = contacts.iter().map(|contact| kind_number(contact.kind)).collect();
+        let pairs: Vec<u32> = contacts.iter().flat_map(|contact| contact.pair).collect();
+        let times: Vec<f64> = contacts.iter().map(|contact| contact.time).collect();
+        let vertices: Vec<u32> = contacts
+            .iter()
+            .flat_map(|contact| topology.vertices_of(contact.kind, contact.pair))
+            .collect();
+        let columns = object([
+            ("count", contacts.len().into()),
+            ("kind", Uint8Array::from(&kinds[..]).into()),
+            ("pair", whole_numbers(&pairs)),
+            ("time", floats(&times)),
+            ("vertices", whole_numbers(&vertices)),
+        ]);
+        if with_geometry {
+            let all = || self.geometries.iter().map(|found| &found.geometry);
+            let points: Vec<f64> = all()
+                .flat_map(|found| found.points)
+                .flat_map(|point| point.to_array())
+                .collect();
+            let normal = all().flat_map(|found| found.normal.map_or([f64::NAN; 3], |normal| normal.to_array()));
+            set(&columns, "points", &floats(&points));
+            set(
+                &columns,
+                "weights",
+                &floats(&all().flat_map(|found| found.weights).collect::<Vec<_>>()),
+            );
+            set(&columns, "normal", &floats(&normal.collect::<Vec<_>>()));
+            set(
+                &columns,
+                "distance",
+                &floats(&all().flat_map(|found| found.distance).collect::<Vec<_>>()),
+            );
+            set(
+                &columns,
+                "speed",
+                &floats(&all().map(|found| found.speed).collect::<Vec<_>>()),
+            );
+        }
+        columns.into()
+    }
+}

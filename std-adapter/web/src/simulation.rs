@@ -1,0 +1,341 @@
+//! The class `Simulation`.
+
+use crate::scene::{range, scene_of};
+use crate::values::{exception, floats, input_error, object, set, take_positions, view, whole_numbers};
+use js_sys::{Float64Array, Object};
+use selvedge_cloth::glam::{DQuat, DVec3};
+use selvedge_cloth::{FrameError, Placement, SetupError, Simulation as Cloth, vertex_normals};
+use wasm_bindgen::{JsValue, prelude::wasm_bindgen};
+
+/// A simulation of cloth. Each state is certified free of intersections, with the same bits as in native programs. SI units.
+#[wasm_bindgen]
+pub struct Simulation {
+    cloth: Cloth,
+    steps: u64,
+    steps_per_frame: u64,
+    time_step: f64,
+    up: DVec3,
+    settings: Vec<(String, String)>,
+}
+
+#[wasm_bindgen]
+impl Simulation {
+    /// Makes a simulation from the text of a scene (TOML) and the files that it names.
+    ///
+    /// Throws a `SceneError` that names line and column, or a `TangledError` if surfaces pass through each other.
+    #[wasm_bindgen(constructor)]
+    pub fn new(
+        text: &str,
+        #[wasm_bindgen(unchecked_param_type = "Record<string, Uint8Array | string> | undefined")] files: &JsValue,
+    ) -> Result<Simulation, JsValue> {
+        let scene = scene_of(text, files)?;
+        let (steps, steps_per_frame, time_step) = (scene.steps(), scene.steps_per_frame(), scene.time_step);
+        let up = scene.up.normalize_or(DVec3::Z);
+        let settings = scene.settings();
+        let cloth = Cloth::new(scene, 1).map_err(|error| {
+            let name = if matches!(error, SetupError::Tangled(_)) {
+                "TangledError"
+            } else {
+                "SceneError"
+            };
+            exception(name, &error.to_string())
+        })?;
+        Ok(Self {
+            cloth,
+            steps,
+            steps_per_frame,
+            time_step,
+            up,
+            settings,
+        })
+    }
+
+    /// Runs steps. Throws a `BlockedError` if bodies or pins force the cloth where it cannot go and the scene stops then; the steps before
+    /// it remain.
+    pub fn step(&mut self, count: Option<u32>) -> Result<(), JsValue> {
+        for _ in 0..count.unwrap_or(1) {
+            self.cloth
+                .step()
+                .map_err(|blocked| exception("BlockedError", &blocked.to_string()))?;
+        }
+        Ok(())
+    }
+
+    /// Lets seconds pass, in as many steps as the cloth needs, and at most `most` (default 64). Returns both numbers.
+    #[wasm_bindgen(unchecked_return_type = "{ steps: number; needed: number }")]
+    pub fn advance(&mut self, seconds: f64, most: Option<u32>) -> Result<JsValue, JsValue> {
+        let frame = self
+            .cloth
+            .advance_within(seconds, most.unwrap_or(64))
+            .map_err(|error| match error {
+                FrameError::Blocked(blocked) => exception("BlockedError", &blocked.to_string()),
+                FrameError::Seconds(error) => input_error(&error),
+            })?;
+        Ok(object([("steps", frame.steps.into()), ("needed", frame.needed.into())]).into())
+    }
+
+    /// A view of the positions in metres: the vertices of the cloths, then of the bodies. Tearing adds vertices.
+    #[wasm_bindgen(getter)]
+    pub fn positions(&self) -> Float64Array {
+        view(self.cloth.positions().as_ptr() as usize, self.cloth.positions().len())
+    }
+
+    /// A view of the velocities in m/s.
+    #[wasm_bindgen(getter)]
+    pub fn velocities(&self) -> Float64Array {
+        view(self.cloth.velocities().as_ptr() as usize, self.cloth.velocities().len())
+    }
+
+    /// The unit normal at each vertex; zero for a vertex without a face.
+    #[must_use]
+    pub fn normals(&self) -> Vec<f64> {
+        let mut normals = Vec::new();
+        vertex_normals(self.cloth.positions(), self.cloth.triangles(), &mut normals);
+        normals.iter().flat_map(DVec3::to_array).collect()
+    }
+
+    /// The vertices of each triangle, of the cloths and then of the bodies.
+    #[wasm_bindgen(getter)]
+    pub fn triangles(&self) -> Vec<u32> {
+        self.cloth.triangles().as_flattened().to_vec()
+    }
+
+    /// The vertices of each loose edge: ropes, laces and fringes.
+    #[wasm_bindgen(getter, js_name = looseEdges)]
+    pub fn loose_edges(&self) -> Vec<u32> {
+        self.cloth.loose_edges().as_flattened().to_vec()
+    }
+
+    /// The number of vertices of cloth, which come first.
+    #[wasm_bindgen(getter, js_name = clothVertexCount)]
+    pub fn cloth_vertex_count(&self) -> usize {
+        self.cloth.cloth_vertices()
+    }
+
+    /// The number of triangles of cloth, which come first.
+    #[wasm_bindgen(getter, js_name = clothTriangleCount)]
+    pub fn cloth_triangle_count(&self) -> usize {
+        self.cloth.cloth_triangles()
+    }
+
+    /// The names of the bodies, in the order of the scene.
+    #[wasm_bindgen(getter, js_name = bodyNames)]
+    pub fn body_names(&self) -> Vec<String> {
+        self.cloth.body_names().to_vec()
+    }
+
+    /// The name of the scene.
+    #[wasm_bindgen(getter)]
+    pub fn name(&self) -> String {
+        self.cloth.name().to_owned()
+    }
+
+    /// The direction against gravity, a unit vector.
+    #[wasm_bindgen(getter)]
+    pub fn up(&self) -> Vec<f64> {
+        self.up.to_array().to_vec()
+    }
+
+    /// The scene's time step in seconds.
+    #[wasm_bindgen(getter, js_name = timeStep)]
+    pub fn time_step(&self) -> f64 {
+        self.time_step
+    }
+
+    /// The number of steps in the scene's duration.
+    #[wasm_bindgen(getter)]
+    pub fn steps(&self) -> f64 {
+        self.steps as f64
+    }
+
+    /// The number of steps from one frame to the next.
+    #[wasm_bindgen(getter, js_name = stepsPerFrame)]
+    pub fn steps_per_frame(&self) -> f64 {
+        self.steps_per_frame as f64
+    }
+
+    /// The number of steps so far.
+    #[wasm_bindgen(getter, js_name = stepsDone)]
+    pub fn steps_done(&self) -> f64 {
+        self.cloth.steps_done() as f64
+    }
+
+    /// The time simulated so far, in seconds.
+    #[wasm_bindgen(getter)]
+    pub fn time(&self) -> f64 {
+        self.cloth.time()
+    }
+
+    /// The time by which bodies and pins lag behind their keyframes, in seconds.
+    #[wasm_bindgen(getter)]
+    pub fn lag(&self) -> f64 {
+        self.cloth.lag()
+    }
+
+    /// Whether the state is certified free of the intersections that the scene's contact effects name.
+    #[wasm_bindgen(getter, js_name = isCertified)]
+    pub fn is_certified(&self) -> bool {
+        self.cloth.is_certified()
+    }
+
+    /// The number of steps in which bodies or pins had to wait.
+    #[wasm_bindgen(getter, js_name = blockedSteps)]
+    pub fn blocked_steps(&self) -> f64 {
+        self.cloth.blocked_steps() as f64
+    }
+
+    /// The length of edges relative to rest: the 99th percentile and the largest.
+    #[wasm_bindgen(getter, js_name = edgeStretch, unchecked_return_type = "[number, number]")]
+    pub fn edge_stretch(&self) -> JsValue {
+        let stretch = self.cloth.edge_stretch();
+        js_sys::Array::of2(&stretch.percentile_99.into(), &stretch.largest.into()).into()
+    }
+
+    /// The processing time of each effect so far, in seconds, by its name. An effect that the scene does not name is absent.
+    #[wasm_bindgen(getter, js_name = effectSeconds, unchecked_return_type = "Record<string, number>")]
+    pub fn effect_seconds(&self) -> JsValue {
+        by_name(self.cloth.effects().iter().map(|effect| (effect.name, effect.seconds)))
+    }
+
+    /// The counts of contact so far; undefined without a contact effect.
+    #[wasm_bindgen(getter, js_name = contactCounts, unchecked_return_type = "Record<string, number> | undefined")]
+    pub fn contact_counts(&self) -> JsValue {
+        self.cloth.contact_counts().map_or(JsValue::UNDEFINED, |counts| {
+            by_name([
+                ("candidates", counts.candidates as f64),
+                ("lookedAt", counts.looked_at as f64),
+                ("pushed", counts.pushed as f64),
+                ("violated", counts.violated as f64),
+                ("held", counts.held as f64),
+                ("cuts", counts.cuts as f64),
+            ])
+        })
+    }
+
+    /// The processing time of contact so far, without its pushes; undefined without a contact effect.
+    #[wasm_bindgen(getter, js_name = contactSeconds, unchecked_return_type = "Record<string, number> | undefined")]
+    pub fn contact_seconds(&self) -> JsValue {
+        self.cloth
+            .contact_seconds()
+            .map_or(JsValue::UNDEFINED, |seconds| by_name(seconds.stages()))
+    }
+
+    /// The near pairs of the last step: four vertices and a unit normal each.
+    #[wasm_bindgen(getter, js_name = nearPairs, unchecked_return_type = "{ vertices: Uint32Array; normals: Float64Array }")]
+    pub fn near_pairs(&self) -> JsValue {
+        let (vertices, normals): (Vec<_>, Vec<_>) = self
+            .cloth
+            .near_pairs()
+            .map(|pair| (pair.vertices, pair.normal.to_array()))
+            .unzip();
+        let properties = [
+            ("vertices", whole_numbers(vertices.as_flattened())),
+            ("normals", floats(normals.as_flattened())),
+        ];
+        object(properties).into()
+    }
+
+    /// The settings that trade time for accuracy, with values and units.
+    #[wasm_bindgen(getter, unchecked_return_type = "Record<string, string>")]
+    pub fn settings(&self) -> JsValue {
+        let settings = Object::new();
+        self.settings
+            .iter()
+            .for_each(|(name, value)| set(&settings, name, &value.into()));
+        settings.into()
+    }
+
+    /// The vertices of a body, from the first to before the second number.
+    #[wasm_bindgen(js_name = bodyVertices, unchecked_return_type = "[number, number]")]
+    pub fn body_vertices(&self, body: &str) -> Result<JsValue, JsValue> {
+        Ok(range(self.cloth.body_vertices(self.body(body)?).unwrap_or_default()))
+    }
+
+    /// Moves a driven body in the next step: its mesh in the scene is rotated by a quaternion (x, y, z, w) and then translated.
+    #[wasm_bindgen(js_name = placeBody)]
+    pub fn place_body(&mut self, body: &str, translation: &[f64], rotation: Option<Vec<f64>>) -> Result<(), JsValue> {
+        let rotation = rotation.unwrap_or_else(|| DQuat::IDENTITY.to_array().to_vec());
+        let rotation = <[f64; 4]>::try_from(rotation).map_err(|_| input_error(&"rotation must have four numbers"))?;
+        let placement = Placement {
+            rotation: DQuat::from_array(rotation),
+            translation: vector(translation, "translation")?,
+        };
+        let body = self.body(body)?;
+        self.cloth.place_body(body, placement).map_err(|error| input_error(&error))
+    }
+
+    /// Moves each vertex of a driven body straight to a position in the next step.
+    #[wasm_bindgen(js_name = moveBody)]
+    pub fn move_body(
+        &mut self,
+        body: &str,
+        #[wasm_bindgen(unchecked_param_type = "Positions")] positions: &JsValue,
+    ) -> Result<(), JsValue> {
+        let (body, positions) = (self.body(body)?, vectors(positions)?);
+        self.cloth.move_body(body, &positions).map_err(|error| input_error(&error))
+    }
+
+    /// Moves each vertex of a driven group of pins, given by its index, in the next step.
+    #[wasm_bindgen(js_name = movePins)]
+    pub fn move_pins(
+        &mut self,
+        group: usize,
+        #[wasm_bindgen(unchecked_param_type = "Positions")] positions: &JsValue,
+    ) -> Result<(), JsValue> {
+        self.cloth
+            .move_pins(group, &vectors(positions)?)
+            .map_err(|error| input_error(&error))
+    }
+
+    /// Sets the velocity of the scene's wind from now on, in m/s.
+    #[wasm_bindgen(js_name = setWind)]
+    pub fn set_wind(&mut self, velocity: &[f64]) -> Result<(), JsValue> {
+        let velocity = vector(velocity, "velocity")?;
+        self.cloth.set_wind(velocity).map_err(|error| input_error(&error))
+    }
+
+    /// Sets the velocity, in m/s, with which vertices of cloth start the next step, as if a hand pulled them.
+    #[wasm_bindgen(js_name = setVelocity)]
+    pub fn set_velocity(&mut self, vertices: &[u32], velocity: &[f64]) -> Result<(), JsValue> {
+        let velocity = vector(velocity, "velocity")?;
+        self.cloth
+            .set_velocity(vertices, velocity)
+            .map_err(|error| input_error(&error))
+    }
+
+    /// Returns the state as bytes after every 200th step; undefined in between.
+    #[must_use]
+    pub fn checkpoint(&self) -> Option<Vec<u8>> {
+        self.cloth.checkpoint()
+    }
+
+    /// Continues from a checkpoint of the same scene, with the same bits as an uninterrupted simulation.
+    pub fn resume(&mut self, checkpoint: &[u8]) -> Result<(), JsValue> {
+        self.cloth
+            .resume(checkpoint)
+            .map_err(|error| exception("CheckpointError", &error.to_string()))
+    }
+
+    fn body(&self, name: &str) -> Result<usize, JsValue> {
+        let names = self.cloth.body_names();
+        let found = names.iter().position(|known| known == name);
+        found.ok_or_else(|| input_error(&format!("there is no body '{name}'; the scene has {names:?}")))
+    }
+}
+
+fn by_name<'a>(values: impl IntoIterator<Item = (&'a str, f64)>) -> JsValue {
+    let object = Object::new();
+    values.into_iter().for_each(|(name, value)| set(&object, name, &value.into()));
+    object.into()
+}
+
+fn vector(values: &[f64], name: &str) -> Result<DVec3, JsValue> {
+    let values = <[f64; 3]>::try_from(values).map_err(|_| input_error(&format!("{name} must have three numbers")))?;
+    Ok(values.into())
+}
+
+fn vectors(positions: &JsValue) -> Result<Vec<DVec3>, JsValue> {
+    let mut rows = Vec::new();
+    take_positions(positions, "positions", &mut rows)?;
+    Ok(rows.into_iter().map(DVec3::from).collect())
+}

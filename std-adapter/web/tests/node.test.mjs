@@ -1,0 +1,198 @@
+// The package in Node: answers, errors, memory, bits and speed. `SELVEDGE_WEB` is the folder that build.sh writes.
+
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { before, test } from "node:test";
+import { gzipSync } from "node:zlib";
+
+const built = process.env.SELVEDGE_WEB;
+const scenes = new URL("../../cloth/scenes/", import.meta.url);
+const scene = (name) => readFileSync(new URL(name, scenes), "utf8");
+const { load, Detector, Simulation, pairVerdicts, timeOfImpact, readMesh, effectNames } = await import(join(built, "package/index.js"));
+before(() => load());
+
+const triangles = Uint32Array.of(0, 1, 2, 3, 4, 5);
+const start = Float64Array.of(-5, -5, 0, 5, -5, 0, 0, 5, 0, 0, 0, 1, 1, 0, 1.1, 0, 1, 1.2);
+const end = start.map((x, i) => (i >= 9 && i % 3 === 2 ? x - 2 : x));
+const fails = (name, words) => (error) => error.name === name && error.message.includes(words);
+
+test("a detector finds contacts, their geometry, and free steps", () => {
+  const detector = new Detector(6, triangles);
+  const { count, kind, pair, time, vertices, normal, speed } = detector.contacts(start, end, true);
+  assert.equal(count, 3);
+  assert.deepEqual([...kind], [0, 0, 0]);
+  assert.deepEqual([...pair], [3, 0, 4, 0, 5, 0]);
+  assert.ok(time[0] <= 0.5 && time[0] > 0.5 - 1e-8);
+  assert.deepEqual([...vertices.subarray(0, 4)], [3, 0, 1, 2]);
+  assert.deepEqual([...normal.subarray(0, 3), speed[0]], [0, 0, 1, -2]);
+  assert.deepEqual(detector.earliest(start, end), { kind: "vertex-face", pair: [3, 0], time: time[0], vertices: [3, 0, 1, 2] });
+  assert.equal(detector.isFree(start, end), false);
+  assert.equal(detector.isFree(start, start), true);
+  const { end: reached, heldBack } = detector.truncate(start, end);
+  assert.ok(heldBack === 3 && detector.isFree(start, reached));
+  assert.equal(detector.near(start, 1.05).count, 1);
+  assert.equal(detector.hasIntersections(start), false);
+  const through = start.map((x, i) => (i === 11 ? -1 : x));
+  assert.deepEqual([...detector.intersections(through).pair], [3, 0, 4, 0]);
+  assert.ok(detector.statistics.candidates >= 0 && detector.components.length === 6);
+  detector.free();
+});
+
+test("positions may be views, floats or plain arrays, and have the same contacts", () => {
+  const detector = new Detector(6, triangles);
+  detector.start.set(start);
+  detector.end.set(end);
+  const own = detector.contacts().time;
+  assert.deepEqual(detector.contacts(start, end).time, own);
+  assert.deepEqual(detector.contacts([...start], [...end]).time, own);
+  assert.equal(detector.contacts(Float32Array.from(start), Float32Array.from(end)).count, 3);
+});
+
+test("groups, patches, resting vertices and limits keep pairs apart", () => {
+  const detector = new Detector(6, triangles);
+  detector.setCollisionFilter({ patches: new Uint32Array(6) });
+  assert.equal(detector.isFree(start, end), true);
+  detector.setCollisionFilter({ groups: Uint32Array.of(...Array(3).fill([1, 1]).flat(), ...Array(3).fill([2, 2]).flat()) });
+  assert.equal(detector.isFree(start, end), true);
+  detector.setCollisionFilter({});
+  detector.setMoving(new Uint8Array(6));
+  assert.equal(detector.isFree(start, start), true);
+  detector.setMoving();
+  detector.setLimits({ separation: 1.05 });
+  assert.equal(detector.isFree(start, start), false);
+  assert.throws(() => detector.setLimits({ separation: -1 }), fails("InputError", "-1"));
+  detector.setLimits({});
+  detector.setPairLimit(1);
+  assert.throws(() => detector.contacts(start, end), fails("TooManyPairsError", "1"));
+});
+
+test("errors are exceptions with the library's words", () => {
+  assert.throws(() => new Detector(2, triangles), fails("InputError", "vertex 2"));
+  assert.throws(() => new Detector(6, triangles.subarray(1)), fails("InputError", "3"));
+  const detector = new Detector(6, triangles);
+  assert.throws(() => detector.contacts(start.subarray(3), end), fails("InputError", "5"));
+  assert.throws(() => detector.contacts(start.map(() => NaN), end), fails("InputError", "vertex 0"));
+  assert.throws(() => new Simulation("time_step = 1"), fails("SceneError", "scene.toml"));
+  assert.throws(() => new Simulation(scene("walker.toml")), fails("SceneError", "walker-shirt.ply"));
+  assert.throws(() => readMesh("a.ply", new TextEncoder().encode("hello")), fails("MeshError", "a.ply"));
+  assert.throws(() => readMesh("a.txt", new Uint8Array(3)), fails("MeshError", ".obj"));
+  const cloth = new Simulation(scene("drop.toml"));
+  assert.throws(() => cloth.placeBody("ball", [0, 0, 1]), fails("InputError", "cannot be moved by hand"));
+  assert.throws(() => cloth.placeBody("bull", [0, 0, 1]), fails("InputError", "no body 'bull'"));
+  assert.throws(() => cloth.setWind([1, 0, 0]), fails("InputError", "no wind"));
+  // After an exception everything goes on.
+  cloth.step(2);
+  assert.equal(cloth.stepsDone, 2);
+});
+
+test("one pair: control values, tiers, time of impact and exact verdict", () => {
+  const [from, to] = [[0.2, 0.2, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0], [0.2, 0.2, -3, 0, 0, 0, 1, 0, 0, 0, 1, 0]];
+  const verdicts = pairVerdicts("vertex-face", from, to);
+  assert.deepEqual([...verdicts.controlValues].map(Math.abs), [1, 1, 5, 3]);
+  assert.ok(verdicts.errorBounds.every((bound) => bound > 0 && bound < 1e-12));
+  assert.equal(verdicts.contact, "happens");
+  assert.ok(verdicts.time <= 0.25 && verdicts.time > 0.25 - 1e-8);
+  assert.equal(timeOfImpact("vertex-face", from, from), undefined);
+  assert.equal(pairVerdicts("vertex-face", from, from).culledBy.permanent, true);
+  assert.equal(pairVerdicts("vertex-face", from.with(0, NaN), to).contact, "undefined");
+  assert.throws(() => timeOfImpact("vertex-vertex", from, to), fails("InputError", "choose vertex-face or edge-edge"));
+});
+
+test("a simulation is driven, measured, and resumed with the same bits; its clock runs", () => {
+  const text = scene("drop.toml").replace('shape = "ball"', 'shape = "ball"\ndriven = true');
+  const cloth = new Simulation(text);
+  cloth.placeBody("ball", [0, 0, 0.1]);
+  cloth.setVelocity(Uint32Array.of(0), [0, 0, 1]);
+  cloth.step(200);
+  const [from] = cloth.bodyVertices("ball");
+  assert.equal(from, cloth.clothVertexCount);
+  assert.equal(cloth.isCertified, true);
+  assert.deepEqual(Object.keys(cloth.effectSeconds), effectNames(text));
+  assert.ok(cloth.effectSeconds.stretch > 0 && Object.values(cloth.contactSeconds).some((seconds) => seconds > 0));
+  assert.equal(cloth.positions.length, cloth.normals().length);
+  const other = new Simulation(text);
+  other.resume(cloth.checkpoint());
+  cloth.step(20);
+  other.step(20);
+  assert.deepEqual(other.positions, cloth.positions);
+  assert.equal(cloth.checkpoint(), undefined);
+  const { steps, needed } = cloth.advance(1 / 60);
+  assert.equal(steps, needed);
+  const without = new Simulation(text.replace(/\[effects\.friction\][^[]*/, ""));
+  without.step(1);
+  assert.equal("friction" in without.effectSeconds, false);
+});
+
+test("objects are freed by hand, by `using`, and by the garbage collector", () => {
+  const detector = new Detector(6, triangles);
+  detector[Symbol.dispose]();
+  assert.throws(() => detector.contacts(start, end), /null pointer/);
+  assert.ok(readFileSync(join(built, "package/cloth/selvedge.js"), "utf8").includes("FinalizationRegistry"));
+  // A thousand detectors of 10,000 vertices would take 480 MB.
+  const some = new Detector(10_000, triangles);
+  const memory = some.start.buffer;
+  some.free();
+  for (let i = 0; i < 1000; i++) new Detector(10_000, triangles).free();
+  const last = new Detector(10_000, triangles);
+  assert.ok(last.start.buffer.byteLength <= memory.byteLength + 2 ** 20);
+});
+
+test("500 steps of five scenes, and the contacts of their motion, are native's to the last bit, at 0.35 of its speed", () => {
+  const names = ["arm-sleeve", "drop", "flag", "twist", "walker"];
+  const folder = mkdtempSync(join(tmpdir(), "selvedge-"));
+  const files = names.map((name) => new URL(`${name}.toml`, scenes).pathname);
+  const lines = execFileSync(process.env.SELVEDGE_NATIVE, [folder, "500", ...files], { encoding: "utf8" }).trim().split("\n");
+  const native = Object.fromEntries(lines.map((line) => line.split(" ")));
+  const walker = Object.fromEntries(["walker.glb", "walker-shirt.ply"].map((name) => [name, readFileSync(new URL(name, scenes))]));
+  for (const name of names) {
+    const simulation = new Simulation(scene(`${name}.toml`), name === "walker" ? walker : undefined);
+    const from = simulation.positions.slice();
+    const begin = performance.now();
+    simulation.step(500);
+    const seconds = (performance.now() - begin) / 1000;
+    const to = simulation.positions.slice();
+    assert.ok(Buffer.from(to.buffer).equals(readFileSync(join(folder, `${name}.positions`))), `${name}: positions`);
+    const { count, kind, pair, time } = new Detector(from.length / 3, simulation.triangles).contacts(from, to);
+    const order = [...Array(count).keys()].sort((a, b) => kind[a] - kind[b] || pair[2 * a] - pair[2 * b] || pair[2 * a + 1] - pair[2 * b + 1]);
+    const found = Buffer.alloc(16 * count);
+    order.forEach((k, i) => {
+      found.writeUInt32LE(pair[2 * k], 16 * i);
+      found.writeUInt32LE(pair[2 * k + 1], 16 * i + 4);
+      found.writeDoubleLE(time[k], 16 * i + 8);
+    });
+    assert.ok(found.equals(readFileSync(join(folder, `${name}.contacts`))), `${name}: contacts`);
+    const share = native[name] / seconds;
+    console.log(`${name}: ${count} contacts; ${(500 / seconds).toFixed(0)} steps a second, native ${(500 / native[name]).toFixed(0)}: ${share.toFixed(2)}`);
+    // Other programs may take the machine away from either.
+    if (process.env.SELVEDGE_TIMES !== "no") assert.ok(share > 0.35, `${name}: ${share} of native's speed`);
+    simulation.free();
+  }
+  rmSync(folder, { recursive: true });
+});
+
+test("a call from JavaScript adds little to a contact query", () => {
+  const simulation = new Simulation(scene("drop.toml"));
+  const from = simulation.positions.slice();
+  simulation.step(400);
+  const to = simulation.positions.slice();
+  const detector = new Detector(from.length / 3, simulation.triangles);
+  const shares = Array.from({ length: 9 }, () => {
+    const begin = performance.now();
+    detector.contacts(from, to);
+    return (performance.now() - begin) / (1000 * detector.statistics.seconds);
+  });
+  const share = shares.sort((a, b) => a - b)[4] - 1;
+  console.log(`outside the detector: ${(100 * share).toFixed(1)} %`);
+  assert.ok(share < 0.2, `${share}`);
+});
+
+test("modules are small: 800 KB compressed with cloth, 250 KB without", () => {
+  for (const [name, most] of [["cloth", 800e3], ["detector", 250e3]]) {
+    const bytes = gzipSync(readFileSync(join(built, `package/${name}/selvedge_bg.wasm`)), { level: 9 }).length;
+    console.log(`${name}: ${bytes} bytes compressed`);
+    assert.ok(bytes <= most, `${name}: ${bytes} bytes`);
+  }
+});
