@@ -17,7 +17,11 @@ CHROMIUM=${CHROMIUM:-$(command -v chromium || command -v google-chrome || true)}
 if [ "${#missing[@]}" -gt 0 ]; then
     say "installing ${missing[*]}"
     sudo=$([ "$(id -u)" = 0 ] || echo sudo)
-    $sudo apt-get -q update && DEBIAN_FRONTEND=noninteractive $sudo apt-get -q install -y --no-install-recommends "${missing[@]}"
+    # Another check may be installing something.
+    for _ in {1..60}; do
+        $sudo apt-get -q update && break || sleep 5
+    done
+    $sudo env DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=600 install -y --no-install-recommends "${missing[@]}"
 fi
 export CHROMIUM=${CHROMIUM:-/usr/bin/chromium}
 
