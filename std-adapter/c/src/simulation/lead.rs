@@ -12,7 +12,9 @@ use selvedge_cloth::{DriveError, Placement, Simulation};
 impl From<DriveError> for Failure {
     fn from(error: DriveError) -> Self {
         let (status, text) = match error {
-            DriveError::NoBody { .. } | DriveError::NoPins { .. } | DriveError::NoVertex { .. } => (Status::NoSuchPart, error.to_string()),
+            DriveError::NoBody { .. } | DriveError::NoPins { .. } | DriveError::NoVertex { .. } => {
+                (Status::NoSuchPart, error.to_string())
+            }
             DriveError::NoWind => (
                 Status::NoSuchPart,
                 "the scene has no wind: add [effects.wind] to it".to_owned(),
