@@ -210,8 +210,8 @@ pub extern "C" fn near(points: &Points<f32>) -> u32 {
 }
 
 /// Returns one bit for each certificate that a vertex and a face keep half a unit. These are boxes with that separation and a
-/// smaller one, the lower bound of the distance at the start, a direction for the step, and a clearance. Two more bits say that
-/// the vertex's course has room, and that its boxes come within one unit of the face's.
+/// smaller one, a lower bound of the distance at the start, a direction, and a clearance. Two more bits say that the vertex's
+/// course has room, and that its boxes come within one unit of the face's.
 #[unsafe(no_mangle)]
 pub extern "C" fn separations(points: &Points<f64>) -> u32 {
     let ends = [

@@ -1,7 +1,7 @@
 //! Code that is compiled for each instruction set.
 
-/// Calls `$function` as code for `$level`. Its lanes are the first of the four types with AVX-512, the second with AVX2, the third on
-/// machines whose registers hold 128 bits, and otherwise the last.
+/// Calls `$function` as code for `$level`. Its lanes are the first of the four types with AVX-512, the second with AVX2, the
+/// third with registers of 128 bits, and otherwise the last.
 ///
 /// x86 has no code for SSE4.2, which adds next to nothing to SSE2 for these kernels.
 #[cfg(not(unoptimised))]

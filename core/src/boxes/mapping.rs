@@ -22,8 +22,8 @@
 //! order belong to coordinates more than s apart.
 //!
 //! Overflow makes a bound infinite, or the largest number in directed rounding. Either is at least as far out as any bound that
-//! is not widened, so it is not beyond a bound that it should not exceed. Vertices whose coordinates are NaN or infinite, or add
-//! up to that, have no bounds.
+//! is not widened, so it never exceeds a bound wrongly. Vertices whose coordinates are NaN or infinite, or add up to that, have
+//! no bounds.
 //!
 //! # A smaller separation
 //! Boxes made for a separation s also serve a smaller one, s′: one of two boxes is drawn in by δ = s − s′ on each side

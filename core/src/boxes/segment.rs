@@ -1,6 +1,6 @@
 //! The paper's VF box test: the vertex's path, a segment, against the face's swept box, by separating axes.
 //!
-//! A segment and a box are disjoint exactly if one of six axes separates them: the box's three axes, and their three cross
+//! A segment and a box are disjoint exactly if one of six axes separates them. These are the box's three axes, and their cross
 //! products with the segment's direction.
 //!
 //! **Box axes** compare coordinates, which is exact.

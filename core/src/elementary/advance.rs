@@ -62,8 +62,8 @@
 //! | [`NotFinite`](Reason::NotFinite) | undefined: NaN, an infinity, or a separation that is negative |
 //!
 //! V is the longest way of a corner during the step. A round that ends neither within δ + s nor within rounding of s proves that
-//! the pair is apart for some time. This is the time that the distance beyond s takes at speed V, apart from a few u. 4096 rounds
-//! that each prove more than a 4096th of the step pass its end.
+//! the pair is apart for some time. This is the time that the distance beyond s takes at speed V, apart from a few u. So 4096
+//! rounds that each prove more than a 4096th of the step pass its end.
 //!
 //! # Loose answers
 //! Where the sets' distance falls to the error of a product, about 20u times the size of the corners, nothing more can be proven.

@@ -5,8 +5,8 @@
 //! half of (h − m)/√3 more: along a direction d of length one, by (h − m)/2·(|d₁| + |d₂| + |d₃|)/√3 ≤ (h − m)/2 each. [`room`] is
 //! a hundredth less than that.
 //!
-//! A point that begins at `origin` is expected at `origin + drift·t` after a time t, and at the end of the course at `origin +
-//! drift·span`, which the clearance was computed from. Between times at which it is within its room, it moves on a straight way,
+//! A point that begins at `origin` is expected at `origin + drift·t` after a time t. At the end of the course this is `origin +
+//! drift·span`, from which the clearance was computed. Between times at which it is within its room, it moves on a straight way,
 //! as its course does. So it is within its room in between as well.
 //!
 //! # Rounding

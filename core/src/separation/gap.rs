@@ -147,8 +147,8 @@ impl SeparatingDirection {
         gap: f32::NEG_INFINITY,
     };
 
-    /// Returns a lower bound of the distance at the last positions for which the direction was shown to keep the pair apart; −∞
-    /// if there are none.
+    /// Returns a lower bound of the distance at the last positions at which the direction certainly kept the pair apart; −∞
+    /// without such positions.
     #[inline(always)]
     #[must_use]
     pub const fn gap(&self) -> f32 {
@@ -232,7 +232,7 @@ impl SeparatingDirection {
     }
 
     /// Returns `direction` with its gap at the end, if it certainly keeps the pair more than `separation` apart on straight ways
-    /// from the start to the end. The direction is rounded first: the returned one is the one that proves it.
+    /// from the start to the end. The direction is rounded first, so the returned one is the proof.
     #[inline]
     #[must_use]
     pub fn for_step<P: Position>(

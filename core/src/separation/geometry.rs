@@ -23,8 +23,8 @@
 //!   and weighing adds 12u·D. The difference of the two sides makes 48u·D of it, and the product with the normal at most 125u·D
 //!   in all.
 //! * A normal has length one within 16u, and **the two sides were certainly apart along it** at [`Geometry::separated_at`]. There
-//!   is no normal if none can be shown: for a pair that touches when the step begins, or is then nearer than rounding can
-//!   resolve.
+//!   is no normal if none can be shown. This is so for a pair that touches when the step begins, or is then nearer than rounding
+//!   can resolve.
 //!
 //! A time outside of [0, 1], or NaN, and positions that are not finite prove nothing: there is no normal, and the distance is
 //! unbounded.
@@ -46,8 +46,7 @@ use glam::DVec3;
 /// The geometry of a contact: see the [module](self). Lengths are in the unit of the positions, speeds in lengths per step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Geometry {
-    /// The barycentric weights of each side: of the vertex and the three corners of the face, or of the ends of the first edge
-    /// and of the second.
+    /// The barycentric weights of each side: of the vertex and the face's three corners, or of the ends of both edges.
     pub weights: [f64; 4],
     /// The points of the first and the second side with these weights.
     pub points: [DVec3; 2],
@@ -167,8 +166,7 @@ pub(crate) fn of_instants(kind: PairKind, time: Option<f64>, at: impl Fn(f64) ->
 }
 
 impl Instant {
-    /// Returns a lower bound of the true distance of the two sides, by a direction from the second to the first; zero if it shows
-    /// none.
+    /// Returns a lower bound of the true distance of the two sides, by a direction from the second to the first, or zero.
     fn distance_from_below(&self, kind: PairKind, direction: DVec3) -> f64 {
         let error = GapError::from_largest_coordinate(2.0 * self.largest);
         let computed = distance_from_below(kind, self.points, direction, error);

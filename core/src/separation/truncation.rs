@@ -1,7 +1,7 @@
 //! Truncation: the way of each point of a pair that lets the pair keep its distance, however far the others go. A step is
 //! truncated vertex by vertex, where a time of impact would cut it for the whole mesh.
 //!
-//! **The lemma.** Let x be where the four points start, y where they are wanted, and d a direction with |d| ≤ 1 along which the
+//! **The lemma.** Let x be where the four points start, y where they are wanted, and d a direction with |d| ≤ 1. Along d the
 //! first set A is ahead of the second B by more than m at the start: min_A d·x − max_B d·x > m. Choose an offset o with max_B d·x
 //! ≤ o ≤ min_A d·x − m. Let each point go as far as e = x + s·(y − x), with its share s in [0, 1] at most the largest with d·e ≥
 //! o + m in A and d·e ≤ o in B. Then the sets are at least m apart throughout the step from x to e, **and also for all smaller

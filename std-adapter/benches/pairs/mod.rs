@@ -116,8 +116,8 @@ pub(crate) fn all_sizes<S: Scalar>() -> Vec<PrimitivePair<S>> {
     (0..COUNT).map(|_| pair()).collect()
 }
 
-/// Makes pairs in which a point of one set begins and ends its way within 2 to the power of −`exponent` of a corner of the other,
-/// along each axis; all other coordinates are eighths.
+/// Makes pairs in which a point of one set begins and ends its way near a corner of the other: within 2 to the power of
+/// −`exponent` along each axis. All other coordinates are eighths.
 pub(crate) fn sliding<S: Scalar>(kind: PairKind, exponent: i32) -> Vec<PrimitivePair<S>> {
     let mut random = Random(5);
     let (mover, corner) = match kind {

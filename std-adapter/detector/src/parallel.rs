@@ -1,8 +1,8 @@
 //! Threads, and loops that are split between them.
 //!
-//! [`Workers`] are threads. A loop inside [`Workers::run`] is split between them. Outside it, a loop runs on the rayon pool of the caller, if that pool
-//! has more than one thread, and otherwise on the calling thread. Rayon's global pool is never started. Without the feature `parallel` all loops run on
-//! the calling thread.
+//! [`Workers`] are threads. A loop inside [`Workers::run`] is split between them. Outside it, a loop runs on the caller's rayon
+//! pool if that has more than one thread, and otherwise on the calling thread. Rayon's global pool is never started. Without the
+//! feature `parallel` all loops run on the calling thread.
 //!
 //! ```
 //! use selvedge::parallel::{Workers, for_each};

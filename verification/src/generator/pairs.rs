@@ -40,8 +40,7 @@ impl<S: Format> PairCase<S> {
         case
     }
 
-    /// Chooses a vertex whose path passes an edge of the box of a resting face, within a few units in the last place on either
-    /// side.
+    /// Chooses a vertex whose path passes an edge of a resting face's box, within a few units in the last place on either side.
     #[must_use]
     pub fn choose_graze_of_a_box(choices: &mut Choices<'_>) -> Self {
         // Start and end have different sizes, so that differences round.

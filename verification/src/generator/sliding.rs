@@ -9,7 +9,7 @@ const EIGHTHS: i32 = 3;
 
 impl<S: Format> PairCase<S> {
     /// Chooses a pair of about unit size. A point of one set begins and ends its way beside a corner, a side or the face of the
-    /// other set, at a distance between 2⁻¹⁰ and 2⁻²⁶. In some pairs a second point does so too.
+    /// other. The distance is between 2⁻¹⁰ and 2⁻²⁶. In some pairs a second point does so too.
     #[must_use]
     pub fn choose_sliding(kind: PairKind, choices: &mut Choices<'_>) -> Self {
         let distance = choices.pick(&[10, 12, 14, 17, 20, 23, 26]);

@@ -148,8 +148,8 @@ fn on_one_side<const N: usize>(points: [&IntegerPoint; N], triangle: [&IntegerPo
 
 /// Returns whether the triangles apex, a0, a1 and apex, b0, b1 share more than the apex.
 ///
-/// The common part is convex. A ray from the apex through another common point leaves one of the two triangles first, at a common
-/// point on the edge opposite to the apex. So one of these edges meets the other triangle outside the apex.
+/// The common part is convex. A ray from the apex through another common point leaves one of the two triangles first. There it
+/// meets a common point on the edge opposite to the apex. So one of these edges meets the other triangle outside the apex.
 fn meet_beyond_a_vertex(apex: &IntegerPoint, a: [&IntegerPoint; 2], b: [&IntegerPoint; 2]) -> bool {
     edge_meets_beyond(apex, a, b) || edge_meets_beyond(apex, b, a)
 }

@@ -108,8 +108,8 @@ impl Question {
         is_near_at_rest(self.kind, &self.motion.at(t), &squared)
     }
 
-    /// Returns whether `accept` returns true for one of the times at which the distance, which is larger at first, may have come
-    /// down to the separation. Each time is a root, and comes with the features concerned.
+    /// Returns whether `accept` returns true for a time at which the distance, which is larger at first, may have come down to
+    /// the separation. Each time is a root, and comes with the features concerned.
     fn find_approach(&self, mut accept: impl FnMut(&FeaturePair<Polynomial>, AlgebraicTime) -> bool) -> bool {
         // The distance is continuous and larger than the separation at first. When it has come down to the separation, the
         // features that hold the closest points are at exactly that distance: their `excess` is zero and the closest points are

@@ -316,8 +316,7 @@ struct Course<S: Format> {
     position: S::Vector,
 }
 
-/// Makes the course of the first two points of a pair: on the path of the first for some steps, then perhaps on that of the
-/// second.
+/// Makes a course on the path of the first point of a pair for some steps, then perhaps on that of the second.
 fn course_of<S: Format>(question: &Question<S>) -> Option<Course<S>> {
     let [first, second, ..] = question.pair.motions();
     let choice = |bits: u32, count: u32| question.choice >> bits & (count - 1);

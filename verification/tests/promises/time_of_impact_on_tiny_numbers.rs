@@ -192,8 +192,8 @@ fn random_points<const F: u32, const ENVIRONMENT: u32>(random: &mut Random) -> P
     [(); 4].map(|()| [(); 2].map(|()| [(); 3].map(|()| coordinate())))
 }
 
-/// Checks that a direction over the corners' middles at two times, which turns, or on a curve through three times, keeps the corners apart
-/// at seventeen times in between. Returns the number of proofs.
+/// Checks that a direction keeps the corners apart at seventeen times. It leads over the corners' middles at two times and turns,
+/// or at three times on a curve. Returns the number of proofs.
 fn random_directions<const ENVIRONMENT: u32>(is_curved: bool) -> u64 {
     let mut random = Random(u64::from(ENVIRONMENT));
     let times: [Number<8, ENVIRONMENT>; 3] = numbers([0.125, 0.437_5, 0.75]);

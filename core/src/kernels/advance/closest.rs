@@ -1,8 +1,8 @@
 //! The point of the corners' hull that is closest to the origin, in plain floating point.
 //!
-//! No certificate relies on the accuracy of this point: they hold for any direction. The vector is only guaranteed to be, up to a
-//! few roundings, a point of the hull, so that its length is no less than the distance. Each weight lies in [0, 1] by the
-//! comparisons that precede it. The method is Ericson's (Real-Time Collision Detection, 2005, 5.1.5 and 5.1.9).
+//! No certificate relies on the accuracy of this point: they hold for any direction. Up to a few roundings the vector is a point
+//! of the hull, so its length is no less than the distance. Each weight lies in [0, 1] by the comparisons that precede it. The
+//! method is Ericson's (Real-Time Collision Detection, 2005, 5.1.5 and 5.1.9).
 //!
 //! There are two versions. [`closest`] serves one pair: it returns at the first feature that has the point, and names it.
 //! `closest_by_selects` serves many pairs side by side: it computes all features with one quotient, and does not name the

@@ -115,9 +115,9 @@ impl<L: Lanes, const N: usize> Corners<L, N> {
 /// Returns whether a direction that turns from `before` to `after`, while the corners move from `from` to `to`, keeps the pair
 /// apart throughout.
 ///
-/// Both move linearly, so each product is quadratic, with the Bernstein coefficients w₀·e₀, ½(w₀·e₁ + w₁·e₀) and w₁·e₁. s·|w|
-/// lies below the line between its values at the ends, whose middle coefficient is the mean. All three coefficients above the bar
-/// prove it, where the bar of the middle one is the mean of the two. Its error is at most 8ε times the mean of S₀ and S₁.
+/// Both move linearly, so each product is quadratic, with the Bernstein coefficients w₀·e₀, ½(w₀·e₁ + w₁·e₀) and w₁·e₁. The bound
+/// s·|w| lies below the line between its values at the ends, whose middle coefficient is the mean. All three coefficients above
+/// the bar prove it, where the bar of the middle one is the mean of the two. Its error is at most 8ε times the mean of S₀ and S₁.
 #[inline(always)]
 #[must_use]
 pub fn are_apart_turning<L: Lanes, const N: usize>(

@@ -9,9 +9,9 @@
 //!   directions perpendicular to the line between them keep the pair apart.
 //!
 //! # Overflow
-//! Directions are of unit length but for rounding. [`balanced`] makes w₁ at most 2¹² times as long, and [`along_side`] returns nothing that is
-//! longer than that along an axis. So a product with a corner is at most 3·2¹³ times the largest extent, 2²⁹ or 2²⁵⁰, and no sum of
-//! such products and bars comes near the largest number.
+//! Directions are of unit length but for rounding. [`balanced`] makes w₁ at most 2¹² times as long, and [`along_side`] returns
+//! nothing that is longer than that along an axis. So a product with a corner is at most 3·2¹³ times the largest extent, 2²⁹ or
+//! 2²⁵⁰. No sum of such products and bars comes near the largest number.
 
 #![expect(
     clippy::neg_cmp_op_on_partial_ord,

@@ -11,10 +11,10 @@
 //! third (rounded itself) in the middle ones. Blossoming to [t, 1] adds 9 (three times 1 − t, product, sum), subtracting the
 //! bound 1, looking ahead 9: 31εS₃ ≤ 62uS₃ in any direction. **E = 64u·Ŝ₃ + η(1 + M)²**, M here the largest component.
 //!
-//! Underflow: with λ the smallest normal number, what is lost in 9 components of differences, 3λ each, enters with two factors
-//! of M twice: at most 54λM²; 6 products in a cross product and 3 subtractions enter with one M, the rest with none: at most
-//! 63λ(1 + M)² for a control value, as for 3k₁ three times that and three more is divided by three; and 36λ for the 36
-//! operations that follow. η ≥ 2⁷λ covers it.
+//! Underflow: let λ be the smallest normal number. The losses in 9 components of differences, 3λ each, enter with two factors of
+//! M twice: at most 54λM². Losses in 6 products of a cross product and 3 subtractions enter with one M, the rest with none. This
+//! is at most 63λ(1 + M)² for a control value (for 3k₁ three times that and three more, divided by three). The 36 operations that
+//! follow lose 36λ. η ≥ 2⁷λ covers it.
 //!
 //! Normal, where s > 0: its components pass through at most 13 roundings (of a corner, a difference of two, 3 by interpolation,
 //! twice; product, difference, sum), each of magnitude at most 8 M_j M_k. That is less than 512u(M_x M_y + M_y M_z + M_z M_x) for
@@ -220,8 +220,8 @@ fn third<L: Lanes>(like: L) -> L {
 /// Returns where the lower hull of the control polygon over [0, 1] first reaches zero, for a positive first value; [`beyond`] if
 /// it does not.
 ///
-/// The hull's lower side crosses zero on a line from one of the positive points before the first other point to a point that is
-/// not positive. Every such line crosses no earlier. (Lines from the first point alone are not enough.)
+/// The hull's lower side crosses zero on a line. It leads from one of the positive points before the first other point to a point
+/// that is not positive. Every such line crosses no earlier. (Lines from the first point alone are not enough.)
 ///
 /// On a line from the first point, 2b₀/3(b₀ − b) has as many roundings whether it divides or multiplies first, but other bits.
 /// One pair alone multiplies first; several side by side divide first. Each keeps its results.

@@ -8,8 +8,8 @@
 //! # Whole numbers
 //! A finite floating-point number is a whole number times a power of two. Each monomial of the volume has one factor along x, one
 //! along y and one along z. So the eight coordinates along an axis can have their own unit, the largest power of two that divides
-//! all of them, and no sign changes. The rest is addition and multiplication of whole numbers, in the narrowest of a few fixed
-//! widths for which `kernel` shows that nothing overflows:
+//! all of them, and no sign changes. The rest is addition and multiplication of whole numbers. It takes the narrowest of a few
+//! fixed widths for which `kernel` shows that nothing overflows:
 //!
 //! | 64-bit words a coordinate | bits along an axis, from the highest set in any of the eight coordinates to the lowest set | serves |
 //! |---|---|---|

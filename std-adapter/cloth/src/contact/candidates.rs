@@ -174,7 +174,7 @@ impl OfContact {
         }
     }
 
-    /// Returns whether an edge of the cloth passes through a face of a body, or an edge of the body through a face of the cloth.
+    /// Returns whether an edge of the cloth passes through a face of a body, or the other way round.
     pub(super) fn passes_through(&self, body: Carrier, positions: &[DVec3]) -> bool {
         let found = CrossingFinder::new(&self.topology);
         let is_of_body = |a, b| self.body_of_pair(a, b) == Some(body);

@@ -1,8 +1,8 @@
 //! Normal cones: they show which closest points of a body lie on its surface, and not only on one of its faces or edges.
 //!
 //! A flat body of many triangles has many edges and vertices that do not matter to cloth that slides on it. A push from such an
-//! edge would be oblique: it would hold the cloth back and throw it up. The way d from the closest point of a feature to the
-//! cloth is in the feature's *normal cone* if no way along the surface leads nearer to the cloth:
+//! edge would be oblique: it would hold the cloth back and throw it up. Let d be the way from the closest point of a feature to
+//! the cloth. It is in the feature's *normal cone* if no way along the surface leads nearer to the cloth:
 //!
 //! * a vertex: d·e ≤ 0 for each edge e that leaves it;
 //! * an edge: d·p ≤ 0 for each face beside it, with p in the face, perpendicular to the edge, towards the face;

@@ -2,8 +2,8 @@
 //!
 //! Each contact is a [row](super::rows) of the closest points at the start of the step. On a fine mesh neighbours at rest may be
 //! nearer than the thickness. Then the thickness of such a pair is at most half its distance at rest, or the mesh would lock, and
-//! [less](super::neighbours). A tangled pair has no such distance at rest, and the distance of the two sides of a tear is zero:
-//! they come apart to at least the thickness of neighbours.
+//! [less](super::neighbours). A tangled pair has no such distance at rest, and the distance of the two sides of a tear is zero.
+//! They come apart to at least the thickness of neighbours.
 //!
 //! Contacts with a body are those with its [surface](super::cones).
 //!
@@ -325,8 +325,8 @@ fn is_open(pair: &Candidate, predicted: &[DVec3]) -> bool {
     !pair.is_kept_at(distance, predicted)
 }
 
-/// Returns whether a pair may be nearer than its thickness, judged by its stored direction: at the start of the step, or after
-/// bodies have come nearer by `closing`.
+/// Returns whether a pair may be nearer than its thickness, judged by its stored direction. This is at the start of the step, or
+/// after bodies have come nearer by `closing`.
 #[inline(always)]
 fn may_miss(pair: &Candidate, closing: f64) -> bool {
     f64::from(pair.gap()) < (1.0 - LEAST_MISSING) * pair.data.aim.length() + closing

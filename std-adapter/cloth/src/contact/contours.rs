@@ -148,8 +148,8 @@ mod tests {
         found
     }
 
-    /// The length of all contours. It is a sum over pairs of triangles that pass through each other: the distance of the two
-    /// points at which an edge of one meets the other.
+    /// The length of all contours. It is a sum over pairs of triangles that pass through each other. Each adds the distance of
+    /// the two points at which an edge of one meets the other.
     fn length(topology: &Topology, positions: &[DVec3]) -> f64 {
         let mut ends = std::collections::BTreeMap::<[u32; 2], Vec<DVec3>>::new();
         for own in intersections(topology, positions) {

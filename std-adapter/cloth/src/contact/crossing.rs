@@ -109,8 +109,8 @@ impl Crossing {
     }
 }
 
-/// Returns where an edge meets the plane of a face, as a share of the way from its first end to its second; one half if it lies
-/// there.
+/// Returns where an edge meets the plane of a face, as a share of the way from its first end to its second. An edge in the plane
+/// gives one half.
 pub(super) fn share_to_plane([a, b]: [DVec3; 2], [c, d, e]: [DVec3; 3]) -> f64 {
     let normal = (d - c).cross(e - c);
     let [above, below] = [normal.dot(a - c), normal.dot(b - c)];

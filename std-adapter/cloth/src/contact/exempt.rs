@@ -4,14 +4,14 @@
 //! **Bodies** that were let pass are certified again as soon as they are apart from the cloth.
 //!
 //! **A tangle.** An edge and a face that meet cannot be kept apart, and may have to pass the edges and faces next to them on
-//! their way out. So while they meet, all pairs with a vertex of the edge on one side and a vertex of the face on the other are
-//! left out. (If only the five pairs that make up the two were left out, tangles would not come apart. A vertex that comes to a
-//! face from the wrong side would be held off as long as its edges meet only the faces beside it.) A pair returns as soon as it
-//! is apart by its separation and has no such vertices. From then on it is certified like any other pair, and never meets again.
-//! All other pairs are certified in every step. The pairs to leave out are computed again after each step, so that
+//! their way out. So while they meet, all pairs with a vertex of the edge on one side and one of the face on the other are left
+//! out. (If only the five pairs that make up the two were left out, tangles would not come apart. A vertex that comes to a face
+//! from the wrong side would be held off as long as its edges meet only the faces beside it.) A pair returns as soon as it is
+//! apart by its separation and has no such vertices. From then on it is certified like any other pair, and never meets again. All
+//! other pairs are certified in every step. The pairs to leave out are computed again after each step, so that
 //!
 //! * contours can move, grow, shrink and vanish, but none can begin away from the others. An edge and a face that begin to meet
-//!   were not yet apart, or share a vertex each with a pair that met at the start of the step;
+//!   were not yet apart, or share vertices with a pair that met at the start of the step;
 //! * when nothing is left out, every state is free again, permanently.
 
 use super::candidate::Candidate;

@@ -17,7 +17,7 @@
 //!   at least d_P − 2E, which is more than m_P.
 //!
 //! This argument takes the *same* direction at both ends, in full precision. The direction of points at a distance d has an error
-//! of about uB/d, which tilts a pair of size L by uBL/d; this is as good as any other direction. But two such directions differ
+//! of about uB/d, which tilts a pair of size L by uBL/d. This is as good as any other direction. But two such directions differ
 //! by that much, and a stored direction is rounded to `f32`. For pairs much longer than their distance, either would cost more
 //! than a share 1 − c of it. A pair with d_P ≤ 3E is nearer than rounding can distinguish, and the simulation refuses it at its
 //! start.

@@ -1,10 +1,10 @@
 //! Relaxation: positions move until each pair of an active set is kept apart (Agmon 1954, Motzkin and Schoenberg 1954; in the
 //! metric of the masses).
 //!
-//! A pair that is not free becomes active and stays so until the relaxation ends, so that a push out of one pair does not go
-//! unnoticed into another. At first the condition of a pair is a half-space, Σwᵢ·d·xᵢ ≥ m_P, with the weights w and the direction
-//! d of its closest points at the start of the step. The pair may not be free in a later test, where other points are the
-//! closest. Then *all* points of its first set have to be ahead of all points of its second set by m_P along d, which suffices.
+//! A pair that is not free becomes active and stays so until the relaxation ends. So a push out of one pair does not go unnoticed
+//! into another. At first the condition of a pair is a half-space, Σwᵢ·d·xᵢ ≥ m_P. The weights w and the direction d are those of
+//! its closest points at the start of the step. The pair may not be free in a later test, where other points are the closest.
+//! Then *all* points of its first set have to be ahead of all points of its second set by m_P along d, which suffices.
 //!
 //! Each projection aims at a little more than the condition, so that the rounds end if positions exist that satisfy all
 //! conditions.

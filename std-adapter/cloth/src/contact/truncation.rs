@@ -11,13 +11,13 @@
 //!
 //! **Truncation.** From the base each vertex moves towards its place after the relaxation, by a share that is the least in any of
 //! its pairs: [core's lemma](selvedge_core::separation::truncation). Bodies and pins have the share 1, and reach their keyframes
-//! exactly. No promise depends on the shares: every pair with a vertex that moves is certified at last, and the vertices of those
+//! exactly. No promise depends on the shares. Every pair with a vertex that moves is certified at last, and the vertices of those
 //! that are not free return to the base.
 //!
-//! **It ends.** Each round of [`find_base`](ContactSolver::find_base) changes the zones, which can change no more than four times
-//! for each vertex, or is the last one, with a bounded number of rounds of relaxation ([`EFFORT`]). There are [`PASSES`] passes
-//! of shares. After them each round returns at least one vertex to the base, where it stays, or is the last one: with all
-//! vertices at the base all pairs are free.
+//! **It ends.** Each round of [`find_base`](ContactSolver::find_base) changes the zones, or is the last one, with a bounded
+//! number of rounds of relaxation ([`EFFORT`]). The zones can change no more than four times for each vertex. There are
+//! [`PASSES`] passes of shares. After them each round returns at least one vertex to the base, where it stays, or is the last
+//! one. With all vertices at the base all pairs are free.
 
 use super::impact_zones::TORN;
 use super::pass::Effort;
@@ -27,7 +27,7 @@ use crate::model::step::{Carrier, FREE, TimeStep};
 use selvedge_core::Motion;
 use selvedge_core::glam::DVec3;
 
-/// The effort of a base's relaxation. The active set grows from a few pairs outward, layer by layer, so it may grow often: in the
+/// The effort of a base's relaxation. The active set grows from a few pairs outward, layer by layer, so it may grow often. In the
 /// steps that were looked at, it grew at most 14 times if it ended. With few pairs rounds are cheap; 60 were too few for some
 /// hundred pairs. If rounds do not end, the relaxation would move all that is near, and a shorter step finds its base sooner.
 const EFFORT: Effort = Effort {

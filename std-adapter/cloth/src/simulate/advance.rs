@@ -11,7 +11,8 @@ use crate::scene::OnBlocked;
 use crate::world::Kinematic;
 use selvedge_core::glam::DVec3;
 
-/// The shortest part of a step that is tried, in steps, or in parts of one in which nothing turns too far: so a step has an end.
+/// The shortest part of a step that is tried, so that a step has an end. It is in steps, or in parts of one in which nothing
+/// turns too far.
 const SHORTEST: f64 = 1.0 / 64.0;
 
 /// An edge that is longer than this, over its limit, is reported.

@@ -44,7 +44,7 @@ pub enum FrameError {
 }
 
 impl Simulation {
-    /// Advances by a frame of a game or a film, from a microsecond to a second, in as many steps as the cloth needs, at most 64.
+    /// Advances by a frame of a game or a film, a microsecond to a second, in as many steps as the cloth needs (at most 64).
     ///
     /// The scene's own time step has no part in it. Bodies and pins that the caller moves do so evenly throughout the frame.
     ///

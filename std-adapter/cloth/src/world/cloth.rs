@@ -167,8 +167,7 @@ impl Cloth {
     ///
     /// # Errors
     /// Returns the errors of [`from_mesh`](Self::from_mesh), except that triangles may be missing if there are loose edges. Also
-    /// returns an error if an edge names a vertex that does not exist, repeats another edge, or is shorter than a hundredth of a
-    /// millimetre.
+    /// returns an error if an edge names a missing vertex, repeats another edge, or is shorter than a hundredth of a millimetre.
     pub fn from_mesh_with_loose_edges(
         mesh: Mesh,
         loose_edges: &[[u32; 2]],

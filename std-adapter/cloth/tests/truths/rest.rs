@@ -1,4 +1,4 @@
-//! Cloth that lies on a body, is too near to it, or is squeezed comes to rest at its thickness, and recovery gives it no speed.
+//! Cloth that lies on a body, is too near to it, or is squeezed comes to rest at its thickness. Recovery gives it no speed.
 
 use crate::{elastic, grid, jittered};
 use selvedge_cloth::effects::{AirDrag, BodyContact, Friction, Gravity, SelfCollision, Thickness};

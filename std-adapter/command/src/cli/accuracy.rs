@@ -13,10 +13,9 @@ use std::time::Duration;
 /// Measures what accuracy costs in time, for filters and elementary tests
 ///
 /// Filters range from the paper's plain filter, which culls a colliding pair now and then, to exact arithmetic. For each, the
-/// table shows its share of what exact arithmetic culls, what it culls without proof, and the time of a pair on each instruction
-/// set. The pairs are candidates of the built-in arm scene, the same far from the origin, and random pairs that are nearly
-/// coplanar. If you name two meshes (OBJ or PLY), the pairs of your step are measured as well. All sets are measured in f32 and
-/// in f64.
+/// table shows its share of exact culls, its culls without proof, and the time of a pair on each instruction set. The pairs are
+/// candidates of the built-in arm scene, the same far from the origin, and random pairs that are nearly coplanar. If you name two
+/// meshes (OBJ or PLY), the pairs of your step are measured as well. All sets are measured in f32 and in f64.
 ///
 /// Elementary tests are the certified time of impact at tolerances from 1e-2 to 1e-12, with and without its error bounds, and the
 /// exact verdict. The others are the plain cubic, Tight-Inclusion, additive and Bernstein sign tests. They run on such pairs and

@@ -65,7 +65,8 @@ impl<P: Position> World<P> {
         })
     }
 
-    /// Returns the vertices of a contact, as their own meshes number them: the vertex and the corners of the face, or the ends of both edges.
+    /// Returns the vertices of a contact, numbered as in their meshes: the vertex and the face's corners, or the ends of both
+    /// edges.
     ///
     /// # Errors
     /// Returns an error if a mesh was removed, or the two meshes do not have the pair.

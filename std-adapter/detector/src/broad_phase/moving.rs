@@ -128,8 +128,8 @@ impl MovingBroadPhase {
         self.hierarchies.fit_boxes(motions, fit);
     }
 
-    /// Replaces `vertex_face` and `edge_edge` by the candidates of the last update, numbered as in the topology: vertex and face,
-    /// or two edges with the smaller number first.
+    /// Replaces `vertex_face` and `edge_edge` by the candidates of the last update. They are numbered as in the topology: vertex
+    /// and face, or two edges with the smaller number first.
     pub fn candidates(&mut self, vertex_face: &mut Vec<[u32; 2]>, edge_edge: &mut Vec<[u32; 2]>) {
         self.candidates_until(&|_| true, vertex_face, edge_edge);
     }

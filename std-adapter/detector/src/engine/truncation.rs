@@ -65,8 +65,8 @@ impl Held<'_> {
         }
     }
 
-    /// Returns shares by planes through the pair's closest points at the start, at its contact or at the wanted ends: those with the largest smallest
-    /// share.
+    /// Returns shares by planes through the pair's closest points, for the plane with the largest smallest share. The points are
+    /// those at the start, at its contact or at the wanted ends.
     fn planes(&self, contact: &Contact<f64>, vertices: [u32; 4], end: &[DVec3]) -> Option<[f64; 4]> {
         let at = |positions: &[DVec3]| vertices.map(|vertex| positions[vertex as usize]);
         let (start, wanted, end) = (at(self.start), at(self.wanted), at(end));

@@ -2,10 +2,10 @@
 //!
 //! # Verdicts
 //! A case is made backwards. Two sets of points, one on each body, are put together at a chosen time, and turned back to their
-//! starts in floating point. Then the true places to which the rounded starts lead are computed in
-//! [256 bits](crate::oracle::arcs), and so is the distance, at that time, of a point on one set and a point on the other. The
-//! distance is at most a few roundings, about 10⁻¹⁵ of the coordinates. **The search uses a bound of it as its separation**, so on
-//! the exact arcs the two sets are within it at that time. A later time, or none, is wrong.
+//! starts in floating point. Then the true places to which the rounded starts lead are computed in [256
+//! bits](crate::oracle::arcs). So is the distance, at that time, of a point on one set and a point on the other. The distance is
+//! at most a few roundings, about 10⁻¹⁵ of the coordinates. **The search uses a bound of it as its separation**, so on the exact
+//! arcs the two sets are within it at that time. A later time, or none, is wrong.
 
 mod case;
 

@@ -11,7 +11,7 @@
 //! It does not lie strictly on one side of any plane through the origin. They are also sufficient. If the polygon has an area,
 //! one component of its normal is not zero, and projection along that axis loses nothing. The cross products add up to twice the
 //! projected area, so they are not all zero. So 2 puts the origin on the inner side of every edge of a convex polygon. If it has
-//! no area, the corners are on one line and the cross products add up to zero, so by 2 all of them are zero. If that line passes
+//! no area, the corners are on one line and the cross products add up to zero. So by 2 all of them are zero. If that line passes
 //! through the origin, 3 decides whether it has corners on both sides or at it. Otherwise neighbours are equal, all corners are
 //! one point, and 3 decides whether that is the origin.
 //!
@@ -83,8 +83,8 @@ pub fn touches<S: Scalar>(pair: &PrimitivePair<S>) -> Option<bool> {
 }
 
 /// Returns the number of words that the search needs with coordinates of `N` words, without corners and volume. The derivative,
-/// the polynomial in place of the volume, and the roots take nine numbers of 3·N + 2; a cross product takes 10·N + 6, its roots
-/// 6·N + 6, twice a coefficient 3·N + 3; the largest of `moment`'s numbers takes 126·N + 30.
+/// the polynomial in place of the volume, and the roots take nine numbers of 3·N + 2. A cross product takes 10·N + 6, its roots
+/// 6·N + 6, twice a coefficient 3·N + 3. The largest of `moment`'s numbers takes 126·N + 30.
 const fn space(n: usize) -> usize {
     9 * (3 * n + 2) + 10 * n + 6 + 6 * n + 6 + 3 * n + 3 + 126 * n + 30
 }

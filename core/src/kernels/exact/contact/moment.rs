@@ -23,9 +23,9 @@
 //! | the polynomial in place of the volume | its derivative | 2^(6m+14) | 2^(15m+36) |
 //! | a cross product | another | 2^(4m+6) | 2^(10m+16) |
 //!
-//! (In the first row l is a sum of three or four products of two coefficients of q and one of the cubic, in the others of two of
-//! two. The last number is a sum of three, l² times a coefficient of q.) The largest has 16·(64·N − 2) + 26 < 1024·N bits, which
-//! is 16·N words. A linear q needs less.
+//! (In the first row l is a sum of three or four products of two coefficients of q and one of the cubic. In the others it is a
+//! sum of two products of two. The last number is a sum of three, l² times a coefficient of q.) The largest has 16·(64·N − 2) +
+//! 26 < 1024·N bits, which is 16·N words. A linear q needs less.
 //!
 //! The space of [`terms`] is also largest in the first row. There are two numbers of 5·N words and two of 7·N for the remainder,
 //! and a power of 4·N. At the end there are four of 9·N, A among them, one of 14·N and three of 16·N. This makes 126·N, and a few

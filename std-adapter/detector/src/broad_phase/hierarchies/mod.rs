@@ -190,7 +190,8 @@ impl Hierarchies {
         self.set_moving((!are_all).then_some(wanted));
     }
 
-    /// Finds only pairs with a wanted vertex from the next update on, and reads only wanted vertices: the boxes of the others stay as they are.
+    /// Finds only pairs with a wanted vertex from the next update on, and reads only these vertices. The boxes of the others stay
+    /// unchanged.
     pub(crate) fn narrow_to(&mut self, wanted: Vec<bool>) {
         self.scope = Scope::Narrowed;
         self.moving = Some(wanted);

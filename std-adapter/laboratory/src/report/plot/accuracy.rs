@@ -24,7 +24,7 @@ const LEGEND: [(Look, &str); 4] = [
 ///
 /// The horizontal axis is time per pair, logarithmic and the same in all panels. It is for sixteen pairs side by side on the best
 /// instruction set, unless the name says otherwise. The vertical axis is the share of pairs that the filter culls, among those
-/// that exact arithmetic culls; each line is ten times closer to all. Filters without a proof have no place on that axis. They
+/// that exact arithmetic culls. Each line is ten times closer to all. Filters without a proof have no place on that axis. They
 /// are in a strip of their own, with the number of pairs that they cull without proof.
 #[must_use]
 pub fn accuracy_svg(accuracy: &Accuracy) -> String {

@@ -216,8 +216,8 @@ fn scene_pairs(mesh: Option<&dyn Frames>, options: AccuracyOptions) -> Result<Sc
     })
 }
 
-/// Measures every filter on candidate pairs of the arm scene and of all steps of `mesh`, if given, nearly coplanar pairs and
-/// pairs far from the origin. Calls `progress` with the share that is done.
+/// Measures every filter on candidate pairs of the arm scene and of all steps of `mesh`, if given. Nearly coplanar pairs and
+/// pairs far from the origin follow. Calls `progress` with the share that is done.
 ///
 /// # Errors
 /// Returns an error if threads cannot be started, a frame is not finite, or backends disagree.
