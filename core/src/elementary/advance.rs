@@ -453,7 +453,7 @@ impl<S: Number, const N: usize> Advance<'_, S, N> {
         }
     }
 
-    /// Returns the direction to turn from or to, of unit length but for rounding. It is the middle of those that keep the pair
+    /// Returns the direction to turn from or to, of unit length up to rounding. It is the middle of those that keep the pair
     /// apart. The exceptions are a closest point inside the face or both edges, and a direction that does not keep twice the
     /// separation.
     #[inline(always)]

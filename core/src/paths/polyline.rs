@@ -11,7 +11,7 @@ use glam::DVec3;
 /// use selvedge_core::{glam::DVec3, paths::{Path, Polyline}};
 /// let knots = [DVec3::ZERO, DVec3::X, DVec3::ZERO];
 /// let path = Polyline::new(&[0.0, 0.5, 1.0], &knots).unwrap();
-/// // There and back: at rest, but for the way to the knot.
+/// // There and back: at rest, apart from the way to the knot.
 /// let piece = path.piece(0.0, 1.0);
 /// assert!(piece.motion.end == DVec3::ZERO && piece.deviation >= 1.0);
 /// assert!(path.piece(0.0, 0.5).deviation < 1e-13);

@@ -1,4 +1,4 @@
-//! What the page shows besides the library: published methods and hard cases.
+//! The page's contents besides the library: published methods and hard cases.
 
 use crate::pair::pair_of;
 use crate::values::{floats, input_error, object, rows_of, set, take_positions, whole_numbers};

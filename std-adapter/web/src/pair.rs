@@ -42,8 +42,8 @@ pub fn time_of_impact(
     Ok(impact.time())
 }
 
-/// Runs all tests of a pair: the control values of the filter with their error bounds, boxes, each tier of the filter, the time of
-/// impact, and the exact verdict.
+/// Runs all tests of a pair: boxes, each tier of the filter, the time of impact, and the exact verdict. Control values come with
+/// their error bounds.
 #[wasm_bindgen(js_name = pairVerdicts, unchecked_return_type = "PairVerdicts")]
 pub fn pair_verdicts(
     #[wasm_bindgen(unchecked_param_type = "PairKind")] kind: &str,

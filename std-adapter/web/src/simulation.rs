@@ -172,7 +172,7 @@ impl Simulation {
         self.cloth.lag()
     }
 
-    /// Whether the state is certified free of the intersections that the scene's contact effects name.
+    /// True if the state is certified free of the intersections that the scene's contact effects name.
     #[wasm_bindgen(getter, js_name = isCertified)]
     pub fn is_certified(&self) -> bool {
         self.cloth.is_certified()

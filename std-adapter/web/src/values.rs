@@ -1,4 +1,4 @@
-//! Values that go to JavaScript and come from it.
+//! Conversion of values to JavaScript and back.
 
 use js_sys::{Error, Float64Array, Object, Reflect, Uint32Array, WebAssembly};
 use selvedge_core::PairKind;
@@ -97,7 +97,7 @@ pub(crate) fn object<const N: usize>(properties: [(&str, JsValue); N]) -> Object
     object
 }
 
-/// Sets a property of an object of this crate, which never refuses.
+/// Sets a property of an object of this crate, which never fails.
 pub(crate) fn set(object: &Object, name: &str, value: &JsValue) {
     let _ = Reflect::set(object, &name.into(), value);
 }

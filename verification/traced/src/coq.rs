@@ -103,7 +103,7 @@ fn constants<S: Scalar>(name: &str, text: &mut String) {
     writeln!(text, "Definition {name} := Constants Filter.{name} ({underflow}) {largest}.").expect("a string");
 }
 
-/// Writes what each proof of one round asks and gives, for corners in range.
+/// Writes the assumptions and results of each proof of one round, for corners in range.
 fn proofs_of_advance<const N: usize>(of: &str, corners: fn(&PairPoints<Traced>) -> Corners<Traced, N>, text: &mut String) {
     let direction = |number: usize| Vector::from(["X", "Y", "Z_"].map(|axis| Traced::input(format!("Along {number} {axis}"))));
     let ((masks, times), steps) = trace(|| {

@@ -9,7 +9,7 @@
 //!   directions perpendicular to the line between them keep the pair apart.
 //!
 //! # Overflow
-//! Directions are of unit length but for rounding. [`balanced`] makes w₁ at most 2¹² times as long, and [`along_side`] returns
+//! Directions are of unit length up to rounding. [`balanced`] makes w₁ at most 2¹² times as long, and [`along_side`] returns
 //! nothing that is longer than that along an axis. So a product with a corner is at most 3·2¹³ times the largest extent, 2²⁹ or
 //! 2²⁵⁰. No sum of such products and bars comes near the largest number.
 
@@ -33,11 +33,11 @@ pub(crate) fn unit<S: Number>(v: Vector<S>) -> Vector<S> {
     v.scaled(S::ONE / v.dot(v).sqrt())
 }
 
-/// Returns the direction in which the hull is farthest from the origin, of unit length but for rounding. It tries the directions
+/// Returns the direction in which the hull is farthest from the origin, of unit length up to rounding. It tries the directions
 /// of all corners, those perpendicular to all sides and to the face, and `w`.
 ///
 /// The closest point of a hull that is nearly a line may be wrong by far more than a rounding error, and tilts its direction. One
-/// of these directions belongs to the true closest feature, and each is perpendicular to its feature but for a few u.
+/// of these directions belongs to the true closest feature, and each is perpendicular to its feature up to a few u.
 #[cold]
 pub(crate) fn farthest<S: Number, const N: usize>(positions: &[Vector<S>; N], w: Vector<S>) -> Vector<S> {
     let &[a, b, c, ref rest @ ..] = positions.as_slice() else {

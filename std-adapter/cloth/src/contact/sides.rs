@@ -25,7 +25,7 @@ pub(super) struct Sides {
     sums: Vec<f64>,
     /// The distance of each vertex from the nearest side, and a node of that side.
     nearest: Vec<(f64, u32)>,
-    /// Vertices from which the search goes on, the nearest first: distances are not negative, so they have the order of their
+    /// Vertices from which the search continues, the nearest first: distances are not negative, so they have the order of their
     /// bits.
     queue: BinaryHeap<Reverse<(u64, u32)>>,
 }

@@ -62,7 +62,7 @@ impl Simulation {
     /// [`placement`](Self::placement) says. It stays there until the next call.
     ///
     /// # Errors
-    /// Returns an error if there is no such body, it is not driven, or the placement is none.
+    /// Returns an error if there is no such body, it is not driven, or the placement is invalid.
     pub fn place_body(&mut self, body: usize, placement: Placement) -> Result<(), DriveError> {
         let placement = placement.checked()?;
         self.driven_body(body)?.lead_to(placement);

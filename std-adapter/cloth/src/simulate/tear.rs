@@ -1,7 +1,7 @@
 //! Tears between two steps, at edges that are loaded above their strength ([`tearing`](crate::model::tearing)).
 //!
 //! ```text
-//! what tears ─▶ cloths with copies of vertices ─▶ all that depends on meshes, made anew ─▶ opened a little ─▶ is it free? ─▶ taken
+//! torn edges ─▶ cloths with copies of vertices ─▶ all data that depend on meshes, again ─▶ opened a little ─▶ is it free? ─▶ taken
 //!                       ▲                                                                                        └▶ less, then fewer
 //!                       └────────────────────────────────────────────────────────────────────────────────────────────┘
 //! ```

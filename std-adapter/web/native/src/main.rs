@@ -1,7 +1,7 @@
 //! Runs scenes natively: `selvedge-native FOLDER STEPS SCENE.toml...`.
 //!
-//! For each scene it writes into the folder the positions after so many steps, and the contacts of the motion from the first positions to
-//! these, as bytes that a test compares with WebAssembly's. It prints the seconds that the steps took, on one thread.
+//! For each scene it writes the positions after so many steps, and the contacts of the motion from the first positions to these.
+//! A test compares these bytes with WebAssembly's. It prints the seconds that the steps took, on one thread.
 
 use selvedge::{CollisionDetector, PairKind, Topology};
 use selvedge_cloth::{Scene, Simulation};

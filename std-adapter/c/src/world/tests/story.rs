@@ -1,4 +1,4 @@
-//! A story, told in C and in Rust.
+//! A story in C and in Rust: both must have the same results.
 
 use super::*;
 use crate::answers::Pair;
