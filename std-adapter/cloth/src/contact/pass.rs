@@ -72,7 +72,6 @@ impl ContactSolver {
     /// Turns the wanted motion, from the start of the step to `end`, into one that is certainly free.
     ///
     /// # Errors
-    ///
     /// Returns an error if the step has to be cut; then only `end` has changed.
     pub(crate) fn certify(&mut self, step: &TimeStep<'_>, end: &mut [DVec3]) -> Result<(), Blocker> {
         let start = step.start;

@@ -28,7 +28,6 @@ impl Simulation {
     /// Does one step.
     ///
     /// # Errors
-    ///
     /// Returns an error if bodies or pins force the cloth where it cannot go without intersecting, and the scene stops then. The
     /// part of the step that was made remains.
     pub fn step(&mut self) -> Result<(), Blocked> {

@@ -113,7 +113,6 @@ impl Simulation {
     /// Sets the velocity of the [`Wind`](crate::effects::Wind) from now on, in m/s.
     ///
     /// # Errors
-    ///
     /// Returns an error if the scene has no wind, or the velocity is not allowed.
     pub fn set_wind(&mut self, velocity: DVec3) -> Result<(), DriveError> {
         Wind::check_velocity(velocity).map_err(|error| error.of("wind"))?;

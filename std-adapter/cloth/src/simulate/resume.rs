@@ -33,7 +33,6 @@ impl Simulation {
     /// continue as well.
     ///
     /// # Errors
-    ///
     /// Returns an error if the bytes are no checkpoint, damaged, or of another scene; then nothing has changed.
     pub fn resume(&mut self, checkpoint: &[u8]) -> Result<(), CheckpointError> {
         let triangles = self.triangles_of_cloths();

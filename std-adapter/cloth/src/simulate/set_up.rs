@@ -19,7 +19,6 @@ impl Simulation {
     /// Sets a scene up, on `threads` threads (0: one for each core). The number of threads changes no bit of the result.
     ///
     /// # Errors
-    ///
     /// Returns an error if the scene is not valid or starts with an intersection, or the operating system refuses the threads.
     pub fn new(scene: Scene, threads: usize) -> Result<Self, SetupError> {
         Self::with_progress(scene, threads, &mut |_| ())

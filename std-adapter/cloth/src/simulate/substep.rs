@@ -52,7 +52,6 @@ impl Simulation {
     /// Advances the cloth by `h` seconds, and bodies and pins by `ticks` seconds of their clock.
     ///
     /// # Errors
-    ///
     /// Returns an error if no motion is found that is certainly free. Then nothing has changed.
     pub(super) fn attempt(&mut self, h: f64, ticks: f64) -> Result<(), Blocker> {
         let mut substep = Substep::begin(self, h, ticks);

@@ -200,7 +200,6 @@ impl Simulation {
     /// Makes the data of a checkpoint's cloths.
     ///
     /// # Errors
-    ///
     /// Returns an error if these are not the scene's cloths.
     pub(super) fn torn_as(&mut self, torn: Vec<TornCloth>) -> Result<Retorn, CheckpointError> {
         let numbering = self.numbering();
