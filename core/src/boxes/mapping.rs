@@ -34,9 +34,10 @@
 //! inset = δ − 8u·(B + δ)
 //! ```
 //!
-//! (`f32`, u = 2⁻²⁴, any rounding direction, 2u an operation; the product is exact.) δ is rounded to `f32`, and so are the
-//! difference and the moved bound, at most B + δ: 6u(B + δ) and a little of second order, less than 8u(B + δ). A δ below 2⁻⁶⁰
-//! draws nothing in, so flushed numbers are far less than the rest of it. Nor does a sum above [`Rounding::LARGEST_EDGE`].
+//! These numbers are `f32`: u = 2⁻²⁴, and an operation errs by 2u in any rounding direction; the product is exact. δ is rounded
+//! to `f32`, and so are the difference and the moved bound, at most B + δ: 6u(B + δ) and a little of second order, less than 8u(B
+//! + δ). A δ below 2⁻⁶⁰ draws nothing in, so flushed numbers are far less than the rest of it. Nor does a sum above
+//! [`Rounding::LARGEST_EDGE`].
 //!
 //! # Two mappings
 //! Boxes of two mappings compare if both have one origin; for an empty extent it is zero. With half separations h and k, images

@@ -15,7 +15,8 @@
 //! at both. It is also never farther than 2r: both are within r of the moving axis.
 //!
 //! # Rounding
-//! (Any direction: ε = 2u an operation.) Let H be the largest coordinate of q = p − c, C and T those of c and τ; |q| ≤ √3·H.
+//! An operation errs by ε = 2u in any rounding direction. Let H be the largest coordinate of q = p − c, C and T those of c and τ;
+//! |q| ≤ √3·H.
 //! * **Frame.** The axis of length one errs by 6ε in each component (quotient, 3 operations of a square under the root, root,
 //!   quotient); q by εH. The part along the axis errs by 30εH along each coordinate: its product 17.4ε, times the axis 12.2ε. The
 //!   part across errs by 32.5εH, the part sideways, axis × q, by 15.6εH.

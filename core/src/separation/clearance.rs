@@ -7,12 +7,11 @@
 //! other. The latter settles most of the remaining pairs: triangles side by side.
 //!
 //! # Rounding
-//! (`f32`; any direction: ε = 2u = 2⁻²³ an operation.) A coordinate of at most B is rounded by at most εB, and the difference of
-//! two, at most 2B, by 2εB more: together 4εB along an axis. A product with d errs by √3·εB·|d| from the coordinates and by
-//! 3ε·√3·B·|d| from its own operations, to first order. The difference of two products errs by twice that and 2√3·εB·|d| more:
-//! together 18εB·|d|. |d|, the sum and the required distance err by less than 8ε of themselves. [`Clearance::new`] adds 32ε of B
-//! and of the distance.
-//!
+//! An operation in `f32` errs by ε = 2u = 2⁻²³ in any rounding direction. A coordinate of at most B is rounded by at most εB, and
+//! the difference of two, at most 2B, by 2εB more: together 4εB along an axis. A product with d errs by √3·εB·|d| from the
+//! coordinates and by 3ε·√3·B·|d| from its own operations, to first order. The difference of two products errs by twice that and
+//! 2√3·εB·|d| more: together 18εB·|d|. |d|, the sum and the required distance err by less than 8ε of themselves.
+//! [`Clearance::new`] adds 32ε of B and of the distance.
 //! **Underflow.** Flushed operands and results, of λ each, make less than 40λ(1 + |d|) along d. 2⁻⁸⁰ is added to h. A direction
 //! whose square is not above 10⁻¹⁸ proves nothing; otherwise |d| is above 2⁻³⁰, and 2⁻⁸⁰|d| ≥ 40λ(1 + |d|). **Overflow.** If B
 //! exceeds 2³⁰, or a distance is NaN, nothing is proven, as if h were infinite.

@@ -10,12 +10,11 @@
 //! as its course does. So it is within its room in between as well.
 //!
 //! # Rounding
-//! (Any direction: ε = 2u an operation.) Let B be the largest coordinate of all origins and ends. `drift·span` is at most 2B(1 +
-//! 3ε). The end of the course is off by ε of the product and ε of the sum. A course that was [joined later](joined) is off by as
-//! much again at its origin, and by ε of `span − t`; the expected position adds 2 operations. All together is less than 20εB =
-//! 40uB. The difference from the point's position loses ε of itself. [`is_certain`] demands that 64u·B, and η for flushed
-//! numbers, be at most 1/128 of the room. The hundredth is more: 0.01/0.99.
-
+//! An operation errs by ε = 2u in any rounding direction. Let B be the largest coordinate of all origins and ends. `drift·span`
+//! is at most 2B(1 + 3ε). The end of the course is off by ε of the product and ε of the sum. A course that was [joined
+//! later](joined) is off by as much again at its origin, and by ε of `span − t`; the expected position adds 2 operations. All
+//! together is less than 20εB = 40uB. The difference from the point's position loses ε of itself. [`is_certain`] demands that
+//! 64u·B, and η for flushed numbers, be at most 1/128 of the room. The hundredth is more: 0.01/0.99.
 use crate::lanes::more_roundoffs;
 use crate::scalar::{Position, Scalar};
 use crate::vector::Vector;

@@ -6,9 +6,9 @@
 //! rejected.
 //!
 //! # Rounding
-//! (Any direction: ε = 2u an operation.) Let no coordinate exceed B, and no component of d exceed 1.01. A dot product passes each
-//! term through at most 3 roundings, so its error is at most 3ε·3·1.01B to first order. A gap is the difference of two of them,
-//! itself rounded: 18.2εB + 6.1εB ≤ 49uB. [`GapError`] allows 64u·B.
+//! An operation errs by ε = 2u in any rounding direction. Let no coordinate exceed B, and no component of d exceed 1.01. A dot
+//! product passes each term through at most 3 roundings, so its error is at most 3ε·3·1.01B to first order. A gap is the
+//! difference of two of them, itself rounded: 18.2εB + 6.1εB ≤ 49uB. [`GapError`] allows 64u·B.
 //!
 //! **σ = 1 + 2⁻²⁰** (`slack`) covers the length of d and later roundings:
 //! * An accepted length: fl(d·d) ≤ 1 + 2⁻²⁰ shows that |d| ≤ 1 + 2⁻²⁰·0.8 in both formats.

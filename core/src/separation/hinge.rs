@@ -7,9 +7,9 @@
 //! ones above all. Since a⊥·b⊥·(e·e) = (a·b)(e·e) − (a·e)(b·e), only a sign is needed.
 //!
 //! # Rounding
-//! (Any direction: ε = 2u an operation.) Each monomial passes through four differences, three operations of each dot product, a
-//! product and a difference: 12. Their magnitudes add up to at most 2|a||b|(e·e) ≤ (a·a + b·b)(e·e), which is computed in 13
-//! roundings with its factor: 32u of that exceeds 24u.
+//! An operation errs by ε = 2u in any rounding direction. Each monomial passes through four differences, three operations of each
+//! dot product, a product and a difference: 12. Their magnitudes add up to at most 2|a||b|(e·e) ≤ (a·a + b·b)(e·e), which is
+//! computed in 13 roundings with its factor: 32u of that exceeds 24u.
 //!
 //! **Underflow.** With M the largest component, a difference is off by 3λ, a dot product by (18M + 5)λ, and the whole by (216M³ +
 //! 60M² + 3)λ, where 2M³ ≤ M² + M⁴: less than 256λ(1 + M²)². η times (1 + a·a + b·b + e·e)² is added, and η ≥ 512λ. **Overflow.**

@@ -260,8 +260,8 @@ formats!(a_control_value_beyond_its_bound_by_magnitudes_has_the_exact_sign(
     pairs_of_any_kind()
 ));
 
-/// Checks that a computed bound is the documented sum of a relative and an absolute term, up to 16 roundings and the underflow of
-/// its products. The underflow is less than an eighth of the absolute term.
+/// Checks that a computed bound is the documented sum of a relative and an absolute term. It may differ by 16 roundings and the
+/// underflow of its products. The underflow is less than an eighth of the absolute term.
 fn is_documented<S: Format>(bound: &Rational, relative: Rational, absolute: &Rational) -> Result<(), TestCaseError> {
     let slack = relative_error::<S>(16) + 1_u32;
     let (documented, lost) = (relative + absolute, Rational::from(absolute / 8_u32));

@@ -11,11 +11,11 @@
 //! interval are c₀×d₀, ½(c₀×d₁ + c₁×d₀), c₁×d₁.
 //!
 //! # Rounding
-//! ε and M as for the corners (`corners.rs`). A monomial of a coefficient passes through 4 roundings in each of
-//! the corners, product, difference, and one sum in the middle: 11ε ≤ 22u in any direction, of a magnitude of
-//! 2·M_x·M_y. The bound is 40u·2M_xM_y + η(1 + M)². K at a time is within the error of its control values on the rest of the step, which
-//! covers (`volume.rs`) as many roundings. Underflow: 6λ in each component of a corner enters with a factor of M four times, products and
-//! sums add 7λ at most, less than η(1 + M)².
+//! ε and M are those of the corners (`corners.rs`). A monomial of a coefficient passes through 4 roundings in each of the
+//! corners, product, difference, and one sum in the middle: 11ε ≤ 22u in any direction, of a magnitude of 2·M_x·M_y. The bound is
+//! 40u·2M_xM_y + η(1 + M)². K at a time is within the error of its control values on the rest of the step, which covers
+//! (`volume.rs`) as many roundings. Underflow: 6λ in each component of a corner enters with a factor of M four times, products
+//! and sums add 7λ at most, less than η(1 + M)².
 //!
 //! This cannot confirm contact at the very ends of the step, touching without passing through, and coplanar motion.
 

@@ -6,20 +6,21 @@
 //! raised to the third degree, bound |n|.
 //!
 //! # Rounding
-//! ε as for the [corners](super::corners), S₃ the permanent of the three rows M M M. A monomial of a control value passes through
-//! at most 12 roundings: 3 differences, product, difference, sum of two vectors, product, two additions, one addition more, and a
-//! third (rounded itself) in the middle ones. Blossoming to [t, 1] adds 9 (three times 1 − t, product, sum), subtracting the
-//! bound 1, looking ahead 9: 31εS₃ ≤ 62uS₃ in any direction. **E = 64u·Ŝ₃ + η(1 + M)²**, M here the largest component.
+//! ε is that of the [corners](super::corners), S₃ the permanent of the three rows M M M. A monomial of a control value passes
+//! through at most 12 roundings: 3 differences, product, difference, sum of two vectors, product, two additions, one addition
+//! more, and a third (rounded itself) in the middle ones. Blossoming to [t, 1] adds 9 (three times 1 − t, product, sum),
+//! subtracting the bound 1, looking ahead 9: 31εS₃ ≤ 62uS₃ in any direction. **E = 64u·Ŝ₃ + η(1 + M)²**, M here the largest
+//! component.
 //!
 //! Underflow: let λ be the smallest normal number. The losses in 9 components of differences, 3λ each, enter with two factors of
 //! M twice: at most 54λM². Losses in 6 products of a cross product and 3 subtractions enter with one M, the rest with none. This
 //! is at most 63λ(1 + M)² for a control value (for 3k₁ three times that and three more, divided by three). The 36 operations that
 //! follow lose 36λ. η ≥ 2⁷λ covers it.
 //!
-//! Normal, where s > 0: its components pass through at most 13 roundings (of a corner, a difference of two, 3 by interpolation,
-//! twice; product, difference, sum), each of magnitude at most 8 M_j M_k. That is less than 512u(M_x M_y + M_y M_z + M_z M_x) for
-//! the vector. Its length passes through a handful more, which a factor 1 + 64u covers. A length whose squares underflow, less
-//! than 2⁻⁶² (2⁻⁵¹⁰), is covered by adding that.
+//! If s > 0, the normal matters. Its components pass through at most 13 roundings (of a corner, a difference of two, 3 by
+//! interpolation, twice; product, difference, sum), each of magnitude at most 8 M_j M_k. That is less than 512u(M_x M_y + M_y M_z
+//! + M_z M_x) for the vector. Its length passes through a handful more, which a factor 1 + 64u covers. A length whose squares
+//! underflow, less than 2⁻⁶² (2⁻⁵¹⁰), is covered by adding that.
 
 use super::corners::Corners;
 use super::directions::beyond;

@@ -241,8 +241,8 @@ impl ContactSolver {
         is_known
     }
 
-    /// Certifies pairs again that are apart by their separation. A coarse mesh may pass through another one with all its vertices
-    /// and edges far from those of the other. The exact test covers this case.
+    /// Ends the exemption of pairs that are apart by their separation. A coarse mesh may pass through another one with all its
+    /// vertices and edges far from those of the other. The exact test covers this case.
     pub(crate) fn take_back(&mut self, positions: &[DVec3]) {
         let Self {
             exempt,

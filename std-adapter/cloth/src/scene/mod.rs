@@ -88,7 +88,7 @@ pub enum TangledStart {
 /// ```
 #[derive(Debug)]
 pub struct Scene {
-    /// The name: `name` in the file, or the file's own name.
+    /// The name: the key `name` of the file, or the file's name.
     pub name: String,
     /// The cloths at rest. Vertices are numbered through all of them, in this order.
     pub cloths: Vec<Cloth>,

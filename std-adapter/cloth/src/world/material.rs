@@ -13,13 +13,14 @@
 //!    and `royal-target` (trousers, 65 % cotton), with their moduli at the smallest strain and curvature. The stiffer direction
 //!    of denim is taken as the warp, since spandex is in the weft.
 //! 2. Penava, Šimić Penava and Knezić 2014: a plain weave of cotton, 150.3 g/m² and 0.318 mm.
-//! 3. Chosen from cantilever measurements of unnamed fabrics of that weight: Feng, Huang, Xu and Wang 2022. Fabrics of 140 to 160
-//!    g/m² have 2.5 to 58 µN m. Fabrics of 55 to 80 g/m² have 1.1 to 33 µN m, most of them below 7.
-//! 4. Kawabata 1980: means of 214 winter suitings: a bending rigidity of 10^−0.867 gf cm²/cm, a shear stiffness of 10^−0.066
+//! 3. The values are chosen from cantilever measurements of unnamed fabrics of that weight (Feng, Huang, Xu and Wang 2022).
+//!    Fabrics of 140 to 160 g/m² have 2.5 to 58 µN m. Fabrics of 55 to 80 g/m² have 1.1 to 33 µN m, most of them below 7.
+//! 4. Kawabata 1980 has means of 214 winter suitings: a bending rigidity of 10^−0.867 gf cm²/cm, a shear stiffness of 10^−0.066
 //!    gf/(cm deg), 10^1.421 mg/cm². The cotton's shear stiffness is a choice: 1.16 gf/(cm deg) in these units.
 //! 5. De Boos and Tester 1994 (SiroFAST, CSIRO report WT92.02): suitings without faults stretch by 2 to 6 % under 98 N/m, their
 //!    100 gf/cm. Here they stretch by 3 and 4 %.
-//! 6. Fitted to a drape coefficient: Memon, Chaklie, Yesuf and Zhu 2021 found 47 to 70 % for sheep leather of 0.64 to 0.96 mm.
+//! 6. The value is fitted to a drape coefficient: Memon, Chaklie, Yesuf and Zhu 2021 found 47 to 70 % for sheep leather of 0.64
+//!    to 0.96 mm.
 //! 7. Rubber of constant volume with a Young's modulus of 1.2 MPa and 930 kg/m³ (Treloar 1975): stretch E·h, shear E·h/3, bending
 //!    E·h³/9. No published drape coefficient was found.
 //! 8. A choice within the usual range, without a measurement.

@@ -6,7 +6,7 @@ use crate::step::{Intersection, StepError};
 use selvedge_core::{Position, Scalar};
 
 impl<S: Scalar> CollisionDetector<S> {
-    /// Replaces `intersections` by all edges and faces that meet where the mesh is at `positions`.
+    /// Replaces `intersections` by all edges and faces that meet, with the mesh at `positions`.
     ///
     /// Where neighbours are folded flat onto each other, the vertices and faces, and the edges, that touch are listed too. Each intersection comes
     /// once, in ascending order. The list is the same on any number of threads and does not depend on earlier calls.
