@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`oracle`] | exact answers, from the definitions alone |
 //! | [`campaign`] | long runs over many pairs, every claim checked by exact arithmetic |
+//! | [`conformance`] | the cases of the conformance suite |
 //! | [`generator`] | inputs that are biased to what breaks floating-point geometry, for property tests and fuzz targets |
 //! | [`minifloat`] | a number format of a few bits, in which every input of a grid can be tried |
 //! | [`altered`] | the kernels of core with other constants in their error bounds |
@@ -12,6 +13,7 @@
 
 pub mod altered;
 pub mod campaign;
+pub mod conformance;
 pub mod culling;
 pub mod generator;
 pub mod minifloat;

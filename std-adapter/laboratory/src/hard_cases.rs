@@ -1,11 +1,12 @@
 //! Hard cases of the literature by name, with exact answers: degenerate pairs, and Erleben's shapes rebuilt from their geometry.
 //! Each case stands at several sizes and places.
 //!
-//! The file `data/hard-cases.csv` is part of the program. Its answers come from exact rational arithmetic on the very numbers
-//! that it holds. The project's tests repeat that computation.
+//! They are the file `named.jsonl` of the conformance suite, which is part of the program. Its answers come from exact arithmetic on
+//! the very numbers that it holds. The project's tests repeat that computation.
 
 use selvedge_core::glam::DVec3;
 use selvedge_core::{Motion, PrimitivePair};
+use serde_json::Value;
 use std::sync::OnceLock;
 
 /// A primitive pair with its exact answer.
@@ -42,46 +43,51 @@ pub enum ExactContact {
 /// Returns all cases, in the order of the file.
 ///
 /// # Panics
-/// Panics if the file, which is part of the program, is not well-formed. A test reads it.
+/// If the file, which is part of the program, is not well-formed. A test reads it.
 #[must_use]
 pub fn hard_cases() -> &'static [HardCase] {
     static CASES: OnceLock<Vec<HardCase>> = OnceLock::new();
     CASES.get_or_init(|| {
-        let text = include_str!("../data/hard-cases.csv");
-        let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes());
-        let rows = reader.records().map(|row| row.ok().as_ref().and_then(case));
-        rows.map(|case| case.expect("the built-in file is well-formed")).collect()
+        let rows = include_str!("../data/named.jsonl").lines().map(|line| serde_json::from_str(line).ok());
+        let cases = rows.map(|row| row.as_ref().and_then(case));
+        cases.map(|case| case.expect("the built-in file is well-formed")).collect()
     })
 }
 
-/// Reads a row: name, placement, kind, first, from, to, and 24 coordinates.
-fn case(row: &csv::StringRecord) -> Option<HardCase> {
-    let fields: Vec<&str> = row.iter().collect();
-    let [name, placement, kind, first, from, to, coordinates @ ..] = fields.as_slice() else {
-        return None;
+/// Reads a line as the suite's `schema.json` describes it.
+fn case(row: &Value) -> Option<HardCase> {
+    let name = |key: &str| row[key].as_str().map(str::to_owned);
+    let points = |end: &str| -> Option<[DVec3; 4]> {
+        let points = row[end].as_array()?.iter().map(|point| numbers(point).map(DVec3::from_array));
+        points.collect::<Option<Vec<_>>>()?.try_into().ok()
     };
-    let coordinates: Result<Vec<f64>, _> = coordinates.iter().map(|number| number.parse()).collect();
-    let coordinates = coordinates.ok()?;
-    let points: Vec<DVec3> = coordinates.chunks_exact(3).map(DVec3::from_slice).collect();
-    let (start, end) = points.split_at_checked(4)?;
-    let [start, end]: [[DVec3; 4]; 2] = [start.try_into().ok()?, end.try_into().ok()?];
+    let (start, end) = (points("start")?, points("end")?);
     Some(HardCase {
-        name: (*name).to_owned(),
-        placement: (*placement).to_owned(),
+        name: name("kind")?,
+        placement: name("place")?,
         pair: PrimitivePair {
-            kind: kind.parse().ok()?,
+            kind: row["question"].as_str()?.parse().ok()?,
             motions: [0, 1, 2, 3].map(|point| Motion::new(start[point], end[point])),
         },
-        contact: match *first {
-            "never" => ExactContact::Never,
-            "undefined" => ExactContact::Undefined,
-            exact => ExactContact::First {
-                exact: exact.to_owned(),
-                from: from.parse().ok()?,
-                to: to.parse().ok()?,
-            },
+        contact: match row["touches"].as_bool() {
+            None => ExactContact::Undefined,
+            Some(false) => ExactContact::Never,
+            Some(true) => {
+                let [from, to] = numbers(&row["first"])?;
+                let exact = name("exact").unwrap_or_else(|| format!("about {from:.6}"));
+                ExactContact::First { exact, from, to }
+            }
         },
     })
+}
+
+/// Reads an array of hexadecimal floats.
+fn numbers<const N: usize>(array: &Value) -> Option<[f64; N]> {
+    let number = |text: &Value| match text.as_str()? {
+        not_finite @ ("nan" | "inf" | "-inf") => not_finite.parse().ok(),
+        number => hexf_parse::parse_hexf64(number, false).ok(),
+    };
+    array.as_array()?.iter().map(number).collect::<Option<Vec<_>>>()?.try_into().ok()
 }
 
 #[cfg(test)]

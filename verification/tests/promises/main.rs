@@ -15,6 +15,7 @@ mod closest_points_are_closest;
 mod coherent_motion_misses_nothing;
 mod collision_detector_keeps_its_promises;
 mod collision_filters_exclude_what_they_say;
+mod conformance_cases_are_answered;
 mod contact_geometry_is_enclosed;
 mod contact_is_decided_exactly;
 mod control_values_within_error_bounds;

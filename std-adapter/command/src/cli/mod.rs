@@ -4,6 +4,7 @@ mod accuracy;
 mod arm;
 mod check;
 mod compare;
+mod conformance;
 mod cull;
 mod hard_cases;
 mod main_job;
@@ -54,6 +55,7 @@ enum Command {
     Compare(compare::Compare),
     Queries(queries::Queries),
     HardCases(hard_cases::HardCases),
+    Conformance(conformance::Conformance),
     Scaling(scaling::Scaling),
     Accuracy(accuracy::Accuracy),
     Arm(arm::Arm),
@@ -67,6 +69,7 @@ pub(crate) fn main() -> ExitCode {
     let result = match &cli.command {
         None => cli.main_job.run(),
         Some(Command::Check(check)) => return exit(check.run()),
+        Some(Command::Conformance(conformance)) => return exit(conformance.run()),
         Some(Command::Cull(cull)) => cull.run(),
         Some(Command::Compare(compare)) => compare.run(),
         Some(Command::Queries(queries)) => queries.run(),

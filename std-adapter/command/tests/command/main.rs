@@ -3,6 +3,7 @@
 mod accuracy;
 mod check;
 mod compare;
+mod conformance;
 mod cull;
 mod simulate;
 mod support;

@@ -1,0 +1,227 @@
+"""Writes scores as Markdown, JSON, sortable HTML whose cells lead to the cases, and a plot of accuracy against time."""
+
+import json
+import math
+from html import escape
+
+QUESTIONS = {
+    "vertex-face": "a vertex and a face in linear motion",
+    "edge-edge": "two edges in linear motion",
+    "moving-mesh": "a mesh in linear motion",
+    "moving-triangle": "a translating triangle and one at rest",
+    "triangles": "two triangles at rest",
+    "meshes": "two meshes at rest",
+}
+COLUMNS = [
+    ("asked", "asked", None),
+    ("missed", "missed", "missed"),
+    ("deep", "of these deep", "missed"),
+    ("false", "false alarms", "false alarm"),
+    ("beyond", "of these beyond tolerance", "false alarm"),
+    ("late", "late", "late"),
+    ("late_max", "largest delay", "late"),
+    ("early", "early by > 0.01", None),
+    ("hang", "hang", "hang"),
+    ("crash", "crash", "crash"),
+    ("nan", "not a number", "not a number"),
+    ("nonfinite", "not finite, answered none", "not finite, answered none"),
+    ("undecided", "undecided", None),
+    ("refused", "refused", None),
+    ("mean_us", "mean, µs", None),
+    ("p99_us", "99 %, µs", None),
+    ("max_us", "largest, µs", None),
+]
+COLOURS = {"vertex-face": "#0b6e99", "edge-edge": "#5aa5c7", "moving-mesh": "#7a3e9d", "moving-triangle": "#c2410c",
+           "triangles": "#2f7d32", "meshes": "#8aa63a"}  # fmt: skip
+
+
+def shown(value):
+    if isinstance(value, float):
+        return "–" if value == 0 else f"{value:,.0f}" if value >= 100 else f"{value:.2g}"
+    return "–" if value == 0 else f"{value:,}" if isinstance(value, int) else str(value)
+
+
+def by_question(scores):
+    for question in QUESTIONS:
+        rows = [(n, r["scores"][question]) for n, r in scores["runners"].items() if question in r["scores"]]
+        if rows:
+            yield question, sorted(rows, key=lambda row: (row[1]["wrong"] / row[1]["asked"], row[1].get("mean_us", 0)))
+
+
+def markdown(scores):
+    out = []
+    for question, rows in by_question(scores):
+        used = [c for c in COLUMNS if any(r.get(c[0], 0) for _, r in rows)]
+        out += [f"### `{question}`: {QUESTIONS[question]}", ""]
+        out += ["| runner | " + " | ".join(c[1] for c in used) + " |", "|---" * (len(used) + 1) + "|"]
+        out += [f"| {name} | " + " | ".join(shown(row.get(c[0], 0)) for c in used) + " |" for name, row in rows] + [""]
+    return "\n".join(out)
+
+
+def examples(scores, count=3):
+    """The smallest faults of each runner, in decimals that identify the numbers."""
+    out = []
+    for name, runner in scores["runners"].items():
+        chosen = {}
+        for fault in runner["faults"]:
+            question = scores["texts"][fault["id"]]["question"]
+            if len(chosen) < count and (question, fault["fault"]) not in chosen:
+                chosen[question, fault["fault"]] = fault
+        rest = [f for f in runner["faults"] if f not in chosen.values()]
+        for fault in [*chosen.values(), *rest][:count]:
+            out.append((name, fault, scores["texts"][fault["id"]]))
+    return out
+
+
+def exact_text(case):
+    if case["touches"] is None:
+        return "a number is not finite"
+    if not case["touches"]:
+        low, high = (float.fromhex(x) for x in case["distance"])
+        return f"apart by {low:.3g} to {high:.3g}"
+    deep = float.fromhex(case["depth"])
+    text = "touches" + (f", {deep:.2g} of the size deep" if deep else "")
+    if "first" in case:
+        text += f", first at {case.get('exact') or repr(float.fromhex(case['first'][0]))}"
+    return text
+
+
+def numbers(points):
+    return " ".join("(" + ", ".join(repr(float.fromhex(x)) for x in p) + ")" for p in points)
+
+
+def said(fault):
+    answer = fault["answer"]
+    if "time" not in answer:
+        return answer["verdict"]
+    return f"{answer['verdict']} at {float.fromhex(answer['time']) if 'x' in answer['time'] else answer['time']}"
+
+
+def examples_markdown(scores):
+    out, last = [], None
+    for name, fault, case in examples(scores):
+        if name != last:
+            out += ["", f"## {name}", ""]
+            last = name
+        out.append(f"- `{case['id']}` ({fault['fault']}): exact: {exact_text(case)}; answered {said(fault)}.")
+        out.append(f"  - start: {numbers(case['start'])}")
+        if "end" in case:
+            out.append(f"  - end: {numbers(case['end'])}")
+        if "move" in case:
+            out.append(f"  - the second moves by {numbers([case['move']])}")
+        if "faces" in case:
+            out.append(f"  - faces: {case['faces']}" + (f"; the first {case['split']} are the first mesh" if "split" in case else ""))
+    return "\n".join(out).strip() + "\n"
+
+
+STYLE = """body{font:15px/1.4 system-ui,sans-serif;margin:2rem;max-width:100rem}table{border-collapse:collapse;margin:1rem 0 2rem}
+td,th{padding:.25rem .6rem;border-bottom:1px solid #ddd;text-align:right}td:first-child,th:first-child{text-align:left}
+th{cursor:pointer;vertical-align:bottom}pre{white-space:pre-wrap;background:#f6f6f6;padding:.5rem}img{max-width:100%}"""
+SORT = """document.querySelectorAll('th').forEach(th=>th.onclick=()=>{const t=th.closest('table'),i=th.cellIndex,
+b=t.tBodies[0],up=th.dataset.up=th.dataset.up==='1'?'':'1',k=r=>r.cells[i].dataset.v;
+[...b.rows].sort((p,q)=>{const x=k(p),y=k(q),c=isNaN(x)||isNaN(y)?x.localeCompare(y):x-y;return up?c:-c}).forEach(r=>b.append(r))})"""
+
+
+def page(title, body):
+    head = f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{escape(title)}</title><style>{STYLE}</style>'
+    return f"{head}<body><h1>{escape(title)}</h1>{body}<script>{SORT}</script></body></html>\n"
+
+
+def anchor(question, kind, fault):
+    return f"{question}-{kind}-{fault}".replace(" ", "-").replace(",", "")
+
+
+def table(rows, first, link):
+    used = [c for c in COLUMNS if any(r.get(c[0], 0) for _, r in rows)]
+    out = ["<table><thead><tr>" + f"<th>{escape(first)}</th>" + "".join(f"<th>{escape(c[1])}</th>" for c in used) + "</tr></thead><tbody>"]
+    for name, row in rows:
+        cells = [f'<td data-v="{escape(str(name))}">{link(name, None)}</td>']
+        for key, _, fault in used:
+            value = row.get(key, 0)
+            text = link(name, fault, shown(value)) if fault and value else shown(value)
+            cells.append(f'<td data-v="{value}">{text}</td>')
+        out.append("<tr>" + "".join(cells) + "</tr>")
+    return "".join(out) + "</tbody></table>"
+
+
+def index(scores):
+    body = ['<p>Columns sort on a click. Cells lead to the cases.</p><img src="accuracy.svg" alt="accuracy against time">']
+    for question, rows in by_question(scores):
+
+        def link(name, fault, text=None, question=question):
+            target = f"#{anchor(question, 'all', fault)}" if fault else ""
+            return f'<a href="{escape(name)}.html{target}">{escape(text or name)}</a>'
+
+        body.append(f"<h2>{escape(question)}: {escape(QUESTIONS[question])}</h2>" + table(rows, "runner", link))
+    return page("Conformance of collision tests", "".join(body))
+
+
+def runner_page(name, runner, texts):
+    facts = f"{runner['library']} {runner['found_version']}, {runner['processor']}; see {runner['page']}"
+    body = [f"<p>{escape(facts)}</p>"]
+    for question in runner["scores"]:
+        rows = [(row["kind"], row) for row in runner["kinds"] if row["question"] == question]
+
+        def link(kind, fault, text=None, question=question):
+            return f'<a href="#{anchor(question, kind, fault)}">{escape(text)}</a>' if fault else escape(str(kind))
+
+        body.append(f"<h2>{escape(question)}</h2>" + table(rows, "kind", link))
+    groups = {}
+    for fault in runner["faults"]:
+        case = texts[fault["id"]]
+        groups.setdefault((case["question"], fault["fault"]), {}).setdefault(case["kind"], []).append((fault, case))
+    for (question, fault), kinds in groups.items():
+        body.append(f'<h2 id="{anchor(question, "all", fault)}">{escape(question)}: {escape(fault)}</h2>')
+        for kind, found in kinds.items():
+            body.append(f'<h3 id="{anchor(question, kind, fault)}">{escape(kind)}</h3>')
+            for one, case in found:
+                line = f"<b>{escape(case['id'])}</b>: {escape(exact_text(case))}; answered {escape(said(one))}"
+                body.append(f"<details><summary>{line}</summary><pre>{escape(json.dumps(case))}</pre></details>")
+    return page(name, "".join(body))
+
+
+def plot(scores):
+    """Share of wrong answers against mean time: a mark for each runner and question."""
+    left, top, width, height = 70, 30, 860, 480
+    points = [(n, q, r["mean_us"], r["wrong"] / r["asked"]) for q, rows in by_question(scores) for n, r in rows if "mean_us" in r]
+    low = math.floor(min(math.log10(p[2]) for p in points))
+    high = math.ceil(max(math.log10(p[2]) for p in points))
+    x = lambda us: left + width * (math.log10(us) - low) / max(1, high - low)
+    # Shares from one in a thousand up are logarithmic; below is a band for none.
+    y = lambda share: top + 20 if share == 0 else top + 60 + (height - 60) * (math.log10(max(share, 5e-4)) + 3.3) / 3.3
+    out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {left + width + 150} {top + height + 60}" font-family="sans-serif" font-size="11">']
+    out.append('<rect width="100%" height="100%" fill="white"/>')
+    for power in range(low, high + 1):
+        at, label = x(10.0**power), f"{10.0**power:g} µs"
+        out.append(f'<path d="M{at:.1f} {top}V{top + height}" stroke="#ddd"/><text x="{at:.1f}" y="{top + height + 18}" text-anchor="middle">{label}</text>')
+    for share, label in ((0, "none"), (0.001, "0.1 %"), (0.01, "1 %"), (0.1, "10 %"), (1, "all")):
+        out.append(f'<path d="M{left} {y(share):.1f}h{width}" stroke="#ddd"/><text x="{left - 8}" y="{y(share) + 4:.1f}" text-anchor="end">{label}</text>')
+    out.append(f'<text x="{left + width / 2}" y="{top + height + 42}" text-anchor="middle" font-size="13">mean time of a query</text>')
+    out.append(f'<text transform="translate(16 {top + height / 2}) rotate(-90)" text-anchor="middle" font-size="13">wrong answers</text>')
+    taken = []
+    for name, question, us, share in sorted(points, key=lambda p: (p[3], p[2])):
+        px, py = x(us), y(share)
+        ty = py + 3
+        while any(abs(ty - b) < 10 and abs(px - a) < 6 * max(len(name), len(m)) for a, b, m in taken):
+            ty += 10
+        taken.append((px, ty, name))
+        colour, title = COLOURS[question], f"{name}, {question}: {share:.2%} wrong, {us:.3g} µs"
+        out.append(f'<circle cx="{px:.1f}" cy="{py:.1f}" r="4" fill="{colour}"><title>{escape(title)}</title></circle>')
+        out.append(f'<text x="{px + 6:.1f}" y="{ty:.1f}" fill="{colour}">{escape(name)}</text>')
+    for i, (question, colour) in enumerate(COLOURS.items()):
+        out.append(f'<circle cx="{left + width + 40}" cy="{top + 200 + 18 * i}" r="5" fill="{colour}"/>')
+        out.append(f'<text x="{left + width + 50}" y="{top + 204 + 18 * i}">{question}</text>')
+    return "\n".join([*out, "</svg>"]) + "\n"
+
+
+def write(scores, folder):
+    """Writes everything into the folder."""
+    (folder / "scores.md").write_text(markdown(scores) + "\n", encoding="utf-8")
+    (folder / "examples.md").write_text("# The smallest faults of each runner\n\n" + examples_markdown(scores), encoding="utf-8")
+    plain = {key: value for key, value in scores.items() if key != "texts"}
+    (folder / "scores.json").write_text(json.dumps(plain, indent=1) + "\n", encoding="utf-8")
+    (folder / "index.html").write_text(index(scores), encoding="utf-8")
+    for name, runner in scores["runners"].items():
+        (folder / f"{name}.html").write_text(runner_page(name, runner, scores["texts"]), encoding="utf-8")
+    if any("mean_us" in row for _, rows in by_question(scores) for _, row in rows):
+        (folder / "accuracy.svg").write_text(plot(scores), encoding="utf-8")

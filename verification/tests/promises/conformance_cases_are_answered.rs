@@ -1,0 +1,190 @@
+//! Selvedge answers every case of the conformance suite: no contact is missed, no time is late, and no pair that stays farther apart
+//! than documented is reported. In `f64` and `f32`, one pair alone, side by side on every instruction set, and by a detector.
+
+use rug::Rational;
+use selvedge::simd::available_levels;
+use selvedge::{CollisionDetector, Criterion, Position, Topology};
+use selvedge_core::batch::{LANES, Level, Round, RoundQuestion, VertexRow, advance_from_rows};
+use selvedge_core::elementary::advance::{time_of_impact, time_of_impact_within};
+use selvedge_core::elementary::{ContactVerdict, Impact, Limits, Reason, contact};
+use selvedge_core::PairKind;
+use selvedge_verification::conformance::{Case, Question};
+use selvedge_verification::generator::{Format, PairCase};
+
+/// The cases of a file that a format holds exactly.
+fn cases<S: Format>(file: &str) -> Vec<Case> {
+    let mut cases = Case::read(file).expect("the suite's file");
+    cases.retain(|case| S::PRECISION == 53 || case.format == "f32");
+    assert!(cases.len() > 50, "only {} cases in {file}", cases.len());
+    cases
+}
+
+fn points<S: Format>(case: &Case) -> [Vec<[S; 3]>; 2] {
+    case.positions().map(|end| end.iter().map(|point| point.map(S::from_f64)).collect())
+}
+
+fn pairs<S: Format>(case: &Case) -> Vec<PairCase<S>> {
+    let [start, end] = points(case);
+    let pair = |(kind, vertices): (PairKind, [u32; 4])| {
+        PairCase::new(kind, vertices.map(|vertex| [start[vertex as usize], end[vertex as usize]]))
+    };
+    case.pairs().into_iter().map(pair).collect()
+}
+
+/// Returns the distance below which a case may be reported although it does not touch: tolerance, and 192 units of rounding of all
+/// lengths.
+fn reach<S: Format>(case: &Case) -> f64 {
+    let [start, end] = case.positions();
+    let largest = |axis: usize| {
+        let axis = start.iter().chain(&end).map(|point| point[axis]);
+        let (low, high) = axis.fold((f64::MAX, f64::MIN), |(low, high), x| (low.min(x), high.max(x)));
+        2.0 * (high - low)
+    };
+    let tolerance = Limits::<S>::default().tolerance.to_f64();
+    let (unit, tiny) = if S::PRECISION == 53 { (2f64.powi(-53), 2f64.powi(-500)) } else { (2f64.powi(-24), 2f64.powi(-60)) };
+    tolerance + 192.0 * unit * (tolerance + largest(0) + largest(1) + largest(2)) + tiny
+}
+
+/// Returns whether `f32` documents that it cannot exclude anything: coordinates differ by more than 2²⁹.
+fn is_out_of_range<S: Format>(case: &Case) -> bool {
+    let [start, end] = case.positions();
+    let coordinates = || start.iter().chain(&end).flatten();
+    let spread = coordinates().fold(f64::MIN, |a, &b| a.max(b)) - coordinates().fold(f64::MAX, |a, &b| a.min(b));
+    spread > if S::PRECISION == 53 { 2f64.powi(250) } else { 2f64.powi(29) }
+}
+
+/// Checks a time from which contact is not excluded, or `None`.
+fn is_right<S: Format>(case: &Case, time: Option<S>, how: &str) {
+    let id = &case.id;
+    match (case.touches, time) {
+        (None, time) => assert!(time.is_some(), "{id}, {how}: excluded though a number is not finite"),
+        (Some(true), time) => {
+            let time = time.unwrap_or_else(|| panic!("{id}, {how}: missed")).to_f64();
+            let first = case.first.expect("the time of a case in motion");
+            assert!(time <= first[0].0, "{id}, {how}: {time} is later than {}", first[0].0);
+        }
+        (Some(false), Some(_)) => {
+            let distance = case.distance.expect("the distance of a case apart")[0].0;
+            assert!(distance <= reach::<S>(case), "{id}, {how}: reported at a distance of {distance}");
+        }
+        (Some(false), None) => {}
+    }
+}
+
+fn earliest<S: Format>(impacts: &[Impact<S>]) -> Option<S> {
+    let times = impacts.iter().filter_map(Impact::time);
+    times.min_by(|a, b| a.partial_cmp(b).expect("times are numbers"))
+}
+
+/// Answers pairs of one kind side by side: rounds in lanes, then each open pair alone.
+fn side_by_side<S: Format>(level: Level, kind: PairKind, pairs: &[PairCase<S>]) -> Vec<Impact<S>> {
+    let limits = Limits::default();
+    let rows: Vec<_> = pairs.iter().flat_map(PairCase::motions).map(VertexRow::new).collect();
+    let mut impacts = vec![Impact::Never; pairs.len()];
+    let mut open: Vec<(usize, S)> = (0..pairs.len()).map(|index| (index, S::ZERO)).collect();
+    for sweep in 0..6 {
+        let question = RoundQuestion { limits, until: S::ONE, with_volume: sweep > 1 };
+        let indices: Vec<_> = open.iter().map(|&(index, _)| [0, 1, 2, 3].map(|point| 4 * index as u32 + point)).collect();
+        let mut times: Vec<S> = open.iter().map(|&(_, time)| time).collect();
+        let mut rounds = vec![Round::default(); open.len().div_ceil(LANES)];
+        advance_from_rows(level, kind, &question, &rows, &indices, &mut times, &mut rounds);
+        let mut remaining = Vec::new();
+        for (place, &(index, _)) in open.iter().enumerate() {
+            let (round, bit, time) = (rounds[place / LANES], 1 << (place % LANES), times[place]);
+            if round.near & bit != 0 {
+                impacts[index] = Impact::Possible { time, reason: Reason::WithinTolerance };
+            } else if round.stuck & bit != 0 {
+                impacts[index] = time_of_impact_within(&pairs[index].pair(), &limits, time, S::ONE);
+            } else if round.apart & bit == 0 {
+                remaining.push((index, time));
+            }
+        }
+        open = remaining;
+    }
+    for (index, time) in open {
+        impacts[index] = time_of_impact_within(&pairs[index].pair(), &limits, time, S::ONE);
+    }
+    impacts
+}
+
+fn pairs_are_answered<S: Format>(file: &str, kind: PairKind) {
+    let cases = cases::<S>(file);
+    let all: Vec<_> = cases.iter().map(|case| pairs::<S>(case)[0]).collect();
+    for (case, pair) in cases.iter().zip(&all) {
+        let pair = pair.pair();
+        let verdict = match case.touches {
+            None => ContactVerdict::Undefined,
+            Some(true) => ContactVerdict::Happens,
+            Some(false) => ContactVerdict::Never,
+        };
+        assert_eq!(contact(&pair), verdict, "{}", case.id);
+        let impact = time_of_impact(&pair, &Limits::default());
+        if !matches!(impact, Impact::Possible { reason: Reason::OutOfRange, .. }) || !is_out_of_range::<S>(case) {
+            is_right(case, impact.time(), "alone");
+        }
+    }
+    for (name, level) in available_levels() {
+        for (case, impact) in cases.iter().zip(side_by_side(level, kind, &all)) {
+            if !is_out_of_range::<S>(case) {
+                is_right(case, impact.time(), name);
+            }
+        }
+    }
+}
+
+#[test]
+fn pairs_alone_and_side_by_side() {
+    for (file, kind) in [("vertex-face.jsonl", PairKind::VertexFace), ("edge-edge.jsonl", PairKind::EdgeEdge)] {
+        pairs_are_answered::<f64>(file, kind);
+        pairs_are_answered::<f32>(file, kind);
+    }
+}
+
+fn detector_answers<S: Format>(file: &str)
+where
+    [S; 3]: Position<Scalar = S>,
+{
+    for case in cases::<S>(file) {
+        let id = &case.id;
+        let [start, end] = points::<S>(&case);
+        let topology = Topology::new(start.len(), case.triangles()).expect("valid triangles");
+        let mut detector = CollisionDetector::new(topology);
+        let mut intersects = || detector.has_intersections(&start).expect("finite positions");
+        match case.question {
+            Question::Triangles | Question::Meshes => {
+                assert_eq!(Some(intersects()), case.touches, "{id}");
+                continue;
+            }
+            Question::MovingTriangle if intersects() => {
+                let first = case.first.expect("a contact");
+                assert_eq!(Rational::from_f64(first[1].0), Some(Rational::new()), "{id}");
+                continue;
+            }
+            _ => {}
+        }
+        let first = detector.earliest(&start, &end).expect("finite positions");
+        is_right(&case, first.map(|first| first.time), "detector");
+        let tolerance = Limits::default().tolerance;
+        detector.set_criterion(Criterion::Touching { tolerance }).expect("a valid tolerance");
+        let first = detector.earliest(&start, &end).expect("finite positions");
+        assert_eq!(Some(first.is_some()), case.touches, "{id}, exactly");
+        is_right(&case, first.map(|first| first.time), "exact detector");
+    }
+}
+
+#[test]
+fn triangles_and_meshes_by_a_detector() {
+    for file in ["triangles.jsonl", "meshes.jsonl", "moving-triangle.jsonl", "moving-mesh.jsonl"] {
+        detector_answers::<f64>(file);
+        detector_answers::<f32>(file);
+    }
+}
+
+/// One pair alone gives the batch's earliest time or an earlier one, so the two are compared where a mesh has many pairs.
+#[test]
+fn meshes_pair_by_pair() {
+    for case in cases::<f64>("moving-mesh.jsonl") {
+        let impacts: Vec<_> = pairs::<f64>(&case).iter().map(|pair| time_of_impact(&pair.pair(), &Limits::default())).collect();
+        is_right(&case, earliest(&impacts), "pair by pair");
+    }
+}
