@@ -52,7 +52,11 @@ fn meet_at_start(case: &Case, start: &[[f64; 3]]) -> bool {
         Question::Meshes => case.split,
         _ => return false,
     };
-    let triangles: Vec<_> = case.triangles().into_iter().map(|face| face.map(|vertex| start[vertex as usize])).collect();
+    let triangles: Vec<_> = case
+        .triangles()
+        .into_iter()
+        .map(|face| face.map(|vertex| start[vertex as usize]))
+        .collect();
     let (first, second) = triangles.split_at(split);
     first.iter().any(|a| second.iter().any(|b| triangles_intersect(a, b, &[])))
 }

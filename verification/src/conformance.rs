@@ -122,7 +122,9 @@ impl Case {
         edges.dedup();
         let mut pairs = Vec::new();
         for vertex in (0..).take(vertices) {
-            let others = triangles.iter().filter(|face| face.iter().all(|&other| are_apart(vertex, other)));
+            let others = triangles
+                .iter()
+                .filter(|face| face.iter().all(|&other| are_apart(vertex, other)));
             pairs.extend(others.map(|&[a, b, c]| (PairKind::VertexFace, [vertex, a, b, c])));
         }
         for (index, &[a, b]) in edges.iter().enumerate() {

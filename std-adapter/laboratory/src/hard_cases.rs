@@ -48,7 +48,9 @@ pub enum ExactContact {
 pub fn hard_cases() -> &'static [HardCase] {
     static CASES: OnceLock<Vec<HardCase>> = OnceLock::new();
     CASES.get_or_init(|| {
-        let rows = include_str!("../data/named.jsonl").lines().map(|line| serde_json::from_str(line).ok());
+        let rows = include_str!("../data/named.jsonl")
+            .lines()
+            .map(|line| serde_json::from_str(line).ok());
         let cases = rows.map(|row| row.as_ref().and_then(case));
         cases.map(|case| case.expect("the built-in file is well-formed")).collect()
     })
@@ -87,7 +89,13 @@ fn numbers<const N: usize>(array: &Value) -> Option<[f64; N]> {
         not_finite @ ("nan" | "inf" | "-inf") => not_finite.parse().ok(),
         number => hexf_parse::parse_hexf64(number, false).ok(),
     };
-    array.as_array()?.iter().map(number).collect::<Option<Vec<_>>>()?.try_into().ok()
+    array
+        .as_array()?
+        .iter()
+        .map(number)
+        .collect::<Option<Vec<_>>>()?
+        .try_into()
+        .ok()
 }
 
 #[cfg(test)]

@@ -4,10 +4,10 @@
 use rug::Rational;
 use selvedge::simd::available_levels;
 use selvedge::{CollisionDetector, Criterion, Position, Topology};
+use selvedge_core::PairKind;
 use selvedge_core::batch::{LANES, Level, Round, RoundQuestion, VertexRow, advance_from_rows};
 use selvedge_core::elementary::advance::{time_of_impact, time_of_impact_within};
 use selvedge_core::elementary::{ContactVerdict, Impact, Limits, Reason, contact};
-use selvedge_core::PairKind;
 use selvedge_verification::conformance::{Case, Question};
 use selvedge_verification::generator::{Format, PairCase};
 
@@ -20,7 +20,8 @@ fn cases<S: Format>(file: &str) -> Vec<Case> {
 }
 
 fn points<S: Format>(case: &Case) -> [Vec<[S; 3]>; 2] {
-    case.positions().map(|end| end.iter().map(|point| point.map(S::from_f64)).collect())
+    case.positions()
+        .map(|end| end.iter().map(|point| point.map(S::from_f64)).collect())
 }
 
 fn pairs<S: Format>(case: &Case) -> Vec<PairCase<S>> {
@@ -41,7 +42,11 @@ fn reach<S: Format>(case: &Case) -> f64 {
         2.0 * (high - low)
     };
     let tolerance = Limits::<S>::default().tolerance.to_f64();
-    let (unit, tiny) = if S::PRECISION == 53 { (2f64.powi(-53), 2f64.powi(-500)) } else { (2f64.powi(-24), 2f64.powi(-60)) };
+    let (unit, tiny) = if S::PRECISION == 53 {
+        (2f64.powi(-53), 2f64.powi(-500))
+    } else {
+        (2f64.powi(-24), 2f64.powi(-60))
+    };
     tolerance + 192.0 * unit * (tolerance + largest(0) + largest(1) + largest(2)) + tiny
 }
 
@@ -65,7 +70,10 @@ fn is_right<S: Format>(case: &Case, time: Option<S>, how: &str) {
         }
         (Some(false), Some(_)) => {
             let distance = case.distance.expect("the distance of a case apart")[0].0;
-            assert!(distance <= reach::<S>(case), "{id}, {how}: reported at a distance of {distance}");
+            assert!(
+                distance <= reach::<S>(case),
+                "{id}, {how}: reported at a distance of {distance}"
+            );
         }
         (Some(false), None) => {}
     }
@@ -83,8 +91,15 @@ fn side_by_side<S: Format>(level: Level, kind: PairKind, pairs: &[PairCase<S>]) 
     let mut impacts = vec![Impact::Never; pairs.len()];
     let mut open: Vec<(usize, S)> = (0..pairs.len()).map(|index| (index, S::ZERO)).collect();
     for sweep in 0..6 {
-        let question = RoundQuestion { limits, until: S::ONE, with_volume: sweep > 1 };
-        let indices: Vec<_> = open.iter().map(|&(index, _)| [0, 1, 2, 3].map(|point| 4 * index as u32 + point)).collect();
+        let question = RoundQuestion {
+            limits,
+            until: S::ONE,
+            with_volume: sweep > 1,
+        };
+        let indices: Vec<_> = open
+            .iter()
+            .map(|&(index, _)| [0, 1, 2, 3].map(|point| 4 * index as u32 + point))
+            .collect();
         let mut times: Vec<S> = open.iter().map(|&(_, time)| time).collect();
         let mut rounds = vec![Round::default(); open.len().div_ceil(LANES)];
         advance_from_rows(level, kind, &question, &rows, &indices, &mut times, &mut rounds);
@@ -92,7 +107,10 @@ fn side_by_side<S: Format>(level: Level, kind: PairKind, pairs: &[PairCase<S>]) 
         for (place, &(index, _)) in open.iter().enumerate() {
             let (round, bit, time) = (rounds[place / LANES], 1 << (place % LANES), times[place]);
             if round.near & bit != 0 {
-                impacts[index] = Impact::Possible { time, reason: Reason::WithinTolerance };
+                impacts[index] = Impact::Possible {
+                    time,
+                    reason: Reason::WithinTolerance,
+                };
             } else if round.stuck & bit != 0 {
                 impacts[index] = time_of_impact_within(&pairs[index].pair(), &limits, time, S::ONE);
             } else if round.apart & bit == 0 {
@@ -119,7 +137,14 @@ fn pairs_are_answered<S: Format>(file: &str, kind: PairKind) {
         };
         assert_eq!(contact(&pair), verdict, "{}", case.id);
         let impact = time_of_impact(&pair, &Limits::default());
-        if !matches!(impact, Impact::Possible { reason: Reason::OutOfRange, .. }) || !is_out_of_range::<S>(case) {
+        if !matches!(
+            impact,
+            Impact::Possible {
+                reason: Reason::OutOfRange,
+                ..
+            }
+        ) || !is_out_of_range::<S>(case)
+        {
             is_right(case, impact.time(), "alone");
         }
     }
@@ -134,7 +159,10 @@ fn pairs_are_answered<S: Format>(file: &str, kind: PairKind) {
 
 #[test]
 fn pairs_alone_and_side_by_side() {
-    for (file, kind) in [("vertex-face.jsonl", PairKind::VertexFace), ("edge-edge.jsonl", PairKind::EdgeEdge)] {
+    for (file, kind) in [
+        ("vertex-face.jsonl", PairKind::VertexFace),
+        ("edge-edge.jsonl", PairKind::EdgeEdge),
+    ] {
         pairs_are_answered::<f64>(file, kind);
         pairs_are_answered::<f32>(file, kind);
     }
@@ -165,7 +193,9 @@ where
         let first = detector.earliest(&start, &end).expect("finite positions");
         is_right(&case, first.map(|first| first.time), "detector");
         let tolerance = Limits::default().tolerance;
-        detector.set_criterion(Criterion::Touching { tolerance }).expect("a valid tolerance");
+        detector
+            .set_criterion(Criterion::Touching { tolerance })
+            .expect("a valid tolerance");
         let first = detector.earliest(&start, &end).expect("finite positions");
         assert_eq!(Some(first.is_some()), case.touches, "{id}, exactly");
         is_right(&case, first.map(|first| first.time), "exact detector");
@@ -174,7 +204,12 @@ where
 
 #[test]
 fn triangles_and_meshes_by_a_detector() {
-    for file in ["triangles.jsonl", "meshes.jsonl", "moving-triangle.jsonl", "moving-mesh.jsonl"] {
+    for file in [
+        "triangles.jsonl",
+        "meshes.jsonl",
+        "moving-triangle.jsonl",
+        "moving-mesh.jsonl",
+    ] {
         detector_answers::<f64>(file);
         detector_answers::<f32>(file);
     }
@@ -184,7 +219,10 @@ fn triangles_and_meshes_by_a_detector() {
 #[test]
 fn meshes_pair_by_pair() {
     for case in cases::<f64>("moving-mesh.jsonl") {
-        let impacts: Vec<_> = pairs::<f64>(&case).iter().map(|pair| time_of_impact(&pair.pair(), &Limits::default())).collect();
+        let impacts: Vec<_> = pairs::<f64>(&case)
+            .iter()
+            .map(|pair| time_of_impact(&pair.pair(), &Limits::default()))
+            .collect();
         is_right(&case, earliest(&impacts), "pair by pair");
     }
 }

@@ -36,6 +36,10 @@ impl Conformance {
         let python = if cfg!(windows) { "python" } else { "python3" };
         let status = Command::new(python).arg(program).args(&self.arguments).status();
         let status = status.map_err(|error| format!("cannot run {python}, which the suite needs: {error}"))?;
-        Ok(if status.success() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+        Ok(if status.success() {
+            ExitCode::SUCCESS
+        } else {
+            ExitCode::from(1)
+        })
     }
 }
