@@ -267,8 +267,8 @@ def contacts(kind, points):
 
 
 def inequalities(kind, points):
-    """For each pair of features: numerator and denominator of the squared distance of their lines and planes, and polynomials that
-    are at most zero where the closest points lie on the features."""
+    """For each pair of features: numerator and denominator of the squared distance of their lines and planes, and
+    polynomials that are at most zero where the closest points lie on the features."""
     one = [1]
     sides = [(points[0],), points[1:]] if kind == "vertex-face" else [points[:2], points[2:]]
     for p, q in product(*sides):

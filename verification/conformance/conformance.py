@@ -83,7 +83,11 @@ def installed(runner, cache):
             (place / "package.json").write_text('{"private": true}\n', encoding="utf-8")
             run(["npm", "install", "--silent", *wanted["npm"]], place)
         if "cargo" in wanted:
-            run(["cargo", "build", "--release", "--quiet", *filled(wanted["cargo"])], folder, CARGO_TARGET_DIR=str(cache / "target"))
+            run(
+                ["cargo", "build", "--release", "--quiet", *filled(wanted["cargo"])],
+                folder,
+                CARGO_TARGET_DIR=str(cache / "target"),
+            )
         for command in wanted.get("commands", []):
             run(filled(command), folder)
         for name in wanted.get("copy", []):
@@ -98,7 +102,9 @@ class Child:
     def __init__(self, command, folder):
         variables = {**os.environ, "PYTHONPATH": str(SUITE / "runners"), "OMP_NUM_THREADS": "1", "PYTHONDONTWRITEBYTECODE": "1"}
         null = subprocess.DEVNULL
-        self.process = subprocess.Popen(command, cwd=folder, env=variables, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=null)
+        self.process = subprocess.Popen(
+            command, cwd=folder, env=variables, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=null
+        )
         self.rest = b""
         first = self.line(60)
         if not first or not first.startswith("ready"):
@@ -168,7 +174,10 @@ def ask_all(name, runner, command, asked, path, arguments):
     child = Child(command, runner["folder"])
     with open(path, "a", encoding="utf-8") as out:
         if not known:
-            print(json.dumps({"runner": name, "version": child.version, "processor": processor(), "limit": arguments.limit}), file=out)
+            print(
+                json.dumps({"runner": name, "version": child.version, "processor": processor(), "limit": arguments.limit}),
+                file=out,
+            )
         for index, case in enumerate(todo):
             if time.monotonic() > until:
                 child.end()
@@ -191,7 +200,9 @@ def processor():
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="conformance", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        prog="conformance", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("runners", nargs="*", metavar="RUNNER", help="a name that --list shows, or `all`")
     parser.add_argument("--list", action="store_true", help="show the runners")
     parser.add_argument("--out", type=Path, default=Path("conformance"), help="folder of answers and scores")

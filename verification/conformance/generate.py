@@ -2,7 +2,8 @@
 """Writes the generated cases: generate.py [--seed N] [--count N] [--labels COMMAND] FOLDER
 
 The same seed and count give the same cases on every machine. COMMAND reads cases and writes their labels; without it, cases are
-written without labels. `kinds.json` says why each kind is hard. With --relabel, labels the cases of a file that was written by hand.
+written without labels. `kinds.json` says why each kind is hard. With --relabel, it labels the cases of a file that was written by
+hand.
 """
 
 import argparse
@@ -185,7 +186,7 @@ def pair_case(kind, edges, s):
             t = s.time()
             return rest + [sub(p, mul(t, step)) for p in move], rest + [add(p, mul(1 - t, step)) for p in move]
         face = [[s.grid(), s.grid(), 0.0] for _ in range(3)]
-        height = s.pick(0.0, form.tiny, form.eps, -form.eps**1.5)
+        height = s.pick(0.0, form.tiny, form.eps, -(form.eps**1.5))
         return [[s.grid(), s.grid(), height]] + face, [[s.grid(), s.grid(), height]] + face
     if kind == "parallel-ulp":
         start, end = pair_case("parallel", edges, s)
@@ -287,9 +288,9 @@ def pair_case(kind, edges, s):
     raise KeyError(kind)
 
 
-PAIR_KINDS = """generic decimal gap grazing grazing-ulp rounded parallel parallel-ulp coplanar coplanar-ulp sliding zero-size duplicate
-duplicate-ulp at-start at-end at-start-ulp at-end-ulp sliver huge-over-tiny subnormal half-turn quarter-turn double-root fast
-still""".split()
+PAIR_KINDS = """generic decimal gap grazing grazing-ulp rounded parallel parallel-ulp coplanar coplanar-ulp sliding zero-size
+duplicate duplicate-ulp at-start at-end at-start-ulp at-end-ulp sliver huge-over-tiny subnormal half-turn quarter-turn double-root
+fast still""".split()
 
 
 def two_triangles(kind, s):
@@ -353,8 +354,8 @@ def two_triangles(kind, s):
     return a, b
 
 
-TRIANGLE_KINDS = """generic crossing decimal gap grazing grazing-ulp rounded parallel coplanar coplanar-ulp zero-size duplicate duplicate-ulp
-sliver huge-over-tiny subnormal""".split()
+TRIANGLE_KINDS = """generic crossing decimal gap grazing grazing-ulp rounded parallel coplanar coplanar-ulp zero-size
+duplicate duplicate-ulp sliver huge-over-tiny subnormal""".split()
 
 
 def moving_triangle(kind, s):
@@ -363,7 +364,14 @@ def moving_triangle(kind, s):
         a, b = two_triangles(kind, s)
         step = s.any_point(2.0)
         return a, [sub(p, mul(0.5, step)) for p in b], step
-    shape = {"at-start": "grazing", "short": "grazing", "at-end": "grazing", "at-end-ulp": "grazing-ulp", "sliding": "coplanar", "fast": "grazing"}
+    shape = {
+        "at-start": "grazing",
+        "short": "grazing",
+        "at-end": "grazing",
+        "at-end-ulp": "grazing-ulp",
+        "sliding": "coplanar",
+        "fast": "grazing",
+    }
     a, b = two_triangles(shape.get(kind, kind), s)
     size = max(abs(x) for p in a for x in p) or 1.0
     unit = 64 * s.form.tiny if kind == "subnormal" else 2.0 ** math.floor(math.log2(size))
@@ -422,7 +430,9 @@ def two_meshes(kind, s):
     q = turned(q, s.random.randrange(3))
     if kind in ("parallel", "parallel-ulp", "coplanar", "corner-on-face", "corner-on-face-ulp", "gap"):
         p, f = sheet(s, 2, 2)
-        height = {"parallel": s.pick(2.0**-20, -(2.0**-10), 0.0), "parallel-ulp": s.pick(form.eps, -form.eps, form.tiny)}.get(kind, 0.0)
+        height = {"parallel": s.pick(2.0**-20, -(2.0**-10), 0.0), "parallel-ulp": s.pick(form.eps, -form.eps, form.tiny)}.get(
+            kind, 0.0
+        )
         q, g = sheet(s, 2, 1) if kind[0] in "pc" and "corner" not in kind else fan(s, 0.0, lambda: s.random.randint(1, 8) / 32)
         step = [s.random.randint(-5, 5) / 8, s.random.randint(-5, 5) / 8, height]
         if "corner" in kind or kind == "gap":
@@ -454,8 +464,8 @@ def two_meshes(kind, s):
     return joined((p, f), (q, g))
 
 
-MESH_KINDS = """generic crossing gap corner-on-face corner-on-face-ulp edge-on-edge edge-on-edge-ulp parallel parallel-ulp coplanar duplicate
-zero-size rounded""".split()
+MESH_KINDS = """generic crossing gap corner-on-face corner-on-face-ulp edge-on-edge edge-on-edge-ulp parallel parallel-ulp
+coplanar duplicate zero-size rounded""".split()
 
 
 def moving_mesh(kind, s):
@@ -495,7 +505,9 @@ def moving_mesh(kind, s):
     return p, end, f
 
 
-MOVING_MESH_KINDS = "generic patches folding sheets-pass sheets-near sheets-meet sheets-meet-ulp sheets-slide zero-size rounded".split()
+MOVING_MESH_KINDS = (
+    "generic patches folding sheets-pass sheets-near sheets-meet sheets-meet-ulp sheets-slide zero-size rounded".split()
+)
 
 QUESTIONS = {
     "vertex-face": (PAIR_KINDS, 40),
@@ -609,7 +621,13 @@ def generated(question, count):
                     ends[0], move = moved
                     more = {"move": [hexadecimal(x) for x in move]}
                 number += 1
-                case = {"id": f"{question}/{name}/{kind}/{number:03}", "question": question, "format": name, "kind": kind, "place": place}
+                case = {
+                    "id": f"{question}/{name}/{kind}/{number:03}",
+                    "question": question,
+                    "format": name,
+                    "kind": kind,
+                    "place": place,
+                }
                 case["start"] = rows(ends[0])
                 if len(ends) == ENDS:
                     case["end"] = rows(ends[1])
@@ -622,7 +640,9 @@ def text(case):
 
 def labelled(cases, command):
     """The cases with the labels that a command writes."""
-    run = subprocess.run(shlex.split(command), input="".join(text(c) + "\n" for c in cases), stdout=subprocess.PIPE, text=True, check=True)
+    run = subprocess.run(
+        shlex.split(command), input="".join(text(c) + "\n" for c in cases), stdout=subprocess.PIPE, text=True, check=True
+    )
     for case, line in zip(cases, run.stdout.splitlines(), strict=True):
         label = json.loads(line)
         if label.pop("id") != case["id"]:

@@ -110,7 +110,9 @@ def examples_markdown(scores):
         if "move" in case:
             out.append(f"  - the second moves by {numbers([case['move']])}")
         if "faces" in case:
-            out.append(f"  - faces: {case['faces']}" + (f"; the first {case['split']} are the first mesh" if "split" in case else ""))
+            out.append(
+                f"  - faces: {case['faces']}" + (f"; the first {case['split']} are the first mesh" if "split" in case else "")
+            )
     return "\n".join(out).strip() + "\n"
 
 
@@ -119,7 +121,8 @@ td,th{padding:.25rem .6rem;border-bottom:1px solid #ddd;text-align:right}td:firs
 th{cursor:pointer;vertical-align:bottom}pre{white-space:pre-wrap;background:#f6f6f6;padding:.5rem}img{max-width:100%}"""
 SORT = """document.querySelectorAll('th').forEach(th=>th.onclick=()=>{const t=th.closest('table'),i=th.cellIndex,
 b=t.tBodies[0],up=th.dataset.up=th.dataset.up==='1'?'':'1',k=r=>r.cells[i].dataset.v;
-[...b.rows].sort((p,q)=>{const x=k(p),y=k(q),c=isNaN(x)||isNaN(y)?x.localeCompare(y):x-y;return up?c:-c}).forEach(r=>b.append(r))})"""
+[...b.rows].sort((p,q)=>{const x=k(p),y=k(q),c=isNaN(x)||isNaN(y)?x.localeCompare(y):x-y;return up?c:-c})
+.forEach(r=>b.append(r))})"""
 
 
 def page(title, body):
@@ -133,7 +136,12 @@ def anchor(question, kind, fault):
 
 def table(rows, first, link):
     used = [c for c in COLUMNS if any(r.get(c[0], 0) for _, r in rows)]
-    out = ["<table><thead><tr>" + f"<th>{escape(first)}</th>" + "".join(f"<th>{escape(c[1])}</th>" for c in used) + "</tr></thead><tbody>"]
+    out = [
+        "<table><thead><tr>"
+        + f"<th>{escape(first)}</th>"
+        + "".join(f"<th>{escape(c[1])}</th>" for c in used)
+        + "</tr></thead><tbody>"
+    ]
     for name, row in rows:
         cells = [f'<td data-v="{escape(str(name))}">{link(name, None)}</td>']
         for key, _, fault in used:
@@ -189,15 +197,23 @@ def plot(scores):
     x = lambda us: left + width * (math.log10(us) - low) / max(1, high - low)
     # Shares from one in a thousand up are logarithmic; below is a band for none.
     y = lambda share: top + 20 if share == 0 else top + 60 + (height - 60) * (math.log10(max(share, 5e-4)) + 3.3) / 3.3
-    out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {left + width + 150} {top + height + 60}" font-family="sans-serif" font-size="11">']
+    box = f"0 0 {left + width + 150} {top + height + 60}"
+    out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}" font-family="sans-serif" font-size="11">']
     out.append('<rect width="100%" height="100%" fill="white"/>')
+
+    def label(px, py, words, anchor="start", **more):
+        style = "".join(f' {key.replace("_", "-")}="{value}"' for key, value in more.items())
+        out.append(f'<text x="{px:.1f}" y="{py:.1f}" text-anchor="{anchor}"{style}>{escape(words)}</text>')
+
     for power in range(low, high + 1):
-        at, label = x(10.0**power), f"{10.0**power:g} µs"
-        out.append(f'<path d="M{at:.1f} {top}V{top + height}" stroke="#ddd"/><text x="{at:.1f}" y="{top + height + 18}" text-anchor="middle">{label}</text>')
-    for share, label in ((0, "none"), (0.001, "0.1 %"), (0.01, "1 %"), (0.1, "10 %"), (1, "all")):
-        out.append(f'<path d="M{left} {y(share):.1f}h{width}" stroke="#ddd"/><text x="{left - 8}" y="{y(share) + 4:.1f}" text-anchor="end">{label}</text>')
-    out.append(f'<text x="{left + width / 2}" y="{top + height + 42}" text-anchor="middle" font-size="13">mean time of a query</text>')
-    out.append(f'<text transform="translate(16 {top + height / 2}) rotate(-90)" text-anchor="middle" font-size="13">wrong answers</text>')
+        at = x(10.0**power)
+        out.append(f'<path d="M{at:.1f} {top}V{top + height}" stroke="#ddd"/>')
+        label(at, top + height + 18, f"{10.0**power:g} µs", "middle")
+    for share, words in ((0, "none"), (0.001, "0.1 %"), (0.01, "1 %"), (0.1, "10 %"), (1, "all")):
+        out.append(f'<path d="M{left} {y(share):.1f}h{width}" stroke="#ddd"/>')
+        label(left - 8, y(share) + 4, words, "end")
+    label(left + width / 2, top + height + 42, "mean time of a query", "middle", font_size=13)
+    label(0, 0, "wrong answers", "middle", font_size=13, transform=f"translate(16 {top + height / 2}) rotate(-90)")
     taken = []
     for name, question, us, share in sorted(points, key=lambda p: (p[3], p[2])):
         px, py = x(us), y(share)
@@ -207,7 +223,7 @@ def plot(scores):
         taken.append((px, ty, name))
         colour, title = COLOURS[question], f"{name}, {question}: {share:.2%} wrong, {us:.3g} µs"
         out.append(f'<circle cx="{px:.1f}" cy="{py:.1f}" r="4" fill="{colour}"><title>{escape(title)}</title></circle>')
-        out.append(f'<text x="{px + 6:.1f}" y="{ty:.1f}" fill="{colour}">{escape(name)}</text>')
+        label(px + 6, ty, name, fill=colour)
     for i, (question, colour) in enumerate(COLOURS.items()):
         out.append(f'<circle cx="{left + width + 40}" cy="{top + 200 + 18 * i}" r="5" fill="{colour}"/>')
         out.append(f'<text x="{left + width + 50}" y="{top + 204 + 18 * i}">{question}</text>')

@@ -117,5 +117,8 @@ def score(cases, runners, folder):
         path = folder / f"{name}.jsonl"
         if path.exists():
             found[name] = score_runner(cases, runner, path)
-    return {"cases": {q: sum(c["question"] == q for c in cases.values()) for q in sorted({c["question"] for c in cases.values()})},
-            "runners": found, "texts": cases}
+    return {
+        "cases": {q: sum(c["question"] == q for c in cases.values()) for q in sorted({c["question"] for c in cases.values()})},
+        "runners": found,
+        "texts": cases,
+    }

@@ -1,6 +1,6 @@
 """What runners in Python share: they read cases on standard input and write an answer for each on standard output.
 
-A runner makes a dict from questions to functions. A function takes a Case and returns a function without arguments, which is timed
+A runner makes a dict from questions to functions. A function takes a Case and returns a function without arguments. That one is timed
 and returns `True` (touches), `False` or `None` (undecided), or a pair of this and a time. `serve` does the rest.
 """
 

@@ -8,7 +8,9 @@ import dartpy
 from common import Refused, serve
 
 FOLDER = Path(tempfile.mkdtemp())
-URDF = '<robot name="{0}"><link name="{0}"><collision><geometry><mesh filename="file://{1}"/></geometry></collision></link></robot>'
+URDF = (
+    '<robot name="{0}"><link name="{0}"><collision><geometry><mesh filename="file://{1}"/></geometry></collision></link></robot>'
+)
 DETECTOR = dartpy.collision.FCLCollisionDetector()
 DETECTOR.setPrimitiveShapeType(dartpy.collision.FCLCollisionDetector.MESH)
 COUNT = 0
