@@ -126,8 +126,8 @@ impl<L: Lanes> MovingTetrahedron<L> {
         b.larger(c).larger(p)
     }
 
-    /// Returns Eᵢ of the module's documentation, by the permanent. A computed control value above Eᵢ (below −Eᵢ) proves that the
-    /// exact one is positive (negative), provided that [`largest_by_axis`](Self::largest_by_axis) is [in range](is_in_range).
+    /// Returns the error bound Eᵢ of control value i, by the permanent. A computed control value above Eᵢ (below −Eᵢ) proves that
+    /// the exact one is positive (negative), provided that [`largest_by_axis`](Self::largest_by_axis) is [in range](is_in_range).
     #[inline(always)]
     #[must_use]
     pub fn error_bounds(&self) -> [L; 4] {
@@ -172,8 +172,8 @@ impl<L: Lanes> MovingTetrahedron<L> {
     }
 }
 
-/// Returns E of the module's documentation without the permanent, for k₀ and k₃; the bound of 3k₁ and 3k₂ is four times that.
-/// `largest` is [`MovingTetrahedron::largest_by_axis`].
+/// Returns the error bound of k₀ and k₃ without the permanent; the bound of 3k₁ and 3k₂ is four times that. `largest` is
+/// [`MovingTetrahedron::largest_by_axis`].
 #[inline(always)]
 #[must_use]
 pub fn error_bound_by_magnitudes<L: Lanes>(largest: Vector<L>) -> L {

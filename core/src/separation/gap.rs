@@ -62,7 +62,7 @@ impl<S: Scalar> GapError<S> {
     }
 }
 
-/// Returns σ of the module's documentation.
+/// Returns the factor σ that covers the length of directions and later roundings.
 #[inline(always)]
 fn slack<S: Scalar>() -> S {
     S::from_f64(1.0 + 1.0 / 1_048_576.0)

@@ -82,8 +82,8 @@ fn answer<S: Format>(pair: &PairCase<S>, tolerance: S, separation: S) -> (Impact
     time_of_impact_and_work(&pair.pair(), &limits)
 }
 
-/// Answers the same question as for many pairs: rounds in lanes, then the pair alone from the reached time. The same pair occurs
-/// three times, so that there are unused lanes, too.
+/// Finds the time of impact as for many pairs: in rounds with lanes, then for the pair alone from the time reached. The same pair
+/// occurs three times, so that there are unused lanes, too.
 fn answer_in_sweeps<S: Format>(pair: &PairCase<S>, tolerance: S, separation: S, level: Level) -> Impact<S> {
     let limits = Limits { tolerance, separation };
     let (kind, rows) = (pair.kind, pair.motions().map(VertexRow::new));

@@ -37,7 +37,7 @@ use crate::vector::Vector;
 pub struct Corners<L, const N: usize> {
     /// Each corner at the start and at the end of the step.
     pub ends: [[Vector<L>; 2]; N],
-    /// M of the module's documentation, μ included.
+    /// The largest magnitude M of a corner along each axis, at both ends of the step, plus μ.
     pub extent: Vector<L>,
 }
 

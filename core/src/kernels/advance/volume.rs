@@ -33,7 +33,7 @@ use crate::vector::Vector;
 pub struct SignedVolume<L> {
     /// The four control values; the middle ones are not tripled.
     pub values: [L; 4],
-    /// E of the module's documentation.
+    /// The error bound E of a control value.
     pub error: L,
     /// The normal, for separations that are not zero.
     normal: Option<Normal<L>>,

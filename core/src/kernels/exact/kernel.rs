@@ -166,7 +166,7 @@ pub(super) trait Judge<A: Arithmetic> {
     ) -> ControlFlow<()>;
 }
 
-/// The vectors b, c, p of the module's documentation at one end of the step.
+/// The two vectors b and c that span the normal, and p to the other primitive, at one end of the step.
 struct Edges<T> {
     b: [T; 3],
     c: [T; 3],

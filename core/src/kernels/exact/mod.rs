@@ -84,7 +84,7 @@ pub enum Evidence {
 /// The known signs of the control values k₀, 3k₁, 3k₂, k₃.
 pub type KnownSigns = [Option<Ordering>; 4];
 
-/// Signs of which none is known.
+/// No sign is known.
 pub const UNKNOWN: KnownSigns = [None; 4];
 
 /// Returns the signs that rounded control values prove: those of values beyond `bounds`, their
@@ -179,7 +179,7 @@ pub fn is_never_coplanar<S: Scalar>(pair: &PrimitivePair<S>, known: KnownSigns) 
 /// module's documentation). With `separation` 0 it is the same as [`is_never_coplanar`]. It is false if a coordinate is NaN or
 /// infinite, or if `separation` is NaN, infinite or negative.
 ///
-/// A sign in `known` asserts that this control value has it and meets the condition of the module's documentation; it is not
+/// A sign in `known` asserts that this control value has it and exceeds the separation times the length of its normal; it is not
 /// computed again.
 ///
 /// ```

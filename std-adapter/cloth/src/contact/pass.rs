@@ -46,7 +46,7 @@ use selvedge_core::batch::LANES;
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::gap::{GapError, distance_from_below};
 
-/// The constant c of the module's documentation.
+/// The share c of a pair's distance that it keeps, if it starts nearer than its separation.
 const KEPT: f64 = 1.0 - 1e-5;
 /// The largest turn of a body in one step, in radians: cos(θ/2) ≥ 1 − θ²/8 ≥ 1 − ½·10⁻⁵.
 pub(crate) const LARGEST_TURN: f64 = 6.3e-3;
@@ -258,7 +258,7 @@ impl ContactSolver {
         }
     }
 
-    /// The distance m_P of the module's documentation.
+    /// The distance m_P that a pair keeps.
     pub(super) fn kept(&self, pair: &Candidate, start: &[DVec3]) -> f64 {
         kept(pair, start, self.separation(pair).unwrap_or(0.0), self.error)
     }
@@ -340,7 +340,7 @@ fn is_kept_along_start(pair: &Candidate, path: [&[DVec3]; 2], kept: f64, error: 
     path.into_iter().all(|positions| bound(positions) > kept)
 }
 
-/// The distance m_P of the module's documentation.
+/// The distance m_P that a pair keeps.
 fn kept(pair: &Candidate, start: &[DVec3], separation: f64, error: GapError<f64>) -> f64 {
     separation.min((KEPT * pair.distance_from_below(start, error) - TOO_NEAR * error.length()).max(0.0))
 }

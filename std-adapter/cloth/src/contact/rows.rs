@@ -35,7 +35,7 @@ pub struct ProximityPair {
 pub(super) struct Row {
     key: PairKey,
     pub(super) near: ProximityPair,
-    /// The rest distance r of the module's documentation.
+    /// The rest distance r, in metres.
     rest: f64,
     mobility: f64,
     /// The sum of its pushes in this step, in metres.

@@ -75,7 +75,7 @@ struct Recovery {
     /// The missing distance at the start of the step, and at its end in `at_end`.
     missing: f64,
     at_end: f64,
-    /// p of the module's documentation.
+    /// The displacement p that moves the two sides apart.
     apart: f64,
     /// The excess of p over the shift.
     squeeze: f64,

@@ -164,7 +164,7 @@ impl Piece {
     }
 }
 
-/// The angular velocity ω of the module's documentation, from Σ m·q², one for each axis, and Σ m·(xy, yz, zx) of the arms q.
+/// The rotation ω of the projection, from Σ m·q², one for each axis, and Σ m·(xy, yz, zx) of the arms q.
 fn turn(hinge: Hinge, moment: DVec3, squares: DVec3, products: DVec3) -> DVec3 {
     let trace = squares.element_sum();
     let diagonal = DVec3::splat(trace * (1.0 + LEAST_INERTIA)) - squares;

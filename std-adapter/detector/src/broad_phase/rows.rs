@@ -117,7 +117,8 @@ impl Rows {
 /// The number of vertices that one thread narrows at a time.
 const VERTICES: usize = 4096;
 
-/// Replaces `single` by `double` as long as that is exact. Returns whether all rows are. On a thread that flushes subnormal numbers, these are not.
+/// Replaces `single` by `double` as long as that is exact. Returns whether all rows are exact. On a thread that flushes subnormal
+/// numbers, rows with such numbers are not.
 fn narrowed(double: &[VertexRow<f64>], single: &mut [VertexRow<f32>]) -> bool {
     double.iter().zip(single).all(|(double, single)| {
         let motion = double.motion();

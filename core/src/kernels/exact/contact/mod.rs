@@ -212,7 +212,7 @@ impl<'a> Polygon<'a> {
         })
     }
 
-    /// Tests conditions 2 and 3 of the module's documentation, at a time when the first is met.
+    /// Returns whether the hull of the corners contains the origin, at a time when the corners are coplanar with it.
     fn contains_origin(&self, moment: &dyn Moment, space: &mut Space<'_>) -> bool {
         for projection in self.projections() {
             let (mut turns_left, mut turns_right) = (false, false);

@@ -15,7 +15,7 @@ use selvedge_core::glam::DVec3;
 /// The loose edges of a cloth in moving air.
 #[derive(Debug)]
 pub(super) struct Cords {
-    /// The factor k of the module's documentation.
+    /// The factor k = ½ρcd/λ of the deceleration.
     factor: f64,
     edges: Vec<[u32; 2]>,
     /// The edges of each vertex, and the share of each in its mass.

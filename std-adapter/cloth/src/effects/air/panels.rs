@@ -16,7 +16,7 @@ use selvedge_core::glam::DVec3;
 /// The triangles of a cloth in moving air.
 #[derive(Debug)]
 pub(super) struct Panels {
-    /// The factor k of the module's documentation.
+    /// The factor k = ½ρc/σ of the deceleration.
     factor: f64,
     triangles: Vec<[u32; 3]>,
     incidence: Incidence<(u32, f64)>,

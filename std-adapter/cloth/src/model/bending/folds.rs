@@ -19,9 +19,9 @@ use selvedge_core::glam::DVec3;
 /// The point at which folds become permanent.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Yield {
-    /// κ of the module's documentation, in 1/m.
+    /// The curvature κ beyond which a fold creeps, in 1/m.
     pub(crate) curvature: f64,
-    /// τ, in s.
+    /// The time τ within which a fold creeps, in s.
     pub(crate) creep: f64,
 }
 
@@ -39,7 +39,7 @@ pub(super) struct Folds {
 struct Fold {
     vertices: [u32; 4],
     hinge: Hinge,
-    /// c₀ of the module's documentation, in m.
+    /// The rest value c₀ along the normal, in m.
     rest: f64,
 }
 

@@ -9,16 +9,16 @@ use selvedge_core::glam::DVec3;
 /// A hinge on four vertices, those of the edge first.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Hinge {
-    /// K of the module's documentation.
+    /// The weights K of the four vertices.
     pub(super) weights: [f64; 4],
     /// The factor of |C|² in twice the energy, in N/m.
     pub(super) coefficient: f64,
-    /// A of the module's documentation, in m².
+    /// The area A of both triangles, in m².
     pub(super) area: f64,
 }
 
 impl Hinge {
-    /// Returns C of the module's documentation, in m.
+    /// Returns the bend C = ΣKᵢxᵢ, in m.
     #[inline(always)]
     pub(super) fn bent(&self, x: [DVec3; 4]) -> DVec3 {
         let k = self.weights;
@@ -68,7 +68,7 @@ pub(crate) fn hinges(cloth: &Cloth, rigidity: impl Fn(f64) -> f64) -> Vec<On<Hin
     inner.map(make).collect()
 }
 
-/// Returns α of the module's documentation, given the sum of the cotangents of the angles opposite the edge.
+/// Returns the factor α of the energy, given the sum of the cotangents of the angles opposite the edge.
 fn share(opposite: f64) -> f64 {
     ((2.0 + opposite) / 3.0).max(LEAST_SHARE)
 }

@@ -155,7 +155,7 @@ impl Row {
 }
 
 impl Joint {
-    /// Returns e of the module's documentation.
+    /// Returns the change of direction e at the joint.
     fn turn(&self, [a, b, c]: [DVec3; 3]) -> DVec3 {
         (c - b) * self.weights[2] - (b - a) * self.weights[0]
     }

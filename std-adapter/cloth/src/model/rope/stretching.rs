@@ -320,7 +320,7 @@ impl Spring {
         }
     }
 
-    /// Returns K of the module's documentation. While the spring is under tension, a is less than its stiffness.
+    /// Returns the stiffness matrix K of the spring. While the spring is under tension, a is less than its stiffness.
     fn matrix(&self) -> DMat3 {
         let n = self.along;
         let tension = self.tension.max(0.0);

@@ -19,13 +19,13 @@ pub(crate) struct Tearable {
     pub(crate) effect: usize,
     /// The cloth's index.
     pub(crate) cloth: usize,
-    /// k_u and k_v of the module's documentation, in N/m.
+    /// The stiffnesses k_u and k_v along warp and weft, in N/m.
     stiffness: [f64; 2],
     pub(super) fabric: Fabric,
     /// The triangles of such edges, each with its corners.
     membranes: Vec<(Membrane, [u32; 3])>,
     pub(super) edges: Vec<Edge>,
-    /// T_u and T_v of each of these triangles.
+    /// The tensions T_u and T_v of each of these triangles.
     tensions: Vec<[DVec3; 2]>,
 }
 
@@ -36,7 +36,7 @@ pub(super) struct Edge {
     pub(super) vertices: [u32; 2],
     /// The two triangles, as places in the list of triangles.
     triangles: [u32; 2],
-    /// ν of the module's documentation in each triangle, along warp and weft.
+    /// The normal ν of the edge in each triangle, along warp and weft.
     across: [DVec2; 2],
     /// The strength, in N/m.
     pub(super) strength: f64,
