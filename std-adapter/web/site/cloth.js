@@ -51,7 +51,8 @@ export async function startCloth() {
       report = null;
       hand.release();
       strain = new Strain(made);
-      view.openMesh(made);
+      const isSame = view.reopenMesh(made);
+      if (!isSame) view.viewer?.zoom(SCENES.find(({ file }) => file === find("scene").value).zoom ?? 1.1);
       costs.begin(made);
       show(made);
     } catch (error) {

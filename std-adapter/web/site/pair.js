@@ -103,6 +103,11 @@ export function startPair(selvedge) {
       const { frame, point } = handle.dataset;
       const [x, y] = project(at(frame, Number(point)));
       handle.setAttribute("transform", `translate(${x} ${y})`);
+      // Where a point rests, its two names would hide each other.
+      const [u, v] = project(at(frame === "start" ? "end" : "start", Number(point)));
+      const rests = Math.hypot(x - u, y - v) < 5;
+      handle.querySelector("text").textContent = SHORT[pair.kind][point] + (rests ? "" : frame === "start" ? "₀" : "₁");
+      handle.querySelector("text").setAttribute("visibility", rests && frame === "start" ? "hidden" : "visible");
     }
   }
 
@@ -205,7 +210,6 @@ export function startPair(selvedge) {
     for (const handle of svg.querySelectorAll(".point")) {
       const { frame, point } = handle.dataset;
       handle.setAttribute("aria-label", `${NAMES[pair.kind][point]} at the ${frame}; arrow keys move it, Page Up and Page Down too`);
-      handle.querySelector("text").textContent = SHORT[pair.kind][point] + (frame === "start" ? "₀" : "₁");
     }
     writeInputs();
   }

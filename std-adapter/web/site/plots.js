@@ -14,7 +14,7 @@ export function few(number) {
  * unknown.
  */
 export function drawBars(svg, values, bounds) {
-  const middle = 62, unit = 3.1;
+  const middle = 56, unit = 2.6;
   const parts = [
     `<rect x="0" y="${middle - unit * scaled(1)}" width="360" height="${2 * unit * scaled(1)}" fill="var(--series-1)" fill-opacity="0.35"/>`,
     `<line x1="0" x2="360" y1="${middle}" y2="${middle}" stroke="var(--faint)"/>`,

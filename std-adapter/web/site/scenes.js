@@ -1,7 +1,7 @@
-// Built-in scenes, and scenes without some of their effects.
+// Built-in scenes, and scenes without some of their effects. `zoom` leaves room for what moves.
 
 export const SCENES = [
-  { file: "arm-sleeve.toml", name: "sleeve on a bending arm" },
+  { file: "arm-sleeve.toml", name: "sleeve on a bending arm", zoom: 1.5 },
   { file: "drop.toml", name: "sheet dropped on a ball" },
   { file: "flag.toml", name: "flag in gusty wind" },
   { file: "walker.toml", name: "walker in a shirt" },

@@ -51,6 +51,13 @@ export function createView(canvas) {
         current: positions, write(_, out) { out.set(this.current); },
       });
     },
+    /** Shows a mesh like `openMesh`, but keeps the view if it has the same triangles as before. Returns whether it has. */
+    reopenMesh(mesh) {
+      const isSame = current?.current?.length === mesh.positions.length && current.triangles.every((v, i) => v === mesh.triangles[i]);
+      if (isSame) this.show(mesh.positions);
+      else this.openMesh(mesh);
+      return isSame;
+    },
     show(positions) {
       current.current = positions;
       viewer?.setFrame(0);
