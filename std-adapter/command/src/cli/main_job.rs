@@ -27,7 +27,8 @@ pub(crate) struct MainJob {
     output: PathBuf,
 }
 
-const IN_A_BROWSER: &str = "In a browser, live: run std-adapter/web/build.sh serve in the repository, and open http://localhost:8090\n";
+const IN_A_BROWSER: &str =
+    "In a browser, live: run std-adapter/web/build.sh serve in the repository, and open http://localhost:8090\n";
 
 impl MainJob {
     pub(crate) fn run(&self) -> Result<(), Failure> {
