@@ -9,7 +9,7 @@ const BITS: u32 = 256;
 /// A point, or a vector.
 pub type Place = [Float; 3];
 
-/// Returns the same number.
+/// Converts a number exactly.
 #[must_use]
 pub fn float(x: f64) -> Float {
     Float::with_val(BITS, x)

@@ -7,8 +7,8 @@ use super::settings::ContactSettings;
 /// The separations of all pairs in a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Separations<'a> {
-    /// The separations of pairs of cloth, and of cloth and bodies, if all such pairs have the same. Most scenes do; then no pair
-    /// needs a look-up.
+    /// The separations of pairs of cloth, and of cloth and bodies, if all such pairs have the same. This is so in most scenes;
+    /// then no pair needs a look-up.
     of_all: Option<[Option<f64>; 2]>,
     settings: &'a ContactSettings,
     exempt: &'a Exempt,
