@@ -14,7 +14,7 @@ use bevy_mesh::{Indices, Mesh, Mesh3d, PrimitiveTopology};
 use bevy_time::{Fixed, Time};
 use bevy_transform::components::Transform;
 use selvedge::glam::{DMat3, DVec3};
-use selvedge_cloth::{Body, BodyMotion, Cloth, Placement, Scene, Simulation, Tubes, ValueError, vertex_normals};
+use selvedge_cloth::{Body, BodyMotion, Cloth, Frame, FrameError, Placement, Scene, Simulation, Tubes, ValueError, vertex_normals};
 use std::collections::BTreeMap;
 
 /// A simulation of cloth that runs in each fixed step, from a [`Scene`] made in code or read from a file.
@@ -27,7 +27,7 @@ use std::collections::BTreeMap;
 /// When cloth tears, its mesh receives one vertex per corner of a triangle, with all attributes. This needs the triangles in the cloth's
 /// order, as [`cloth_of_mesh`] and [`mesh_of`] have them.
 ///
-/// The time step of the scene is rounded to the nearest whole fraction of the fixed time step.
+/// A fixed step is a [frame](Simulation::advance): it takes as many steps as the cloth needs, and the scene's own time step has no part in it.
 ///
 /// ```
 /// use bevy_ecs::world::World;
@@ -53,8 +53,6 @@ pub struct ClothSimulation {
     /// The entities that bodies follow, by the index of the body.
     leaders: BTreeMap<usize, Entity>,
     threads: usize,
-    /// The time step of the simulation in seconds.
-    step: f64,
     /// The tubes of cloths with loose edges, by the index of the cloth, once it runs.
     tubes: Vec<(usize, Tubes)>,
     /// The cloth's vertex of each vertex of the rendered mesh.
@@ -92,7 +90,6 @@ impl ClothSimulation {
             state: State::Planned(Box::new(scene)),
             leaders: BTreeMap::new(),
             threads: 1,
-            step: 0.0,
             tubes: Vec::new(),
             vertices: None,
             torn: 0,
@@ -293,45 +290,36 @@ impl ClothSimulation {
     /// Runs through a fixed step of this many seconds.
     fn advance(&mut self, leading: &BTreeMap<usize, Placement>, fixed: f64, met: &mut Met) {
         if matches!(self.state, State::Planned(_)) && leading.len() == self.leaders.len() {
-            let result = self.start(leading, fixed);
+            let result = self.start(leading);
             met.insert(Part::Whole, result);
         }
         let State::Running(simulation) = &mut self.state else {
             return;
         };
-        let step = self.step;
-        let steps = parts(fixed, step);
-        let fits = (fixed - f64::from(steps) * step).abs() <= 1e-6 * fixed;
-        let result = if fits {
-            Ok(())
-        } else {
-            Err(SelvedgeError::TimeStep { step, fixed })
-        };
-        met.insert(Part::TimeStep, result);
-        for left in (1..=steps).rev() {
-            for (&body, &goal) in leading {
-                let result = lead(simulation, body, goal, left);
-                if result.is_err() {
-                    met.insert(Part::Body(body), result);
-                }
-            }
-            if let Err(blocked) = simulation.step() {
-                met.insert(Part::Whole, Err(SelvedgeError::Blocked(blocked)));
-                let State::Running(simulation) = std::mem::replace(&mut self.state, State::Ended(None)) else {
-                    return;
-                };
-                self.state = State::Ended(Some(simulation));
-                return;
+        for (&body, &goal) in leading {
+            if let Err(error) = simulation.place_body(body, goal) {
+                met.insert(Part::Body(body), Err(SelvedgeError::Lead(error)));
             }
         }
+        let frame = match simulation.advance(fixed) {
+            Ok(Frame { steps, needed }) if steps < needed => Err(SelvedgeError::ShortOfSteps { steps, needed }),
+            Ok(_) => Ok(()),
+            Err(FrameError::Seconds(error)) => Err(SelvedgeError::FixedStep(error)),
+            Err(FrameError::Blocked(blocked)) => {
+                met.insert(Part::Whole, Err(SelvedgeError::Blocked(blocked)));
+                if let State::Running(simulation) = std::mem::replace(&mut self.state, State::Ended(None)) {
+                    self.state = State::Ended(Some(simulation));
+                }
+                return;
+            }
+        };
+        met.insert(Part::TimeStep, frame);
     }
 
-    fn start(&mut self, leading: &BTreeMap<usize, Placement>, fixed: f64) -> Result<(), SelvedgeError> {
+    fn start(&mut self, leading: &BTreeMap<usize, Placement>) -> Result<(), SelvedgeError> {
         let State::Planned(mut scene) = std::mem::replace(&mut self.state, State::Ended(None)) else {
             return Ok(());
         };
-        self.step = fixed / f64::from(parts(fixed, scene.time_step));
-        scene.time_step = self.step;
         let bodies = scene.bodies.len();
         for (&body, &placement) in leading {
             let Some(own) = scene.bodies.get_mut(body) else {
@@ -403,22 +391,4 @@ fn tear(mesh: &mut Mesh, simulation: &Simulation) -> Result<Vec<u32>, SelvedgeEr
     }
     mesh.try_duplicate_vertices().map_err(|_| MeshError::OnlyRendered)?;
     Ok(triangles.as_flattened().to_vec())
-}
-
-fn parts(fixed: f64, step: f64) -> u32 {
-    // The check of the scene refuses NaN.
-    (fixed / step).round().clamp(1.0, 1e6) as u32
-}
-
-/// Returns the placement after the first of the remaining steps from the body's place to its goal.
-fn lead(simulation: &mut Simulation, body: usize, goal: Placement, left: u32) -> Result<(), SelvedgeError> {
-    let share = f64::from(left).recip();
-    let next = match simulation.placement(body) {
-        Some(now) if left > 1 => Placement {
-            rotation: now.rotation.slerp(goal.rotation, share),
-            translation: now.translation + (goal.translation - now.translation) * share,
-        },
-        _ => goal,
-    };
-    simulation.place_body(body, next).map_err(SelvedgeError::Lead)
 }

@@ -4,7 +4,7 @@ use crate::MeshError;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::message::{Message, MessageWriter};
 use selvedge::WorldError;
-use selvedge_cloth::{Blocked, DriveError};
+use selvedge_cloth::{Blocked, DriveError, ValueError};
 
 /// A problem of an entity. It is also logged as a warning, and everything else continues.
 #[derive(Message, Clone, Debug, PartialEq)]
@@ -60,14 +60,16 @@ pub enum SelvedgeError {
         /// The entity.
         entity: Entity,
     },
-    /// The fixed time step changed after the cloth had started. The cloth keeps the old one, and runs slower or faster than the
-    /// app.
-    #[error("the fixed time step is now {fixed} s, but the cloth started with steps of {step} s")]
-    TimeStep {
-        /// The time step of the cloth, in seconds.
-        step: f64,
-        /// The time step of Bevy, in seconds.
-        fixed: f64,
+    /// The fixed time step is no frame of cloth, which takes from a microsecond to a second. The cloth rests.
+    #[error("the cloth cannot take this fixed time step: {0}")]
+    FixedStep(ValueError),
+    /// Cloth or bodies are too fast for a fixed step: edges may be longer than their limit, and contacts act late.
+    #[error("the cloth needs {needed} steps in a fixed step, but does no more than {steps}: use a shorter fixed time step")]
+    ShortOfSteps {
+        /// The number of steps that were done.
+        steps: u32,
+        /// The number of steps that the cloth needs.
+        needed: u32,
     },
     /// The rendered mesh does not match the cloth.
     #[error(

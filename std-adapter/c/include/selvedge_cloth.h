@@ -29,6 +29,20 @@
 typedef struct selvedge_simulation selvedge_simulation;
 
 /**
+ * The steps of a frame.
+ */
+typedef struct selvedge_frame {
+  /**
+   * The number of steps that were done.
+   */
+  uint32_t steps;
+  /**
+   * The number of steps that the cloth needs. If it is larger, edges may be longer than their limit, and contacts act late.
+   */
+  uint32_t needed;
+} selvedge_frame;
+
+/**
  * The sizes of a scene. Only tearing changes them. The vertices and triangles of the cloths come first, then those of the bodies,
  * in the order of the scene.
  */
@@ -66,7 +80,7 @@ typedef struct selvedge_sizes {
    */
   double time_step;
   /**
-   * The number of steps in the scene's duration.
+   * The number of steps in the scene's duration. A scene without a `time_step` counts frames.
    */
   uint64_t steps;
   /**
@@ -95,6 +109,10 @@ typedef struct selvedge_progress {
    * The number of steps in which bodies or pins had to wait or were let through.
    */
   uint64_t blocked_steps;
+  /**
+   * The number of steps after which an edge was more than 5 % above its strain limit: steps that were too long.
+   */
+  uint64_t overstretched_steps;
   /**
    * The number of pairs without a guarantee, in a scene that tolerates a tangled start.
    */
@@ -179,6 +197,20 @@ selvedge_status selvedge_simulation_read(const char *path, size_t threads, struc
  * part of the step that was done remains, the message names the obstacle, and the state stays free of intersections.
  */
 selvedge_status selvedge_simulation_step(struct selvedge_simulation *simulation);
+
+/**
+ * Runs a frame of a game or film: lets time pass, from a microsecond to a second, in as many steps as the cloth needs, at least one and
+ * at most `most`; 64 is a good limit. The scene's time step has no part in it. Bodies and pins that were moved do so evenly throughout.
+ *
+ * Statuses are those of selvedge_simulation_step, and SELVEDGE_STATUS_BAD_VALUE for a time out of range, which changes nothing.
+ *
+ * The caller promises:
+ * `frame` is NULL or points to one entry.
+ */
+selvedge_status selvedge_simulation_advance(struct selvedge_simulation *simulation,
+                                            double seconds,
+                                            uint32_t most,
+                                            struct selvedge_frame *frame);
 
 /**
  * Frees a simulation and its lists. NULL is allowed. A simulation that another thread is using is freed when that call has ended.

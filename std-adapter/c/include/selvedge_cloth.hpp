@@ -32,6 +32,14 @@ class simulation {
   /// Runs one step. It throws SELVEDGE_STATUS_BLOCKED if the scene stops there; the part of the step that was done remains.
   void step() { check(selvedge_simulation_step(get())); }
 
+  /// Runs a frame of so many seconds, in as many steps as the cloth needs, at least one and at most `most`. It throws
+  /// SELVEDGE_STATUS_BAD_VALUE if the time is not from a microsecond to a second, and otherwise as step.
+  selvedge_frame advance(double seconds, std::uint32_t most = 64) {
+    selvedge_frame frame{};
+    check(selvedge_simulation_advance(get(), seconds, most, &frame));
+    return frame;
+  }
+
   /// Returns the sizes of the scene. Only tearing changes them.
   selvedge_sizes sizes() const {
     selvedge_sizes sizes{};

@@ -5,10 +5,12 @@ use crate::arrays::{Frames, with_frames};
 use crate::call::{Length, interruptible};
 use crate::errors::{self, BlockedError, BrokenError, CheckpointError, ForkedError, InputError, SceneError, TangledError};
 use numpy::{PyArray2, PyArrayMethods};
+use pyo3::exceptions::PyRuntimeWarning;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyBytes, PyDict, PySlice, PyType};
 use selvedge_cloth::glam::{DQuat, DVec3};
-use selvedge_cloth::{ContactCounts, ContactSeconds, DriveError, Placement, Scene, SetupError, vertex_normals};
+use selvedge_cloth::{ContactCounts, ContactSeconds, DriveError, FrameError, Placement, Scene, SetupError, vertex_normals};
+use std::ffi::CString;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
@@ -54,6 +56,8 @@ struct OfScene {
     steps: u64,
     steps_per_frame: u64,
     time_step: f64,
+    /// The length of a frame, in seconds.
+    frame: f64,
     settings: Vec<(String, String)>,
 }
 
@@ -78,6 +82,7 @@ impl Simulation {
             steps: scene.steps(),
             steps_per_frame: scene.steps_per_frame(),
             time_step: scene.time_step,
+            frame: scene.frame_rate.recip(),
             settings: scene.settings(),
         };
         let made = interruptible(py, Length::Long, || (), || selvedge_cloth::Simulation::new(scene, threads))?;
@@ -119,6 +124,31 @@ impl Simulation {
 
     fn shown(&self) -> MutexGuard<'_, Shown> {
         self.shown.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Shows the steps that were done, which remain even after an interruption, and warns if one of them was too long: `before` is the
+    /// number of such steps before them.
+    fn shown_after<T>(
+        &self,
+        py: Python<'_>,
+        simulation: &selvedge_cloth::Simulation,
+        before: u64,
+        done: PyResult<Result<T, String>>,
+    ) -> PyResult<T> {
+        if let Ok(Err(words)) = &done {
+            self.is_broken.store(true, Ordering::Relaxed);
+            return Err(errors::broken(words));
+        }
+        self.show(py, simulation)?;
+        let done = done?.map_err(|words| errors::broken(&words))?;
+        if simulation.overstretched_steps() > before {
+            let text = format!(
+                "at {:.6} s an edge is more than 5 % above its limit: use a shorter time step, or advance()",
+                simulation.time()
+            );
+            PyErr::warn(py, &py.get_type::<PyRuntimeWarning>(), &CString::new(text)?, 1)?;
+        }
+        Ok(done)
     }
 
     fn show(&self, py: Python<'_>, simulation: &selvedge_cloth::Simulation) -> PyResult<()> {
@@ -214,7 +244,8 @@ impl Simulation {
     fn step(&self, py: Python<'_>, count: u64) -> PyResult<()> {
         let mut simulation = self.simulation()?;
         let simulation = &mut *simulation;
-        // The steps run on the caller's thread: nothing interrupts a step, and signals are checked after each.
+        // Runs on the caller's thread: nothing interrupts a step, and signals are checked after each.
+        let before = simulation.overstretched_steps();
         let mut done = Ok(Ok(Ok(())));
         for _ in 0..count {
             done = interruptible(py, Length::Short, || (), || simulation.step());
@@ -225,16 +256,23 @@ impl Simulation {
                 break;
             }
         }
-        if let Ok(Err(words)) = &done {
-            self.is_broken.store(true, Ordering::Relaxed);
-            return Err(errors::broken(words));
-        }
-        // The steps that were done remain and are shown, even after an interruption.
-        self.show(py, simulation)?;
-        match done? {
-            Ok(Err(blocked)) => Err(BlockedError::new_err(blocked.to_string())),
-            _ => Ok(()),
-        }
+        let done = self.shown_after(py, simulation, before, done)?;
+        done.map_err(|blocked| BlockedError::new_err(blocked.to_string()))
+    }
+
+    #[pyo3(signature = (seconds=None, *, most=64))]
+    fn advance(&self, py: Python<'_>, seconds: Option<f64>, most: u32) -> PyResult<(u32, u32)> {
+        let mut simulation = self.simulation()?;
+        let simulation = &mut *simulation;
+        let before = simulation.overstretched_steps();
+        let seconds = seconds.unwrap_or(self.of_scene.frame);
+        let done = interruptible(py, Length::Short, || (), || simulation.advance_within(seconds, most));
+        let done = self.shown_after(py, simulation, before, done)?;
+        let frame = done.map_err(|error| match error {
+            FrameError::Seconds(error) => InputError::new_err(error.to_string()),
+            FrameError::Blocked(blocked) => BlockedError::new_err(blocked.to_string()),
+        })?;
+        Ok((frame.steps, frame.needed))
     }
 
     #[getter]
@@ -405,6 +443,11 @@ impl Simulation {
     #[getter]
     fn blocked_steps(&self) -> PyResult<u64> {
         Ok(self.simulation()?.blocked_steps())
+    }
+
+    #[getter]
+    fn overstretched_steps(&self) -> PyResult<u64> {
+        Ok(self.simulation()?.overstretched_steps())
     }
 
     #[getter]

@@ -38,6 +38,38 @@ def test_every_state_is_certified(sleeve):
     assert set(sleeve.effect_seconds) >= {"gravity", "stretch"}
 
 
+def test_a_frame_takes_as_many_steps_as_the_cloth_needs(sleeve):
+    steps, needed = sleeve.advance(1 / 60)
+    assert 4 <= steps == needed and sleeve.time == pytest.approx(1 / 60)
+    assert sleeve.advance(1 / 60, most=2)[0] == 2
+    before = sleeve.time
+    sleeve.advance()
+    assert sleeve.time - before == pytest.approx(sleeve.steps_per_frame * sleeve.time_step)
+    assert sleeve.overstretched_steps == 0
+    for seconds in (0, 2, float("nan")):
+        with pytest.raises(errors.InputError):
+            sleeve.advance(seconds)
+
+
+def test_a_step_that_is_too_long_for_the_limit_warns():
+    long = Simulation.from_dict(
+        {
+            "time_step": "16 ms",
+            "duration": "1 s",
+            "cloth": {"shape": "sheet", "cells": [20, 20], "density": 0.15, "sides": {"first": [1, 0, 0], "second": [0, 1, 0]}},
+            "effects": {
+                "gravity": {},
+                "stretch": {"stiffness": 100},
+                "strain_limit": {"limit": 1.0},
+                "pins": {"group": [{"part": "bottom-left"}]},
+            },
+        }
+    )
+    with pytest.warns(RuntimeWarning, match="above its limit"):
+        long.step(60)
+    assert long.overstretched_steps > 0
+
+
 def test_it_goes_on_from_a_checkpoint_with_the_same_bits(sleeve):
     sleeve.step(200)
     checkpoint = sleeve.checkpoint()

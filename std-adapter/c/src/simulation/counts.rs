@@ -29,7 +29,7 @@ pub struct SizesRow {
     pub body_count: usize,
     /// The time step in seconds.
     pub time_step: f64,
-    /// The number of steps in the scene's duration.
+    /// The number of steps in the scene's duration. A scene without a `time_step` counts frames.
     pub steps: u64,
     /// The number of steps from one frame to the next.
     pub steps_per_frame: u64,
@@ -47,6 +47,8 @@ pub struct ProgressRow {
     pub lag: f64,
     /// The number of steps in which bodies or pins had to wait or were let through.
     pub blocked_steps: u64,
+    /// The number of steps after which an edge was more than 5 % above its strain limit: steps that were too long.
+    pub overstretched_steps: u64,
     /// The number of pairs without a guarantee, in a scene that tolerates a tangled start.
     pub tolerated_pairs: usize,
     /// True if the state is certified free of the intersections that the scene's contact effects name. It is false without a contact
@@ -107,6 +109,7 @@ pub unsafe extern "C" fn selvedge_simulation_progress(simulation: *const Simulat
             time: simulation.time(),
             lag: simulation.lag(),
             blocked_steps: simulation.blocked_steps(),
+            overstretched_steps: simulation.overstretched_steps(),
             tolerated_pairs: simulation.tolerated_pairs(),
             is_certified: simulation.is_certified(),
         });

@@ -5,7 +5,7 @@ use crate::guard::guarded;
 use crate::handles;
 use crate::input::{Out, text};
 use crate::status::{Failure, Status};
-use selvedge_cloth::{Scene, Simulation};
+use selvedge_cloth::{Frame, FrameError, Scene, Simulation};
 use std::ffi::c_char;
 use std::path::Path;
 
@@ -84,6 +84,50 @@ pub extern "C" fn selvedge_simulation_step(simulation: *mut SimulationHandle) ->
     on(simulation, |it| {
         let blocked = |error| Failure::new(Status::Blocked, error);
         it.simulation.step().map_err(blocked)
+    })
+}
+
+/// The steps of a frame.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FrameRow {
+    /// The number of steps that were done.
+    pub steps: u32,
+    /// The number of steps that the cloth needs. If it is larger, edges may be longer than their limit, and contacts act late.
+    pub needed: u32,
+}
+
+/// Runs a frame of a game or film: lets time pass, from a microsecond to a second, in as many steps as the cloth needs, at least one and
+/// at most `most`; 64 is a good limit. The scene's time step has no part in it. Bodies and pins that were moved do so evenly throughout.
+///
+/// Statuses are those of selvedge_simulation_step, and SELVEDGE_STATUS_BAD_VALUE for a time out of range, which changes nothing.
+///
+/// # Safety
+/// `frame` is NULL or points to one entry.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selvedge_simulation_advance(
+    simulation: *mut SimulationHandle,
+    seconds: f64,
+    most: u32,
+    frame: *mut FrameRow,
+) -> Status {
+    on(simulation, |it| {
+        let out = if frame.is_null() {
+            None
+        } else {
+            // SAFETY: the caller's promise.
+            Some(unsafe { Out::new("frame", frame) }?)
+        };
+        let status = |error: &FrameError| match error {
+            FrameError::Seconds(_) => Status::BadValue,
+            FrameError::Blocked(_) => Status::Blocked,
+        };
+        let made = it.simulation.advance_within(seconds, most);
+        let Frame { steps, needed } = made.map_err(|error| Failure::new(status(&error), error))?;
+        if let Some(out) = out {
+            out.set(FrameRow { steps, needed });
+        }
+        Ok(())
     })
 }
 

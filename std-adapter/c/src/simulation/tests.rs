@@ -122,6 +122,7 @@ fn are_alike(handle: *mut SimulationHandle, simulation: &Simulation) -> usize {
         time: simulation.time(),
         lag: simulation.lag(),
         blocked_steps: simulation.blocked_steps(),
+        overstretched_steps: simulation.overstretched_steps(),
         tolerated_pairs: simulation.tolerated_pairs(),
         is_certified: simulation.is_certified(),
     };
@@ -181,10 +182,21 @@ fn a_simulation_goes_as_in_rust_bit_for_bit_and_goes_on_from_rusts_checkpoint() 
     }
     for step in 201..=220 {
         lead(resumed, &mut simulation, step);
-        simulation.step().unwrap();
-        assert_eq!(selvedge_simulation_step(resumed), Status::Ok);
+        let expected = simulation.advance_within(0.016, 5).unwrap();
+        let mut frame = FrameRow::default();
+        // SAFETY: one entry.
+        let status = unsafe { selvedge_simulation_advance(resumed, 0.016, 5, &raw mut frame) };
+        assert_eq!(
+            (status, frame.steps, frame.needed),
+            (Status::Ok, expected.steps, expected.needed)
+        );
         are_alike(resumed, &simulation);
     }
+    // SAFETY: NULL is allowed.
+    let [too_long, nan] =
+        [2.0, f64::NAN].map(|seconds| unsafe { selvedge_simulation_advance(resumed, seconds, 9, ptr::null_mut()) });
+    assert_eq!([too_long, nan], [Status::BadValue; 2]);
+    are_alike(resumed, &simulation);
     assert_eq!(selvedge_simulation_free(handle), Status::Ok);
     assert_eq!(selvedge_simulation_free(resumed), Status::Ok);
 }

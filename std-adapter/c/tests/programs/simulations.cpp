@@ -77,7 +77,9 @@ int main() {
   expect(__LINE__, SELVEDGE_STATUS_NULL_POINTER, [&] { first.step(); });
   const auto body = end.data() + 3 * ball.first_vertex;
   second.move_body(0, {body, ball.vertex_count});
-  second.step();
+  const auto frame = second.advance(1.0 / 60, 8);
+  holds(__LINE__, frame.steps >= 4 && frame.steps <= 8 && frame.needed >= frame.steps);
+  expect(__LINE__, SELVEDGE_STATUS_BAD_VALUE, [&] { second.advance(-1); });
   holds(__LINE__, !second.placement(0).has_value());
   selvedge_simulation_free(second.get());
   expect(__LINE__, SELVEDGE_STATUS_NO_SUCH_SIMULATION, [&] { second.step(); });

@@ -40,6 +40,8 @@ pub(crate) struct Field {
     pub(crate) quantity: Quantity,
     pub(crate) least: f64,
     pub(crate) most: f64,
+    /// The end of the message about a value out of range.
+    hint: &'static str,
 }
 
 impl Field {
@@ -49,7 +51,13 @@ impl Field {
             quantity,
             least,
             most,
+            hint: "",
         }
+    }
+
+    /// Adds a remedy to the message about a value out of range.
+    pub(crate) const fn with_hint(self, hint: &'static str) -> Self {
+        Self { hint, ..self }
     }
 
     /// Returns a field of three components, each at most `largest` in magnitude.
@@ -64,7 +72,7 @@ impl Field {
         }
         let written = |value| self.quantity.written(value);
         let [is, least, most] = [value, self.least, self.most].map(written);
-        let message = format!("`{}` is {is}, but must be from {least} to {most}", self.name);
+        let message = format!("`{}` is {is}, but must be from {least} to {most}{}", self.name, self.hint);
         Err(ValueError::new(self.name, message))
     }
 

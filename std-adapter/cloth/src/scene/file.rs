@@ -1,11 +1,14 @@
 //! Scenes from TOML files.
 
-use super::{FRAME_RATE, OnBlocked, START, Scene, TIME_STEP, TangledStart, check_name, check_start, duration_field};
+use super::{
+    OnBlocked, START, Scene, TIME_STEP, TangledStart, check_name, check_start, duration_field, frame_rate_field, steps_of_frame,
+};
 use crate::effects::{self, Called, Effects, Gravity, Wrong};
 use crate::input::{SceneError, Source, Table};
 use crate::world::{Body, Cloth, SceneParts};
 use selvedge_core::glam::DVec3;
 use selvedge_files::FileSource;
+use selvedge_files::mesh::Findings;
 use std::path::Path;
 
 impl Scene {
@@ -63,7 +66,9 @@ impl Scene {
             "body",
             "effects",
         ])?;
-        let time_step = root.required_number(&TIME_STEP)?;
+        let fixed = root.number(&TIME_STEP)?;
+        let frame_rate = root.number(&frame_rate_field(fixed.is_none()))?.unwrap_or(60.0);
+        let time_step = fixed.unwrap_or_else(|| 1.0 / frame_rate / steps_of_frame(1.0 / frame_rate));
         let duration = root.required_number(&duration_field(time_step))?;
         let (cloths, remarks) = read_cloths(&root)?;
         let bodies = read_bodies(&root, time_step)?;
@@ -90,7 +95,8 @@ impl Scene {
             name: root
                 .text("name")?
                 .map_or_else(|| stem.unwrap_or_default().into_owned(), str::to_owned),
-            frame_rate: root.number(&FRAME_RATE)?.unwrap_or(60.0),
+            frame_rate,
+            by_frames: fixed.is_none(),
             on_blocked: root.choice("on_blocked", &choices)?.unwrap_or_default(),
             tangled_start,
             up: gravity.map_or(DVec3::Z, |acceleration| -acceleration),
@@ -119,6 +125,10 @@ fn read_cloths(root: &Table<'_>) -> Result<(Vec<Cloth>, Vec<String>), SceneError
                 "Isolated vertices in the file of the cloth '{}': {isolated}. They are left out, and the others are numbered without them.",
                 cloth.name
             ));
+        }
+        let findings = Findings::of(&cloth.mesh.positions, &cloth.topology);
+        if !(findings.coincident_vertices.is_empty() && findings.duplicate_triangles == 0) {
+            remarks.push(format!("The file of the cloth '{}' has {findings}.", cloth.name));
         }
         check_name("cloths", cloths.iter().map(|other| &other.name), &cloth.name).map_err(|error| table.placed(&error))?;
         cloths.push(cloth);

@@ -94,8 +94,11 @@ pub struct Scene {
     pub cloths: Vec<Cloth>,
     /// The bodies that the cloths meet.
     pub bodies: Vec<Body>,
-    /// The length of a step, in seconds.
+    /// The length of a step, in seconds, at most a sixtieth. A scene [by frames](Self::by_frames) has no longer ones.
     pub time_step: f64,
+    /// True if the scene runs [frame by frame](crate::Simulation::advance), in as many steps as the cloth needs: in a file, without a
+    /// `time_step`. The frames are those of [`frame_rate`](Self::frame_rate), which is then at least 1 Hz.
+    pub by_frames: bool,
     /// The length of the simulation, in seconds.
     pub duration: f64,
     /// The number of frames to write for each simulated second.
@@ -115,8 +118,24 @@ pub struct Scene {
     own: Vec<(String, Effects)>,
 }
 
-const TIME_STEP: Field = Field::new("time_step", TIME, 1e-6, 0.1);
-const FRAME_RATE: Field = Field::new("frames_per_second", FREQUENCY, 0.001, 1e6);
+/// A longer step stretches cloth under its own weight beyond any limit.
+const TIME_STEP: Field = Field::new("time_step", TIME, 1e-6, 0.0167).with_hint(
+    "; use a shorter step, or frames (without `time_step`, or `advance` in code), which take as many steps as the cloth needs",
+);
+
+/// The longest step of a [frame](crate::Simulation::advance), in seconds.
+pub(crate) const LONGEST_STEP_OF_FRAME: f64 = 1.0 / 240.0;
+
+/// Frames of a scene by frames take a second at most.
+const fn frame_rate_field(by_frames: bool) -> Field {
+    Field::new("frames_per_second", FREQUENCY, if by_frames { 1.0 } else { 0.001 }, 1e6)
+}
+
+/// Returns the fewest steps of a frame of so many seconds.
+pub(crate) fn steps_of_frame(seconds: f64) -> f64 {
+    // A frame of 1/60 s takes four steps, not five, whatever rounding makes of it.
+    (seconds / LONGEST_STEP_OF_FRAME * (1.0 - 1e-9)).ceil().max(1.0)
+}
 
 /// Returns the field of a duration: at least a time step, and at most a little more than a day.
 fn duration_field(time_step: f64) -> Field {
@@ -133,6 +152,7 @@ impl Scene {
             cloths: vec![cloth],
             bodies: Vec::new(),
             time_step,
+            by_frames: false,
             duration: LARGEST_TIME,
             frame_rate: 60.0,
             up: DVec3::Z,
@@ -252,7 +272,7 @@ impl Scene {
     pub fn check(&self) -> Result<(), ValueError> {
         TIME_STEP.check(self.time_step)?;
         duration_field(self.time_step).check(self.duration)?;
-        FRAME_RATE.check(self.frame_rate)?;
+        frame_rate_field(self.by_frames).check(self.frame_rate)?;
         for (index, cloth) in self.cloths.iter().enumerate() {
             check_name("cloths", self.cloths[..index].iter().map(|other| &other.name), &cloth.name)?;
             cloth.check()?;
@@ -337,7 +357,8 @@ impl Scene {
     /// defaults included.
     #[must_use]
     pub fn settings(&self) -> Vec<(String, String)> {
-        let mut settings = vec![("time step".to_owned(), TIME.written_short(self.time_step))];
+        let longest = if self.by_frames { "longest time step" } else { "time step" };
+        let mut settings = vec![(longest.to_owned(), TIME.written_short(self.time_step))];
         self.each_acting(|cloth, effect| {
             let name = cloth.map_or_else(|| effect.name().to_owned(), |cloth| self.of_cloth(cloth, effect.name()));
             let named = effect.settings().into_iter();
@@ -346,17 +367,28 @@ impl Scene {
         settings
     }
 
-    /// Returns the number of steps in the duration.
+    /// Returns the time that passes in one call of [`Simulation::run`](crate::Simulation::run), in seconds: a step, or a frame in a scene
+    /// [by frames](Self::by_frames).
+    #[must_use]
+    pub fn time_of_run(&self) -> f64 {
+        if self.by_frames {
+            self.frame_rate.recip()
+        } else {
+            self.time_step
+        }
+    }
+
+    /// Returns the number of steps in the duration; of frames in a scene [by frames](Self::by_frames).
     #[must_use]
     pub fn steps(&self) -> u64 {
         // A duration that is a whole number of steps up to rounding needs no step more.
-        (self.duration / self.time_step - 1e-6).ceil().max(1.0) as u64
+        (self.duration / self.time_of_run() - 1e-6).ceil().max(1.0) as u64
     }
 
-    /// Returns the number of steps from one frame to the next.
+    /// Returns the number of steps from one frame to the next; 1 in a scene [by frames](Self::by_frames).
     #[must_use]
     pub fn steps_per_frame(&self) -> u64 {
-        (1.0 / (self.frame_rate * self.time_step)).round().max(1.0) as u64
+        (1.0 / (self.frame_rate * self.time_of_run())).round().max(1.0) as u64
     }
 
     /// Returns a number that distinguishes this scene's checkpoints from those of other scenes. It depends on the text and on all
@@ -366,7 +398,19 @@ impl Scene {
         let mut fingerprint = Fingerprint::default();
         let mut take = |bytes: &[u8]| fingerprint.take(bytes);
         take(self.text.as_bytes());
-        take(format!("{:?}", (self.time_step, self.on_blocked, self.tangled_start, &self.effects)).as_bytes());
+        take(
+            format!(
+                "{:?}",
+                (
+                    self.time_of_run(),
+                    self.time_step,
+                    self.on_blocked,
+                    self.tangled_start,
+                    &self.effects
+                )
+            )
+            .as_bytes(),
+        );
         let called = self.called();
         for (cloth, effects) in self.cloths.iter().zip(called.own()) {
             let Cloth {

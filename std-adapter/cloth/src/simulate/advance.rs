@@ -3,6 +3,7 @@
 use super::assembly::Assembly;
 use super::checkpoint::CHECKPOINT_STEPS;
 use super::errors::Blocked;
+use super::frame::MOST_STEPS;
 use super::simulation::Simulation;
 use super::state::FASTEST;
 use crate::contact::{Blocker, LARGEST_TURN};
@@ -15,7 +16,7 @@ use selvedge_core::glam::DVec3;
 /// turns too far.
 const SHORTEST: f64 = 1.0 / 64.0;
 
-/// An edge that is longer than this, over its limit, is reported.
+/// A step that ends with an edge longer than this, over its limit, is counted.
 const OVERSTRETCHED: f64 = 1.05;
 
 /// The progress of the clock of bodies and pins in a step.
@@ -37,6 +38,18 @@ impl Simulation {
             simulation.state.since += 1;
             Ok(clock)
         })
+    }
+
+    /// Does one step, or in a scene [by frames](crate::Scene::by_frames) one [frame](Self::advance): the scene's duration is
+    /// [so many](crate::Scene::steps) of them.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step).
+    pub fn run(&mut self) -> Result<(), Blocked> {
+        match self.frame {
+            None => self.step(),
+            Some(seconds) => self.steps_of_frame(seconds, self.steps_needed(seconds).min(MOST_STEPS)),
+        }
     }
 
     /// Does the steps of one frame of so many seconds.
@@ -66,7 +79,22 @@ impl Simulation {
         for driven in self.made.motions.iter_mut().filter_map(Kinematic::driven_mut) {
             driven.begin(clock, seconds, &self.state.positions, &self.carried);
         }
-        let result = threads.run(|| steps(self));
+        let done = self.state.step;
+        self.is_fresh = false;
+        let result = threads.run(|| {
+            let result = steps(self);
+            // Frames end where they do, so a multiple may be in the middle of one.
+            if done / CHECKPOINT_STEPS < self.state.step / CHECKPOINT_STEPS {
+                if let Some(contact) = &mut self.made.contact {
+                    self.state.begin_anew(contact, self.time_step);
+                }
+                if let Some(tearing) = &mut self.tearing {
+                    tearing.waiting.clear();
+                }
+                self.is_fresh = true;
+            }
+            result
+        });
         let clock = self.state.clock;
         let has_arrived = matches!(result, Ok(BodyClock::Went));
         for driven in self.made.motions.iter_mut().filter_map(Kinematic::driven_mut) {
@@ -106,24 +134,21 @@ impl Simulation {
         }
         self.state.step += 1;
         self.state.blocked_steps += u64::from(was_blocked);
-        self.state.overstretched_steps += u64::from(self.is_overstretched());
+        self.state.overstretched_steps += u64::from(self.longest_over_limit().is_some_and(|over| over > OVERSTRETCHED));
         if let Some(contact) = &mut self.made.contact {
             contact.take_back(&self.state.positions);
         }
         self.tear();
-        if let Some(contact) = &mut self.made.contact
-            && self.state.step.is_multiple_of(CHECKPOINT_STEPS)
-        {
-            self.state.begin_anew(contact, self.time_step);
-        }
         Ok(of_the_step)
     }
 
-    /// Returns whether an edge is longer than its limit by more than is [tolerated](OVERSTRETCHED).
-    fn is_overstretched(&self) -> bool {
+    /// Returns the length of the longest edge over its [limit](crate::effects::StrainLimit); `None` without a limit. If it is more than 1.05 after a
+    /// step, the step was too long: use a shorter one, or [frames](Self::advance).
+    #[must_use]
+    pub fn longest_over_limit(&self) -> Option<f64> {
         let limiting = self.made.bounding.iter().map(|&index| &self.made.constraints[index].action);
-        let mut over = limiting.filter_map(|action| action.over_limit(&self.state.positions));
-        over.any(|over| over > OVERSTRETCHED)
+        let over = limiting.filter_map(|action| action.over_limit(&self.state.positions));
+        over.reduce(f64::max)
     }
 
     /// Goes on by as much of `left` seconds as possible: returns how much. Half of it if that fails, and so on, but not by less than

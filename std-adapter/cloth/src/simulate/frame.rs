@@ -4,7 +4,7 @@
 //!
 //! * **Stiffness.** A step passes a pull on once, over the mesh and its [levels](crate::effects), whatever the stiffness and the mesh. So the stretch that
 //!   is left grows with the square of the step: by the forces of a step, which move a vertex by g·h². Sheets of 1.3 and 10 thousand triangles with a
-//!   strain limit that are dropped on a ball keep within a few percent of it at steps of 4 ms, and at no longer ones. So none is longer than [`LONGEST`].
+//!   strain limit that are dropped on a ball keep within a few percent of it at steps of 4 ms, and at no longer ones. So none is longer than [`LONGEST_STEP_OF_FRAME`].
 //! * **Speed.** Contacts push along directions at the start of a step, which turn where cloth passes a face. So nothing near the
 //!   cloth moves more than [`FARTHEST`] of the cloth's mean edge in a step, relative to the mean of the cloth.
 //!
@@ -13,14 +13,15 @@
 use super::errors::Blocked;
 use super::simulation::Simulation;
 use crate::input::{Field, TIME, ValueError};
+#[cfg(doc)]
+use crate::scene::LONGEST_STEP_OF_FRAME;
+use crate::scene::steps_of_frame;
 use selvedge_core::glam::DVec3;
 
-/// The longest step of a frame, in seconds.
-const LONGEST: f64 = 1.0 / 240.0;
 /// How far anything goes in a step at most, in mean edges.
 const FARTHEST: f64 = 0.5;
 /// Most steps of a frame, unless the caller says otherwise.
-const MOST: u32 = 64;
+pub(super) const MOST_STEPS: u32 = 64;
 const SECONDS: Field = Field::new("seconds", TIME, 1e-6, 1.0);
 
 /// The steps of a frame.
@@ -46,7 +47,8 @@ pub enum FrameError {
 impl Simulation {
     /// Advances by a frame of a game or a film, a microsecond to a second, in as many steps as the cloth needs (at most 64).
     ///
-    /// The scene's own time step has no part in it. Bodies and pins that the caller moves do so evenly throughout the frame.
+    /// The scene's own time step has no part in it. Bodies and pins that the caller moves do so evenly throughout the frame. A
+    /// [checkpoint](Self::checkpoint) can be taken after the frame in which a multiple of [`CHECKPOINT_STEPS`](crate::CHECKPOINT_STEPS) was reached.
     ///
     /// ```
     /// use selvedge_cloth::effects::{Gravity, Stretch};
@@ -66,7 +68,7 @@ impl Simulation {
     /// # Errors
     /// Returns an error if the time is out of range, or a [step](Self::step) fails.
     pub fn advance(&mut self, seconds: f64) -> Result<Frame, FrameError> {
-        self.advance_within(seconds, MOST)
+        self.advance_within(seconds, MOST_STEPS)
     }
 
     /// Advances like [`advance`](Self::advance), in at most `most` steps, but at least one.
@@ -82,7 +84,7 @@ impl Simulation {
     }
 
     /// Returns how many steps a frame of so many seconds needs: see the [module](self).
-    fn steps_needed(&self, seconds: f64) -> u32 {
+    pub(super) fn steps_needed(&self, seconds: f64) -> u32 {
         let (positions, velocities) = (&self.state.positions, &self.state.velocities);
         let cloth = self.made.cloth_vertices;
         let mean = velocities[..cloth].iter().sum::<DVec3>() / cloth as f64;
@@ -98,9 +100,8 @@ impl Simulation {
                 position.cmpge(low - reach).all() && position.cmple(high + reach).all()
             });
         let fastest = of_bodies.map(|(_, velocity)| speed(velocity)).fold(of_cloth, f64::max);
-        let by_length = seconds / LONGEST;
         let by_speed = fastest * seconds / (FARTHEST * self.made.mean_edge);
-        // A frame of 1/60 s takes four steps, not five, whatever rounding makes of it. A number out of range becomes the nearest in it.
-        (by_length.max(by_speed) * (1.0 - 1e-9)).ceil().max(1.0) as u32
+        // A number out of range becomes the nearest in it.
+        steps_of_frame(seconds).max(by_speed.ceil()) as u32
     }
 }

@@ -1,16 +1,16 @@
 //! Checkpoints: out of a simulation, and back into one.
 
-use super::checkpoint::{CHECKPOINT_STEPS, Checkpoint, CheckpointError, Sizes};
+use super::checkpoint::{Checkpoint, CheckpointError, Sizes};
 use super::simulation::Simulation;
 use crate::model::step::Memory;
 use crate::world::{Driven, Kinematic};
 
 impl Simulation {
-    /// All that the rest of the simulation depends on, and what has been measured so far, every [`CHECKPOINT_STEPS`] steps;
-    /// `None` in between. What the caller has said of the next step, and of the wind, is not in it.
+    /// Returns all that the rest of the simulation depends on, and what has been measured so far, every [`CHECKPOINT_STEPS`](crate::CHECKPOINT_STEPS) steps;
+    /// `None` in between. Motions that the caller has set for the next step, and the wind, are not in it.
     #[must_use]
     pub fn checkpoint(&self) -> Option<Vec<u8>> {
-        if !self.state.step.is_multiple_of(CHECKPOINT_STEPS) {
+        if !self.is_fresh {
             return None;
         }
         let mut checkpoint = Checkpoint {
@@ -82,6 +82,7 @@ impl Simulation {
         }
         self.recall(&checkpoint.memories);
         self.state = checkpoint.state;
+        self.is_fresh = true;
         Ok(())
     }
 

@@ -68,6 +68,8 @@ impl Simulation {
         let mut simulation = Self {
             name: scene.name.clone(),
             time_step,
+            frame: scene.by_frames.then(|| scene.time_of_run()),
+            is_fresh: true,
             on_blocked: scene.on_blocked,
             tangled_start,
             body_names: bodies.iter().map(|body| body.name.clone()).collect(),

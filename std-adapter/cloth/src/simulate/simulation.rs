@@ -46,6 +46,10 @@ use std::ops::Range;
 pub struct Simulation {
     pub(super) name: String,
     pub(super) time_step: f64,
+    /// The length of a frame in seconds, in a scene by frames.
+    pub(super) frame: Option<f64>,
+    /// True if contact knows nothing but the state, as after a checkpoint.
+    pub(super) is_fresh: bool,
     pub(super) fingerprint: u64,
     pub(super) cloth_names: Vec<String>,
     /// The data from meshes and effects.
@@ -87,10 +91,18 @@ impl Simulation {
         &self.name
     }
 
-    /// Steps done so far.
+    /// Returns the number of steps so far.
     #[must_use]
     pub fn steps_done(&self) -> u64 {
         self.state.step
+    }
+
+    /// Returns the number of times that [`run`](Self::run) has succeeded, where nothing else has run: steps, or frames in a scene
+    /// [by frames](crate::Scene::by_frames).
+    #[must_use]
+    pub fn runs_done(&self) -> u64 {
+        self.frame
+            .map_or(self.state.step, |seconds| (self.time() / seconds).round() as u64)
     }
 
     /// The time simulated so far, in seconds.
@@ -244,8 +256,8 @@ impl Simulation {
         self.state.blocked_steps
     }
 
-    /// Returns the number of steps after which an edge was longer than its [limit](crate::effects::StrainLimit) by more than 5 %: shorter steps, or
-    /// [frames](Self::advance), keep it.
+    /// Returns the number of steps after which an edge was longer than its limit by more than 5 %
+    /// ([`longest_over_limit`](Self::longest_over_limit)).
     #[must_use]
     pub fn overstretched_steps(&self) -> u64 {
         self.state.overstretched_steps

@@ -202,15 +202,7 @@ impl Cloth {
             let message = format!("cloth must consist of proper triangles, but the mesh has {statistics}{hint}");
             return Err(ValueError::new("file", message));
         }
-        let area = |t: &[u32; 3]| {
-            let [a, b, c] = t.map(|v| mesh.positions[v as usize]);
-            0.5 * (b - a).cross(c - a).length()
-        };
-        if let Some(flat) = mesh.triangles.iter().position(|t| area(t) < SMALLEST_AREA) {
-            let message =
-                format!("triangle {flat} of the cloth has an area below {SMALLEST_AREA:e} square metres; are the units metres?");
-            return Err(ValueError::new("shape", message));
-        }
+        check_triangles(&mesh)?;
         check_loose_edges(&mesh, loose_edges)?;
         let cloth = Self {
             name: NAME.to_owned(),
@@ -399,6 +391,35 @@ impl Cloth {
 const SMALLEST_EDGE: f64 = 1e-5;
 /// The area of the smallest triangle, in m²: that of a square with such edges.
 const SMALLEST_AREA: f64 = SMALLEST_EDGE * SMALLEST_EDGE;
+
+/// In metres. Contact keeps less than that from the opposite edge, and cannot tell vertices apart that are nearer.
+const SMALLEST_HEIGHT: f64 = 1e-6;
+
+/// Checks that no triangle is too small, and none so thin that contact blocks the cloth.
+fn check_triangles(mesh: &Mesh) -> Result<(), ValueError> {
+    for (triangle, corners) in mesh.triangles.iter().enumerate() {
+        let [a, b, c] = corners.map(|v| mesh.positions[v as usize]);
+        let area = 0.5 * (b - a).cross(c - a).length();
+        let lengths = [a.distance(b), b.distance(c), c.distance(a)];
+        let height = 2.0 * area / lengths.into_iter().fold(0.0, f64::max);
+        let message = if area < SMALLEST_AREA {
+            format!("has an area below {SMALLEST_AREA:e} square metres; are the units metres?")
+        } else if height < SMALLEST_HEIGHT {
+            let [a, b, c] = corners;
+            format!(
+                "(vertices {a}, {b}, {c}) is only {height:.1e} m high: a sliver, which contact cannot keep apart from its neighbours; \
+                 merge vertices that are so near with `weld = \"1 um\"`, or mesh it again"
+            )
+        } else {
+            continue;
+        };
+        return Err(ValueError::new(
+            "shape",
+            format!("triangle {triangle} of the cloth {message}"),
+        ));
+    }
+    Ok(())
+}
 
 /// Checks that each loose edge joins two distinct vertices that no other edge joins.
 fn check_loose_edges(mesh: &Mesh, loose_edges: &[[u32; 2]]) -> Result<(), ValueError> {

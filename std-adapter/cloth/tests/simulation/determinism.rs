@@ -55,3 +55,29 @@ fn a_simulation_resumed_at_any_checkpoint_goes_on_with_the_same_bits() {
         assert_eq!(whole.contact_counts(), resumed.contact_counts());
     }
 }
+
+/// A scene without a time step runs by frames, whose steps differ in number: a checkpoint comes after some frame, not after a round number of steps.
+#[test]
+fn frames_of_a_scene_without_a_time_step_have_the_same_bits_on_any_threads_and_after_a_resume() {
+    let load = |threads| load("drop.toml", |text| text.replace("time_step = \"1 ms\"\n", ""), threads);
+    let (mut whole, mut resumed) = (load(2), load(1));
+    let (mut checkpoint, mut frames) = (None, 0);
+    while checkpoint.is_none() {
+        whole.run().unwrap();
+        frames += 1;
+        checkpoint = whole.checkpoint();
+    }
+    assert!(frames < CHECKPOINT_STEPS / 5 && whole.steps_done() >= CHECKPOINT_STEPS);
+    assert!(!whole.steps_done().is_multiple_of(CHECKPOINT_STEPS));
+    assert_eq!(whole.runs_done(), frames);
+    resumed.resume(&checkpoint.unwrap()).unwrap();
+    for _ in 0..10 {
+        whole.run().unwrap();
+        assert_eq!(whole.checkpoint(), None);
+        let frame = resumed.advance(0.025).unwrap();
+        assert!(frame.steps >= 6 && frame.steps == frame.needed);
+    }
+    assert_eq!(whole.positions(), resumed.positions());
+    assert_eq!(whole.runs_done(), frames + 10);
+    assert!((whole.time() - 0.025 * (frames + 10) as f64).abs() < 1e-9);
+}

@@ -486,9 +486,11 @@ fn thirty_wrong_ways_to_use_it_from_code_get_thirty_errors_that_say_what_would_b
     };
     let turning = |keyframes| KeyframeMotion::new(DVec3::ZERO, up, keyframes).unwrap().into();
     assert_complaints! { scene_with(ball(), 0.1);
-        |s| s.time_step = 0.0 => "`time_step` is 0 s, but must be from 1e-6 s to 0.1 s…";
+        |s| s.time_step = 0.0 => "`time_step` is 0 s, but must be from 1e-6 s to 0.0167 s…";
         |s| s.time_step = f64::NAN => "`time_step` is NaN s…";
         |s| s.duration = 1e-4 => "`duration` is 1e-4 s, but must be from 0.002 s…";
+        |s| s.time_step = 1.0 / 50.0 => "`time_step` is 0.02 s, but must be from 1e-6 s to 0.0167 s; use a shorter step, or frames…";
+        |s| (s.by_frames, s.frame_rate) = (true, 0.5) => "`frames_per_second` is 0.5 Hz, but must be from 1 Hz…";
         |s| s.frame_rate = -1.0 => "`frames_per_second` is -1 Hz…";
         |s| s.cloths[0].density = 200.0 => "cloth: `density` is 200 kg/m2, but must be from 0.001 kg/m2 to 100 kg/m2…";
         |s| s.cloths[0].velocity = up * 1e4 => "cloth: `velocity` is 10000 m/s…";

@@ -85,7 +85,7 @@ fn twenty_mistakes_get_twenty_messages_that_say_what_to_do() {
         "3 mm" => 3
             s.toml:25:13: `thickness` is 3 m, but must be from 1e-5 m to 0.1 m
         "2 ms" => 0
-            s.toml:1:13: `time_step` is 0 s, but must be from 1e-6 s to 0.1 s
+            s.toml:1:13: `time_step` is 0 s, but must be from 1e-6 s to 0.0167 s; use a shorter step, or frames (without `time_step`, or `advance` in code), which take as many steps as the cloth needs
         [0, 0, -9.81] => -9.81
             s.toml:19:16: `acceleration` must be a list of three numbers, such as [0, 0, 1], but is of type float
         [10, 10] => [10, 0]
@@ -123,4 +123,31 @@ fn the_scenes_that_come_with_the_program_are_good() {
         let scene = Scene::read(file).unwrap();
         assert!(!scene.effect_names().is_empty(), "{}", file.display());
     }
+}
+
+#[test]
+fn slivers_and_what_an_exporter_has_split_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let read = |obj: &str| {
+        std::fs::write(folder.path().join("m.obj"), obj).unwrap();
+        let text = "duration = 1\n[cloth]\nshape = \"file\"\nfile = \"m.obj\"\ndensity = 0.1\n[effects.gravity]\n";
+        Scene::parse(text, &folder.path().join("s.toml"))
+    };
+    let sliver = read("v 0 0 0\nv 1 0 0\nv 1 1e-7 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n")
+        .unwrap_err()
+        .to_string();
+    assert!(
+        sliver.contains("triangle 0 of the cloth (vertices 0, 1, 2) is only 1.0e-7 m high: a sliver"),
+        "{sliver}"
+    );
+    assert!(sliver.contains("weld = \"1 um\""), "{sliver}");
+    let seam = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 4 5 6\nf 4 5 6\n";
+    let remarks = read(seam).unwrap().remarks;
+    assert_eq!(
+        remarks,
+        [
+            "The file of the cloth 'cloth' has 2 vertices in the same place as others (weld merges them), 1 duplicate triangle, 3 edges between triangles that face opposite ways."
+        ]
+    );
+    assert!(read("v 0 0 0\nv 1 0 0\nv 1 1e-5 0\nf 1 2 3\n").unwrap().remarks.is_empty());
 }

@@ -45,7 +45,7 @@ impl MainJob {
         run_steps(&mut simulation, steps, |simulation, taken| {
             recorder.step(simulation, taken);
             frames.observe(simulation);
-            if simulation.steps_done().is_multiple_of(steps_per_frame) {
+            if simulation.runs_done().is_multiple_of(steps_per_frame) {
                 recorder.frame(simulation)?;
             }
             Ok(())

@@ -87,18 +87,25 @@ fn split(saved: &[u8]) -> Option<(&[u8], &[u8])> {
     rest.split_at_checked(usize::try_from(u64::from_le_bytes(length)).ok()?)
 }
 
-/// Runs a simulation up to step `steps`. Calls `then` after each step with the seconds that the step took.
+/// Runs a simulation up to step `steps`, or frame in a scene by frames. Calls `then` after each with the seconds that it took.
 pub(super) fn run_steps(
     simulation: &mut Simulation,
     steps: u64,
     mut then: impl FnMut(&Simulation, f64) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     let progress = Progress::steps("simulating", steps);
-    while simulation.steps_done() < steps {
+    while simulation.runs_done() < steps {
         let begin = Instant::now();
-        simulation.step()?;
+        let overstretched = simulation.overstretched_steps();
+        simulation.run()?;
+        if overstretched == 0 && simulation.overstretched_steps() > 0 {
+            let time = simulation.time();
+            eprintln!(
+                "warning: at {time:.6} s an edge is more than 5 % above its limit: the time step is too long for this scene"
+            );
+        }
         then(simulation, begin.elapsed().as_secs_f64())?;
-        progress.set_steps(simulation.steps_done());
+        progress.set_steps(simulation.runs_done());
     }
     Ok(())
 }
@@ -201,7 +208,7 @@ impl Simulate {
         let seconds = || earlier + begin.elapsed().as_secs_f64();
         let result = run_steps(&mut simulation, steps, |simulation, taken| {
             recorder.step(simulation, taken);
-            let step = simulation.steps_done();
+            let step = simulation.runs_done();
             let is_frame = step.is_multiple_of(steps_per_frame) || step == steps;
             if is_frame {
                 recorder.frame(simulation)?;

@@ -213,6 +213,7 @@ pub fn simulation(simulation: &selvedge_cloth::Simulation, recording: &Recording
         "released": released.collect::<Vec<_>>(),
         "torn": torn.collect::<Vec<_>>(),
         "blocked_steps": simulation.blocked_steps(),
+        "overstretched_steps": simulation.overstretched_steps(),
         "lag_seconds": simulation.lag(),
         "untangled": simulation.untangled().map(untangled_json),
         "tolerated": (simulation.tangled_start() == TangledStart::Tolerate)

@@ -35,7 +35,7 @@ pub fn effects_one_by_one(
         let mut simulation = Simulation::new(scene, threads)?;
         let begin = Instant::now();
         for step in 0..steps {
-            if simulation.step().is_err() {
+            if simulation.run().is_err() {
                 break;
             }
             let share = (step + 1) as f64 / steps as f64;

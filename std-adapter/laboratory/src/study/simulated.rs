@@ -28,7 +28,7 @@ use selvedge_cloth::{Scene, Simulation};
 /// let (steps, mut simulation) = (scene.steps(), Simulation::new(scene, 1)?);
 /// frames.observe(&simulation);
 /// for _ in 0..steps {
-///     simulation.step()?;
+///     simulation.run()?;
 ///     frames.observe(&simulation);
 /// }
 /// assert_eq!((frames.step_count(), steps), (5, 10));
@@ -72,7 +72,7 @@ impl SimulatedSteps {
 
     /// Observes a state: the start first, then the state after each step.
     pub fn observe(&mut self, simulation: &Simulation) {
-        let done = simulation.steps_done();
+        let done = simulation.runs_done();
         let as_made = |cloth| {
             let own = simulation.vertices_of_cloth(cloth).unwrap_or_default();
             &simulation.positions()[own.start..own.end - simulation.copied_vertices(cloth).len()]

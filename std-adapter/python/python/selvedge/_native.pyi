@@ -194,6 +194,11 @@ class Simulation:
         """Runs ``count`` steps. Ctrl-C stops after a whole step, and the steps that were done remain. Raises BlockedError if bodies or pins
         force the cloth where it cannot go and the scene stops then."""
 
+    def advance(self, seconds: float | None = None, *, most: int = 64) -> tuple[int, int]:
+        """Runs a frame: ``seconds`` pass (from 1e-6 to 1; the scene's frame if left out), in as many steps as the cloth needs, at least one
+        and at most ``most``. Returns the number of steps, and the number that the cloth needs; if that is larger, edges may be longer than
+        their limit. Bodies and pins that were moved do so evenly throughout. Raises as :meth:`step`."""
+
     @property
     def positions(self) -> NDArray[np.float64]:
         """(n, 3) the current positions in metres: the vertices of the cloths, then of the bodies. It is always the same read-only array;
@@ -266,7 +271,7 @@ class Simulation:
         """In seconds."""
     @property
     def steps(self) -> int:
-        """The number of steps in the scene's duration."""
+        """The number of steps in the scene's duration. A scene without a ``time_step`` counts frames."""
     @property
     def steps_per_frame(self) -> int: ...
     @property
@@ -285,6 +290,10 @@ class Simulation:
         """Whether the state is certified free of the intersections that the scene's contact effects name."""
     @property
     def blocked_steps(self) -> int: ...
+    @property
+    def overstretched_steps(self) -> int:
+        """The number of steps after which an edge was more than 5 % above its strain limit. A call with such a step also issues a
+        RuntimeWarning: use a shorter time step, or :meth:`advance`."""
     @property
     def edge_stretch(self) -> tuple[float, float]:
         """The length of the cloth's edges relative to rest: the 99th percentile and the largest."""

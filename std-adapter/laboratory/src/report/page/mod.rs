@@ -162,8 +162,13 @@ fn summary(recording: &Recording) -> String {
     summary
 }
 
-/// The events that mean trouble: steps that could not be made as they were.
-const TROUBLE: [&str; 3] = ["vertices held back", "times cut in half", "steps blocked"];
+/// Events that mean trouble: steps that could not be made as they were.
+const TROUBLE: [&str; 4] = [
+    "vertices held back",
+    "times cut in half",
+    "steps blocked",
+    "steps beyond the limit",
+];
 
 /// Returns the most important numbers.
 fn tiles(recording: &Recording) -> Markup {

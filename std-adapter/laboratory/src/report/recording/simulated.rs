@@ -36,7 +36,7 @@ impl Subject {
             name: scene.name.clone(),
             scene: scene.text.clone(),
             up: scene.up,
-            time_step: scene.time_step,
+            time_step: scene.time_of_run(),
             fabric: scene
                 .fabric()
                 .into_iter()
@@ -139,7 +139,7 @@ impl SimulationRecorder {
     /// # Errors
     /// Returns an error if a coordinate is not finite as an `f32`.
     pub fn frame(&mut self, simulation: &Simulation) -> Result<(), FrameError> {
-        let step = simulation.steps_done();
+        let step = simulation.runs_done();
         self.follow_tears(simulation);
         let mut positions = simulation.positions();
         if !self.shown.is_empty() {
@@ -214,6 +214,10 @@ fn counters(simulation: &Simulation, seconds: f64) -> Vec<(&'static str, SeriesK
         add(SeriesKind::Events, &counts.events().map(number));
         let blocked = ("steps blocked", simulation.blocked_steps());
         add(SeriesKind::Events, &[blocked].map(number));
+    }
+    if simulation.longest_over_limit().is_some() {
+        let steps = ("steps beyond the limit", simulation.overstretched_steps());
+        add(SeriesKind::Events, &[steps].map(number));
     }
     if simulation.effects().iter().any(|effect| effect.name == "tearing") {
         add(

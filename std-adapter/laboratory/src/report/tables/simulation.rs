@@ -89,6 +89,12 @@ pub fn simulation(simulation: &Simulation, recording: &Recording) -> String {
             time(simulation.lag())
         );
     }
+    if simulation.overstretched_steps() > 0 {
+        let steps = counted(simulation.overstretched_steps(), "step");
+        text += &format!(
+            "\nafter {steps} an edge was more than 5 % above its limit: use a shorter time step, or frames (no `time_step`)\n"
+        );
+    }
     text
 }
 
