@@ -4,8 +4,9 @@ use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use selvedge::{CollisionDetector, Criterion, Threads};
 use selvedge_core::elementary::Limits;
-use selvedge_core::glam::DVec3;
-use selvedge_core::separation::gap::{GapError, SeparatingDirection};
+use selvedge_core::glam::{DQuat, DVec3};
+use selvedge_core::separation::carried::{LARGEST_TURN, is_too_near, kept_when_carried};
+use selvedge_core::separation::gap::{GapError, SeparatingDirection, distance_from_below};
 use selvedge_core::separation::largest_coordinate;
 use selvedge_core::separation::truncation::shares;
 use selvedge_core::{Motion, PairKind};
@@ -168,4 +169,72 @@ fn a_pair_keeps_its_separation_for_all_smaller_shares() {
     result.unwrap();
     assert!(held.get() > 400, "{}", held.get());
     assert!(from_a_base.get() > 100, "{}", from_a_base.get());
+}
+
+/// A pair that is carried along rigidly keeps what it is asked for, by the bound where it is translated and by exact arithmetic where it
+/// turns, however near it starts.
+#[test]
+fn a_pair_that_is_carried_along_keeps_its_separation() {
+    let kept_any = Cell::new(0);
+    let coordinates = || prop::array::uniform3(-1.0..1.0_f64);
+    let inputs = (
+        prop::array::uniform4(coordinates()),
+        [coordinates(), coordinates()],
+        -LARGEST_TURN..LARGEST_TURN,
+        [-40..40_i32, -45..2],
+        any::<bool>(),
+    );
+    let mut runner = TestRunner::new(ProptestConfig::with_cases(2000));
+    let result = runner.run(&inputs, |(points, [way, axis], angle, [exponent, apart], is_edges)| {
+        let kind = if is_edges { PairKind::EdgeEdge } else { PairKind::VertexFace };
+        let scale = 2_f64.powi(exponent);
+        let mut start = points.map(|point| DVec3::from(point) * scale);
+        let [a, b, c, d] = start;
+        let (normal, first) = match kind {
+            PairKind::VertexFace => ((c - b).cross(d - b), 1),
+            PairKind::EdgeEdge => ((b - a).cross(d - c), 2),
+        };
+        let direction = normal.normalize_or_zero();
+        // As near along the normal as the second exponent says.
+        let [low, high] = [0, 1].map(|side| {
+            let own = if side == 0 { &start[..first] } else { &start[first..] };
+            let along = own.iter().map(|point| point.dot(direction));
+            if side == 0 {
+                along.fold(f64::INFINITY, f64::min)
+            } else {
+                along.fold(f64::NEG_INFINITY, f64::max)
+            }
+        });
+        let shift = direction * (high - low + scale * 2_f64.powi(apart));
+        start[..first].iter_mut().for_each(|point| *point += shift);
+        let turn = DQuat::from_axis_angle(DVec3::from(axis).try_normalize().unwrap_or(DVec3::X), angle);
+        let ends = [
+            start.map(|point| point + DVec3::from(way) * scale),
+            start.map(|point| turn * point),
+        ];
+        for (end, is_translated) in ends.into_iter().zip([true, false]) {
+            let error = GapError::from_largest_coordinate(largest_coordinate(&[start, end].concat()));
+            let distance = distance_from_below(kind, start, direction, error);
+            if is_too_near(distance, error) {
+                continue;
+            }
+            kept_any.set(kept_any.get() + 1);
+            let kept = kept_when_carried(f64::INFINITY, distance, error);
+            prop_assert!(kept > 0.0 || distance <= 3.1 * error.length());
+            prop_assert_eq!(kept_when_carried(0.5 * kept, distance, error), 0.5 * kept);
+            let at_end = distance_from_below(kind, end, direction, error);
+            prop_assert!(
+                !is_translated || at_end > kept,
+                "{} at the end of {}, {} to keep",
+                at_end,
+                distance,
+                kept
+            );
+            let motions = [0, 1, 2, 3].map(|corner| [start[corner].to_array(), end[corner].to_array()]);
+            prop_assert!(!within(&PairCase::new(kind, motions).question(), kept));
+        }
+        Ok(())
+    });
+    result.unwrap();
+    assert!(kept_any.get() > 1000, "{}", kept_any.get());
 }

@@ -14,7 +14,7 @@ use selvedge_bevy::selvedge::{CollisionDetector, Intersection, Topology};
 use selvedge_bevy::selvedge_cloth::effects::{
     BodyContact, Gravity, PinGroup, PinMotion, Pins, RopeStretch, SelfCollision, Stretch, Tearing, Thickness,
 };
-use selvedge_bevy::selvedge_cloth::glam::{DQuat, DVec3};
+use selvedge_bevy::selvedge_cloth::glam::DVec3;
 use selvedge_bevy::selvedge_cloth::{Body, BodyMotion, Cloth, Keyframe, KeyframeMotion, OnBlocked, Placement, Scene, Simulation};
 use selvedge_bevy::{
     ClothSimulation, RopesOf, SelvedgeError, SelvedgeProblem, body_of_mesh, cloth_of_mesh, mesh_of, mesh_of_cloths,

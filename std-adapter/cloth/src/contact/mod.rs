@@ -43,7 +43,6 @@ mod untangling;
 
 pub use crossing::Crossing;
 pub(crate) use crossing::PairKey;
-pub(crate) use pass::LARGEST_TURN;
 pub(crate) use report::Blocker;
 pub use report::{ContactCounts, ContactSeconds};
 pub use rows::ProximityPair;

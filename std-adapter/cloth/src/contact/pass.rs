@@ -6,21 +6,10 @@
 //!                                                      └▶ cut: half the step
 //! ```
 //!
-//! **The distance kept.** A pair keeps m_P = min(m, c·d_P − 3E). Here m is its [separation](super::separations), and E the error
-//! of gaps ([`GapError`]). d_P is the lower bound of its distance at the start, along the direction of its closest points there.
-//! So a pair that starts nearer than m may stay, and a zone that is carried rigidly is free:
-//!
-//! * A carrier that turns by θ shrinks distances on the straight paths of its points by cos(θ/2) at most, which [`LARGEST_TURN`] keeps above c.
-//! * A translation rounds each coordinate once. With |x| ≤ B and the unit roundoff u that moves the gap along a fixed direction
-//!   by at most 6.1uB. The two computed gaps are off by 49uB each. This makes 105uB in all, less than 2E, as E is 64uB. A
-//!   computed lower bound is less than the computed gap by E and a factor σ = 1 + 2⁻²⁰, at both ends. So the bound at the end is
-//!   at least d_P − 2E, which is more than m_P.
-//!
-//! This argument takes the *same* direction at both ends, in full precision. The direction of points at a distance d has an error
-//! of about uB/d, which tilts a pair of size L by uBL/d. This is as good as any other direction. But two such directions differ
-//! by that much, and a stored direction is rounded to `f32`. For pairs much longer than their distance, either would cost more
-//! than a share 1 − c of it. A pair with d_P ≤ 3E is nearer than rounding can distinguish, and the simulation refuses it at its
-//! start.
+//! **The distance kept.** A pair keeps its [separation](super::separations), or a little less than its distance at the start if it
+//! starts nearer: m_P of [core](selvedge_core::separation::carried). So a zone that is carried rigidly is free, as long as no
+//! carrier turns by more than [`LARGEST_TURN`]. A simulation refuses to start with a pair that is nearer than rounding can
+//! distinguish.
 //!
 //! **Relaxation.** Pairs that are not free become active, and positions are relaxed until all active pairs are kept apart. Then
 //! the pass tests the pairs of the vertices that have moved. Those that are not free become active as well
@@ -36,7 +25,7 @@
 use super::candidate::{Candidate, ClosestOfSome, impact, time_of_impact_of};
 use super::report::Blocker;
 use super::separations::Separations;
-use super::solver::{ContactSolver, TOO_NEAR, gap_error};
+use super::solver::{ContactSolver, gap_error};
 use crate::model::step::{FREE, TimeStep};
 use selvedge::PairKind;
 use selvedge::clock::Clock;
@@ -44,12 +33,11 @@ use selvedge::parallel;
 use selvedge::simd::Level;
 use selvedge_core::batch::LANES;
 use selvedge_core::glam::DVec3;
+#[cfg(doc)]
+use selvedge_core::separation::carried::LARGEST_TURN;
+use selvedge_core::separation::carried::kept_when_carried;
 use selvedge_core::separation::gap::{GapError, distance_from_below};
 
-/// The share c of a pair's distance that it keeps, if it starts nearer than its separation.
-const KEPT: f64 = 1.0 - 1e-5;
-/// The largest turn of a body in one step, in radians: cos(θ/2) ≥ 1 − θ²/8 ≥ 1 − ½·10⁻⁵.
-pub(crate) const LARGEST_TURN: f64 = 6.3e-3;
 /// The effort of a relaxation towards the wanted positions.
 const EFFORT: Effort = Effort {
     closures: 12,
@@ -342,5 +330,5 @@ fn is_kept_along_start(pair: &Candidate, path: [&[DVec3]; 2], kept: f64, error: 
 
 /// The distance m_P that a pair keeps.
 fn kept(pair: &Candidate, start: &[DVec3], separation: f64, error: GapError<f64>) -> f64 {
-    separation.min((KEPT * pair.distance_from_below(start, error) - TOO_NEAR * error.length()).max(0.0))
+    kept_when_carried(separation, pair.distance_from_below(start, error), error)
 }

@@ -16,11 +16,9 @@ use selvedge::clock::Clock;
 use selvedge::simd::{Level, best_level};
 use selvedge::{StepError, Topology};
 use selvedge_core::glam::DVec3;
+use selvedge_core::separation::carried::is_too_near;
 use selvedge_core::separation::gap::GapError;
 use selvedge_core::separation::largest_coordinate;
-
-/// Distances up to this many errors of a gap may be rounding errors.
-pub(super) const TOO_NEAR: f64 = 3.0;
 
 /// The state of contact; it exists only if an effect requests contacts.
 #[derive(Debug)]
@@ -106,7 +104,7 @@ impl ContactSolver {
         let touches = |pair: &&Candidate| {
             let distance = pair.distance_from_below(positions, error);
             if distance > 0.0 {
-                distance <= TOO_NEAR * error.length()
+                is_too_near(distance, error)
             } else {
                 time_of_impact_of(pair, [positions, positions], 0.0).is_some()
             }

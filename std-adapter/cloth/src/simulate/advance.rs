@@ -6,11 +6,12 @@ use super::errors::Blocked;
 use super::frame::MOST_STEPS;
 use super::simulation::Simulation;
 use super::state::FASTEST;
-use crate::contact::{Blocker, LARGEST_TURN};
+use crate::contact::Blocker;
 use crate::model::step::Carrier;
 use crate::scene::OnBlocked;
 use crate::world::Kinematic;
 use selvedge_core::glam::DVec3;
+use selvedge_core::separation::carried::LARGEST_TURN;
 
 /// The shortest part of a step that is tried, so that a step has an end. It is in steps, or in parts of one in which nothing
 /// turns too far.

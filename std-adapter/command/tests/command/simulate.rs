@@ -47,6 +47,31 @@ fn json_tells_energy_and_stretch_at_every_frame_and_the_slowest_step() {
 }
 
 #[test]
+fn a_scene_without_a_time_step_runs_by_frames_and_steps_that_are_too_long_are_told_when_they_happen() {
+    let place = Workplace::new();
+    let limited = SHEET.replace(
+        "[effects.gravity]",
+        "[effects.gravity]\n[effects.strain_limit]\nlimit = 1.0\n[effects.friction]\ncoefficient = 0.5",
+    );
+    place.write("frames.toml", limited.replace("time_step = \"2 ms\"\n", ""));
+    place.write("long.toml", limited.replace("2 ms", "16 ms"));
+    let run = |scene: &str| {
+        let output = place.run(&["simulate", scene, "--json"]);
+        let document: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        (document, String::from_utf8(output.stderr).unwrap())
+    };
+    let (frames, warned) = run("frames.toml");
+    assert!(frames["steps"].as_u64().unwrap() >= 240, "{}", frames["steps"]);
+    let times = frames["edge_stretch"]["seconds"].as_array().unwrap();
+    assert_eq!((times.len(), times[10].as_f64()), (11, Some(1.0)));
+    assert_eq!(frames["overstretched_steps"].as_u64(), Some(0));
+    assert!(!warned.contains("above its limit"), "{warned}");
+    let (long, warned) = run("long.toml");
+    assert!(long["overstretched_steps"].as_u64().unwrap() > 0);
+    assert_eq!(warned.matches("more than 5 % above its limit").count(), 1, "{warned}");
+}
+
+#[test]
 fn a_picture_of_any_frame_is_a_png() {
     let place = place();
     let run = |options: &[&str]| {
