@@ -215,7 +215,7 @@ impl ContactSolver {
         &self.exempt
     }
 
-    /// Sets the bodies that [`yielding`](Self::yielding) returns.
+    /// Sets the bodies whose pairs are exempt.
     pub(crate) fn set_yielding(&mut self, yielding: &[bool]) {
         self.exempt.yielding.copy_from_slice(yielding);
     }

@@ -7,7 +7,7 @@
 //! `drop.toml` with 10 thousand triangles 99 % of the edges are stretched by up to 3.4 % after a second with one sweep. With two
 //! they are stretched by 2.7 %, in 1.1 times the time.
 //!
-//! One iteration moves a pull by one edge, so that finer meshes would be softer. Coarse [`levels`](super::levels) run first to
+//! One iteration moves a pull by one edge, so that finer meshes would be softer. Coarse [`levels`] run first to
 //! prevent this. One implicit step of h solves x − h²(k/ρ)·x″ = y for the inertial prediction y, with ρ the mass per area. A pull
 //! decays by e over the distance h·√(k/ρ). Levels reach [`REACH`] times that distance, where e⁻⁴ remains. A coarser mesh needs no
 //! levels.

@@ -110,7 +110,7 @@ impl Simulation {
         driven.and_then(|driven| driven.placement)
     }
 
-    /// Sets the velocity of the [`Wind`](crate::effects::Wind) from now on, in m/s.
+    /// Sets the velocity of the [`Wind`] from now on, in m/s.
     ///
     /// # Errors
     /// Returns an error if the scene has no wind, or the velocity is not allowed.
