@@ -9,6 +9,7 @@
 //! | [`minifloat`] | a number format of a few bits, in which every input of a grid can be tried |
 //! | [`altered`] | the kernels of core with other constants in their error bounds |
 //! | [`culling`] | the culling tests of core by name, one pair at a time |
+//! | [`witness`] | a checker of the proofs that come with a time of impact |
 //! | [`plain`] | the paper's filter as printed, which is not certified |
 
 pub mod altered;
@@ -19,6 +20,7 @@ pub mod generator;
 pub mod minifloat;
 pub mod oracle;
 pub mod plain;
+pub mod witness;
 
 /// Declares a module with tests in `f32` and in `f64` of a generic function, or of a property with a number of cases and a strategy. The
 /// module has the function's name, or another one: `formats!(name is function(1_000, pairs_of_any_kind()))`.

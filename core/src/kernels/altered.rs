@@ -2,7 +2,7 @@
 //!
 //! The kernels are generic over [`Lanes`], so their source runs on [`Altered`] unchanged.
 
-use crate::elementary::advance::time_of_impact_of_points;
+use crate::elementary::advance::{ROUNDS, time_of_impact_of_points};
 use crate::elementary::{Impact, Limits};
 use crate::lanes::{Lanes, Rounding};
 use crate::motion::PrimitivePair;
@@ -57,7 +57,7 @@ pub fn time_of_impact<C: Constants, S: Scalar>(pair: &PrimitivePair<S>, limits: 
         tolerance: Altered::<C, S>::new(limits.tolerance),
         separation: Altered::new(limits.separation),
     };
-    match of_kind!(pair.kind, P => time_of_impact_of_points::<P, _>(&Altered::points(pair), &limits).0) {
+    match of_kind!(pair.kind, P => time_of_impact_of_points::<P, _>(&Altered::points(pair), &limits, ROUNDS).0) {
         Impact::Never => Impact::Never,
         Impact::Possible { time, reason } => Impact::Possible { time: time.0, reason },
     }

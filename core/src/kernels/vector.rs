@@ -104,6 +104,13 @@ impl<L> From<[L; 3]> for Vector<L> {
     }
 }
 
+impl<L> From<Vector<L>> for [L; 3] {
+    #[inline(always)]
+    fn from(Vector { x, y, z }: Vector<L>) -> Self {
+        [x, y, z]
+    }
+}
+
 impl<L: Lanes> Add for Vector<L> {
     type Output = Self;
 

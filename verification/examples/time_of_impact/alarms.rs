@@ -11,7 +11,7 @@ use selvedge_verification::generator::{Choices, Format, PairCase};
 use selvedge_verification::oracle::{collides, within, within_at};
 
 /// The sources of pairs: those that slide, and all that the tests' generator makes.
-const SOURCES: [&str; 2] = ["sliding", "generated"];
+pub(crate) const SOURCES: [&str; 2] = ["sliding", "generated"];
 
 /// Prints a table of `count` pairs of each source and format. Returns the number of results that break a promise: alarms beyond
 /// the documented distance, and pairs that are excluded but touch.
@@ -43,24 +43,7 @@ struct Counts {
 fn judged<S: Format>(source: &str, count: u64, random: &mut Random) -> u64 {
     let mut counts = Counts::default();
     for index in 0..count as usize {
-        let bytes = random.bytes::<{ Choices::ENOUGH }>();
-        let mut choices = Choices::new(&bytes);
-        let kind = [PairKind::VertexFace, PairKind::EdgeEdge][index % 2];
-        let case = if source == SOURCES[0] {
-            PairCase::<S>::choose_sliding(kind, &mut choices)
-        } else {
-            PairCase::<S>::choose(kind, &mut choices)
-        };
-        // A quarter of the sliding pairs are to keep a separation of about the distance at which they slide.
-        let separation = if source == SOURCES[0] && index % 8 < 2 {
-            S::exact(1, -choices.pick(&[10, 14, 20, 26]))
-        } else {
-            S::ZERO
-        };
-        let limits = Limits {
-            separation,
-            ..Limits::default()
-        };
+        let (case, limits) = chosen::<S>(source, index, random);
         judge(&case, &limits, &mut counts);
     }
     let Counts {
@@ -79,6 +62,29 @@ fn judged<S: Format>(source: &str, count: u64, random: &mut Random) -> u64 {
         counts.long,
     );
     beyond + missed
+}
+
+/// Chooses a pair and its limits.
+pub(crate) fn chosen<S: Format>(source: &str, index: usize, random: &mut Random) -> (PairCase<S>, Limits<S>) {
+    let bytes = random.bytes::<{ Choices::ENOUGH }>();
+    let mut choices = Choices::new(&bytes);
+    let kind = [PairKind::VertexFace, PairKind::EdgeEdge][index % 2];
+    let case = if source == SOURCES[0] {
+        PairCase::<S>::choose_sliding(kind, &mut choices)
+    } else {
+        PairCase::<S>::choose(kind, &mut choices)
+    };
+    // A quarter of the sliding pairs are to keep a separation of about the distance at which they slide.
+    let separation = if source == SOURCES[0] && index % 8 < 2 {
+        S::exact(1, -choices.pick(&[10, 14, 20, 26]))
+    } else {
+        S::ZERO
+    };
+    let limits = Limits {
+        separation,
+        ..Limits::default()
+    };
+    (case, limits)
 }
 
 fn judge<S: Format>(case: &PairCase<S>, limits: &Limits<S>, counts: &mut Counts) {

@@ -39,4 +39,5 @@ mod time_of_impact_is_never_late;
 mod time_of_impact_on_tiny_numbers;
 mod truncated_steps_are_free;
 mod verdicts_are_invariant;
+mod witnesses_prove_what_they_claim;
 mod worlds_are_as_detectors_built_anew;

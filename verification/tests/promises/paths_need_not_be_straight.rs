@@ -4,15 +4,15 @@ use crate::support::environment::Environment;
 use crate::support::geometry::Truth;
 use proptest::prelude::*;
 use rug::{Float, Rational};
-use selvedge_core::elementary::{Impact, Limits};
+use selvedge_core::elementary::{Impact, Limits, Reason};
 use selvedge_core::glam::DVec3;
 use selvedge_core::paths::{Arc, Moment, Path, Piece, Polyline, RigidMotion, geometry, time_of_impact};
 use selvedge_core::{Motion, PairKind};
-use selvedge_verification::generator::{Choices, PairCase, Screw, Simplify, check, from_choices, sliding_pairs};
+use selvedge_verification::generator::{Choices, PairCase, Screw, Simplify, check, from_choices, side_of, sliding_pairs, vector};
 use selvedge_verification::oracle::arcs::{Place, Pose, distance, float, minus, place, plus, times};
-use selvedge_verification::oracle::within;
+use selvedge_verification::oracle::{within, within_at_rest};
 use std::cell::Cell;
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// Two motions, and points of the bodies.
 #[derive(Clone, Debug)]
@@ -311,6 +311,67 @@ fn comes_near_on_polylines(case: &PairCase<f64>) -> Result<(), TestCaseError> {
 #[test]
 fn what_slides_on_polylines_and_is_called_a_contact_comes_near() {
     check(2000, sliding_pairs::<f64>(), comes_near_on_polylines);
+}
+
+/// A pair that slides at the start, on two bodies that move almost alike.
+fn sliding_on_arcs(kind: PairKind) -> impl Strategy<Value = Turning> + Clone {
+    from_choices(move |choices: &mut Choices<'_>| {
+        let points = PairCase::<f64>::choose_sliding(kind, choices).points;
+        let [centre, axis, translation, apart] = [(); 4].map(|()| vector(choices));
+        let angle = choices.pick(&[0.01, 0.3, PI, TAU]);
+        let nearly = 0.5_f64.powi(choices.pick(&[10, 17, 24, 30]));
+        let turn = |translation: DVec3| Screw {
+            centre,
+            axis: axis + DVec3::Z,
+            angle,
+            translation,
+        };
+        Turning {
+            turns: [turn(translation), turn(translation + nearly * apart)],
+            points: points.map(|[start, _]| DVec3::from(start)),
+            time: 0.0,
+        }
+    })
+}
+
+/// Checks that a contact on arcs comes as near as the documentation of [`time_of_impact`] says, and counts the contacts.
+fn comes_near_on_arcs(kind: PairKind, case: &Turning, contacts: &Cell<usize>) -> Result<(), TestCaseError> {
+    let side = |k: usize| side_of(kind, k);
+    let bodies = case.turns.each_ref().map(Screw::motion);
+    let arcs = [0, 1, 2, 3].map(|k| bodies[side(k)].path(case.points[k]));
+    let limits = Limits::default();
+    let impact = time_of_impact(kind, arcs.each_ref().map(|arc| arc as &dyn Path), &limits);
+    let Impact::Possible { time, reason } = impact else {
+        return Ok(());
+    };
+    contacts.set(contacts.get() + 1);
+    let is_near_at = |time: f64, bound: f64| {
+        let poses = case.turns.each_ref().map(|turn| Pose::at_time(turn, time));
+        let exact = |place: Place| place.map(|x| x.to_rational().expect("a finite number"));
+        within_at_rest(kind, &[0, 1, 2, 3].map(|k| exact(poses[side(k)].at(case.points[k]))), bound)
+    };
+    let rounding = 1e-12;
+    if reason == Reason::LastResort {
+        let parts = arcs.each_ref().map(|arc| arc.piece(0.0, 1.0 / 512.0).deviation);
+        let bound = limits.tolerance + 4.0 * parts.into_iter().fold(0.0, f64::max) + rounding;
+        prop_assert!(
+            (0..=128).any(|k| is_near_at(f64::from(k) / 128.0, bound)),
+            "never within {bound:e}"
+        );
+    } else {
+        let bound = 3.0 * limits.tolerance + rounding;
+        prop_assert!(is_near_at(time, bound), "not within {bound:e}: {impact:?}");
+    }
+    Ok(())
+}
+
+#[test]
+fn what_slides_on_arcs_and_is_called_a_contact_comes_near() {
+    for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
+        let contacts = Cell::new(0);
+        check(400, sliding_on_arcs(kind), |case| comes_near_on_arcs(kind, case, &contacts));
+        assert!(contacts.get() > 40, "{kind:?}: {} contacts", contacts.get());
+    }
 }
 
 /// This is the case of parry's issue 317: a plank that spins fast hits a box beside it. The plank is clear of the box when the

@@ -6,7 +6,7 @@
 
 use rug::Integer;
 use selvedge_core::PairKind;
-use selvedge_core::elementary::advance::time_of_impact_of_points;
+use selvedge_core::elementary::advance::{ROUNDS, time_of_impact_of_points};
 use selvedge_core::elementary::{Impact, Limits};
 use selvedge_core::verification::advance::corners::Corners;
 use selvedge_core::verification::advance::directions::{are_apart_curving, are_apart_turning};
@@ -331,7 +331,7 @@ fn random_times<P: PairShape, const ENVIRONMENT: u32>() -> [u64; 2] {
     for _ in 0..3000 {
         let tiny = random_points::<8, ENVIRONMENT>(&mut random);
         let points = pair_points(&tiny);
-        let alone = match time_of_impact_of_points::<P, _>(&points, &limits).0 {
+        let alone = match time_of_impact_of_points::<P, _>(&points, &limits, ROUNDS).0 {
             Impact::Never => None,
             Impact::Possible { time, .. } => Some(time),
         };

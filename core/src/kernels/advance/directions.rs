@@ -35,14 +35,20 @@ pub fn beyond<L: Lanes>(like: L) -> L {
     like.splat(L::Scalar::small(2))
 }
 
+/// Returns the value that a computed coordinate of a corner must exceed to prove that it exceeds `separation`. Such a difference
+/// is off by 2u of itself and 3λ, less than the 8u of the separation and η that are added.
+#[inline(always)]
+pub(crate) fn axis_bar<L: Lanes>(separation: L) -> L {
+    separation * more_roundoffs(separation, 8) + separation.splat(L::Scalar::UNDERFLOW)
+}
+
 impl<L: Lanes, const N: usize> Corners<L, N> {
     /// Returns whether all corners are beyond `separation` along one coordinate axis, on the same side, at both ends of the step.
-    /// These are the [relative boxes](crate::boxes::relative) with a separation. A computed difference is off by 2u of itself and
-    /// 3λ, less than the 8u of the separation and η by which it must exceed it.
+    /// These are the [relative boxes](crate::boxes::relative) with a separation.
     #[inline(always)]
     #[must_use]
     pub fn are_beyond_along_an_axis(&self, separation: L) -> L::Mask {
-        let bar = separation * more_roundoffs(separation, 8) + separation.splat(L::Scalar::UNDERFLOW);
+        let bar = axis_bar(separation);
         let along = |component: fn(&Vector<L>) -> L| {
             let (mut above, mut below) = (everywhere(separation), everywhere(separation));
             for x in self.ends.iter().flatten().map(component) {

@@ -4,6 +4,7 @@ use super::Failure;
 use super::options::{ScalarChoice, Simd, Threads, preset_parser};
 use super::output::{self, OutputFiles};
 use super::progress::Progress;
+use super::witnesses::Step;
 use selvedge::PairKind;
 use selvedge::Topology;
 use selvedge::core::Scalar;
@@ -63,6 +64,10 @@ pub(crate) struct Cull {
     /// Find only the earliest contact (pipeline selvedge only)
     #[arg(long, conflicts_with = "candidates")]
     earliest: bool,
+    /// Write the answer for each pair whose swept boxes overlap, with its proof, to this file (pipeline selvedge only). See
+    /// docs/witnesses.md
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["earliest", "pairs", "candidates", "candidates_only", "swept_boxes", "json", "repeat"])]
+    witnesses: Option<PathBuf>,
     /// Run the step this often and print the fastest run's times. The first run builds the hierarchy and allocates buffers
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     repeat: u32,
@@ -101,6 +106,9 @@ impl Cull {
             return Err("--pairs and --candidates name the same file".into());
         }
 
+        if let Some(path) = &self.witnesses {
+            return self.write_witnesses::<S>(path, step.topology, &start, &end);
+        }
         if let Some((question, option)) = self.question() {
             let is_exact = self.pipeline == Preset::SelvedgeExact && self.swept_boxes;
             if !(self.pipeline == Preset::Selvedge || is_exact) {
@@ -223,6 +231,43 @@ impl Cull {
         summary.preset = self.pipeline;
         let candidates = [&*vertex_face, &*edge_edge];
         self.report(summary, &fastest, detector.topology(), &contacts, candidates)
+    }
+}
+
+impl Cull {
+    /// Writes the answers with their proofs.
+    fn write_witnesses<S: Scalar>(
+        &self,
+        path: &Path,
+        topology: Topology,
+        start: &[S::Vector],
+        end: &[S::Vector],
+    ) -> Result<(), Failure> {
+        if self.pipeline != Preset::Selvedge {
+            return Err(format!("only the pipeline selvedge supports --witnesses, not {}", self.pipeline).into());
+        }
+        OutputFiles::check(path)?;
+        let mut detector = CollisionDetector::<S>::new(topology);
+        detector.set_threads(selvedge::Threads::from_count(self.threads.get()))?;
+        let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
+        detector.candidates(start, end, CandidateBoxes::Swept, &mut vertex_face, &mut edge_edge)?;
+        let step = Step::<S> {
+            topology: detector.topology(),
+            frames: [start, end],
+            pairs: [&vertex_face, &edge_edge],
+        };
+        let mut never = 0;
+        let mut files = OutputFiles::default();
+        {
+            let _progress = Progress::spinner("writing proofs");
+            files.add(path.to_path_buf(), |out| {
+                never = step.write(out)?;
+                Ok(())
+            })?;
+        }
+        files.publish()?;
+        let pairs = vertex_face.len() + edge_edge.len();
+        output::print(&format!("{pairs} pairs: {never} never touch, {} may touch\n", pairs - never))
     }
 }
 

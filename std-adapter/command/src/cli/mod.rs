@@ -15,6 +15,7 @@ mod queries;
 mod scaling;
 mod simulate;
 mod walker;
+mod witnesses;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
