@@ -1,28 +1,29 @@
-//! The separation of a pair that is carried along rigidly: what it can keep where it starts nearer than it should be.
+//! The separation of a pair that is carried along rigidly, if it starts nearer than it should be.
 //!
-//! A simulation asks each pair to keep a separation m. A pair that starts nearer must be asked for less, or no step could be made. It is
-//! asked for m_P = min(m, c·d − 3E), where d is the [lower bound](super::gap::distance_from_below) of its distance at the start along a
-//! direction w, E the [error](GapError) of gaps between all positions of the step, and c = 1 − 10⁻⁵. Then both rigid motions are free:
+//! In a simulation each pair should keep a separation m. A pair that starts nearer must keep less, or no step could be made. It
+//! keeps m_P = min(m, c·d − 3E) with c = 1 − 10⁻⁵. Here d is the [lower bound](super::gap::distance_from_below) of its distance
+//! at the start along a direction w, and E the [error](GapError) of gaps between all positions of the step. Then both rigid
+//! motions are free:
 //!
 //! * **A translation.** The bound at the end, along the same w, exceeds m_P. *Proof.* Let no coordinate exceed B at either end. A
 //!   translation rounds each coordinate once, by at most 2uB, so the exact gap along w changes by at most 2·3·1.01·2uB ≤ 12.2uB. The two
 //!   computed gaps are off by 49uB each. So they differ by at most 110.2uB, which is less than 1.73E. Each bound rounds twice more, by
 //!   shares of 2u, which 1 − c exceeds in both formats. ∎ Gaps along w are linear in time, so the pair keeps more than m_P throughout.
 //! * **A turn by θ.** Halfway along the straight ways of its points, distances are cos(θ/2) of what they were, and never less.
-//!   [`LARGEST_TURN`] keeps cos(θ/2) ≥ 1 − θ²/8 above 1 − ½·10⁻⁵ > c. The rest of 1 − c, and 3E, are there for the rounding of the turn.
+//!   [`LARGEST_TURN`] keeps cos(θ/2) ≥ 1 − θ²/8 above 1 − ½·10⁻⁵ > c. The rest of 1 − c, and 3E, cover the rounding of the turn.
 //!
-//! The first takes the *same* direction at both ends, in full precision. The direction of points d apart has an error of some uB/d, which
-//! tilts a pair of size L by uBL/d: as good as any other. But two such directions differ by that much. For pairs much longer than they are
-//! apart that costs more than a share 1 − c of the distance.
+//! The first proof takes the *same* direction at both ends, in full precision. The direction of points at a distance d has an
+//! error of about uB/d, which tilts a pair of size L by uBL/d. This is as good as any other direction, but two such directions
+//! differ by that much. For pairs much longer than their distance that costs more than a share 1 − c of it.
 //!
-//! No guarantee of freedom rests on m_P: a step is certified with it. What rests on it is that a step in which all is carried along is
-//! accepted, so that a search for a free motion ends. A pair with d ≤ 3E is [nearer than rounding can tell](is_too_near).
+//! No guarantee of freedom depends on m_P: a step is certified with it. It ensures that a step in which all is carried along is
+//! accepted, so that a search for a free motion ends. A pair with d ≤ 3E is [nearer than rounding can distinguish](is_too_near).
 
 use super::gap::GapError;
 use crate::lanes::Rounding;
 use crate::scalar::Scalar;
 
-/// c of the module's documentation.
+/// The share c of a pair's distance that it keeps, if it starts nearer than its separation.
 const KEPT: f64 = 1.0 - 1e-5;
 /// The errors of gaps that a carried pair may lose.
 const LOST_ERRORS: u8 = 3;
@@ -30,8 +31,8 @@ const LOST_ERRORS: u8 = 3;
 /// The largest turn of a body in a step, in radians, that leaves a carried pair its [separation](kept_when_carried).
 pub const LARGEST_TURN: f64 = 6.3e-3;
 
-/// Returns the separation that a pair keeps if it is carried along rigidly, at most `separation`: see the [module](self). `distance` is the
-/// lower bound of its distance at the start. All are lengths in the unit of the positions.
+/// Returns the separation that a pair keeps if it is carried along rigidly, at most `separation`. `distance` is the lower bound
+/// of its distance at the start. All are lengths in the unit of the positions.
 ///
 /// ```
 /// use selvedge_core::separation::{carried::kept_when_carried, gap::GapError};
@@ -47,7 +48,8 @@ pub fn kept_when_carried<S: Scalar>(separation: S, distance: S, error: GapError<
     separation.smaller(kept.larger(S::ZERO))
 }
 
-/// Returns whether a pair with this lower bound of its distance is nearer than rounding can tell, so that it keeps nothing if it is carried.
+/// Returns whether a pair with this lower bound of its distance is nearer than rounding can distinguish, so that it keeps no
+/// distance if it is carried.
 #[inline]
 #[must_use]
 pub fn is_too_near<S: Scalar>(distance: S, error: GapError<S>) -> bool {

@@ -43,7 +43,7 @@ pub enum ExactContact {
 /// Returns all cases, in the order of the file.
 ///
 /// # Panics
-/// If the file, which is part of the program, is not well-formed. A test reads it.
+/// Panics if the file, which is part of the program, is not well-formed. A test reads it.
 #[must_use]
 pub fn hard_cases() -> &'static [HardCase] {
     static CASES: OnceLock<Vec<HardCase>> = OnceLock::new();

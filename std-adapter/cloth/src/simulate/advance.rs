@@ -27,7 +27,7 @@ enum BodyClock {
 }
 
 impl Simulation {
-    /// Does one step.
+    /// Makes one step.
     ///
     /// # Errors
     /// Returns an error if bodies or pins force the cloth where it cannot go without intersecting, and the scene stops then. The
@@ -41,11 +41,11 @@ impl Simulation {
         })
     }
 
-    /// Does one step, or in a scene [by frames](crate::Scene::by_frames) one [frame](Self::advance): the scene's duration is
-    /// [so many](crate::Scene::steps) of them.
+    /// Makes one step, or in a scene [by frames](crate::Scene::by_frames) one [frame](Self::advance).
+    /// [`Scene::steps`](crate::Scene::steps) is their number in the scene's duration.
     ///
     /// # Errors
-    /// As [`step`](Self::step).
+    /// Returns the errors of [`step`](Self::step).
     pub fn run(&mut self) -> Result<(), Blocked> {
         match self.frame {
             None => self.step(),
@@ -53,7 +53,7 @@ impl Simulation {
         }
     }
 
-    /// Does the steps of one frame of so many seconds.
+    /// Makes the steps of one frame of so many seconds.
     ///
     /// # Errors
     /// Returns the errors of [`step`](Self::step).
@@ -74,7 +74,7 @@ impl Simulation {
 
     /// Runs steps of so many seconds in all, during which the caller's bodies and pins move evenly.
     fn drive(&mut self, seconds: f64, steps: impl FnOnce(&mut Self) -> Result<BodyClock, Blocked> + Send) -> Result<(), Blocked> {
-        // Taken out so that they can run what borrows the rest.
+        // The threads are taken out so that they can run code that borrows the rest.
         let threads = std::mem::take(&mut self.threads);
         let clock = self.state.clock;
         for driven in self.made.motions.iter_mut().filter_map(Kinematic::driven_mut) {
@@ -84,7 +84,7 @@ impl Simulation {
         self.is_fresh = false;
         let result = threads.run(|| {
             let result = steps(self);
-            // Frames end where they do, so a multiple may be in the middle of one.
+            // A multiple may be in the middle of a frame.
             if done / CHECKPOINT_STEPS < self.state.step / CHECKPOINT_STEPS {
                 if let Some(contact) = &mut self.made.contact {
                     self.state.begin_anew(contact, self.time_step);
@@ -115,7 +115,7 @@ impl Simulation {
             let blocker = match self.part(left.min(longest), shortest) {
                 Ok(h) => {
                     left = if h < left { left - h } else { 0.0 };
-                    // What follows is likely to need as short a part: tried with twice that, at most.
+                    // The next parts are likely to need to be as short; they are tried with twice that at most.
                     longest = 2.0 * h;
                     continue;
                 }
@@ -125,7 +125,7 @@ impl Simulation {
             match (self.on_blocked, blocker.body, &mut self.made.contact) {
                 (OnBlocked::Yield, Some(body), Some(contact)) => contact.let_pass(body),
                 (OnBlocked::Yield | OnBlocked::Hold, ..) => {
-                    // Without anything that is forced to move a step can always be made.
+                    // If nothing is forced to move, a step can always be made.
                     self.attempt(left, 0.0).map_err(|blocker| self.described(blocker))?;
                     left = 0.0;
                     of_the_step = BodyClock::Waited;
@@ -143,8 +143,8 @@ impl Simulation {
         Ok(of_the_step)
     }
 
-    /// Returns the length of the longest edge over its [limit](crate::effects::StrainLimit); `None` without a limit. If it is more than 1.05 after a
-    /// step, the step was too long: use a shorter one, or [frames](Self::advance).
+    /// Returns the length of the longest edge over its [limit](crate::effects::StrainLimit); `None` without a limit. If it is
+    /// more than 1.05 after a step, use shorter steps, or [frames](Self::advance).
     #[must_use]
     pub fn longest_over_limit(&self) -> Option<f64> {
         let limiting = self.made.bounding.iter().map(|&index| &self.made.constraints[index].action);
@@ -152,8 +152,8 @@ impl Simulation {
         over.reduce(f64::max)
     }
 
-    /// Goes on by as much of `left` seconds as possible: returns how much. Half of it if that fails, and so on, but not by less than
-    /// `shortest`.
+    /// Advances by as much of `left` seconds as possible, and returns how much. It tries half of it if that fails, and so on, but
+    /// not less than `shortest`.
     fn part(&mut self, left: f64, shortest: f64) -> Result<f64, Blocker> {
         let mut h = self.without_large_turn(left);
         loop {
@@ -169,8 +169,8 @@ impl Simulation {
         }
     }
 
-    /// `h`, halved until no body or pin turns by more in that time than contact can certify. A body that is [far](Self::is_far) from all cloth may turn
-    /// as it likes.
+    /// Returns `h`, halved until no body or pin turns by more in that time than contact can certify. A body that is
+    /// [far](Self::is_far) from all cloth may turn by any angle.
     fn without_large_turn(&self, mut h: f64) -> f64 {
         if self.made.contact.is_none() {
             return h;

@@ -2,9 +2,10 @@
 //!
 //! A step is good if little happens in it. Two measures are known before it is made:
 //!
-//! * **Stiffness.** A step passes a pull on once, over the mesh and its [levels](crate::effects), whatever the stiffness and the mesh. So the stretch that
-//!   is left grows with the square of the step: by the forces of a step, which move a vertex by g·h². Sheets of 1.3 and 10 thousand triangles with a
-//!   strain limit that are dropped on a ball keep within a few percent of it at steps of 4 ms, and at no longer ones. So none is longer than [`LONGEST_STEP_OF_FRAME`].
+//! * **Stiffness.** A step passes a pull on once, over the mesh and its [levels](crate::effects), whatever the stiffness and the
+//!   mesh. So the remaining stretch grows with the square of the step, like the move g·h² of a vertex by the forces. Sheets of
+//!   1.3 and 10 thousand triangles with a strain limit that are dropped on a ball stay within a few percent of it at steps of 4
+//!   ms, but not at longer ones. So no step is longer than [`LONGEST_STEP_OF_FRAME`].
 //! * **Speed.** Contacts push along directions at the start of a step, which turn where cloth passes a face. So nothing near the
 //!   cloth moves more than [`FARTHEST`] of the cloth's mean edge in a step, relative to the mean of the cloth.
 //!
@@ -18,9 +19,9 @@ use crate::scene::LONGEST_STEP_OF_FRAME;
 use crate::scene::steps_of_frame;
 use selvedge_core::glam::DVec3;
 
-/// How far anything goes in a step at most, in mean edges.
+/// The largest way near the cloth in a step, in mean edges.
 const FARTHEST: f64 = 0.5;
-/// Most steps of a frame, unless the caller says otherwise.
+/// The largest number of steps of a frame, unless the caller gives another one.
 pub(super) const MOST_STEPS: u32 = 64;
 const SECONDS: Field = Field::new("seconds", TIME, 1e-6, 1.0);
 

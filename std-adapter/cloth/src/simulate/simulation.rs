@@ -48,7 +48,7 @@ pub struct Simulation {
     pub(super) time_step: f64,
     /// The length of a frame in seconds, in a scene by frames.
     pub(super) frame: Option<f64>,
-    /// True if contact knows nothing but the state, as after a checkpoint.
+    /// True if contact has no data besides the state, as after a checkpoint.
     pub(super) is_fresh: bool,
     pub(super) fingerprint: u64,
     pub(super) cloth_names: Vec<String>,

@@ -392,7 +392,8 @@ const SMALLEST_EDGE: f64 = 1e-5;
 /// The area of the smallest triangle, in m²: that of a square with such edges.
 const SMALLEST_AREA: f64 = SMALLEST_EDGE * SMALLEST_EDGE;
 
-/// In metres. Contact keeps less than that from the opposite edge, and cannot tell vertices apart that are nearer.
+/// The smallest height of a triangle, in metres. Contact keeps less than that from the opposite edge, and cannot distinguish
+/// nearer vertices.
 const SMALLEST_HEIGHT: f64 = 1e-6;
 
 /// Checks that no triangle is too small, and none so thin that contact blocks the cloth.

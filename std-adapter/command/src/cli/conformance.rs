@@ -5,10 +5,10 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::{Command, ExitCode};
 
-/// Puts collision libraries to the conformance suite: hard cases with exact answers
+/// Runs the conformance suite on collision libraries: hard cases with exact answers
 ///
-/// Runs the suite's own program with Python 3. It installs each runner into an environment of its own, asks it every case, and writes
-/// scores, pages that lead to each wrong answer, and a plot of accuracy against time.
+/// Starts the suite's program, which needs Python 3. It installs each runner into a separate environment, and gives it every case. It
+/// writes scores, pages that lead to each wrong answer, and a plot of accuracy against time.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples, in a clone of the repository:

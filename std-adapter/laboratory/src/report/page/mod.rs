@@ -162,7 +162,7 @@ fn summary(recording: &Recording) -> String {
     summary
 }
 
-/// Events that mean trouble: steps that could not be made as they were.
+/// Events that show problems: steps that could not be made unchanged.
 const TROUBLE: [&str; 4] = [
     "vertices held back",
     "times cut in half",
