@@ -298,7 +298,7 @@ def inequalities(kind, points):
 
 
 def comes_within(kind, points, squared):
-    """Whether the pair comes within a distance, given its square."""
+    """Returns whether the pair comes within a distance, given its square."""
     for over, under, inside in inequalities(kind, points):
         near = sub(scaled(over, squared.denominator), scaled(under, squared.numerator))
         conditions = [near] + inside
@@ -309,7 +309,7 @@ def comes_within(kind, points, squared):
 
 
 def apart_by(sides, distance):
-    """Whether an axis keeps the two sides farther apart than the distance throughout."""
+    """Returns whether an axis keeps the two sides farther apart than the distance throughout."""
     for x in range(3):
         bounds = [[(min(v), max(v)) for v in zip(*((sum(p[x][:1]), sum(p[x])) for p in side))] for side in sides]
         for one, other in (bounds, bounds[::-1]):
@@ -335,7 +335,7 @@ def triangle_pairs(a, b):
 
 
 def triangles_meet(a, b):
-    """Whether two closed triangles at rest meet. Their points are constant."""
+    """Returns whether two closed triangles at rest meet. Their points are constant."""
     if any(contacts(*pair) for pair in triangle_pairs(a, b)):
         return True
     for one, other in ((a, b), (b, a)):
@@ -383,7 +383,7 @@ def read_case(case):
 
 
 def fault(case):
-    """What is wrong with the label of a case, or None."""
+    """Returns the error in the label of a case, or None."""
     if case["touches"] is None:
         finite = all(abs(x) < float("inf") for p in numbers(case["start"] + case.get("end", [])) for x in p)
         return "all numbers are finite" if finite else None

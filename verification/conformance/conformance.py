@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Asks collision libraries the cases of the suite, and scores their answers.
+"""Gives collision libraries the cases of the suite, and scores their answers.
 
     conformance.py --list
     conformance.py RUNNER... [--out FOLDER]
@@ -50,7 +50,7 @@ def cases(paths=None):
 
 
 def question_line(case):
-    """What a runner reads: the question without its answer, in one line."""
+    """Returns the line that a runner reads: the question without its answer."""
     words = [case["id"].replace(" ", "_"), case["question"], case["format"]]
     if "faces" in case:
         words += [len(case["start"]), len(case["faces"]), case.get("split", 0)]
@@ -66,7 +66,7 @@ def run(command, folder, **variables):
 
 
 def installed(runner, cache):
-    """The command that starts a runner. Installs it if that has not been done."""
+    """The command that starts a runner. Installs it on first use."""
     wanted, folder = runner["install"], runner["folder"]
     place = cache / folder.name
     stamp, text = place / "installed.json", json.dumps(wanted)

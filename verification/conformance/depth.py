@@ -1,4 +1,4 @@
-"""How deep a contact is: a share of the size by which one side can be moved without ending it. For scores, not for labels."""
+"""Measures the depth of a contact: a share of the size by which one side can be moved without ending it. Scores use it, labels do not."""
 
 from itertools import product
 

@@ -26,7 +26,7 @@ def empty():
 
 
 def judge(case, row, runner):
-    """What is wrong with an answer: (fault or None, counts to raise, details)."""
+    """Returns the error in an answer: (fault or None, counts to raise, details)."""
     verdict = row["verdict"]
     if verdict in ("hang", "crash"):
         return verdict, [verdict], {}
