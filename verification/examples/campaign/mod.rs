@@ -67,7 +67,7 @@ impl Options {
 }
 
 /// Resumes the kept state, or starts `fresh` with a seed, and runs to the end. `run` gets a function to call with each state that
-/// may be kept. Prints the findings, and returns the exit status: 0 nothing is wrong, 1 something is wrong, or a file is invalid.
+/// may be kept. Prints the findings, and returns the exit status: 0 if nothing is wrong, 1 if something is or a file is invalid.
 pub(crate) fn exit<F>(
     options: &Options,
     fresh: impl Fn(u64) -> Progress<F>,

@@ -622,8 +622,8 @@ formats!(narrowing_exchanges_no_two_numbers_in_any_environment(
     pairs_of_any_kind()
 ));
 
-/// Returns (a·b)(e·e) − (a·e)(b·e) for the vectors from the first point to the others, with e to the second: less than zero
-/// beyond a right angle.
+/// Returns (a·b)(e·e) − (a·e)(b·e), which is negative beyond a right angle. The vectors lead from the first point to the others,
+/// e to the second.
 fn across<S: Format>([v, others @ ..]: [[S; 3]; 4]) -> Rational {
     let exact = |x: S| Rational::from_f64(x.to_f64()).expect("finite");
     let way = |point: [S; 3]| [0, 1, 2].map(|axis| exact(point[axis]) - exact(v[axis]));
