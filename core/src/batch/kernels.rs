@@ -49,14 +49,14 @@ pub(super) fn by_test<S: Scalar>(level: Level, kind: PairKind, test: Test, pairs
     in_format!(pairs, by_test(level, kind, test))
 }
 
-/// Returns the same for a test that is compiled where it is called.
+/// Returns the pairs that a test of points culls. The test is compiled where it is called.
 #[cfg(feature = "verification")]
 #[inline(always)]
 pub(super) fn by_points<S: Scalar>(level: Level, kind: PairKind, test: impl PointsTest, pairs: Sixteen<'_, S>) -> Option<Mask> {
     in_format!(pairs, by_points(level, kind, test))
 }
 
-/// Returns the same for a test of volumes.
+/// Returns the pairs that a test of volumes culls. The test is compiled where it is called.
 #[cfg(feature = "verification")]
 #[inline(always)]
 pub(super) fn by_volume<S: Scalar>(

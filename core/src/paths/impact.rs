@@ -68,7 +68,8 @@ pub(super) fn of_both_sides(kind: PairKind, [a, b, c, d]: [f64; 4]) -> f64 {
     first + second + unknown
 }
 
-/// Returns the same for a part of the step, from its first time to its second: [`Impact::Never`] concerns that part only.
+/// Returns the time of impact in a part of the step, from its first time to its second: [`Impact::Never`] concerns that part
+/// only.
 ///
 /// If the times are not in [0, 1], or do not ascend, nothing is excluded from time 0 on.
 pub(super) fn between(kind: PairKind, paths: [&dyn Path; 4], limits: &Limits<f64>, [mut from, end]: [f64; 2]) -> Impact<f64> {

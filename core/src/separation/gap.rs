@@ -245,7 +245,7 @@ impl SeparatingDirection {
         Self::rounded(direction).keeps(kind, [start, end], separation, error)
     }
 
-    /// Returns the same for this direction; its own gap does not matter.
+    /// Returns this direction with its gap at the end, if it certainly keeps the pair apart as in [`for_step`](Self::for_step).
     #[inline]
     #[must_use]
     pub fn keeps<P: Position>(
@@ -260,7 +260,8 @@ impl SeparatingDirection {
         (gap > threshold && self.gap_at(kind, start) > threshold).then(|| self.with_gap(gap - error.0))
     }
 
-    /// Returns the same if the gap is valid at the start: only the end is computed.
+    /// Returns this direction with its gap at the end, like [`keeps`](Self::keeps), if the stored gap is valid at the start. It
+    /// computes only the gap at the end.
     #[inline(always)]
     #[must_use]
     pub fn lasts<P: Position>(

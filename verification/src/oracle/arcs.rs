@@ -15,7 +15,7 @@ pub fn float(x: f64) -> Float {
     Float::with_val(BITS, x)
 }
 
-/// Returns the same point.
+/// Converts a point exactly.
 #[must_use]
 pub fn place(point: DVec3) -> Place {
     point.to_array().map(float)

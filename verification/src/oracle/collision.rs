@@ -88,7 +88,7 @@ fn touches(kind: PairKind, motion: &Motion, t: &Rational) -> bool {
     }
 }
 
-/// Decides the same at a time when the four points are coplanar.
+/// Decides whether the sets touch at a time when the four points are coplanar.
 fn touches_when_coplanar<R: Ring>(kind: PairKind, signs: &mut impl Signs<R>, [a, b, c, d]: &[Point<R>; 4]) -> bool {
     match kind {
         PairKind::VertexFace => coplanar_point_in_triangle(signs, a, [b, c, d]),

@@ -7,7 +7,7 @@ use std::cmp::Ordering::{self, Greater, Less};
 
 type Point = [Rational; 3];
 
-/// Returns the same number.
+/// Converts a finite number exactly.
 ///
 /// # Panics
 /// Panics if it is not finite.

@@ -87,7 +87,7 @@ pub trait Constraint: Debug + Send + Sync {
         None
     }
 
-    /// Returns the same state for changes.
+    /// Returns the state for changes.
     fn memory_mut(&mut self) -> Option<&mut dyn Memory> {
         None
     }

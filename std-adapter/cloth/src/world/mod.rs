@@ -55,7 +55,7 @@ impl<'a> SceneParts<'a> {
         })
     }
 
-    /// Returns the same parts for an effect that acts on one of the cloths.
+    /// Returns these parts for an effect that acts on one of the cloths.
     pub(crate) fn of_cloth(self, cloth: Option<usize>) -> Self {
         Self {
             cloth: cloth.map_or(self.cloth, |cloth| &self.cloths[cloth]),
@@ -72,7 +72,7 @@ impl<'a> SceneParts<'a> {
         })
     }
 
-    /// Returns the same ranges before any cloth tore. Settings of effects use these numbers.
+    /// Returns the range of each cloth's vertices before any cloth tore. Settings of effects use these numbers.
     pub(crate) fn vertices_as_made(self) -> impl Iterator<Item = Range<usize>> + use<'a> {
         self.cloths.iter().scan(0, |end, cloth| {
             let first = *end;

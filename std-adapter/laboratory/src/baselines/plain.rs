@@ -31,7 +31,7 @@ impl PointsTest for Plain {
     }
 }
 
-/// Makes the same decision on any number of lanes.
+/// Makes the decision of [`non_coplanarity`] on any number of lanes.
 #[inline(always)]
 #[must_use]
 pub fn has_one_sign<P: PairShape, L: Lanes>(points: &PairPoints<L>) -> L::Mask {
