@@ -48,7 +48,7 @@ pub fn kept_when_carried<S: Scalar>(separation: S, distance: S, error: GapError<
     separation.smaller(kept.larger(S::ZERO))
 }
 
-/// Returns whether a pair with this lower bound of its distance is nearer than rounding can distinguish, so that it keeps no
+/// Returns whether a pair with this lower bound of its distance is nearer than rounding can distinguish. Then it keeps no
 /// distance if it is carried.
 #[inline]
 #[must_use]

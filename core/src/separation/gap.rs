@@ -231,8 +231,8 @@ impl SeparatingDirection {
         }
     }
 
-    /// Returns `direction` with its gap at the end, if it certainly keeps the pair more than `separation` apart on straight ways
-    /// from the start to the end. The direction is rounded first, so the returned one is the proof.
+    /// Returns `direction` with its gap at the end, if it certainly keeps the pair more than `separation` apart on straight ways.
+    /// The direction is rounded first, so the returned one is the proof.
     #[inline]
     #[must_use]
     pub fn for_step<P: Position>(

@@ -3,8 +3,8 @@
 //! A contact's time lies a little before the pair touches. So its closest points are near each other, and the way between them is
 //! mostly rounding. The normal does not come from that way alone: directions perpendicular to the features are tried as well. A
 //! direction is taken only if it **certainly kept the pair apart** at the time of contact, or shortly before
-//! ([`gap`](super::gap)). Up to the first contact, a normal therefore points from the second side to the first as they were
-//! before, in any numbering of the vertices. At a time after a pair has passed through each other, it points as they lie then.
+//! ([`gap`](super::gap)). So up to the first contact, a normal points from the second side to the first as they were before, in
+//! any numbering of vertices. At a time after a pair has passed through each other, it points as they lie then.
 //!
 //! # Guarantees
 //! These hold for positions of at most 2¹⁰²⁰ in magnitude and a time in [0, 1], in every floating-point environment. B is the

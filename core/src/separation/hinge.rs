@@ -1,10 +1,10 @@
 //! Two triangles with a common edge: a test that excludes contact beside it.
 //!
-//! Let e = u − v be the edge, and a and b the ways from v to the opposite corners. The part perpendicular to e of any point of
-//! the first triangle is that of a times a weight in [0, 1], which is zero only on the edge. For the second triangle it is that
-//! of b. A common point has both: s·a⊥ = t·b⊥. Where a⊥·b⊥ < 0, the product with a⊥ gives s = 0, and the one with b⊥ gives t = 0,
-//! so the point is on the edge. So two triangles that are **wide open**, by more than a right angle, need no further test; flat
-//! ones above all. Since a⊥·b⊥·(e·e) = (a·b)(e·e) − (a·e)(b·e), only a sign is needed.
+//! Let e = u − v be the edge, and a and b the ways from v to the opposite corners. Any point of the first triangle has a part
+//! perpendicular to e: that of a times a weight in [0, 1], which is zero only on the edge. For the second triangle it is that of
+//! b. A common point has both: s·a⊥ = t·b⊥. Where a⊥·b⊥ < 0, the product with a⊥ gives s = 0, and the one with b⊥ gives t = 0, so
+//! the point is on the edge. So two triangles that are **wide open**, by more than a right angle, need no further test; flat ones
+//! above all. Since a⊥·b⊥·(e·e) = (a·b)(e·e) − (a·e)(b·e), only a sign is needed.
 //!
 //! # Rounding
 //! An operation errs by ε = 2u in any rounding direction. Each monomial passes through four differences, three operations of each

@@ -14,8 +14,8 @@
 //! **From a base.** The step may begin at another place than x, which is then a *base* from which its points continue towards y.
 //! Then only the start needs a further test. If d keeps the pair more than m apart there too, the sets are at least m apart
 //! throughout the step from there to e. *Proof.* The statement about the end of the way from x to y concerns e alone, and
-//! straight ways from any start are linear in time. ∎ So a step that cannot go from its start towards y first goes to a base that
-//! is free, and from there as far as it can.
+//! straight ways from any start are linear in time. ∎ A step that cannot go from its start towards y first goes to a free base,
+//! and from there as far as it can.
 //!
 //! A vertex takes the least of its shares over all of its pairs; their order does not matter. Only d is shared by both ends, and
 //! o belongs to the end, so points that move together are not held back. Where d keeps the pair apart at y too, o is chosen so

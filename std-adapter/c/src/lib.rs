@@ -15,7 +15,7 @@
 //! ```
 //!
 //! This crate holds all `unsafe` code of the project. Its functions rely on one promise of the caller. A pointer that is neither
-//! null nor misaligned points to as many items as the count says, and no other thread writes to them during the call.
+//! null nor misaligned points to as many items as the count says. No other thread writes to them during the call.
 
 #![deny(unsafe_op_in_unsafe_fn, clippy::undocumented_unsafe_blocks)]
 // C can only call public functions. Rust code cannot name them.

@@ -3,8 +3,8 @@
 //! wasm-bindgen writes the JavaScript and the TypeScript declarations from this crate. Both take their comments from here, so the comments
 //! name things as JavaScript does. Lengths are in the caller's unit for a [`Detector`], and SI units hold in a [`Simulation`].
 //!
-//! A typed array that a getter of positions returns is a view of the module's memory. It is valid until the next call of the object that it
-//! came from, and as long as the memory does not grow: read it, draw it or copy it at once. All other arrays are the caller's own.
+//! A typed array that a getter of positions returns is a view of the module's memory. It is valid until the next call of its
+//! object, and as long as the memory does not grow. Read, draw or copy it at once. All other arrays are the caller's own.
 
 mod detector;
 mod pair;

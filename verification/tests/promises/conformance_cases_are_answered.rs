@@ -1,5 +1,6 @@
-//! Selvedge answers every case of the conformance suite: no contact is missed, no time is late, and no pair that stays farther apart
-//! than documented is reported. In `f64` and `f32`, one pair alone, side by side on every instruction set, and by a detector.
+//! Selvedge answers every case of the conformance suite. No contact is missed, no time is late, and no pair is reported that
+//! stays farther apart than documented. This holds in `f64` and `f32`, for one pair alone, side by side on every instruction set,
+//! and by a detector.
 
 use rug::Rational;
 use selvedge::simd::available_levels;

@@ -344,8 +344,8 @@ fn with_rounding<S: Format>(near: Rational, roundoffs: u32, sizes: Rational) -> 
 
 formats!(comes_as_near_as_its_reason_says is comes_near(12_000, questions()));
 
-/// Checks that a pair which is undecided after this many rounds comes within the separation, the rounding, and the part of the
-/// longest way of a corner that one round takes.
+/// Checks how near a pair comes that is undecided after this many rounds: within the separation, the rounding, and the part of
+/// the longest way of a corner that one round takes.
 fn comes_near_at_last<S: Format>(question: &Question<S>, rounds: u32) -> Result<(), TestCaseError> {
     let [first, second] = question.pair.sets();
     let way = |one: &[[S; 3]; 2], other: &[[S; 3]; 2]| {

@@ -171,8 +171,8 @@ fn a_pair_keeps_its_separation_for_all_smaller_shares() {
     assert!(from_a_base.get() > 100, "{}", from_a_base.get());
 }
 
-/// A pair that is carried along rigidly keeps what it is asked for, by the bound where it is translated and by exact arithmetic where it
-/// turns, however near it starts.
+/// A pair that is carried along rigidly keeps the required distance, however near it starts. The bound shows this for
+/// translations, exact arithmetic for turns.
 #[test]
 fn a_pair_that_is_carried_along_keeps_its_separation() {
     let kept_any = Cell::new(0);

@@ -57,7 +57,7 @@ impl<S> Witness<S> {
 /// Returns the time from which the pair may be within the separation, and a proof that it is farther apart before.
 ///
 /// For [`Impact::Never`] the proof lasts to the end of the step, otherwise to the time returned. The answer is that of
-/// [`time_of_impact`](super::time_of_impact), except where that takes more than [`ROUNDS`] rounds: there it is
+/// [`time_of_impact`](super::time_of_impact), except if that takes more than [`ROUNDS`] rounds. Then it is
 /// [`LastResort`](super::Reason::LastResort), with the time that this many rounds prove.
 ///
 /// ```

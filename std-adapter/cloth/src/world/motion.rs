@@ -20,8 +20,8 @@ pub enum BodyMotion {
 
 impl BodyMotion {
     /// # Errors
-    /// Returns an error if a motion turns or jumps too far in a step, a number is out of range, or the number of vertices is
-    /// wrong.
+    /// Returns an error if a motion turns or jumps too far in a step, or has a number out of range or the wrong number of
+    /// vertices.
     pub(crate) fn check(&self, vertices: usize, time_step: f64) -> Result<(), ValueError> {
         match self {
             Self::Keyframes(motion) => motion.check(time_step),

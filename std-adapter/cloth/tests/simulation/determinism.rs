@@ -56,7 +56,8 @@ fn a_simulation_resumed_at_any_checkpoint_goes_on_with_the_same_bits() {
     }
 }
 
-/// A scene without a time step runs by frames, whose steps differ in number: a checkpoint comes after some frame, not after a round number of steps.
+/// A scene without a time step runs by frames, whose steps differ in number. So a checkpoint comes after a frame, not after a
+/// round number of steps.
 #[test]
 fn frames_of_a_scene_without_a_time_step_have_the_same_bits_on_any_threads_and_after_a_resume() {
     let load = |threads| load("drop.toml", |text| text.replace("time_step = \"1 ms\"\n", ""), threads);
