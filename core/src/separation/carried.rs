@@ -20,7 +20,6 @@
 //! accepted, so that a search for a free motion ends. A pair with d ≤ 3E is [nearer than rounding can distinguish](is_too_near).
 
 use super::gap::GapError;
-use crate::lanes::Rounding;
 use crate::scalar::Scalar;
 
 /// The share c of a pair's distance that it keeps, if it starts nearer than its separation.
