@@ -113,8 +113,8 @@ impl Body {
             BodyShape::Capsule => &["from", "to", "radius", "around"],
             BodyShape::Ball => &["centre", "radius", "around"],
             BodyShape::File => &shapes::FILE_KEYS,
-            BodyShape::Frames => &["files", "frames_per_second", "start", "scale", "unit"],
-            BodyShape::Figure => &["file", "node", "animation", "start", "scale", "unit"],
+            BodyShape::Frames => &["files", "frames_per_second", "start", "scale", "unit", "rotation", "translation"],
+            BodyShape::Figure => &["file", "node", "animation", "start", "scale", "unit", "rotation", "translation"],
         };
         let motion: &[&str] = match shape {
             BodyShape::Frames | BodyShape::Figure => &[],
@@ -149,8 +149,8 @@ impl Body {
         let MeshSequence {
             triangles, mut frames, ..
         } = read.map_err(|error| table.error("files", error.to_string()))?;
-        let scale = shapes::scale(table)?;
-        frames.iter_mut().flatten().for_each(|position| *position *= scale);
+        let placement = shapes::placement(table)?;
+        frames.iter_mut().for_each(|frame| shapes::place(&placement, frame));
         let animation = Animation::from_frames(frames, rate);
         Self::read_animated(name, table, time_step, triangles, animation, "files")
     }
@@ -176,7 +176,7 @@ impl Body {
                 format!("{file}: not all of the file can be read: {part}; export it as plain triangles"),
             ));
         }
-        let figure = figure.scaled(shapes::scale(table)?);
+        let figure = figure.transformed(shapes::placement(table)?);
         let triangles = figure.mesh().triangles.clone();
         Self::read_animated(name, table, time_step, triangles, Animation::from_figure(figure), "file")
     }

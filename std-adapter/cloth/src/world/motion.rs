@@ -78,9 +78,9 @@ const CLOSEST_KEYS: f64 = 1e-6;
 const FASTEST_TURN: f64 = 6.0;
 
 const PIVOT: Field = Field::vector("pivot", LENGTH, LARGEST_COORDINATE);
-const AXIS: Field = Field::vector("axis", RATIO, LARGEST_COORDINATE);
+pub(super) const AXIS: Field = Field::vector("axis", RATIO, LARGEST_COORDINATE);
 pub(crate) const KEY_TIME: Field = Field::new("time", TIME, 0.0, LARGEST_TIME);
-const KEY_ANGLE: Field = Field::new("angle", ANGLE, -1e4, 1e4);
+pub(super) const KEY_ANGLE: Field = Field::new("angle", ANGLE, -1e4, 1e4);
 
 /// A rigid motion at one time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -91,6 +91,12 @@ pub struct Keyframe {
     pub angle: f64,
     /// The translation since the start, in metres.
     pub translation: DVec3,
+}
+
+/// Returns an axis of length one.
+pub(super) fn unit_axis(axis: DVec3) -> Result<DVec3, ValueError> {
+    let zero = || ValueError::new(AXIS.name, "`axis` must not be zero: it is the direction to turn about");
+    axis.try_normalize().ok_or_else(zero)
 }
 
 /// Checks that a keyframe at `time`, in seconds, may follow one at the time `last`.
@@ -158,12 +164,7 @@ impl KeyframeMotion {
     /// # Errors
     /// Returns an error if the axis is zero. [`Scene::check`](crate::Scene::check) finds all other errors.
     pub fn new(pivot: DVec3, axis: DVec3, keyframes: Vec<Keyframe>) -> Result<Self, ValueError> {
-        let Some(axis) = axis.try_normalize() else {
-            return Err(ValueError::new(
-                AXIS.name,
-                "`axis` must not be zero: it is the direction to turn about",
-            ));
-        };
+        let axis = unit_axis(axis)?;
         Ok(Self { pivot, axis, keyframes })
     }
 

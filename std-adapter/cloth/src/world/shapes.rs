@@ -1,10 +1,12 @@
 //! Meshes of simple shapes, and from files. Simple shapes have the same bits on every platform, since `libm` computes their
 //! sines.
 
+use super::motion::{AXIS, KEY_ANGLE, unit_axis};
+use super::placement::{Placement, TRANSLATION};
 use crate::input::{Field, LARGEST_COORDINATE, LENGTH, RATIO, SceneError, Table, ValueError};
 use libm::{cos, sin};
 use selvedge::Mesh;
-use selvedge_core::glam::DVec3;
+use selvedge_core::glam::{DAffine3, DVec3};
 use selvedge_files::mesh::{self, FileProblem, LooseMesh, MeshError, ReadOptions};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::path::PathBuf;
@@ -107,7 +109,7 @@ pub(crate) fn capsule([from, to]: [DVec3; 2], radius: f64, around: u32) -> Mesh 
 }
 
 /// The keys of a shape "file" that say how the file is read.
-pub(crate) const FILE_KEYS: [&str; 5] = ["file", "group", "scale", "unit", WELD.name];
+pub(crate) const FILE_KEYS: [&str; 7] = ["file", "group", "scale", "unit", "rotation", "translation", WELD.name];
 
 const SCALE: Field = Field::new("scale", RATIO, 1e-6, 1e6);
 const WELD: Field = Field::new("weld", LENGTH, 0.0, 0.1);
@@ -184,8 +186,8 @@ fn read_file(table: &Table<'_>, loose_features: bool) -> Result<(Mesh, Vec<[u32;
         return Err(wrong(message));
     }
     let triangles = topology.proper_triangles().to_vec();
-    let scale = scale(table)?;
-    let positions = positions.into_iter().map(|position| position * scale).collect();
+    let mut positions = positions;
+    place(&placement(table)?, &mut positions);
     let (mut mesh, mut edges) = (Mesh { positions, triangles }, topology.loose_edges().collect());
     if let Some(tolerance) = table.number(&WELD)? {
         (mesh, edges) = welded(&mesh, edges, tolerance);
@@ -197,9 +199,24 @@ fn read_file(table: &Table<'_>, loose_features: bool) -> Result<(Mesh, Vec<[u32;
     Ok((mesh, edges))
 }
 
-/// Reads the length of the file's unit in metres.
-pub(super) fn scale(table: &Table<'_>) -> Result<f64, SceneError> {
-    Ok(table.number(&SCALE)?.unwrap_or(1.0) * table.choice("unit", &UNITS)?.unwrap_or(1.0))
+/// Reads the way from the positions of a file to those of the scene, in metres: `unit` and `scale`, then `rotation`, then `translation`.
+pub(super) fn placement(table: &Table<'_>) -> Result<DAffine3, SceneError> {
+    let scale = table.number(&SCALE)?.unwrap_or(1.0) * table.choice("unit", &UNITS)?.unwrap_or(1.0);
+    let mut placement = Placement::at(table.vector(&TRANSLATION)?.unwrap_or_default());
+    if let Some(rotation) = table.table("rotation")? {
+        rotation.expect_keys(&[AXIS.name, KEY_ANGLE.name])?;
+        let axis = unit_axis(rotation.required_vector(&AXIS)?).map_err(|error| rotation.placed(&error))?;
+        placement = Placement::default().on(axis, rotation.required_number(&KEY_ANGLE)?, placement.translation);
+    }
+    let Placement { rotation, translation } = placement;
+    Ok(DAffine3::from_scale_rotation_translation(DVec3::splat(scale), rotation, translation))
+}
+
+/// Moves positions of a file to where they are in the scene. Without a placement all bits stay.
+pub(super) fn place(placement: &DAffine3, positions: &mut [DVec3]) {
+    if *placement != DAffine3::IDENTITY {
+        positions.iter_mut().for_each(|position| *position = placement.transform_point3(*position));
+    }
 }
 
 /// Merges vertices within a distance, in metres.

@@ -1,5 +1,6 @@
 //! Meshes of files in scenes, with their groups, units and seams, and figures that share an animation.
 
+use selvedge_cloth::glam::DVec3;
 use selvedge_cloth::{BodyMotion, Scene, Simulation};
 use std::fs;
 use std::path::Path;
@@ -44,7 +45,15 @@ fn a_file_is_read_in_its_unit_with_its_seams_merged_and_a_group_alone() {
     assert_eq!(size("unit = \"cm\"\ngroup = \"upper\""), (3, 1, 1.0));
     assert_eq!(size("group = \"pocket\"\nweld = 0"), (3, 1, 50.0));
 
+    // Scaled, then turned about x, so that y goes up, then moved.
+    let turned = "unit = \"cm\"\nrotation = { axis = [2, 0, 0], angle = \"90 deg\" }\ntranslation = [0, \"50 cm\", 3]";
+    let placed = scene(&folder, &format!("shape = \"file\"\nfile = \"square.obj\"\n{turned}"), "").unwrap();
+    let corners = &placed.cloths[0].mesh().positions;
+    assert!(corners[2].distance(DVec3::new(1.0, 0.5, 4.0)) < 1e-15 && corners[6].distance(DVec3::new(0.0, 0.41, 3.0)) < 1e-15);
+
     let refused = |keys: &str| scene(&folder, &format!("shape = \"file\"\nfile = \"square.obj\"\n{keys}"), "").unwrap_err();
+    assert!(refused("rotation = { axis = [0, 0, 0], angle = 1 }").starts_with("F/scene.toml:7:21: `axis` must not be zero"));
+    assert!(refused("rotation = { axis = [0, 0, 1] }").contains("`angle`"));
     let message = "F/scene.toml:7:9: F/square.obj: there is no group or object 'hood'; choose from 'lower', 'upper', 'pocket'";
     assert_eq!(refused("group = \"hood\""), message);
     assert!(refused("unit = \"yard\"").starts_with("F/scene.toml:7:8: `unit` cannot be 'yard'"));
@@ -117,6 +126,10 @@ fn nodes_of_one_animation_keep_one_clock() {
     let later = [along("node = \"A\"\nstart = 1"), along("node = \"B\"\nstart = 1")];
     assert_eq!([later[0](1.75), later[1](1.75)].concat(), [0.75, 0.25]);
     assert_eq!(along("unit = \"cm\"")(1.0), [0.01, 0.005]);
+    assert_eq!(along("translation = [3, 0, 0]\nscale = 2")(1.0), [5.0, 4.0]);
+    // Half a turn about z.
+    let turned = along("rotation = { axis = [0, 0, 1], angle = \"180 deg\" }")(1.0);
+    assert!((turned[0] + 1.0).abs() < 1e-15 && (turned[1] + 0.5).abs() < 1e-15, "{turned:?}");
 }
 
 #[test]

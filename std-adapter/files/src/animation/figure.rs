@@ -36,8 +36,8 @@ pub(super) struct Shape {
     pub(super) parts: Vec<Part>,
     /// The times of the first and of the last key of the whole animation. Nodes that share it share its clock.
     pub(super) span: [f64; 2],
-    /// The length of the file's unit.
-    pub(super) scale: f64,
+    /// Applied to all positions at last.
+    pub(super) placement: DAffine3,
 }
 
 /// The mesh of one node.
@@ -89,7 +89,7 @@ pub(super) struct Skin {
 
 impl Figure {
     /// Returns the triangles, and the positions of vertices at the first key and before, in the file's unit (glTF: metres, y is
-    /// up), or [scaled](Self::scaled).
+    /// up), or [transformed](Self::transformed).
     #[must_use]
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
@@ -101,10 +101,10 @@ impl Figure {
         &self.left_out
     }
 
-    /// Multiplies all positions by a number: 0.01 for a file in centimetres.
+    /// Transforms all positions: `DAffine3::from_scale(DVec3::splat(0.01))` for a file in centimetres.
     #[must_use]
-    pub fn scaled(mut self, scale: f64) -> Self {
-        self.shape.scale *= scale;
+    pub fn transformed(mut self, transform: DAffine3) -> Self {
+        self.shape.placement = transform * self.shape.placement;
         self.shape.positions_at(self.shape.span[0], &mut self.mesh.positions);
         self
     }
@@ -137,12 +137,13 @@ impl Figure {
     /// Returns a number that differs for figures of different files, or of different parts of one.
     #[must_use]
     pub fn fingerprint(&self) -> u64 {
-        if self.shape.scale == 1.0 {
+        if self.shape.placement == DAffine3::IDENTITY {
             return self.fingerprint;
         }
         let mut fingerprint = Fingerprint::default();
         fingerprint.take(&self.fingerprint.to_le_bytes());
-        fingerprint.take(&self.shape.scale.to_le_bytes());
+        let numbers = self.shape.placement.to_cols_array();
+        numbers.iter().for_each(|number| fingerprint.take(&number.to_le_bytes()));
         fingerprint.value()
     }
 
@@ -175,8 +176,8 @@ impl Shape {
                 Some(skin) => skin.apply(&places, own),
             }
         }
-        if self.scale != 1.0 {
-            positions.iter_mut().for_each(|position| *position *= self.scale);
+        if self.placement != DAffine3::IDENTITY {
+            positions.iter_mut().for_each(|p| *p = self.placement.transform_point3(*p));
         }
     }
 

@@ -493,7 +493,7 @@ fn turning(interpolation: Interpolation, values: Vec<f64>) -> Figure {
             }),
         }],
         span: [0.0, 1.0],
-        scale: 1.0,
+        placement: DAffine3::IDENTITY,
     };
     Figure {
         mesh: Default::default(),

@@ -17,6 +17,7 @@ use crate::bytes::Fingerprint;
 use crate::mesh::{FileProblem, LeftOut, check_finite};
 use mesh::Parts;
 use selvedge::Mesh;
+use selvedge_core::glam::DAffine3;
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -102,7 +103,7 @@ impl<'a> File<'a> {
             tracks: Vec::new(),
             parts,
             span: [0.0; 2],
-            scale: 1.0,
+            placement: DAffine3::IDENTITY,
         };
         if let Some(animation) = animation {
             let targets = wanted
