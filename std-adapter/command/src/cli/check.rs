@@ -1,9 +1,9 @@
 //! `selvedge check`.
 
-use super::Failure;
-use super::options::Threads;
+use super::options::{MemoryLimit, Threads};
 use super::output::{self, OutputFiles};
 use super::progress::Progress;
+use super::{Failure, NOT_READ_WHOLE};
 use selvedge::{CollisionDetector, Topology};
 use selvedge_files::mesh::{self, Findings, ReadOptions};
 use selvedge_laboratory::report::{FileReport, MeshCheck, coloured_ply, intersecting_triangles, mesh_checks, mesh_checks_json};
@@ -16,7 +16,7 @@ use std::time::Instant;
 
 /// Finds out exactly whether meshes pass through themselves
 ///
-/// Reads meshes (OBJ, PLY, STL or OFF) and checks each at rest. Finds edges that pass through faces or touch them, and neighbours
+/// Reads meshes (OBJ, PLY, STL, OFF or glTF) and checks each at rest. Finds edges that pass through faces or touch them, and neighbours
 /// that are folded flat onto each other. Ropes and particles are checked as well: lines `l` and `p` of OBJ, the element `edge` of
 /// PLY, and all vertices of a PLY file without faces. Frames of a sequence, with the same triangles, share their hierarchies,
 /// which is faster. Features that share a vertex do not intersect there.
@@ -28,6 +28,7 @@ Examples:
   selvedge check frames/*.ply --any --json
   selvedge check tangled.ply --ply out/      writes out/tangled-intersections.ply
   selvedge check garment.obj --weld          merges split seams first
+  selvedge check a.obj --frames a.mdd        each frame of a point cache
 
 The list has mesh,kind,i0,i1,i2,i3,i4: the two vertices of the edge and the three of
 the face, numbered from 0 in the order of the file. A loose edge is a face that
@@ -54,9 +55,15 @@ pub(crate) struct Check {
     /// Merge vertices at most this far apart, in the file's unit, first: 0 those in the same place
     #[arg(long, value_name = "DISTANCE", num_args = 0..=1, default_missing_value = "0", require_equals = true, value_parser = distance)]
     weld: Option<f64>,
-    /// Check the faces of this group or object of an OBJ file alone
+    /// Check the faces of this group or object of an OBJ file, or of this node of a glTF file, alone
     #[arg(long, value_name = "GROUP")]
     only: Option<String>,
+    /// Check the mesh at each frame of this animation instead: a point cache (.mdd, .pc2), the keys of a glTF animation, or
+    /// numbered files (frame-####.ply)
+    #[arg(long, value_name = "FILE", conflicts_with = "ply")]
+    frames: Option<PathBuf>,
+    #[command(flatten)]
+    memory_limit: MemoryLimit,
     /// Print one JSON document instead of a table
     #[arg(long)]
     json: bool,
@@ -71,8 +78,6 @@ fn distance(text: &str) -> Result<f64, String> {
 
 /// The exit status if there are intersections.
 const TANGLED: u8 = 3;
-/// The exit status if there are none in what was read, but something with an area was not read.
-const NOT_READ_WHOLE: u8 = 4;
 
 /// The format of a list.
 #[derive(Clone, Copy)]
@@ -130,11 +135,6 @@ impl Check {
                 weld: self.weld,
             };
             let mesh = mesh::read_with(path, &options)?;
-            let findings = Findings::of(&mesh.positions, &mesh.topology);
-            let file = FileReport {
-                notes: mesh.notes,
-                findings,
-            };
             let is_next = |(topology, _): &(Arc<Topology>, _)| is_frame_of(topology, &mesh.topology);
             let (topology, mut detector) = match before.take().filter(is_next) {
                 Some(before) => before,
@@ -142,25 +142,33 @@ impl Check {
                     let topology = Arc::new(mesh.topology);
                     let mut detector = CollisionDetector::new(Arc::clone(&topology));
                     detector.set_threads(selvedge::Threads::from_count(self.threads.get()))?;
+                    detector.set_memory_limit(self.memory_limit.get());
                     (topology, detector)
                 }
             };
-            let name = path.display().to_string();
-            let begin = Instant::now();
-            if self.any {
-                let is_free = !detector.has_intersections(&mesh.positions)?;
-                let seconds = begin.elapsed().as_secs_f64();
-                found.push(MeshCheck::from_verdict(name, &topology, is_free, seconds).with_file(file));
-            } else {
-                detector.intersections(&mesh.positions, &mut intersections)?;
-                let seconds = begin.elapsed().as_secs_f64();
-                found.push(MeshCheck::from_intersections(name, &topology, &intersections, seconds).with_file(file));
-            }
-            if let Some(path) = coloured.get(index).filter(|_| !intersections.is_empty()) {
-                let red = intersecting_triangles(&topology, &intersections);
-                files.add(path.clone(), |out| {
-                    coloured_ply(&mesh.positions, topology.triangles(), &red, out)
-                })?;
+            let notes = mesh.notes;
+            let frames = match &self.frames {
+                None => vec![(path.display().to_string(), mesh.positions)],
+                Some(frames) => output::read_frames(frames, topology.vertex_count())?,
+            };
+            for (name, positions) in frames {
+                let file = FileReport {
+                    notes: notes.clone(),
+                    findings: Findings::of(&positions, &topology),
+                };
+                let begin = Instant::now();
+                let check = if self.any {
+                    let is_free = !detector.has_intersections(&positions)?;
+                    MeshCheck::from_verdict(name, &topology, is_free, begin.elapsed().as_secs_f64())
+                } else {
+                    detector.intersections(&positions, &mut intersections)?;
+                    MeshCheck::from_intersections(name, &topology, &intersections, begin.elapsed().as_secs_f64())
+                };
+                found.push(check.with_file(file));
+                if let Some(path) = coloured.get(index).filter(|_| !intersections.is_empty()) {
+                    let red = intersecting_triangles(&topology, &intersections);
+                    files.add(path.clone(), |out| coloured_ply(&positions, topology.triangles(), &red, out))?;
+                }
             }
             before = Some((topology, detector));
             progress.set_steps(index as u64 + 1);

@@ -1,26 +1,27 @@
 //! `selvedge cull`.
 
-use super::Failure;
-use super::options::{ScalarChoice, Simd, Threads, preset_parser};
+use super::options::{MemoryLimit, ScalarChoice, Simd, Threads, preset_parser};
 use super::output::{self, OutputFiles};
 use super::progress::Progress;
 use super::witnesses::Step;
+use super::{Failure, NOT_READ_WHOLE};
 use selvedge::PairKind;
 use selvedge::Topology;
 use selvedge::core::Scalar;
 use selvedge::core::elementary::Limits;
 use selvedge::glam::DVec3;
 use selvedge::{CandidateBoxes, CollisionDetector, Criterion};
-use selvedge_files::mesh::MeshStep;
+use selvedge_files::mesh::{self, CacheFormat, MeshFile, MeshStep};
 use selvedge_laboratory::methods::Preset;
 use selvedge_laboratory::pipeline::{Contact, Pipeline, StepReport};
 use selvedge_laboratory::report::{StepQuestion, StepSummary, contacts_csv, json, pairs_csv, tables};
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 
 /// Finds the pairs of a mesh that may collide during one time step
 ///
-/// Reads the mesh at the start and at the end of the step (OBJ or PLY, the same vertices and triangles in the same order).
-/// Vertices move on straight lines. Runs one method and prints the pairs after each stage.
+/// Reads the mesh at the start and at the end of the step (OBJ, PLY, STL, OFF or glTF, the same vertices and triangles in the same
+/// order), or a mesh and two frames of its animation: a point cache (MDD or PC2), a glTF animation or numbered files. Vertices move on straight lines. Runs one method and prints the pairs after each stage.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -28,15 +29,23 @@ Examples:
   selvedge cull a.obj b.obj --pipeline lv_2014 --threads 0 --json
   selvedge cull a.ply b.ply --pairs contacts.csv --candidates candidates.csv
   selvedge cull a.ply b.ply --earliest
+  selvedge cull cloth.obj cloth.pc2 --frame 12
 
 Pairs are written as kind,i0,i1,i2,i3: the vertex and the face's three vertices,
 or the two edges' vertices, numbered from 0 in the order of the file. Times are
-in [0, 1] of the step.")]
+in [0, 1] of the step.
+
+Exit status: 0 done, 4 something that may have an area was not read and so may
+have contacts besides, 1 the input is at fault, 2 the command line is at fault.")]
 pub(crate) struct Cull {
     /// The mesh at the start of the step
     start: PathBuf,
-    /// The mesh at the end of the step
+    /// The mesh at the end of the step; with --frame an animation
     end: PathBuf,
+    /// Take the step from this frame to the next, numbered from 0: of a point cache (.mdd, .pc2), of numbered files
+    /// (frame-####.ply), or from key to key of a glTF animation
+    #[arg(long, value_name = "N")]
+    frame: Option<usize>,
     /// Run this method: an author and year, or ours
     #[arg(long, value_name = "NAME", default_value_t = Preset::Selvedge, value_parser = preset_parser())]
     pipeline: Preset,
@@ -44,6 +53,8 @@ pub(crate) struct Cull {
     threads: Threads,
     #[command(flatten)]
     simd: Simd,
+    #[command(flatten)]
+    memory_limit: MemoryLimit,
     /// Compute in this format
     #[arg(long, value_enum, default_value_t = ScalarChoice::F64)]
     scalar: ScalarChoice,
@@ -77,12 +88,46 @@ pub(crate) struct Cull {
 }
 
 impl Cull {
-    pub(crate) fn run(&self) -> Result<(), Failure> {
-        let step = output::read_step(&self.start, &self.end)?;
+    pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
+        let step = self.read()?;
+        let is_whole = step.notes.is_complete();
         match self.scalar {
-            ScalarChoice::F32 => self.run_in::<f32>(step),
-            ScalarChoice::F64 => self.run_in::<f64>(step),
+            ScalarChoice::F32 => self.run_in::<f32>(step)?,
+            ScalarChoice::F64 => self.run_in::<f64>(step)?,
         }
+        Ok(if is_whole {
+            ExitCode::SUCCESS
+        } else {
+            ExitCode::from(NOT_READ_WHOLE)
+        })
+    }
+
+    fn read(&self) -> Result<MeshStep, Failure> {
+        if self.frame.is_none() && CacheFormat::from_path(&self.end).is_none() {
+            return output::read_step(&self.start, &self.end);
+        }
+        let MeshFile { mesh, notes } = mesh::read(&self.start)?;
+        let mut frames = output::read_frames(&self.end, mesh.positions.len())?;
+        output::say(format_args!("{}: {notes}", self.start.display()));
+        let Some(frame) = self.frame.filter(|frame| frames.len() > frame.saturating_add(1)) else {
+            let file = self.end.display();
+            return Err(match frames.len() {
+                0 | 1 => format!("{file}: there is one frame, but a step needs two").into(),
+                count => format!(
+                    "{file}: there are {count} frames; name the first of the step: --frame 0 to {}",
+                    count - 2
+                )
+                .into(),
+            });
+        };
+        let (_, end) = frames.swap_remove(frame + 1);
+        let (_, start) = frames.swap_remove(frame);
+        Ok(MeshStep {
+            topology: mesh.topology()?,
+            start,
+            end,
+            notes,
+        })
     }
 
     fn run_in<S: Scalar>(&self, step: MeshStep) -> Result<(), Failure> {
@@ -118,6 +163,7 @@ impl Cull {
         }
         let mut pipeline = Pipeline::<S>::new(step.topology, self.pipeline.stages(), self.threads.get())?;
         pipeline.set_level(self.simd.level());
+        pipeline.set_memory_limit(self.memory_limit.get());
         pipeline.keep_candidates(self.candidates.is_some());
         let mut fastest = Fastest::default();
         {
@@ -196,6 +242,7 @@ impl Cull {
             detector.set_criterion(Criterion::Touching { tolerance })?;
         }
         detector.set_level(self.simd.level());
+        detector.set_memory_limit(self.memory_limit.get());
         let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
         let mut contacts = Vec::new();
         let boxes = if self.swept_boxes {

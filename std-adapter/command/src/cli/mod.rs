@@ -47,7 +47,10 @@ Examples:
   selvedge simulate scene.toml              cloth of a scene file
 
 Exit status: 0 done, 1 the input is at fault, 2 the command line is at fault,
-3 `check` found intersections.";
+3 `check` found intersections, 4 not all of a file was read.";
+
+/// The exit status if something that may have an area was not read, and nothing was found in the rest that weighs more.
+const NOT_READ_WHOLE: u8 = 4;
 
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -71,7 +74,7 @@ pub(crate) fn main() -> ExitCode {
         None => cli.main_job.run(),
         Some(Command::Check(check)) => return exit(check.run()),
         Some(Command::Conformance(conformance)) => return exit(conformance.run()),
-        Some(Command::Cull(cull)) => cull.run(),
+        Some(Command::Cull(cull)) => return exit(cull.run()),
         Some(Command::Compare(compare)) => compare.run(),
         Some(Command::Queries(queries)) => queries.run(),
         Some(Command::HardCases(hard_cases)) => hard_cases.run(),

@@ -1,6 +1,7 @@
 //! Arguments that several subcommands share.
 
 use clap::builder::{PossibleValuesParser, RangedI64ValueParser, TypedValueParser};
+use selvedge::DEFAULT_MEMORY_LIMIT;
 use selvedge::simd::{Level, available_levels, best_level};
 use selvedge_laboratory::methods::Preset;
 
@@ -58,6 +59,21 @@ impl Threads {
             0 => std::thread::available_parallelism().map_or(1, usize::from),
             threads => threads.into(),
         }
+    }
+}
+
+/// `--memory-limit`.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub(crate) struct MemoryLimit {
+    /// Refuse a mesh whose pairs and contacts take more than this many MiB; 0 is no limit
+    #[arg(long, value_name = "MIB", default_value_t = (DEFAULT_MEMORY_LIMIT >> 20) as u32)]
+    memory_limit: u32,
+}
+
+impl MemoryLimit {
+    /// Returns the limit in bytes, if there is one.
+    pub(crate) fn get(self) -> Option<u64> {
+        (self.memory_limit > 0).then_some(u64::from(self.memory_limit) << 20)
     }
 }
 

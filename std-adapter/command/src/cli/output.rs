@@ -2,8 +2,9 @@
 
 use super::Failure;
 use super::progress::Progress;
-use selvedge_files::mesh::{self, MeshStep};
-use selvedge_files::temporary_file;
+use selvedge::glam::DVec3;
+use selvedge_files::mesh::{self, CacheFormat, FileFormat, MeshSequence, MeshStep};
+use selvedge_files::{animation, temporary_file};
 use std::fmt;
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -40,6 +41,38 @@ pub(crate) fn read_step(start: &Path, end: &Path) -> Result<MeshStep, Failure> {
     };
     say(format_args!("{}: {}", start.display(), step.notes));
     Ok(step)
+}
+
+/// Reads an animation of a mesh with so many vertices: a point cache, the keys of a glTF animation, or numbered files. Returns the name and
+/// the positions of each frame.
+pub(crate) fn read_frames(path: &Path, vertex_count: usize) -> Result<Vec<(String, Vec<DVec3>)>, Failure> {
+    let _progress = Progress::spinner("reading");
+    let name = path.display();
+    let frames: Vec<(String, Vec<DVec3>)> = if FileFormat::from_path(path) == Some(FileFormat::Gltf) {
+        let figure = animation::read(path, &animation::Choice::default())?;
+        let frame = |time| {
+            let mut positions = Vec::new();
+            figure.positions_at(time, &mut positions);
+            (format!("{name} at {time} s"), positions)
+        };
+        figure.key_times().into_iter().map(frame).collect()
+    } else if CacheFormat::from_path(path).is_some() {
+        let frames = mesh::read_point_cache(path, vertex_count)?.into_iter().enumerate();
+        frames
+            .map(|(frame, positions)| (format!("{name} frame {frame}"), positions))
+            .collect()
+    } else {
+        let MeshSequence { frames, files, .. } = mesh::read_sequence(path)?;
+        files.iter().map(|file| file.display().to_string()).zip(frames).collect()
+    };
+    match frames.iter().find(|(_, positions)| positions.len() != vertex_count) {
+        None => Ok(frames),
+        Some((name, positions)) => Err(format!(
+            "{name}: there are {} vertices, but the mesh has {vertex_count}; export both from one mesh",
+            positions.len()
+        )
+        .into()),
+    }
 }
 
 /// Writes a message to standard error. A closed standard error causes no error.

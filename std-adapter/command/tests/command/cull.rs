@@ -32,6 +32,124 @@ fn stages_are_those_of_the_preset() {
     }
 }
 
+/// The bytes of a point cache of the frames that `moved_by` makes.
+fn cache(heights: &[f64], is_mdd: bool) -> Vec<u8> {
+    let word = |number: u32| if is_mdd { number.to_be_bytes() } else { number.to_le_bytes() };
+    let frames = heights.len() as u32;
+    let mut words: Vec<[u8; 4]> = match is_mdd {
+        true => [vec![word(frames), word(6)], vec![[0; 4]; heights.len()]].concat(),
+        false => vec![
+            *b"POIN",
+            *b"TCAC",
+            *b"HE2\0",
+            word(1),
+            word(6),
+            [0; 4],
+            word(1_f32.to_bits()),
+            word(frames),
+        ],
+    };
+    for text in heights.iter().map(|&height| moved_by(height)) {
+        let numbers = text.lines().take(6).flat_map(|line| line[2..].split(' '));
+        words.extend(numbers.map(|number| word(number.parse::<f32>().unwrap().to_bits())));
+    }
+    words.concat()
+}
+
+#[test]
+fn frames_of_animations_are_culled_and_checked_like_meshes() {
+    let place = Workplace::with_step();
+    place.write("a.mdd", cache(&[1.0, 0.0, -4.0], true));
+    place.write("a.PC2", cache(&[1.0, 0.0, -4.0], false));
+    for (number, height) in [1.0, 0.0, -4.0].into_iter().enumerate() {
+        place.write(&format!("a-{number}.obj"), moved_by(height));
+    }
+    for animation in ["a.mdd", "a.PC2", "a-#.obj"] {
+        for (frame, contacts) in [("0", 0), ("1", 3)] {
+            let found = place.json(&["cull", "start.obj", animation, "--frame", frame, "--json"]);
+            assert_eq!(found["contacts"]["vertex_face"], contacts, "{animation} {frame}");
+        }
+        let checked = place.json(&["check", "start.obj", "--frames", animation, "--json"]);
+        assert_eq!(checked["meshes"].as_array().unwrap().len(), 3, "{checked}");
+    }
+    place.write("cut.mdd", &cache(&[1.0, 0.0], true)[..100]);
+    place.write("not.pc2", cache(&[1.0], true));
+    place.write("nan.pc2", [&cache(&[1.0], false)[..100], &f32::NAN.to_le_bytes()].concat());
+    place.write("one.mdd", cache(&[1.0], true));
+    place.write("more.obj", format!("{}v 1 2 3\n", moved_by(0.0)));
+    for (arguments, part) in [
+        (
+            ["start.obj", "a.mdd", "--frame=2"],
+            "a.mdd: there are 3 frames; name the first of the step: --frame 0 to 1",
+        ),
+        (
+            ["start.obj", "one.mdd", "--frame=0"],
+            "one.mdd: there is one frame, but a step needs two",
+        ),
+        (["start.obj", "end.obj", "--frame=0"], "must have one run of '#'"),
+        (
+            ["more.obj", "a.mdd", "--frame=0"],
+            "a.mdd: the header declares 6 points, but the mesh has 7 vertices",
+        ),
+        (
+            ["start.obj", "cut.mdd", "--frame=0"],
+            "declares 2 frames of 6 points, which take 160 bytes, but the file has 100; is it complete?",
+        ),
+        (
+            ["start.obj", "not.pc2", "--frame=0"],
+            "not.pc2: the header is missing: a PC2 file begins with 'POINTCACHE2'",
+        ),
+        (
+            ["start.obj", "nan.pc2", "--frame=0"],
+            "nan.pc2: 'frame' element 0: the z coordinate of vertex 5 is NaN",
+        ),
+    ] {
+        let message = place.refusal(1, &[&["cull"], &arguments[..]].concat());
+        assert!(message.contains(part), "{message}");
+    }
+}
+
+#[test]
+fn a_step_of_which_not_all_was_read_has_an_exit_status_of_its_own() {
+    let place = Workplace::with_step();
+    place.write("more.obj", format!("{}surf 0 1 0 1 1 2 3\n", moved_by(-4.0)));
+    let output = place.run(&["cull", "start.obj", "more.obj", "--json"]);
+    assert_eq!(output.status.code(), Some(4));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("1 line 'surf'"));
+}
+
+#[test]
+fn many_triangles_in_one_place_are_refused_by_the_memory_limit_and_it_can_be_set() {
+    let place = Workplace::new();
+    let (vertices, faces): (Vec<_>, Vec<_>) = (0..200)
+        .map(|k| {
+            (
+                format!("v 0 0 {k}\nv 1 0 {k}\nv 0 1 {k}\n"),
+                format!("f {} {} {}\n", 3 * k + 1, 3 * k + 2, 3 * k + 3),
+            )
+        })
+        .unzip();
+    place.write("start.obj", [vertices.concat(), faces.concat()].concat());
+    let flat = vertices
+        .concat()
+        .lines()
+        .map(|line| format!("{} 0\n", line.rsplit_once(' ').unwrap().0))
+        .collect::<String>();
+    place.write("end.obj", [flat, faces.concat()].concat());
+    for command in [&CULL[..], &["check", "end.obj"]] {
+        let message = place.refusal(1, &[command, &["--memory-limit", "1"]].concat());
+        assert!(
+            message.contains("more than 1048576 bytes: check whether many triangles are in one place"),
+            "{message}"
+        );
+        let code = place
+            .run(&[command, &["--memory-limit", "0", "--json"]].concat())
+            .status
+            .code();
+        assert_eq!(code, Some(if command.len() == 3 { 0 } else { 3 }));
+    }
+}
+
 #[test]
 fn times_of_single_precision_are_written_exactly() {
     let place = Workplace::new();

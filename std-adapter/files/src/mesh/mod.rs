@@ -1,9 +1,8 @@
-//! Mesh files: OBJ and PLY, read and written exactly.
+//! Mesh files: OBJ, PLY, STL, OFF and glTF, read exactly; OBJ and PLY, written exactly; point caches.
 //!
-//! Positions keep their order, their number and every bit that the file holds. Vertices that no face names are kept, several
-//! objects in one file are one mesh, and no vertices are merged. Polygons are split into triangles, as a fan from their first
-//! vertex. [`read`] leaves out edges and points that belong to no triangle; [`read_with_loose_features`] keeps them. Normals,
-//! colours, texture coordinates and materials are left out.
+//! Positions keep their order and their number, and every bit that the file holds: a vertex that no face names is kept, several objects in
+//! one file are one mesh, nothing is merged. Polygons are split into triangles by their shape. [`read`] returns triangles alone;
+//! [`read_with_loose_features`] keeps edges and points that belong to none. Normals, colours, texture coordinates and materials are ignored.
 
 mod error;
 mod findings;
@@ -13,6 +12,7 @@ mod obj;
 mod off;
 mod parsed;
 mod ply;
+mod point_cache;
 mod polygon;
 mod sequence;
 mod step;
@@ -25,6 +25,7 @@ pub use error::{FileProblem, FrameDifference, MeshError};
 pub use findings::{Findings, THIN};
 pub use notes::{FilePart, LeftOut, MeshNotes};
 pub use ply::PlyEncoding;
+pub use point_cache::{CacheFormat, read_point_cache, read_point_cache_bytes};
 pub use sequence::{MeshSequence, SequenceProblem, read_sequence, read_sequence_from};
 pub use step::{MeshStep, read_step};
 

@@ -27,7 +27,15 @@ pub(super) fn parse(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Parsed, F
     let size = declared.map(|count| HEADER.saturating_add(count.saturating_mul(TRIANGLE)));
     // Binary files may begin with `solid` as well, but few texts have the size that their bytes 80 to 83 say.
     let is_text = || starts_text(without_byte_order_mark(bytes).unwrap_or(bytes));
+    // Other bytes may begin like UTF-16 by chance.
+    let is_wide = || {
+        let letters = bytes.iter().take(24).filter(|byte| byte.is_ascii_graphic());
+        without_byte_order_mark(bytes).is_err() && letters.copied().take(5).eq(*b"solid")
+    };
     let mut parsed = Parsed::default();
+    if size != Some(bytes.len()) && is_wide() {
+        return Err(FileProblem::WideText);
+    }
     if size != Some(bytes.len()) && is_text() {
         read_text(without_byte_order_mark(bytes)?, &mut parsed)?;
     } else {

@@ -192,10 +192,18 @@ impl<S: Scalar> Pipeline<S> {
         }
     }
 
+    /// Sets the most memory that a detector's pairs and contacts may take, in bytes; see [`CollisionDetector::set_memory_limit`]. Methods
+    /// with triangle pairs have no limit.
+    pub fn set_memory_limit(&mut self, limit: Option<u64>) {
+        if let Route::MovingBoxes(detector) = &mut self.route {
+            detector.set_memory_limit(limit);
+        }
+    }
+
     /// Runs the step from `start` to `end`, one position for each vertex, in any length unit.
     ///
     /// # Errors
-    /// Returns an error if a frame's length is not the mesh's number of vertices, or a coordinate is NaN or infinite.
+    /// If a frame's length is not the mesh's number of vertices, a coordinate is NaN or infinite, or the memory limit is exceeded.
     pub fn step(&mut self, start: &[S::Vector], end: &[S::Vector]) -> Result<&StepReport, StepError> {
         check_frames(start, end, self.topology.vertex_count())?;
         let Self {

@@ -1,7 +1,7 @@
 //! The header of a PLY file.
 
 use super::super::error::FileProblem;
-use super::super::text::{Lines, fields, integer, quoted};
+use super::super::text::{Lines, fields, integer, quoted, without_byte_order_mark};
 use super::body::{Body, Encoding};
 use super::{COORDINATES, CORNERS, ENDS};
 
@@ -123,7 +123,7 @@ impl Element {
 
 /// Reads the header. Returns it with the rest of the file.
 pub(super) fn read(bytes: &[u8]) -> Result<(Header, Body<'_>), FileProblem> {
-    let mut lines = Lines::new(bytes);
+    let mut lines = Lines::new(without_byte_order_mark(bytes)?);
     if !lines.next().is_some_and(|line| fields(line).eq([b"ply"])) {
         return Err(FileProblem::Header(
             "is missing: a PLY file begins with a line 'ply'".to_owned(),
