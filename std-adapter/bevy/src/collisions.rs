@@ -13,13 +13,13 @@ use bevy_ecs::system::{Query, Res, ResMut};
 use bevy_mesh::{Mesh, Mesh3d};
 use selvedge::glam::DVec3;
 use selvedge::{
-    Criterion, Geometry, Groups, MeshHandle, MeshMotion, PairKind, Threads, World, WorldContact, WorldContactGeometry, WorldError,
+    Criterion, DEFAULT_MEMORY_LIMIT, Geometry, Groups, MeshHandle, MeshMotion, PairKind, Threads, World, WorldContact, WorldContactGeometry, WorldError,
 };
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::{Arc, Weak};
 
 /// The settings of the search for contacts. They may change at any time.
-#[derive(Resource, Clone, Copy, Debug, Default)]
+#[derive(Resource, Clone, Copy, Debug)]
 pub struct CollisionSettings {
     /// The criterion for a contact, in the unit of Bevy's positions. The default is that bodies touch.
     pub criterion: Criterion<f64>,
@@ -27,6 +27,19 @@ pub struct CollisionSettings {
     pub threads: Threads,
     /// The largest number of candidate pairs of a step. By default there is no limit.
     pub pair_limit: Option<u64>,
+    /// The most memory that the contacts of a step may take, in bytes; by default 2 GiB. `None` is no limit.
+    pub memory_limit: Option<u64>,
+}
+
+impl Default for CollisionSettings {
+    fn default() -> Self {
+        Self {
+            criterion: Criterion::default(),
+            threads: Threads::default(),
+            pair_limit: None,
+            memory_limit: Some(DEFAULT_MEMORY_LIMIT),
+        }
+    }
 }
 
 /// A contact of two bodies, or of one with itself, in this fixed step. No contact is missed.
@@ -167,6 +180,7 @@ impl Collisions {
     /// Applies the settings. Returns the reasons why some were refused.
     fn set(&mut self, settings: &CollisionSettings) -> Vec<String> {
         self.world.set_pair_limit(settings.pair_limit);
+        self.world.set_memory_limit(settings.memory_limit);
         let criterion = self
             .world
             .set_criterion(settings.criterion)

@@ -89,7 +89,6 @@ impl<S: Plain> OutFrame<S> {
     }
 
     /// Writes the rows, as many as there is room for.
-    #[cfg(feature = "cloth")]
     pub(crate) fn fill<const N: usize>(self, rows: impl Iterator<Item = [S; N]>) {
         let start = self.start.0.cast::<[S; N]>();
         for (index, row) in rows.take(self.vertex_count).enumerate() {

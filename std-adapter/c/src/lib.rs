@@ -12,6 +12,7 @@
 //! world       worlds of several meshes
 //! simulation  cloth in motion, with the feature `cloth` (`include/selvedge_cloth.h` and `.hpp`)
 //! version     version macros and functions
+//! weld        merges vertices in the same place
 //! ```
 //!
 //! This crate holds all `unsafe` code of the project. Its functions rely on one promise of the caller. A pointer that is neither
@@ -37,4 +38,5 @@ mod status;
 #[cfg(test)]
 mod tests;
 mod version;
+mod weld;
 mod world;

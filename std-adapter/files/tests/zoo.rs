@@ -1,6 +1,8 @@
 //! Every kind of file in `zoo/` is read or refused as `zoo/expected.txt` says. Damaged files never cause a panic, and every lost
 //! face is reported.
 
+mod nonsense;
+
 use selvedge::CollisionDetector;
 use selvedge_files::mesh::{FileFormat, Findings, LooseMesh, ReadOptions, read_bytes, read_bytes_with, write_bytes};
 use std::path::{Path, PathBuf};
@@ -85,6 +87,17 @@ fn every_file_is_read_or_refused_as_expected() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn nonsense_is_refused_with_the_place_and_what_was_found() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, content, message) in nonsense::nonsense() {
+        let path = folder.path().join(name);
+        std::fs::write(&path, content).unwrap();
+        let error = selvedge_files::mesh::read(&path).unwrap_err().to_string();
+        assert_eq!(error, format!("{}: {message}", path.display()));
+    }
 }
 
 #[test]

@@ -11,6 +11,7 @@ mod call;
 mod detector;
 mod errors;
 mod finder;
+mod meshes;
 mod pairs;
 mod simulation;
 
@@ -21,6 +22,8 @@ use pyo3::prelude::*;
 mod _native {
     #[pymodule_export]
     use crate::detector::Detector;
+    #[pymodule_export]
+    use crate::meshes::{read_mesh, welded};
     #[pymodule_export]
     use crate::pairs::{time_of_impact, touches};
     #[pymodule_export]

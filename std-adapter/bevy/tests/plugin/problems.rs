@@ -174,19 +174,25 @@ fn a_body_out_of_the_range_of_numbers_is_told_and_the_others_go_on() {
 }
 
 #[test]
-fn a_step_with_more_pairs_than_the_limit_is_told_and_the_next_is_done() {
-    let mut app = app();
-    let [_, mover] = two_sheets(&mut app);
-    step(&mut app);
-    app.world_mut().resource_mut::<CollisionSettings>().pair_limit = Some(1);
-    turn_over(&mut app, mover);
-    let told = step(&mut app);
-    let error = SelvedgeError::Step(WorldError::Step(StepError::TooManyPairs { limit: 1 }));
-    assert_eq!(told.problems, [SelvedgeProblem { entity: None, error }]);
-    assert_eq!(told.contacts, []);
-    app.world_mut().resource_mut::<CollisionSettings>().pair_limit = None;
-    turn_over(&mut app, mover);
-    assert!(!step(&mut app).contacts.is_empty());
+fn a_step_beyond_a_limit_is_told_and_the_next_is_done() {
+    let limits: [(fn(&mut CollisionSettings), StepError); 2] = [
+        (|settings| settings.pair_limit = Some(1), StepError::TooManyPairs { limit: 1 }),
+        (|settings| settings.memory_limit = Some(1), StepError::TooMuchMemory { limit: 1 }),
+    ];
+    for (set, error) in limits {
+        let mut app = app();
+        let [_, mover] = two_sheets(&mut app);
+        step(&mut app);
+        set(&mut app.world_mut().resource_mut::<CollisionSettings>());
+        turn_over(&mut app, mover);
+        let told = step(&mut app);
+        let error = SelvedgeError::Step(WorldError::Step(error));
+        assert_eq!(told.problems, [SelvedgeProblem { entity: None, error }]);
+        assert_eq!(told.contacts, []);
+        *app.world_mut().resource_mut::<CollisionSettings>() = CollisionSettings::default();
+        turn_over(&mut app, mover);
+        assert!(!step(&mut app).contacts.is_empty());
+    }
 }
 
 #[test]

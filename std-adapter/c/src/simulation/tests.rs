@@ -6,13 +6,35 @@ use super::lead::*;
 use super::on;
 use super::run::*;
 use super::state::*;
-use crate::status::Status;
+use crate::status::{Status, selvedge_last_error};
 use crate::world::steps::Pose;
 use selvedge_cloth::glam::DVec3;
 use selvedge_cloth::{Placement, Scene, Simulation, vertex_normals};
-use std::ffi::CStr;
+use std::ffi::{CStr, CString};
 use std::path::Path;
 use std::ptr;
+
+#[path = "../../../files/tests/nonsense/mod.rs"]
+mod nonsense;
+
+#[test]
+fn nonsense_is_refused_with_its_place_in_the_scene_and_in_the_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = CString::new(folder.path().to_str().unwrap()).unwrap();
+    for (name, content, message) in nonsense::nonsense() {
+        std::fs::write(folder.path().join(name), content).unwrap();
+        let text = format!("time_step = 0.002\nduration = 1\ncloth = {{ shape = 'file', file = '{name}', density = 0.2 }}\neffects = {{}}");
+        let text = CString::new(text).unwrap();
+        let mut handle = ptr::null_mut();
+        // SAFETY: the texts end with a zero, and there is a place for the handle.
+        let status = unsafe { selvedge_simulation_new(text.as_ptr(), path.as_ptr(), 1, &raw mut handle) };
+        assert_eq!(status, Status::BadScene);
+        // SAFETY: the text ends with a zero and belongs to this thread, which calls nothing meanwhile.
+        let said = unsafe { CStr::from_ptr(selvedge_last_error()) }.to_str().unwrap();
+        let expected = format!("{0}/scene.toml:3:34: {0}/{name}: {message}", folder.path().display());
+        assert_eq!(said, expected);
+    }
+}
 
 const SCENE: &CStr = c"
 time_step = 0.002

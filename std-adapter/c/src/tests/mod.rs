@@ -4,6 +4,7 @@ use crate::answers::{ContactRow, GeometryRow, Kind};
 use crate::detector::{Handle, ScalarFormat, on, selvedge_detector_free, selvedge_detector_new, selvedge_detector_set_cancelled};
 use crate::settings::*;
 use crate::status::{Status, selvedge_last_error, selvedge_status_string};
+use crate::weld::selvedge_weld;
 use selvedge::core::elementary::Limits;
 use selvedge::{CollisionDetector, Contact, Geometry, PairKind, Scalar, Topology};
 use std::ffi::CStr;
@@ -251,4 +252,19 @@ fn a_long_text_is_cut_at_a_character() {
         Status::Internal
     );
     assert!(last_error().len() > 1000 && last_error().chars().all(|letter| letter == 'é'));
+}
+
+#[test]
+fn vertices_in_one_place_are_merged() {
+    let positions = [[0.0; 3], [1.0, 0.0, 0.0], [-0.0; 3], [1.0, 1e-7, 0.0]];
+    let weld = |tolerance: f64| {
+        let (mut vertex_of, mut count) = ([9; 4], 9);
+        // SAFETY: the arrays are as long as the count says.
+        let status = unsafe { selvedge_weld(positions.as_ptr().cast(), 4, tolerance, vertex_of.as_mut_ptr(), &raw mut count) };
+        (status, vertex_of, count)
+    };
+    assert_eq!(weld(0.0), (Status::Ok, [0, 1, 0, 2], 3));
+    assert_eq!(weld(1e-6), (Status::Ok, [0, 1, 0, 1], 2));
+    assert_eq!(weld(-1.0), (Status::BadValue, [9; 4], 9));
+    assert_eq!(last_error(), "the tolerance is -1, but must be a distance, 0 or more");
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::{env, fs};
 
 /// The sources of `selvedge.h`, in its order.
-const SOURCES: [&str; 7] = [
+const SOURCES: [&str; 8] = [
     "version",
     "status",
     "answers",
@@ -13,6 +13,7 @@ const SOURCES: [&str; 7] = [
     "settings",
     "questions/mod",
     "world/mod",
+    "weld",
 ];
 
 /// The files that `build.rs` generates, with the functions for float.

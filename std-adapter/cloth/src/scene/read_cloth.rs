@@ -45,7 +45,7 @@ impl Cloth {
         table.expect_keys(&[&["name", "shape", "velocity"], own, &effect_names()].concat())?;
         let material = table.choice("material", &Material::ALL.map(|material| (material.name, material)))?;
         let density = || table.number_or(&DENSITY, |density| density, material.map(|material| material.density));
-        let mut isolated = 0;
+        let (mut isolated, mut file) = (0, None);
         let made = match shape {
             ClothShape::Sleeve => Self::sleeve(table.count(&REFINEMENT)?.unwrap_or(1), density()?),
             ClothShape::Sheet => {
@@ -74,6 +74,7 @@ impl Cloth {
                 let linear_density = table.number(&LINEAR_DENSITY_OF_EDGES)?;
                 let read = shapes::cloth_of_file(table, linear_density.is_some())?;
                 isolated = read.left_out;
+                file = Some(read.file).filter(|file| !file.is_cloth());
                 match linear_density {
                     None => Self::from_mesh(read.mesh, warp, density()?),
                     Some(linear_density) => {
@@ -87,6 +88,7 @@ impl Cloth {
         let mut cloth = made.map_err(|error| table.placed(&error))?;
         cloth.velocity = table.vector(&VELOCITY)?.unwrap_or_default();
         cloth.material = material;
+        cloth.file = file;
         cloth.name = table.text("name")?.unwrap_or(NAME).to_owned();
         Ok((cloth, isolated))
     }

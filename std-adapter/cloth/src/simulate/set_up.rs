@@ -10,7 +10,7 @@ use super::tearing::Tearing;
 use crate::model::hierarchy::mesh_spacing;
 use crate::model::step::{FREE, Touches};
 use crate::scene::{Scene, TangledStart};
-use crate::world::{Kinematic, Pose};
+use crate::world::{FileNumbering, Kinematic, Pose};
 use selvedge::parallel::Workers;
 use selvedge::{Mesh, Threads};
 use selvedge_core::glam::DVec3;
@@ -74,6 +74,7 @@ impl Simulation {
             tangled_start,
             body_names: bodies.iter().map(|body| body.name.clone()).collect(),
             fingerprint,
+            numbering: FileNumbering::new(cloths),
             cloth_names: cloths.iter().map(|cloth| cloth.name.clone()).collect(),
             effects,
             threads,

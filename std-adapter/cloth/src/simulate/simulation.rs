@@ -9,7 +9,8 @@ use crate::contact::{ContactCounts, ContactSeconds, Crossing, ProximityPair};
 use crate::model::energy::{Configuration, Energy};
 use crate::model::step::{Release, Touches};
 use crate::scene::{OnBlocked, TangledStart};
-use crate::world::Pose;
+use crate::world::{FileNumbering, Pose};
+use selvedge::Mesh;
 use selvedge::parallel::Workers;
 use selvedge_core::glam::DVec3;
 use std::ops::Range;
@@ -52,6 +53,7 @@ pub struct Simulation {
     pub(super) is_fresh: bool,
     pub(super) fingerprint: u64,
     pub(super) cloth_names: Vec<String>,
+    pub(super) numbering: FileNumbering,
     /// The data from meshes and effects.
     pub(super) made: Assembly,
     /// The points that carriers move, for kinematic vertices.
@@ -131,6 +133,7 @@ impl Simulation {
         &self.made.loose_edges
     }
 
+    pub(super) numbering: FileNumbering,
     /// Returns the velocities of [`positions`](Self::positions), in m/s.
     #[must_use]
     pub fn velocities(&self) -> &[DVec3] {

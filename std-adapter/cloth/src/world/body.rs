@@ -7,7 +7,7 @@ use crate::input::{Count, Field, LARGEST_COORDINATE, LENGTH, SceneError, Table, 
 use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
 use selvedge_files::animation::{self, AnimationProblem, Choice};
-use selvedge_files::mesh::{self, MeshSequence};
+use selvedge_files::mesh::{self, CacheFormat, MeshError, MeshSequence, ReadOptions};
 
 /// A kinematic body: it follows its motion, and the cloth does not push it.
 ///
@@ -113,8 +113,26 @@ impl Body {
             BodyShape::Capsule => &["from", "to", "radius", "around"],
             BodyShape::Ball => &["centre", "radius", "around"],
             BodyShape::File => &shapes::FILE_KEYS,
-            BodyShape::Frames => &["files", "frames_per_second", "start", "scale", "unit", "rotation", "translation"],
-            BodyShape::Figure => &["file", "node", "animation", "start", "scale", "unit", "rotation", "translation"],
+            BodyShape::Frames => &[
+                "files",
+                "mesh",
+                "frames_per_second",
+                "start",
+                "scale",
+                "unit",
+                "rotation",
+                "translation",
+            ],
+            BodyShape::Figure => &[
+                "file",
+                "node",
+                "animation",
+                "start",
+                "scale",
+                "unit",
+                "rotation",
+                "translation",
+            ],
         };
         let motion: &[&str] = match shape {
             BodyShape::Frames | BodyShape::Figure => &[],
@@ -143,12 +161,28 @@ impl Body {
     }
 
     fn read_frames(name: &str, table: &Table<'_>, time_step: f64) -> Result<Self, SceneError> {
-        let files = table.required_text("files", "\"frames/body-####.ply\"")?;
+        let files = table.folder().join(table.required_text("files", "\"frames/body-####.ply\"")?);
         let rate = table.required_number(&RATE)?;
-        let read = mesh::read_sequence_from(table.files(), &table.folder().join(files));
-        let MeshSequence {
-            triangles, mut frames, ..
-        } = read.map_err(|error| table.error("files", error.to_string()))?;
+        let wrong = |error: MeshError| table.error("files", error.to_string());
+        let (triangles, mut frames) = match (CacheFormat::from_path(&files), table.text("mesh")?) {
+            (None, None) => {
+                let MeshSequence { triangles, frames, .. } = mesh::read_sequence_from(table.files(), &files).map_err(wrong)?;
+                (triangles, frames)
+            }
+            (Some(_), Some(mesh)) => {
+                let mesh = shapes::read_whole(table, "mesh", &table.folder().join(mesh), &ReadOptions::default())?;
+                let frames = mesh::read_point_cache(table.files(), &files, mesh.positions.len()).map_err(wrong)?;
+                (mesh.topology.triangles().to_vec(), frames)
+            }
+            (Some(_), None) => {
+                let message = "a point cache has no triangles: name the mesh that it moves, such as `mesh = \"body.obj\"`";
+                return Err(table.error("files", message.to_owned()));
+            }
+            (None, Some(_)) => {
+                let message = "`mesh` is for point caches (.mdd, .pc2): numbered files have their own triangles";
+                return Err(table.error("mesh", message.to_owned()));
+            }
+        };
         let placement = shapes::placement(table)?;
         frames.iter_mut().for_each(|frame| shapes::place(&placement, frame));
         let animation = Animation::from_frames(frames, rate);

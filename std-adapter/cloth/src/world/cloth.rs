@@ -1,5 +1,6 @@
 //! A cloth: its mesh, mass and initial velocity. Loose edges model ropes, laces and fringes.
 
+use super::file_mesh::FileMesh;
 use super::runs::{Run, runs};
 use super::sleeve::{RefinementError, ring_sizes, sleeve};
 use super::{Material, shapes};
@@ -40,6 +41,8 @@ pub struct Cloth {
     pub velocity: DVec3,
     /// The material, if it was chosen by name.
     pub(crate) material: Option<Material>,
+    /// The mesh of its file, if that numbers vertices otherwise.
+    pub(crate) file: Option<FileMesh>,
     /// Named groups of vertices.
     parts: Vec<(&'static str, Vec<u32>)>,
 }
@@ -214,6 +217,7 @@ impl Cloth {
             topology,
             copied: Vec::new(),
             warp,
+            file: None,
             parts,
         };
         cloth.check_densities()?;
@@ -374,6 +378,7 @@ impl Cloth {
             warp: DVec3::X,
             velocity: DVec3::ZERO,
             material: None,
+            file: None,
             parts: Vec::new(),
         }
     }

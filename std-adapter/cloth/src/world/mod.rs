@@ -4,6 +4,7 @@ mod animation;
 mod body;
 pub(crate) mod cloth;
 mod driven;
+pub(crate) mod file_mesh;
 mod incidence;
 mod material;
 mod motion;
@@ -25,6 +26,7 @@ pub use placement::Placement;
 
 pub(crate) use animation::FASTEST_VERTEX;
 pub(crate) use driven::{Driven, Kinematic};
+pub(crate) use file_mesh::FileNumbering;
 pub(crate) use incidence::Incidence;
 pub(crate) use motion::{KEY_TIME, Pose, check_key_time};
 pub(crate) use runs::runs;

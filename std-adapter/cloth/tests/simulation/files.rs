@@ -1,5 +1,9 @@
 //! Meshes of files in scenes, with their groups, units and seams, and figures that share an animation.
 
+#[path = "../../../files/tests/nonsense/mod.rs"]
+mod nonsense;
+
+use nonsense::nonsense;
 use selvedge_cloth::glam::DVec3;
 use selvedge_cloth::{BodyMotion, Scene, Simulation};
 use std::fs;
@@ -63,6 +67,16 @@ fn a_file_is_read_in_its_unit_with_its_seams_merged_and_a_group_alone() {
         refused(""),
         "F/scene.toml:6:8: F/square.obj: not all of the file can be read: 1 line 'surf' (line 16); export it as plain triangles"
     );
+}
+
+#[test]
+fn nonsense_is_refused_with_its_place_in_the_scene_and_in_the_file() {
+    let folder = folder();
+    for (name, content, message) in nonsense() {
+        fs::write(folder.path().join(name), content).unwrap();
+        let error = scene(&folder, &format!("shape = \"file\"\nfile = \"{name}\""), "").unwrap_err();
+        assert_eq!(error, format!("F/scene.toml:6:8: F/{name}: {message}"));
+    }
 }
 
 /// Writes a triangle that two nodes move along x by a metre, one from 0 to 1 s, the other from 0.5 to 1.5 s.
@@ -129,7 +143,62 @@ fn nodes_of_one_animation_keep_one_clock() {
     assert_eq!(along("translation = [3, 0, 0]\nscale = 2")(1.0), [5.0, 4.0]);
     // Half a turn about z.
     let turned = along("rotation = { axis = [0, 0, 1], angle = \"180 deg\" }")(1.0);
-    assert!((turned[0] + 1.0).abs() < 1e-15 && (turned[1] + 0.5).abs() < 1e-15, "{turned:?}");
+    assert!(
+        (turned[0] + 1.0).abs() < 1e-15 && (turned[1] + 0.5).abs() < 1e-15,
+        "{turned:?}"
+    );
+}
+
+#[test]
+fn a_point_cache_moves_the_body_of_another_file() {
+    let folder = folder();
+    let put = |name: &str, bytes: Vec<u8>| fs::write(folder.path().join(name), bytes).unwrap();
+    // Nine vertices in two frames: at the origin, then a metre up.
+    let numbers = [vec![0.0_f32; 27], [0.0_f32, 0.0, 1.0].repeat(9)].concat();
+    let header = [
+        &b"POINTCACHE2\0"[..],
+        &1_u32.to_le_bytes(),
+        &9_u32.to_le_bytes(),
+        &[0; 8],
+        &2_u32.to_le_bytes(),
+    ]
+    .concat();
+    put(
+        "leaf.pc2",
+        [header, numbers.iter().flat_map(|number| number.to_le_bytes()).collect()].concat(),
+    );
+    let sheet = "shape = \"sheet\"\nsides = { first = [1, 0, 0], second = [0, 0, 1] }\ncells = [2, 2]";
+    let read = |keys: &str| {
+        let body = format!("[[body]]\nname = \"leaf\"\nshape = \"frames\"\nframes_per_second = 2\n{keys}");
+        scene(&folder, sheet, &body).map(|mut scene| scene.bodies.remove(0))
+    };
+    let body = read("files = \"leaf.pc2\"\nmesh = \"square.obj\"\ntranslation = [1, 0, 0]").unwrap();
+    let BodyMotion::Animated(animation) = &body.motion else {
+        panic!("it is animated");
+    };
+    assert_eq!((body.mesh.triangles.len(), animation.span()), (3, [0.0, 0.5]));
+    assert_eq!(animation.positions_at(0.25)[8], DVec3::new(1.0, 0.0, 0.5));
+    for (keys, message) in [
+        (
+            "files = \"leaf.pc2\"",
+            "12:9: a point cache has no triangles: name the mesh that it moves, such as `mesh = \"body.obj\"`",
+        ),
+        (
+            "mesh = \"square.obj\"\nfiles = \"leaf-#.obj\"",
+            "12:8: `mesh` is for point caches",
+        ),
+        (
+            "mesh = \"square.obj\"\nfiles = \"two.mdd\"",
+            "13:9: F/two.mdd: there is no such file",
+        ),
+        (
+            "mesh = \"no.obj\"\nfiles = \"leaf.pc2\"",
+            "12:8: F/no.obj: there is no such file",
+        ),
+    ] {
+        let error = read(keys).unwrap_err();
+        assert!(error.starts_with(&format!("F/scene.toml:{message}")), "{error}");
+    }
 }
 
 #[test]
@@ -150,4 +219,10 @@ fn a_split_seam_is_named_with_its_remedy_and_runs_once_it_is_merged() {
     let mut welded = made("weld = 0").unwrap();
     welded.step().unwrap();
     assert_eq!(welded.positions().len(), 4);
+    // Written as in the file, with the seam.
+    let (written, edges) = welded.mesh_as_in_files();
+    assert_eq!((written.triangles, edges), (vec![[0, 1, 2], [3, 4, 5]], Vec::new()));
+    let now = welded.positions();
+    assert_eq!(written.positions, [0, 1, 2, 0, 2, 3].map(|vertex| now[vertex]));
+    assert!(now[0].z < 0.0);
 }

@@ -4,7 +4,7 @@ use super::Failure;
 use super::progress::Progress;
 use selvedge::glam::DVec3;
 use selvedge_files::mesh::{self, CacheFormat, FileFormat, MeshSequence, MeshStep};
-use selvedge_files::{animation, temporary_file};
+use selvedge_files::{FileSource, animation, temporary_file};
 use std::fmt;
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -57,7 +57,9 @@ pub(crate) fn read_frames(path: &Path, vertex_count: usize) -> Result<Vec<(Strin
         };
         figure.key_times().into_iter().map(frame).collect()
     } else if CacheFormat::from_path(path).is_some() {
-        let frames = mesh::read_point_cache(path, vertex_count)?.into_iter().enumerate();
+        let frames = mesh::read_point_cache(&FileSource::Disk, path, vertex_count)?
+            .into_iter()
+            .enumerate();
         frames
             .map(|(frame, positions)| (format!("{name} frame {frame}"), positions))
             .collect()

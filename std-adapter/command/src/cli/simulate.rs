@@ -4,7 +4,6 @@ use super::Failure;
 use super::options::Threads;
 use super::output::{self, OutputFiles};
 use super::progress::Progress;
-use selvedge::Mesh;
 use selvedge_cloth::{CheckpointError, Scene, SceneError, SetupError, Simulation};
 use selvedge_files::mesh;
 use selvedge_laboratory::report::{Recording, SimulationRecorder, Subject, costs_of_added_effects};
@@ -336,14 +335,7 @@ impl Simulate {
         };
         let stem = self.scene.file_stem().unwrap_or_default().to_string_lossy();
         let name = format!("{stem}-{frame:05}.{extension}");
-        let mesh = Mesh {
-            positions: simulation.positions().to_vec(),
-            triangles: simulation.triangles().to_vec(),
-        };
-        Ok(mesh::write_with_loose_edges(
-            &self.output.join(name),
-            &mesh,
-            simulation.loose_edges(),
-        )?)
+        let (mesh, loose_edges) = simulation.mesh_as_in_files();
+        Ok(mesh::write_with_loose_edges(&self.output.join(name), &mesh, &loose_edges)?)
     }
 }

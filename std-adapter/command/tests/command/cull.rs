@@ -1,6 +1,6 @@
 //! `selvedge cull`.
 
-use crate::support::Workplace;
+use crate::support::{Workplace, moved_by};
 use selvedge_laboratory::methods::{Preset, Source};
 
 const CULL: [&str; 3] = ["cull", "start.obj", "end.obj"];

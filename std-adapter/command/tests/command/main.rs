@@ -5,6 +5,7 @@ mod check;
 mod compare;
 mod conformance;
 mod cull;
+mod nonsense;
 mod simulate;
 mod support;
 mod tables;

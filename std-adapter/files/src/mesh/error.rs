@@ -79,6 +79,9 @@ pub enum FileProblem {
     /// The file holds more with an area than the reader can read, and the caller needs it whole.
     #[error("not all of the file can be read: {0}; export it as plain triangles")]
     Incomplete(String),
+    /// The file has lines or elements that were not read, and no face.
+    #[error("no face was read, but there are: {0}; is this a mesh, and of the format that its extension names?")]
+    NoFace(String),
     /// One group was requested of a format that has none.
     #[error("this kind of file has no groups; only OBJ and glTF files can be read in part")]
     NoGroups,

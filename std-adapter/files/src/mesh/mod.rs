@@ -25,7 +25,7 @@ pub use error::{FileProblem, FrameDifference, MeshError};
 pub use findings::{Findings, THIN};
 pub use notes::{FilePart, LeftOut, MeshNotes};
 pub use ply::PlyEncoding;
-pub use point_cache::{CacheFormat, read_point_cache, read_point_cache_bytes};
+pub use point_cache::{CacheFormat, read_point_cache};
 pub use sequence::{MeshSequence, SequenceProblem, read_sequence, read_sequence_from};
 pub use step::{MeshStep, read_step};
 

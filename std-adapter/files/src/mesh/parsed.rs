@@ -67,6 +67,17 @@ impl Parsed {
         }
     }
 
+    /// Refuses a file of which nothing was read but vertices, and names what else there is.
+    fn check_content(&self) -> Result<(), FileProblem> {
+        let is_empty = self.faces.len() == 0 && self.loose_edges.is_empty() && self.points.is_empty();
+        if !is_empty || self.left_out.is_empty() {
+            return Ok(());
+        }
+        let parts: Vec<String> = self.left_out.iter().take(3).map(LeftOut::to_string).collect();
+        let more = if self.left_out.len() > 3 { " and others" } else { "" };
+        Err(FileProblem::NoFace(format!("{}{more}", parts.join(", "))))
+    }
+
     /// Splits all faces into triangles, in their order, and merges vertices on request.
     pub(super) fn triangles(&mut self) -> Triangles {
         let mut split = self.split();
@@ -119,6 +130,7 @@ impl Parsed {
 
     /// Makes a mesh of triangles alone.
     pub(super) fn into_file(mut self) -> Result<MeshFile, FileProblem> {
+        self.check_content()?;
         let mut split = self.triangles();
         let topology = Topology::new(self.positions.len(), std::mem::take(&mut split.triangles))?;
         let notes = self.notes(&mut split, &topology);
@@ -132,6 +144,7 @@ impl Parsed {
 
     /// Makes a mesh with loose edges and points.
     pub(super) fn into_loose(mut self) -> Result<LooseMesh, FileProblem> {
+        self.check_content()?;
         let mut split = self.triangles();
         let triangles = std::mem::take(&mut split.triangles);
         let topology = Topology::with_loose_features(self.positions.len(), triangles, &self.loose_edges, &self.points)?;

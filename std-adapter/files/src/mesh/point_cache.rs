@@ -6,6 +6,7 @@
 
 use super::check_finite;
 use super::error::{FileProblem, MeshError};
+use crate::FileSource;
 use selvedge_core::glam::DVec3;
 use std::path::Path;
 
@@ -31,24 +32,21 @@ impl CacheFormat {
     }
 }
 
-/// Reads the frames of the point cache at `path`: the positions of all vertices of a mesh, which has `vertex_count`, in each.
+/// Reads the frames of the point cache at `path`: in each, the positions of all `vertex_count` vertices of a mesh.
 ///
 /// # Errors
-/// If the file cannot be read, is no MDD or PC2 file, has another length than its header declares, has no frame, another number of points than
-/// the mesh has vertices, or a coordinate that is not finite.
-pub fn read_point_cache(path: &Path, vertex_count: usize) -> Result<Vec<Vec<DVec3>>, MeshError> {
+/// Returns an error if the file cannot be read, is no MDD or PC2 file, has another length than its header declares, has no frame, has another
+/// number of points than the mesh has vertices, or has a coordinate that is not finite.
+pub fn read_point_cache(source: &FileSource, path: &Path, vertex_count: usize) -> Result<Vec<Vec<DVec3>>, MeshError> {
     let format = CacheFormat::from_path(path)
         .ok_or_else(|| FileProblem::Header("is not known: a point cache is a .mdd or a .pc2 file".to_owned()));
-    let bytes = || std::fs::read(path).map_err(FileProblem::from_read);
-    let read = format.and_then(|format| read_point_cache_bytes(&bytes()?, format, vertex_count));
+    let bytes = || source.read(path).map_err(FileProblem::from_read);
+    let read = format.and_then(|format| parse(&bytes()?, format, vertex_count));
     read.map_err(|problem| MeshError::file(path, problem))
 }
 
-/// Reads the frames of a point cache from its bytes. Asks for memory only in proportion to them.
-///
-/// # Errors
-/// Those of [`read_point_cache`], without the file's name.
-pub fn read_point_cache_bytes(bytes: &[u8], format: CacheFormat, vertex_count: usize) -> Result<Vec<Vec<DVec3>>, FileProblem> {
+/// Reads all frames. Asks for memory only in proportion to the bytes.
+fn parse(bytes: &[u8], format: CacheFormat, vertex_count: usize) -> Result<Vec<Vec<DVec3>>, FileProblem> {
     let number = |word: [u8; 4]| match format {
         CacheFormat::Mdd => u32::from_be_bytes(word),
         CacheFormat::Pc2 => u32::from_le_bytes(word),

@@ -18,13 +18,15 @@ from ._answers import (
     Intersections,
     IntersectionKind,
     Kind,
+    MeshFile,
     NearPairs,
     Release,
     TornEdge,
     Truncation,
     Untangled,
+    Welded,
 )
-from ._native import ARM_SLEEVE, EFFECTS, Detector, Simulation, __version__, time_of_impact, touches
+from ._native import ARM_SLEEVE, EFFECTS, Detector, Simulation, __version__, read_mesh, time_of_impact, touches, welded
 
 __all__ = [
     "ARM_SLEEVE",
@@ -38,16 +40,20 @@ __all__ = [
     "IntersectionKind",
     "Intersections",
     "Kind",
+    "MeshFile",
     "NearPairs",
     "Release",
     "Simulation",
     "TornEdge",
     "Truncation",
     "Untangled",
+    "Welded",
     "__version__",
     "errors",
     "ipc",
     "laboratory",
+    "read_mesh",
     "time_of_impact",
     "touches",
+    "welded",
 ]

@@ -120,6 +120,37 @@ class Truncation:
 
 
 @dataclass(frozen=True, eq=False)
+class MeshFile:
+    """A mesh that was read from a file. Vertices have the file's numbers, positions every bit that the file holds."""
+
+    positions: NDArray[np.float64]
+    """(n, 3) in the unit of the file."""
+    faces: NDArray[np.uint32]
+    """(m, 3) triangles. Polygons are split by their shape."""
+    edges: NDArray[np.uint32]
+    """(k, 2) edges that belong to no triangle."""
+    points: list[int]
+    """Vertices that are particles."""
+    missing: str | None
+    """The parts of the file that may have an area and were not read, or None. With such parts, contacts of this mesh are not all
+    contacts of the file."""
+    notes: str
+    """A report in one line: counts, findings, what was split, merged or left out."""
+
+
+@dataclass(frozen=True, eq=False)
+class Welded:
+    """A mesh whose vertices in the same place are one."""
+
+    positions: NDArray[np.float64]
+    """(n, 3) each the position of the lowest-numbered vertex that was merged into it."""
+    faces: NDArray[np.uint32]
+    """(m, 3) without the triangles that lost their area."""
+    vertex_of: NDArray[np.uint32]
+    """For each vertex before, its vertex now: ``positions[vertex_of]`` has the old numbers, with seams."""
+
+
+@dataclass(frozen=True, eq=False)
 class NearPairs:
     """The near pairs of a simulation, at the start of the last part of its last step."""
 

@@ -15,20 +15,37 @@ from ._answers import (
     ContactTimes,
     Crossings,
     Intersections,
+    MeshFile,
     NearPairs,
     Release,
     TornEdge,
     Truncation,
     Untangled,
+    Welded,
 )
 
-__all__ = ["ARM_SLEEVE", "EFFECTS", "Detector", "Simulation", "__version__", "time_of_impact", "touches"]
+__all__ = ["ARM_SLEEVE", "EFFECTS", "Detector", "Simulation", "__version__", "read_mesh", "time_of_impact", "touches", "welded"]
 
 ARM_SLEEVE: str
 """The scene of a sleeve on a bending arm, for :meth:`Simulation.from_text`."""
 EFFECTS: list[str]
 """Every effect that a scene may name."""
 __version__: str
+
+def read_mesh(path: str | PathLike[str], *, only: str | None = None, weld: float | None = None) -> MeshFile:
+    """Reads a mesh file: OBJ, PLY, STL or OFF, by its extension.
+
+    ``only`` is a group or object of an OBJ file. ``weld`` merges vertices at most so far apart, 0 those in the same place; all keep their
+    numbers. Check ``missing`` before you trust an answer about the file.
+
+    Raises InputError, with the file and the line or element, for a file that cannot be read.
+    """
+
+def welded(positions: ArrayLike, faces: ArrayLike, tolerance: float = 0.0) -> Welded:
+    """Merges vertices that are at most ``tolerance`` apart, such as the split seams of a garment.
+
+    Raises InputError for a face with a vertex that does not exist, and for a negative tolerance.
+    """
 
 def time_of_impact(
     kind: int,
