@@ -1062,6 +1062,21 @@ selvedge_status selvedge_world_contact_geometries(struct selvedge_world *world,
                                                   size_t *count);
 
 /**
+ * Finds the vertices that are at most `tolerance` apart, such as the split seams of a garment; 0 finds those in the same place. A chain of
+ * near vertices becomes one. `vertex_of` receives the new number of each vertex: the mesh without the others has `*new_count` vertices, in the
+ * same order, each with the position of the first that was merged into it. Number triangles with it, and leave out those that name a vertex
+ * twice; read positions through it to get the seams back.
+ *
+ * The caller promises:
+ * `positions` points to 3 * `vertex_count` numbers, `vertex_of` to room for `vertex_count` numbers, `new_count` to one.
+ */
+selvedge_status selvedge_weld(const double *positions,
+                              size_t vertex_count,
+                              double tolerance,
+                              uint32_t *vertex_of,
+                              size_t *new_count);
+
+/**
  * selvedge_detector_contacts_f64 for float.
  *
  * The caller promises:

@@ -104,7 +104,7 @@ fn frames_of_animations_are_culled_and_checked_like_meshes() {
             "nan.pc2: 'frame' element 0: the z coordinate of vertex 5 is NaN",
         ),
     ] {
-        let message = place.refusal(1, &[&["cull"], &arguments[..]].concat());
+        let message = place.refusal(&[&["cull"], &arguments[..]].concat());
         assert!(message.contains(part), "{message}");
     }
 }
@@ -115,7 +115,7 @@ fn many_triangles_in_one_place_are_refused_by_the_memory_limit_and_it_can_be_set
     let faces: String = (0..200).map(|k| format!("f {} {} {}\n", 3 * k + 1, 3 * k + 2, 3 * k + 3)).collect();
     place.write("heap.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n".repeat(200) + &faces);
     for (command, status) in [(&["cull", "heap.obj", "heap.obj"][..], 0), (&["check", "heap.obj"], 3)] {
-        let message = place.refusal(1, &[command, &["--memory-limit", "1"]].concat());
+        let message = place.refusal(&[command, &["--memory-limit", "1"]].concat());
         let expected = "more than 1048576 bytes: check whether many triangles are in one place";
         assert!(message.contains(expected), "{message}");
         let output = place.run(&[command, &["--memory-limit", "0", "--json"]].concat());

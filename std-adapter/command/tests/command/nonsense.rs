@@ -19,7 +19,7 @@ fn each_is_named_with_the_place_and_what_was_found() {
     let all = table::nonsense().into_iter().map(|(name, _, message)| (name, message)).chain(others);
     for (name, message) in all {
         let said = format!("error: {name}: {message}\n");
-        assert_eq!(place.refusal(1, &["check", name]), said);
-        assert_eq!(place.refusal(1, &["cull", "start.obj", name, "--pairs", "p.csv", "--candidates", "c.csv"]), said);
+        assert_eq!(place.refusal(&["check", name]), said);
+        assert_eq!(place.refusal(&["cull", "start.obj", name, "--pairs", "p.csv", "--candidates", "c.csv"]), said);
     }
 }

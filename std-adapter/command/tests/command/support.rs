@@ -133,6 +133,17 @@ impl Workplace {
         String::from_utf8(output.stdout).unwrap()
     }
 
+    /// Returns the error message, without earlier notes, of a run that must fail with status 1, print nothing and leave no file behind.
+    #[track_caller]
+    pub(crate) fn refusal(&self, arguments: &[&str]) -> String {
+        let before = self.listing();
+        let output = self.run(arguments);
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert_eq!((output.status.code(), output.stdout.len()), (Some(1), 0), "{text}");
+        assert_eq!(self.listing(), before, "files were left behind");
+        text[text.find("error: ").expect("no error message")..].to_owned()
+    }
+
     /// Returns the document that a run with `--json` prints.
     #[track_caller]
     pub(crate) fn json(&self, arguments: &[&str]) -> Value {
