@@ -277,22 +277,32 @@ impl MeshEngine {
         self.earliest_found()
     }
 
-    /// Looks at the whole step, or at its [early part](EARLY) first if that may pay.
+    /// Looks at the whole step, or at its [early part](EARLY) first if that has less than half of the candidates. If many boxes overlap from the
+    /// start, as about one point, the early part would take as long as the whole step.
     fn run_for_earliest(&mut self, motions: &dyn Motions, question: &Question) {
         let begin = Clock::now();
         self.fit(1.0, motions, question);
         let sources = Source::within(&self.broad_phase.hierarchies, *question);
         self.pairs.prepare(&sources);
         let many = MANY_CANDIDATES * self.topology().edges().len() as u64;
-        if self.pairs.estimated_candidates(&sources) < many {
+        let whole = self.pairs.estimated_candidates(&sources);
+        if whole < many {
             let update = begin.elapsed().as_secs_f64();
             let is_whole = self.pairs.run(&sources, question.wanted, 1.0, None);
             return self.finish(begin, update, is_whole);
         }
-        self.run_until(EARLY, motions, question);
-        if self.earliest_found().is_none() && self.pairs.stop.result().is_ok() {
-            self.run_until(1.0, motions, question);
+        self.fit(EARLY, motions, question);
+        let sources = Source::within(&self.broad_phase.hierarchies, *question);
+        self.pairs.prepare(&sources);
+        if self.pairs.estimated_candidates(&sources) < whole / 2 {
+            let update = begin.elapsed().as_secs_f64();
+            let is_whole = self.pairs.run(&sources, question.wanted, EARLY, None);
+            self.finish(begin, update, is_whole);
+            if self.earliest_found().is_some() || self.pairs.stop.result().is_err() {
+                return;
+            }
         }
+        self.run_until(1.0, motions, question);
     }
 
     /// Returns the earliest contact of the last run.

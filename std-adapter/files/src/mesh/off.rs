@@ -170,7 +170,7 @@ fn read_face(face: usize, line: usize, text: &[u8], vertex_count: usize, corners
             ))
         })?;
         let index = u32::try_from(vertex).ok().filter(|&index| (index as usize) < vertex_count);
-        corners.push(index.ok_or(FileProblem::IndexOutOfRange {
+        corners.push(index.ok_or_else(|| FileProblem::IndexOutOfRange {
             line: Some(line),
             face,
             vertex,

@@ -35,6 +35,10 @@ impl Faces {
         self.ends.push(self.corners.len());
     }
 
+    pub(super) fn renumber(&mut self, numbers: &[u32]) {
+        self.corners.iter_mut().for_each(|corner| *corner = numbers[*corner as usize]);
+    }
+
     pub(super) fn len(&self) -> usize {
         self.ends.len()
     }

@@ -164,21 +164,20 @@ fn read_text(bytes: &[u8], parsed: &mut Parsed) -> Result<(), FileProblem> {
 }
 
 /// Merges equal vertices.
-fn welded(parsed: Parsed) -> Parsed {
+fn welded(mut parsed: Parsed) -> Parsed {
     let first = first_coincident(&parsed.positions, 0.0);
     let mut numbers: Vec<u32> = Vec::with_capacity(first.len());
-    let mut merged = Parsed::default();
+    let mut count = 0;
     for (vertex, &first) in first.iter().enumerate() {
         if first as usize == vertex {
-            numbers.push(merged.positions.len() as u32);
-            merged.positions.push(parsed.positions[vertex]);
+            parsed.positions[count] = parsed.positions[vertex];
+            numbers.push(count as u32);
+            count += 1;
         } else {
             numbers.push(numbers[first as usize]);
         }
     }
-    for corners in numbers.chunks_exact(3) {
-        merged.faces.push(corners);
-    }
-    merged.left_out = parsed.left_out;
-    merged
+    parsed.positions.truncate(count);
+    parsed.faces.renumber(&numbers);
+    parsed
 }

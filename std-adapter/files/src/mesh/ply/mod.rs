@@ -100,7 +100,7 @@ impl Reader {
         let face = self.face;
         self.corners.clear();
         for &vertex in corners {
-            let index = self.is_vertex(vertex).ok_or(FileProblem::IndexOutOfRange {
+            let index = self.is_vertex(vertex).ok_or_else(|| FileProblem::IndexOutOfRange {
                 line,
                 face,
                 vertex,
