@@ -133,6 +133,20 @@ impl Simulation {
         &self.made.loose_edges
     }
 
+    /// Returns the present state as one mesh, with its loose edges: each cloth, then the bodies. Cloths from files have the vertices and faces of
+    /// their files.
+    ///
+    /// Vertices that `weld` merged are apart again, in the same place, so that texture coordinates and seams fit. Vertices that the cloth does
+    /// not have stay where the file puts them. Vertices that tears add follow those of the file.
+    #[must_use]
+    pub fn mesh_as_in_files(&self) -> (Mesh, Vec<[u32; 2]>) {
+        let state = Mesh {
+            positions: self.positions().to_vec(),
+            triangles: self.triangles().to_vec(),
+        };
+        self.numbering.numbered(state, self.loose_edges(), &self.made.vertices_of_cloths)
+    }
+
     pub(super) numbering: FileNumbering,
     /// Returns the velocities of [`positions`](Self::positions), in m/s.
     #[must_use]
