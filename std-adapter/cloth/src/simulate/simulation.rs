@@ -147,7 +147,6 @@ impl Simulation {
         self.numbering.numbered(state, self.loose_edges(), &self.made.vertices_of_cloths)
     }
 
-    pub(super) numbering: FileNumbering,
     /// Returns the velocities of [`positions`](Self::positions), in m/s.
     #[must_use]
     pub fn velocities(&self) -> &[DVec3] {
