@@ -25,14 +25,21 @@ pub unsafe extern "C" fn selvedge_weld(
         // SAFETY: the caller's promises.
         let (given, room, count) = unsafe {
             let given = view::<f64, 3>("positions", positions, vertex_count)?;
-            (given, OutFrame::new("vertex_of", vertex_of, vertex_count)?, Out::new("new_count", new_count)?)
+            (
+                given,
+                OutFrame::new("vertex_of", vertex_of, vertex_count)?,
+                Out::new("new_count", new_count)?,
+            )
         };
         if !(0.0..f64::INFINITY).contains(&tolerance) {
             let text = format!("the tolerance is {tolerance}, but must be a distance, 0 or more");
             return Err(Failure::new(Status::BadValue, text));
         }
         if u32::try_from(vertex_count).is_err() {
-            return Err(Failure::new(Status::BadCount, format!("there are {vertex_count} vertices: too many for 32-bit numbers")));
+            return Err(Failure::new(
+                Status::BadCount,
+                format!("there are {vertex_count} vertices: too many for 32-bit numbers"),
+            ));
         }
         let positions: Vec<DVec3> = given.iter().map(|&point| point.into()).collect();
         let mut numbers: Vec<u32> = Vec::with_capacity(vertex_count);

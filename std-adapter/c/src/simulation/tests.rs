@@ -23,7 +23,9 @@ fn nonsense_is_refused_with_its_place_in_the_scene_and_in_the_file() {
     let path = CString::new(folder.path().to_str().unwrap()).unwrap();
     for (name, content, message) in nonsense::nonsense() {
         std::fs::write(folder.path().join(name), content).unwrap();
-        let text = format!("time_step = 0.002\nduration = 1\ncloth = {{ shape = 'file', file = '{name}', density = 0.2 }}\neffects = {{}}");
+        let text = format!(
+            "time_step = 0.002\nduration = 1\ncloth = {{ shape = 'file', file = '{name}', density = 0.2 }}\neffects = {{}}"
+        );
         let text = CString::new(text).unwrap();
         let mut handle = ptr::null_mut();
         // SAFETY: the texts end with a zero, and there is a place for the handle.

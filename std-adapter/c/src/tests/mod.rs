@@ -260,7 +260,15 @@ fn vertices_in_one_place_are_merged() {
     let weld = |tolerance: f64| {
         let (mut vertex_of, mut count) = ([9; 4], 9);
         // SAFETY: the arrays are as long as the count says.
-        let status = unsafe { selvedge_weld(positions.as_ptr().cast(), 4, tolerance, vertex_of.as_mut_ptr(), &raw mut count) };
+        let status = unsafe {
+            selvedge_weld(
+                positions.as_ptr().cast(),
+                4,
+                tolerance,
+                vertex_of.as_mut_ptr(),
+                &raw mut count,
+            )
+        };
         (status, vertex_of, count)
     };
     assert_eq!(weld(0.0), (Status::Ok, [0, 1, 0, 2], 3));

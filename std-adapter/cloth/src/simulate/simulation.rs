@@ -144,7 +144,8 @@ impl Simulation {
             positions: self.positions().to_vec(),
             triangles: self.triangles().to_vec(),
         };
-        self.numbering.numbered(state, self.loose_edges(), &self.made.vertices_of_cloths)
+        self.numbering
+            .numbered(state, self.loose_edges(), &self.made.vertices_of_cloths)
     }
 
     /// Returns the velocities of [`positions`](Self::positions), in m/s.

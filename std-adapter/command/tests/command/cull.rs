@@ -112,7 +112,9 @@ fn frames_of_animations_are_culled_and_checked_like_meshes() {
 #[test]
 fn many_triangles_in_one_place_are_refused_by_the_memory_limit_and_it_can_be_set() {
     let place = Workplace::new();
-    let faces: String = (0..200).map(|k| format!("f {} {} {}\n", 3 * k + 1, 3 * k + 2, 3 * k + 3)).collect();
+    let faces: String = (0..200)
+        .map(|k| format!("f {} {} {}\n", 3 * k + 1, 3 * k + 2, 3 * k + 3))
+        .collect();
     place.write("heap.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n".repeat(200) + &faces);
     for (command, status) in [(&["cull", "heap.obj", "heap.obj"][..], 0), (&["check", "heap.obj"], 3)] {
         let message = place.refusal(&[command, &["--memory-limit", "1"]].concat());

@@ -300,7 +300,10 @@ fn all_nodes_of_the_scene_are_one_figure_and_one_is_chosen_by_its_path() {
         "strip.gltf: 2 nodes of this name have a mesh; name one by its path: 'strip', 'root/upper/strip'"
     );
     // The lower node turns with the joint, and its vertices are scaled last.
-    assert_near(&at(&all.clone().transformed(DAffine3::from_scale(DVec3::splat(2.0))), 2.0)[4..5], &[[0.0, 12.0, 0.0]]);
+    assert_near(
+        &at(&all.clone().transformed(DAffine3::from_scale(DVec3::splat(2.0))), 2.0)[4..5],
+        &[[0.0, 12.0, 0.0]],
+    );
 }
 
 /// One animation moves the joint from 1 to 2 s and the weights from 0 to 1 s, which another figure would not have.
