@@ -72,7 +72,7 @@ impl Parsed {
     }
 
     /// Refuses a file of which nothing was read but vertices, and names what else there is.
-    fn check_content(&self) -> Result<(), FileProblem> {
+    pub(super) fn check_content(&self) -> Result<(), FileProblem> {
         let is_empty = self.faces.len() == 0 && self.loose_edges.is_empty() && self.points.is_empty();
         if !is_empty || self.left_out.is_empty() {
             return Ok(());

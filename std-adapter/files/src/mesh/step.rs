@@ -27,7 +27,10 @@ pub struct MeshStep {
 /// Returns the errors of [`read`](super::read) for either file, or an error with both files and their first difference.
 pub fn read_step(start: &Path, end: &Path) -> Result<MeshStep, MeshError> {
     let read = |path: &Path| match load(&FileSource::Disk, path, &ReadOptions::default()) {
-        Ok(frame) if frame.faces.len() == 0 => Err(MeshError::file(path, TopologyError::NoTriangles.into())),
+        Ok(frame) if frame.faces.len() == 0 => {
+            let problem = frame.check_content().err().unwrap_or(TopologyError::NoTriangles.into());
+            Err(MeshError::file(path, problem))
+        }
         Ok(frame) => Ok(frame),
         Err(problem) => Err(MeshError::file(path, problem)),
     };
