@@ -207,8 +207,8 @@ fn advanced<P: PairShape, S: Number, R: Record<S>>(
         if limits.separation < S::ZERO {
             return not_excluded(S::ZERO, Reason::NotFinite, Work::default());
         }
-        let corners = [points.start, points.end].map(P::corners);
-        if record.add_axis(corners.into_iter().flatten(), S::ZERO) {
+        let corners = || [P::corners(points.start), P::corners(points.end)].into_iter().flatten();
+        if record.add_axis(corners, S::ZERO) {
             return (Impact::Never, Work::default());
         }
     }
@@ -250,7 +250,7 @@ fn decide<S: Number, R: Record<S>, const N: usize>(
     let separation = (limits.separation > S::ZERO).then_some(limits.separation);
     if let Some(separation) = separation
         && corners.are_beyond_along_an_axis(separation)
-        && record.add_axis(corners.ends.into_iter().flatten(), axis_bar(separation))
+        && record.add_axis(|| corners.ends.into_iter().flatten(), axis_bar(separation))
     {
         return (Impact::Never, work);
     }

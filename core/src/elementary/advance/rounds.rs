@@ -78,10 +78,11 @@ impl<S: Number, R: Record<S>, const N: usize> Advance<'_, S, R, N> {
             if now.closest.squared_distance <= near_squared {
                 return possible(&now, Reason::WithinTolerance);
             }
-            let mut until = match self.apart_until(&now) {
-                Ok(until) => until,
+            let (mut until, w) = match self.apart_until(&now) {
+                Ok(proven) => proven,
                 Err(reason) => return possible(&now, reason),
             };
+            self.record.add(until, Proof::Held(w.into()));
             if until >= beyond(until) {
                 return Impact::Never;
             }
@@ -124,27 +125,24 @@ impl<S: Number, R: Record<S>, const N: usize> Advance<'_, S, R, N> {
         snapshot
     }
 
-    /// Returns a later time until which a constant direction keeps the pair apart, or the reason why there is none.
+    /// Returns a later time until which a constant direction keeps the pair apart, and the direction; or the reason why there is
+    /// none.
     #[inline(always)]
-    fn apart_until(&mut self, now: &Snapshot<S, N>) -> Result<S, Reason> {
+    fn apart_until(&self, now: &Snapshot<S, N>) -> Result<(S, Vector<S>), Reason> {
         let w = now.direction(self.corners);
         self.apart_along(w, now)
             .map_or_else(|| self.apart_at_second_sight(w, now), Ok)
     }
 
     #[inline(always)]
-    fn apart_along(&mut self, w: Vector<S>, now: &Snapshot<S, N>) -> Option<S> {
+    fn apart_along(&self, w: Vector<S>, now: &Snapshot<S, N>) -> Option<(S, Vector<S>)> {
         let proven = self.corners.apart_along(&self.direction(w), &now.positions, true);
-        let is_later = proven.is_apart && proven.until > now.time;
-        if is_later {
-            self.record.add(proven.until, Proof::Held(w.into()));
-        }
-        is_later.then_some(proven.until)
+        (proven.is_apart && proven.until > now.time).then_some((proven.until, w))
     }
 
     /// Handles a direction of the closest point, `w`, that proves nothing: either the sets are too close, or that point is wrong.
     #[cold]
-    fn apart_at_second_sight(&mut self, w: Vector<S>, now: &Snapshot<S, N>) -> Result<S, Reason> {
+    fn apart_at_second_sight(&self, w: Vector<S>, now: &Snapshot<S, N>) -> Result<(S, Vector<S>), Reason> {
         if self.hides(&now.closest) {
             return Err(Reason::WithinError);
         }

@@ -93,7 +93,7 @@ pub(super) trait Record<S> {
 
     /// Adds a part to the end of the step for the axis along which all `corners` are beyond `bar` on one side. Returns false if
     /// there is none.
-    fn add_axis(&mut self, corners: impl Iterator<Item = Vector<S>> + Clone, bar: S) -> bool;
+    fn add_axis<I: Iterator<Item = Vector<S>>>(&mut self, corners: impl Fn() -> I, bar: S) -> bool;
 }
 
 /// Ignores all proofs.
@@ -107,7 +107,7 @@ impl<S> Record<S> for Unrecorded {
     fn replace(&mut self, _: S, _: Proof<S>) {}
 
     #[inline(always)]
-    fn add_axis(&mut self, _: impl Iterator<Item = Vector<S>> + Clone, _: S) -> bool {
+    fn add_axis<I: Iterator<Item = Vector<S>>>(&mut self, _: impl Fn() -> I, _: S) -> bool {
         true
     }
 }
@@ -124,11 +124,11 @@ impl<S: Number> Record<S> for Witness<S> {
         self.add(until, proof);
     }
 
-    fn add_axis(&mut self, corners: impl Iterator<Item = Vector<S>> + Clone, bar: S) -> bool {
+    fn add_axis<I: Iterator<Item = Vector<S>>>(&mut self, corners: impl Fn() -> I, bar: S) -> bool {
         for axis in 0..3 {
-            let along = corners.clone().map(|corner| <[S; 3]>::from(corner)[axis]);
             for sign in [S::ONE, -S::ONE] {
-                if along.clone().all(|x| sign * x > bar) {
+                let mut along = corners().map(|corner| sign * <[S; 3]>::from(corner)[axis]);
+                if along.all(|x| x > bar) {
                     let mut w = [S::ZERO; 3];
                     w[axis] = sign;
                     self.add(S::ONE, Proof::Held(w));
