@@ -35,8 +35,8 @@
 //! ```
 //!
 //! These numbers are `f32`: u = 2⁻²⁴, and an operation errs by 2u in any rounding direction; the product is exact. δ is rounded
-//! to `f32`, and so are the difference and the moved bound, at most B + δ: 6u(B + δ) and a little of second order, less than 8u(B
-//! + δ). A δ below 2⁻⁶⁰ draws nothing in, so flushed numbers are far less than the rest of it. Nor does a sum above
+//! to `f32`, and so are the difference and the moved bound, at most B + δ: 6u(B + δ) and a little of second order, less than
+//! 8u(B + δ). A δ below 2⁻⁶⁰ draws nothing in, so flushed numbers are far less than the rest of it. Nor does a sum above
 //! [`Rounding::LARGEST_EDGE`].
 //!
 //! # Two mappings

@@ -51,6 +51,7 @@ pub fn kept_when_carried<S: Scalar>(separation: S, distance: S, error: GapError<
 /// distance if it is carried.
 #[inline]
 #[must_use]
+#[expect(clippy::neg_cmp_op_on_partial_ord, reason = "a distance that is NaN is too near")]
 pub fn is_too_near<S: Scalar>(distance: S, error: GapError<S>) -> bool {
     !(distance > S::small(LOST_ERRORS) * error.length())
 }
