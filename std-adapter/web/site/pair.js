@@ -209,7 +209,7 @@ export function startPair(selvedge) {
     find("coordinates").tBodies[0].replaceChildren(...rows);
     for (const handle of svg.querySelectorAll(".point")) {
       const { frame, point } = handle.dataset;
-      handle.setAttribute("aria-label", `${NAMES[pair.kind][point]} at the ${frame}; arrow keys move it, Page Up and Page Down too`);
+      handle.setAttribute("aria-label", `${SHORT[pair.kind][point]}${frame === "start" ? "₀" : "₁"}, ${NAMES[pair.kind][point]} at the ${frame}; arrow keys move it, Page Up and Page Down too`);
     }
     writeInputs();
   }
