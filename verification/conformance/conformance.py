@@ -75,21 +75,19 @@ def installed(runner, cache):
     filled = lambda words: [word.format(**values) for word in words]
     if not stamp.exists() or stamp.read_text(encoding="utf-8") != text:
         place.mkdir(parents=True, exist_ok=True)
+        target = {"CARGO_TARGET_DIR": str(cache / "target")}
         if "pip" in wanted:
             if not python.exists():
                 venv.create(place, with_pip=True, symlinks=os.name != "nt")
-            run([python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", *filled(wanted["pip"])], folder)
+            command = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", *filled(wanted["pip"])]
+            run(command, folder, **target)
         if "npm" in wanted:
             (place / "package.json").write_text('{"private": true}\n', encoding="utf-8")
             run(["npm", "install", "--silent", *wanted["npm"]], place)
         if "cargo" in wanted:
-            run(
-                ["cargo", "build", "--release", "--quiet", *filled(wanted["cargo"])],
-                folder,
-                CARGO_TARGET_DIR=str(cache / "target"),
-            )
+            run(["cargo", "build", "--release", "--quiet", *filled(wanted["cargo"])], folder, **target)
         for command in wanted.get("commands", []):
-            run(filled(command), folder)
+            run(filled(command), folder, **target)
         for name in wanted.get("copy", []):
             shutil.copy(folder / name, place / Path(name).name)
         stamp.write_text(text, encoding="utf-8")

@@ -31,13 +31,17 @@ COLUMNS = [
     ("p99_us", "99 %, µs", None),
     ("max_us", "largest, µs", None),
 ]
-COLOURS = {"vertex-face": "#0b6e99", "edge-edge": "#5aa5c7", "moving-mesh": "#7a3e9d", "moving-triangle": "#c2410c",
-           "triangles": "#2f7d32", "meshes": "#8aa63a"}  # fmt: skip
+GROUPS = {
+    "deformable pairs and meshes": {"vertex-face", "edge-edge", "moving-mesh"},
+    "translating triangles, and at rest": {"moving-triangle"},
+    "at rest only": {"triangles", "meshes"},
+}
+COLOURS = {"deformable pairs and meshes": "#0b6e99", "translating triangles, and at rest": "#c2410c", "at rest only": "#2f7d32"}
 
 
 def shown(value):
     if isinstance(value, float):
-        return "–" if value == 0 else f"{value:,.0f}" if value >= 100 else f"{value:.2g}"
+        return "–" if value == 0 else "> 1e9" if value > 1e9 else f"{value:,.0f}" if value >= 100 else f"{value:.2g}"
     return "–" if value == 0 else f"{value:,}" if isinstance(value, int) else str(value)
 
 
@@ -188,16 +192,40 @@ def runner_page(name, runner, texts):
     return page(name, "".join(body))
 
 
+def totals(scores):
+    """For each runner: its hardest kind of question, mean time and share of wrong answers, over all that it claims."""
+    for name, runner in scores["runners"].items():
+        rows = [row for row in runner["scores"].values() if "mean_us" in row]
+        asked = sum(row["asked"] for row in rows)
+        if asked:
+            mean = sum(row["mean_us"] * row["asked"] for row in rows) / asked
+            hardest = next(group for group, questions in GROUPS.items() if questions & set(runner["scores"]))
+            yield name, hardest, mean, sum(row["wrong"] for row in rows) / asked
+
+
+def free_place(px, py, words, taken):
+    """A place for a label that covers no other: its left edge and baseline."""
+    length = 6.2 * len(words)
+    for row in range(12):
+        for down in sorted({row * 11, -row * 11}):
+            for left in (px + 7, px - 7 - length):
+                box = (left, py + down - 6, left + length, py + down + 5)
+                if not any(box[0] < b[2] and b[0] < box[2] and box[1] < b[3] and b[1] < box[3] for b in taken):
+                    taken.append(box)
+                    return left, py + down + 4
+    return px + 7, py + 4
+
+
 def plot(scores):
-    """Share of wrong answers against mean time: a mark for each runner and question."""
-    left, top, width, height = 70, 30, 860, 480
-    points = [(n, q, r["mean_us"], r["wrong"] / r["asked"]) for q, rows in by_question(scores) for n, r in rows if "mean_us" in r]
+    """Share of wrong answers against mean time: a mark for each runner."""
+    left, top, width, height, band = 70, 20, 900, 480, 110
+    points = sorted(totals(scores), key=lambda p: (p[3], p[2]))
     low = math.floor(min(math.log10(p[2]) for p in points))
     high = math.ceil(max(math.log10(p[2]) for p in points))
     x = lambda us: left + width * (math.log10(us) - low) / max(1, high - low)
-    # Shares from one in a thousand up are logarithmic; below is a band for none.
-    y = lambda share: top + 20 if share == 0 else top + 60 + (height - 60) * (math.log10(max(share, 5e-4)) + 3.3) / 3.3
-    box = f"0 0 {left + width + 150} {top + height + 60}"
+    # Shares from one in two thousand up are logarithmic; above them is a band for none.
+    y = lambda share: top + band / 2 if share == 0 else top + band + (height - band) * (math.log10(max(share, 5e-4)) + 3.3) / 3.3
+    box = f"0 0 {left + width + 20} {top + height + 60}"
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}" font-family="sans-serif" font-size="11">']
     out.append('<rect width="100%" height="100%" fill="white"/>')
 
@@ -208,25 +236,24 @@ def plot(scores):
     for power in range(low, high + 1):
         at = x(10.0**power)
         out.append(f'<path d="M{at:.1f} {top}V{top + height}" stroke="#ddd"/>')
-        label(at, top + height + 18, f"{10.0**power:g} µs", "middle")
+        unit, exponent = ("µs", power) if power < 3 else ("ms", power - 3) if power < 6 else ("s", power - 6)
+        words = f"{10.0**exponent:g} {unit}"
+        label(at, top + height + 18, words, "middle")
     for share, words in ((0, "none"), (0.001, "0.1 %"), (0.01, "1 %"), (0.1, "10 %"), (1, "all")):
         out.append(f'<path d="M{left} {y(share):.1f}h{width}" stroke="#ddd"/>')
         label(left - 8, y(share) + 4, words, "end")
     label(left + width / 2, top + height + 42, "mean time of a query", "middle", font_size=13)
     label(0, 0, "wrong answers", "middle", font_size=13, transform=f"translate(16 {top + height / 2}) rotate(-90)")
-    taken = []
-    for name, question, us, share in sorted(points, key=lambda p: (p[3], p[2])):
-        px, py = x(us), y(share)
-        ty = py + 3
-        while any(abs(ty - b) < 10 and abs(px - a) < 6 * max(len(name), len(m)) for a, b, m in taken):
-            ty += 10
-        taken.append((px, ty, name))
-        colour, title = COLOURS[question], f"{name}, {question}: {share:.2%} wrong, {us:.3g} µs"
-        out.append(f'<circle cx="{px:.1f}" cy="{py:.1f}" r="4" fill="{colour}"><title>{escape(title)}</title></circle>')
-        label(px + 6, ty, name, fill=colour)
-    for i, (question, colour) in enumerate(COLOURS.items()):
-        out.append(f'<circle cx="{left + width + 40}" cy="{top + 200 + 18 * i}" r="5" fill="{colour}"/>')
-        out.append(f'<text x="{left + width + 50}" y="{top + 204 + 18 * i}">{question}</text>')
+    taken = [(x(us) - 4, y(share) - 4, x(us) + 4, y(share) + 4) for _, _, us, share in points]
+    for name, group, us, share in points:
+        title = escape(f"{name}: {share:.2%} wrong, {us:.3g} µs")
+        mark = f'<circle cx="{x(us):.1f}" cy="{y(share):.1f}" r="4" fill="{COLOURS[group]}">'
+        out.append(f"{mark}<title>{title}</title></circle>")
+        label(*free_place(x(us), y(share), name, taken), name, fill=COLOURS[group])
+    for i, (group, colour) in enumerate(COLOURS.items()):
+        py = top + height - 20 - 18 * i
+        out.append(f'<circle cx="{left + width - 260}" cy="{py}" r="5" fill="{colour}"/>')
+        label(left + width - 248, py + 4, group)
     return "\n".join([*out, "</svg>"]) + "\n"
 
 
@@ -239,5 +266,5 @@ def write(scores, folder):
     (folder / "index.html").write_text(index(scores), encoding="utf-8")
     for name, runner in scores["runners"].items():
         (folder / f"{name}.html").write_text(runner_page(name, runner, scores["texts"]), encoding="utf-8")
-    if any("mean_us" in row for _, rows in by_question(scores) for _, row in rows):
+    if any(totals(scores)):
         (folder / "accuracy.svg").write_text(plot(scores), encoding="utf-8")
