@@ -10,8 +10,8 @@ import { Strain, contactTints } from "./tints.js";
 import { Hand } from "./hand.js";
 
 const find = (id) => document.getElementById(id);
-/** Milliseconds of a frame that may go into steps: three quarters of it, within limits. */
-const budget = (frame) => Math.min(60, Math.max(12, 750 * frame));
+/** The most seconds that pass in a frame: a machine that is slower shows slow motion. */
+const MOST = 0.05;
 
 export async function startCloth() {
   const remote = new Remote();
@@ -87,13 +87,13 @@ export async function startCloth() {
     }
   }
 
-  /** Lets the worker run `count` steps, unless it still does. */
-  async function advance(count, milliseconds = 60) {
+  /** Lets seconds pass in the worker, or one step if they are `null`, unless it is still busy. */
+  async function advance(seconds) {
     if (isBusy || !scene) return;
     isBusy = true;
     const own = run;
     try {
-      const state = await remote.call("run", count, milliseconds, find("colours").value === "contacts");
+      const state = await remote.call("run", seconds, find("colours").value === "contacts");
       if (own === run) show(state);
     } catch (error) {
       if (own === run) {
@@ -112,13 +112,12 @@ export async function startCloth() {
     const passed = before === null ? 0 : Math.min(0.1, (now - before) / 1000);
     before = now;
     if (report) return play(passed);
-    owed = Math.min(owed + passed * Number(find("speed").value), 0.05);
-    const count = Math.floor(owed / scene.timeStep);
-    if (isBusy || count < 1) return;
+    owed = Math.min(owed + passed * Number(find("speed").value), MOST);
+    if (isBusy || owed < 1e-4) return;
     const end = scene.steps * scene.timeStep;
     if (find("repeat").checked && last.time > end + 1 && !hand.isHolding) return restart();
-    owed -= count * scene.timeStep;
-    advance(count, budget(passed));
+    advance(owed);
+    owed = 0;
   }
 
   function restart() {
@@ -181,7 +180,7 @@ export async function startCloth() {
   find("one-step").addEventListener("click", () => {
     setPlaying(false);
     if (report) showFrame(Math.min(report.frame + 1, report.frameSteps.length - 1));
-    else advance(1);
+    else advance(null);
   });
   find("restart").addEventListener("click", restart);
   find("edges").addEventListener("change", (event) => {

@@ -263,8 +263,8 @@ function explain(certain, published, touches, known) {
   const inside = [...k].filter((value, i) => Math.abs(value) <= e[i]).length;
   const exact = touches && /\d/.test(known?.exact ?? "") ? `, first at the exact time ${known.exact}` : "";
   if (published.filterCulls && touches) {
-    return `The pair touches${exact}, and <strong>the paper's filter drops it</strong>: a contact is missed. ${inside} of the four control values
-      are smaller than their rounding error, so their computed signs mean nothing. The certified filter sees that and keeps the pair.`;
+    return `The pair touches${exact}, and <strong>the paper's filter drops it</strong>: a contact is missed. ${["None", "One", "Two", "Three", "All"][inside]} of the four control
+      values ${inside === 1 ? "is" : "are"} smaller than the rounding error, so the computed signs mean nothing. The certified filter sees that and keeps the pair.`;
   }
   if (published.cubicTime === undefined && touches) {
     return `The pair touches${exact}, and <strong>the plain cubic finds no contact</strong>. Rounding hides the root, or moves the contact beyond the

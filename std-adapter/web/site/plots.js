@@ -21,16 +21,16 @@ export function drawBars(svg, values, bounds) {
     text(356, middle - 8, "error bound", "end"),
   ];
   ["k₀", "3k₁", "3k₂", "k₃"].forEach((name, i) => {
-    const x = 50 + 75 * i;
+    const x = 48 + 80 * i;
     if (!Number.isFinite(values[i] / bounds[i])) {
-      parts.push(text(x, middle - 6, "not finite"), text(x, 122, name));
+      parts.push(text(x, middle - 6, "not finite"), text(x, 113, name));
       return;
     }
     const height = unit * scaled(Math.abs(values[i] / bounds[i]));
     const isCertain = Math.abs(values[i]) > bounds[i];
     const y = values[i] > 0 ? middle - height : middle;
     parts.push(`<rect x="${x - 16}" y="${y}" width="32" height="${Math.max(height, 0.8)}" rx="2" fill="var(${isCertain ? "--series-0" : "--series-5"})"/>`);
-    parts.push(text(x, 122, `${name} = ${few(values[i])}`));
+    parts.push(text(x, 113, name), text(x, 126, few(values[i])));
   });
   svg.innerHTML = parts.join("");
   svg.setAttribute("aria-label", `control values ${[...values].map(few).join(", ")}, with error bounds ${[...bounds].map(few).join(", ")}`);
@@ -63,7 +63,7 @@ export function drawCubic(svg, tripled, now, impact) {
     ...points.map(([t, v]) => `<circle cx="${x(t)}" cy="${y(v)}" r="3" fill="var(--series-0)"/>`),
     line(now, 'stroke="var(--ink)" stroke-dasharray="3 3"'),
     impact === undefined ? "" : line(impact, 'stroke="var(--series-5)" stroke-width="1.5"'),
-    text(20, 126, "time 0"), text(340, 126, "1"), impact === undefined ? "" : text(Math.min(300, Math.max(60, x(impact))), 126, `contact from ${few(impact)}`),
+    text(20, 126, "time 0"), text(340, 126, "1"), impact === undefined ? "" : text(Math.min(270, Math.max(110, x(impact))), 126, `contact from ${few(impact)}`),
   ].join("");
 }
 
