@@ -6,7 +6,7 @@ From Selvedge Require Expressions Errors Bounds.
 Import ListNotations.
 Open Scope R_scope.
 
-(* The assumptions on a format's constants; `Theorems.v` shows them for both formats. *)
+(* What is assumed of a format's constants; `Theorems.v` shows it of both formats. *)
 Record reasonable_constants (c : constants) : Prop := {
   reasonable_base : reasonable c;
   enough_underflow : (extent_underflow c - precision c >= least_exponent c + precision c - 1 + 2)%Z;
@@ -191,7 +191,7 @@ Proof.
   intros [| |]; cbn; eexists; (split; [eassumption|]); split; try assumption; apply last; try assumption; lra.
 Qed.
 
-(* For a pair in range its extent and its differences are numbers. *)
+(* Of a pair in range: its extent, and its differences, are numbers. *)
 Section InRange.
 Variable pairs : list (nat * nat).
 Hypothesis in_range : says f env value_of (are_in_range pairs).
@@ -243,7 +243,7 @@ Proof.
   pose proof (l_small f ok). pose proof mu_pos. pose proof G_4. pose proof (e_pos f).
   assert (e1 * (m a + mu) <= / 8388608 * (m a + mu)) by (apply Rmult_le_compat_r; lra). lra.
 Qed.
-(* The largest magnitude of a difference without rounding. *)
+(* What a difference is at most, without rounding. *)
 Definition p a := (1 + e1) * (m a + l) + 3 * l.
 Lemma p_pos a : 0 < p a.
 Proof. unfold p. pose proof (m_pos a). pose proof (l_pos f). pose proof (e_pos f). assert (0 <= e1 * (m a + l)) by (apply Rmult_le_pos; lra). lra. Qed.

@@ -79,7 +79,7 @@ Definition is_short k := forall a, Rabs (along k a) <= G.
 Lemma along_operand k a : operand (value_of (component (direction k) a)) (along k a) (Rabs (along k a)) 0 0.
 Proof. unfold direction. rewrite component_each, (run (Input (Along k a))). apply operand_exact. Qed.
 
-(* The largest magnitude of the products of a direction, and their largest error. *)
+(* What the products of a direction are at most, and how far they may be off. *)
 Definition sizes k := sum3 (fun a => Rabs (along k a) * p a).
 Definition lengths k := sum3 (fun a => Rabs (along k a)).
 Definition err k := 8.01 * e1 * sizes k + l * (2.3 * sizes k + 12 * lengths k + 11).
@@ -251,20 +251,24 @@ Definition until_of k b pair before := Select (stays k b pair) before (Smaller (
 Definition is_ahead k b n pair := Greater (dot_ (direction k) (corner_at n pair)) b.
 
 (* The factor 1 - 32u as it is computed. *)
-Lemma less_roundoffs_value : exists c, value_of (less_roundoffs 32) = Number c /\ / 2 <= c <= 1 - 14 * e1.
+Lemma less_roundoffs_bounds n : (1 <= n <= 255)%Z -> exists c, value_of (less_roundoffs n) = Number c /\ / 2 <= c <= 1 - (IZR n * 0.499 - 1.1) * e1.
 Proof.
-  pose proof (e_pos f) as e0. pose proof (e_small f ok) as es. pose proof (l_pos f) as l0. pose proof (l_small f ok). pose proof (l_e f fine).
+  intro n255. pose proof (e_pos f) as e0. pose proof (e_small f ok) as es. pose proof (l_pos f) as l0. pose proof (l_small f ok). pose proof (l_e f fine).
   pose proof (eps_twice f) as eu. pose proof (omega_large f ok).
-  destruct (seen_holds (roundoffs_holds 32%Z ltac:(lia))) as (x & E & near_ & _ & _). unfold Bounds.q in near_.
-  replace ((1 + e1) ^ 1 - 1) with e1 in near_ by ring. replace (32 * u) with (16 * e1) in near_ by (rewrite eu; ring). apply Rabs_le_inv in near_.
-  assert (e1 * (16 * e1) <= / 8388608 * (16 * e1)) by (apply Rmult_le_compat_r; lra).
-  pose proof (run (less_roundoffs 32)) as h. cbn -[roundoffs] in h. unfold sum in h. rewrite E in h. unfold one in h.
+  assert (nb : 1 <= IZR n <= 255) by (split; apply IZR_le; lia).
+  destruct (seen_holds (roundoffs_holds n n255)) as (x & E & near_ & _ & _). unfold Bounds.q in near_.
+  replace ((1 + e1) ^ 1 - 1) with e1 in near_ by ring. replace (IZR n * u) with (/ 2 * (IZR n * e1)) in near_ by (rewrite eu; field). apply Rabs_le_inv in near_.
+  assert (ne : e1 <= IZR n * e1 <= 255 * e1) by (split; [rewrite <- (Rmult_1_l e1) at 1|]; apply Rmult_le_compat_r; lra).
+  assert (e1 * (/ 2 * (IZR n * e1)) <= 0.0001 * (IZR n * e1)) by (replace (e1 * (/ 2 * (IZR n * e1))) with (/ 2 * e1 * (IZR n * e1)) by ring; apply Rmult_le_compat_r; lra).
+  pose proof (run (less_roundoffs n)) as h. cbn -[roundoffs] in h. unfold sum in h. rewrite E in h. unfold one in h.
   rewrite (constant (Small 1)) in h. cbn in h. rewrite (seen_1 f fine env) in h.
   apply (result_number f ok env) in h; [|rewrite Rabs_pos_eq; lra]. eexists. split; [exact h|].
   pose proof (error f ok env (1 - x)) as er. rewrite (Rabs_pos_eq (1 - x)) in er by lra. apply Rabs_le_inv in er.
   assert (e1 * (1 - x) <= e1 * 1) by (apply Rmult_le_compat_l; lra).
   assert (0 <= e1 * (1 - x)) by (apply Rmult_le_pos; lra). lra.
 Qed.
+Lemma less_roundoffs_value : exists c, value_of (less_roundoffs 32) = Number c /\ / 2 <= c <= 1 - 14 * e1.
+Proof. destruct (less_roundoffs_bounds 32 ltac:(lia)) as (c & E & b). exists c. split; [exact E|]. pose proof (e_pos f). lra. Qed.
 
 (* A quotient is at most the exact one and 3λ. *)
 Lemma quotient_arithmetic A D N Dn z y q1 c : 0 < A -> 0 < D -> 0 < Dn -> 0 < z -> N <= (1 + e1) * A -> (1 - e1) * D <= Dn -> z = N / Dn ->

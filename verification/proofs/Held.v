@@ -109,7 +109,7 @@ Proof.
   unfold Directions.err in big. unfold E in *. lra.
 Qed.
 
-(* A positive value is infinite, or a number that operations see unchanged; the smaller of two such values is no larger than either. *)
+(* What is positive is infinite, or a number that is seen as it is; the smaller of it and such a number is no larger than either. *)
 Lemma positive_value v : greater f env v (value_of (Constant (Small 0))) -> v = Infinite true \/ exists y, v = Number y /\ 0 < y /\ seen y = y.
 Proof.
   rewrite constant. cbn [constant_value]. unfold greater, seen_value. destruct v as [x|[|]|]; try tauto. rewrite seen_0. intro h.

@@ -1,4 +1,4 @@
-(* The computation of the time of impact: numbers and masks, in one floating-point environment of a thread. *)
+(* What the time of impact computes: numbers and masks, in one floating-point environment of a thread. *)
 From Coq Require Import Reals ZArith Lra Lia Bool.
 From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic.
@@ -28,14 +28,15 @@ Record environment f := Environment {
   rounded : R -> R;
   flushes_operands : bool;
   monotone : forall x y, x <= y -> rounded x <= rounded y;
+  settled : forall z, rounded (rounded z) = rounded z;
   nearly : forall z, rounds f z (rounded z) }.
-Arguments rounded {f}. Arguments flushes_operands {f}. Arguments monotone {f}. Arguments nearly {f}.
+Arguments rounded {f}. Arguments flushes_operands {f}. Arguments monotone {f}. Arguments settled {f}. Arguments nearly {f}.
 
 Section Machine.
 Variable f : constants.
 Variable env : environment f.
 
-(* The number that an operand counts as. *)
+(* What an operand counts as. *)
 Definition seen x := if flushes_operands env then if Rlt_dec (Rabs x) (lam f) then 0 else x else x.
 Definition seen_value v := match v with Number x => Number (seen x) | _ => v end.
 
@@ -44,17 +45,18 @@ Definition result z out := let r := rounded env z in
   (Rabs r <= omega f /\ out = Number r) \/
   (omega f < r /\ (out = Infinite true \/ out = Number (omega f))) \/
   (r < - omega f /\ (out = Infinite false \/ out = Number (- omega f))).
-Definition sum (op : R -> R -> R) v w out := match seen_value v, seen_value w with
+Definition sum (op : R -> R -> R) (sign_of_second : bool -> bool) v w out := match seen_value v, seen_value w with
   | Number x, Number y => result (op x y) out
   | NaN, _ | _, NaN => out = NaN
   | Infinite s, Number _ => out = Infinite s
+  | Number _, Infinite s => out = Infinite (sign_of_second s)
   | _, _ => True end.
 Definition product v w out := match seen_value v, seen_value w with
   | Number x, Number y => result (x * y) out
   | NaN, _ | _, NaN => out = NaN
-  | Infinite s, Number y => 0 < y -> out = Infinite s
+  | Infinite s, Number y | Number y, Infinite s => 0 < y -> out = Infinite s
   | _, _ => True end.
-(* If the divisor is zero, 0/0 is NaN, and other quotients are infinite. They have the dividend's sign if the zero is a flushed positive
+(* By zero: 0/0 is NaN, and other quotients are infinite. They have the dividend's sign if the zero is what is left of a positive
    number. *)
 Definition quotient v w (divisor_is_positive : Prop) out := match seen_value v, seen_value w with
   | Number x, Number y => (y <> 0 -> result (x / y) out) /\ (y = 0 -> x = 0 -> out = NaN) /\
@@ -90,7 +92,7 @@ Fixpoint says m : Prop := match m with
   | Both a b => says a /\ says b
   | Either a b => says a \/ says b
   | Not a => ~ says a end.
-(* The unrounded result of a number is positive. *)
+(* What a number is the rounded result of, positive. *)
 Fixpoint is_positive_unrounded e : Prop := match e with
   | Minus a b => greater (value_of a) (value_of b)
   | Product (Constant (Small count)) b => (0 < count)%Z /\ is_positive_unrounded b
@@ -99,8 +101,8 @@ Fixpoint is_positive_unrounded e : Prop := match e with
 Definition execution (given : input -> R) := forall e, match e with
   | Input i => value_of e = Number (given i)
   | Constant c => value_of e = Number (constant_value c)
-  | Sum a b => sum Rplus (value_of a) (value_of b) (value_of e)
-  | Minus a b => sum Rminus (value_of a) (value_of b) (value_of e)
+  | Sum a b => sum Rplus (fun s => s) (value_of a) (value_of b) (value_of e)
+  | Minus a b => sum Rminus negb (value_of a) (value_of b) (value_of e)
   | Product a b => product (value_of a) (value_of b) (value_of e)
   | Quotient a b => quotient (value_of a) (value_of b) (is_positive_unrounded b) (value_of e)
   | Negative a => value_of e = negative (value_of a)

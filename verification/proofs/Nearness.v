@@ -1,4 +1,4 @@
-(* The distance of the numbers of an execution from exact ones, operation by operation. *)
+(* How far the numbers of an execution can be from exact ones, operation by operation. *)
 From Coq Require Import Reals ZArith Lra Lia Bool Psatz.
 From Flocq Require Import Core Relative Plus_error.
 From Selvedge Require Import Arithmetic Machine.
@@ -15,27 +15,37 @@ Notation q := (Bounds.q f).
 Notation Rd := (rounded env).
 Notation seen := (seen f env).
 Notation seen_value := (seen_value f env).
-Notation slack := (/ 262144).
+Notation slack := (/ 100000).
 
 Lemma l_pos : 0 < l. Proof. apply lam_pos. Qed.
 Lemma l_small : l <= / 1152921504606846976. Proof. now apply lam_small. Qed.
 Lemma e_pos : 0 < e1. Proof. apply eps_pos. Qed.
 Lemma e_small : e1 <= / 8388608. Proof. now apply eps_small. Qed.
 Lemma q_ge n : 1 <= q n. Proof. apply Bounds.q_ge. Qed.
-Lemma q_small n : (n <= 16)%nat -> q n <= 1 + slack. Proof. apply (Bounds.q_small f ok). Qed.
 Lemma q_mono n k : (n <= k)%nat -> q n <= q k. Proof. apply Bounds.q_mono. Qed.
 Lemma q_step n : q (S n) = (1 + e1) * q n. Proof. reflexivity. Qed.
 Lemma q_sum n k : q (n + k) = q n * q k. Proof. apply pow_add. Qed.
-Lemma q_linear n : (n <= 16)%nat -> q n <= 1 + 1.001 * INR n * e1.
+Lemma q_linear n : (n <= 40)%nat -> q n <= 1 + 1.001 * INR n * e1.
 Proof.
   pose proof e_pos. pose proof e_small. induction n as [|n IH]; intro h; [unfold Bounds.q; simpl; lra|]. specialize (IH ltac:(lia)).
-  rewrite q_step, S_INR. assert (0 <= INR n <= 16) by (split; [apply pos_INR|replace 16 with (INR 16) by (simpl; ring); apply le_INR; lia]).
+  rewrite q_step, S_INR. assert (0 <= INR n <= 40) by (split; [apply pos_INR|replace 40 with (INR 40) by (simpl; ring); apply le_INR; lia]).
   assert ((1 + e1) * q n <= (1 + e1) * (1 + 1.001 * INR n * e1)) by (apply Rmult_le_compat_l; lra).
   assert (1.001 * INR n * e1 <= 0.001) by nra. assert (e1 * (1.001 * INR n * e1) <= e1 * 0.001) by (apply Rmult_le_compat_l; lra). lra.
+Qed.
+Lemma q_small n : (n <= 40)%nat -> q n <= 1 + slack.
+Proof.
+  intro h. pose proof e_pos. pose proof e_small. eapply Rle_trans; [apply (q_mono n 40 h)|]. eapply Rle_trans; [apply (q_linear 40); lia|].
+  replace (INR 40) with 40 by (simpl; ring). lra.
 Qed.
 Lemma error z : Rabs (Rd z - z) <= e1 * Rabs z + l.
 Proof. exact (rounding_error f ok z _ (nearly env z)). Qed.
 
+Lemma error_of_normal z : l <= Rabs z -> Rabs (Rd z - z) <= e1 * Rabs z.
+Proof.
+  intro large. destruct (nearly env z) as [[small _]|[direction [v ->]]]; [lra|].
+  pose proof (relative_error_FLT radix2 (least_exponent f) (precision f) (gt_0 f ok) direction z large) as E.
+  replace (- precision f + 1)%Z with (1 - precision f)%Z in E by ring. fold (power (1 - precision f)) (eps f) in E. lra.
+Qed.
 Lemma seen_off x : Rabs (seen x - x) <= l.
 Proof.
   pose proof l_pos. unfold Machine.seen. destruct (flushes_operands env); [destruct (Rlt_dec (Rabs x) l)|].
@@ -151,7 +161,7 @@ Proof.
   apply (near_weaker _ _ _ _ _ _ _ _ L); [lra|lia|].
   assert (e1 * (a + b) <= / 8388608 * (a + b)) by (apply Rmult_le_compat_r; lra). lra.
 Qed.
-Lemma near_product x X p n a y Y p' k b : near x X p n a -> near y Y p' k b -> (n <= 16)%nat -> (k <= 16)%nat ->
+Lemma near_product x X p n a y Y p' k b : near x X p n a -> near y Y p' k b -> (n <= 40)%nat -> (k <= 40)%nat ->
   near (Rd (x * y)) (X * Y) (p * p') (S (n + k)) (1.01 * (p * b + a * p' + l * (a * b)) + 1).
 Proof.
   intros A B nN kN. pose proof (near_size _ _ _ _ _ A) as sx. destruct A as (dx & mx & a0), B as (dy & my & b0).
@@ -175,7 +185,7 @@ Proof.
   assert (e1 * A_ <= / 8388608 * A_) by (apply Rmult_le_compat_r; lra). unfold A_ in *. lra.
 Qed.
 
-(* The distance for values: a result that is a number, and an operand in the form that operations see. *)
+(* The same of values: a result that is a number, and an operand as it is seen. *)
 Definition holds v X p n a := exists x, v = Number x /\ representable f x /\ near x X p n a.
 Definition operand v X p n a := exists x, seen_value v = Number x /\ near x X p n a.
 Lemma seen_operand v X p n a : holds v X p n a -> operand v X p n (a + 1).
@@ -197,7 +207,7 @@ Proof.
   assert (1 <= bpow radix2 (greatest_exponent f - 1)) by (change 1 with (bpow radix2 0); apply bpow_le; destruct ok; lia). lra.
 Qed.
 (* Nothing overflows where p is at most a quarter of the largest number and a at most that. *)
-Lemma result_holds z out X p n a : result f env z out -> near (Rd z) X p n a -> (n <= 16)%nat -> p <= omega f / 4 ->
+Lemma result_holds z out X p n a : result f env z out -> near (Rd z) X p n a -> (n <= 40)%nat -> p <= omega f / 4 ->
   a <= 2 * omega f + 4 -> holds out X p n a.
 Proof.
   intros r h nN P A. pose proof (near_size _ _ _ _ _ h) as s. pose proof (q_small n nN). pose proof omega_1. pose proof l_pos.
@@ -210,15 +220,15 @@ Proof.
   - pose proof (Rle_abs (Rd z)). lra.
   - pose proof (Rle_abs (- Rd z)). rewrite Rabs_Ropp in *. lra.
 Qed.
-Lemma holds_sum (op : R -> R -> R) v w out X p n a Y p' k b N : op = Rplus \/ op = Rminus -> sum f env op v w out ->
-  operand v X p n a -> operand w Y p' k b -> (n <= N)%nat -> (k <= N)%nat -> (N <= 15)%nat ->
+Lemma holds_sum (op : R -> R -> R) {signs} v w out X p n a Y p' k b N : op = Rplus \/ op = Rminus -> sum f env op signs v w out ->
+  operand v X p n a -> operand w Y p' k b -> (n <= N)%nat -> (k <= N)%nat -> (N <= 38)%nat ->
   p + p' <= omega f / 4 -> a + b <= omega f -> holds out (op X Y) (p + p') (S N) (1.01 * (a + b) + 1).
 Proof.
   intros which s (x & vx & hx) (y & wy & hy) nN kN N15 P A. unfold sum in s. rewrite vx, wy in s. pose proof omega_1.
   apply (result_holds _ _ _ _ _ _ s); [|lia|assumption|lra]. exact (near_sum op _ _ _ _ _ _ _ _ _ _ N which hx hy nN kN).
 Qed.
 Lemma holds_product v w out X p n a Y p' k b : product f env v w out ->
-  operand v X p n a -> operand w Y p' k b -> (n + k <= 15)%nat ->
+  operand v X p n a -> operand w Y p' k b -> (n + k <= 38)%nat ->
   p * p' <= omega f / 4 -> p * b + a * p' + l * (a * b) <= omega f ->
   holds out (X * Y) (p * p') (S (n + k)) (1.01 * (p * b + a * p' + l * (a * b)) + 1).
 Proof.
@@ -247,3 +257,13 @@ Qed.
 Lemma greater_numbers x y : greater f env (Number x) (Number y) <-> seen y < seen x.
 Proof. reflexivity. Qed.
 End Nearness.
+
+(* An environment that rounds to nearest and keeps subnormal numbers. *)
+Theorem to_nearest f : reasonable f -> environment f.
+Proof.
+  intro ok. pose proof (valid f ok) as v. set (near_ := round radix2 (FLT_exp (least_exponent f) (precision f)) ZnearestE).
+  refine (Environment f near_ false _ _ _).
+  - intros x y le. apply round_le; [exact v|apply valid_rnd_N|exact le].
+  - intro z. apply round_generic; [apply valid_rnd_N|]. apply generic_format_round; [exact v|apply valid_rnd_N].
+  - intro z. right. exists ZnearestE. split; [apply valid_rnd_N|reflexivity].
+Defined.

@@ -5,7 +5,7 @@ From Coq Require Import Reals ZArith Lra Lia.
 From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Magnitudes.
 From Selvedge Require Orders Boxes Apart Certificates Nearest Witnesses Integers.
-From Selvedge Require Machine Corners Advance Advancing.
+From Selvedge Require Machine Nearness Corners Advance Advancing.
 Open Scope R_scope.
 
 (* 1. Both formats are ones that the theorems below hold for. *)
@@ -213,25 +213,32 @@ Proof. intro h. exact (Integers.three_words_suffice n h x). Qed.
        following theorems hold for. *)
 Theorem constants_of_the_time_of_impact : Corners.reasonable_constants Advance.binary32 /\ Corners.reasonable_constants Advance.binary64.
 Proof. destruct formats_are_reasonable. split; constructor; try assumption; cbn; lia. Qed.
+(* An environment of a thread rounds to nearest or in another direction, and flushes or keeps subnormal numbers. To nearest is one. *)
+Theorem environments_exist : inhabited (Machine.environment binary32) /\ inhabited (Machine.environment binary64).
+Proof. destruct formats_are_reasonable as [a b]. split; constructor; now apply Nearness.to_nearest. Qed.
 (* The code goes in rounds from a time up to which the pair is proven to be apart to a later one. `Advancing.step` says what a round has:
    coordinates, directions and moments of any origin; an execution of the traced terms (Advance.v) in any environment (Machine.v); and the
-   comparisons of one proof, which come out true. `Advancing.reaches` is a chain of rounds, in either format, whose times may be rounded down.
-   If the code answers a time, a chain reaches it; if it answers `Never`, one reaches 1 or the end of the requested time. *)
+   comparisons of one proof, which come out true. The proofs are a direction that is held, turns or moves on a curve, and the signed volume,
+   throughout the step, from a moment to its end, or up to a time that clipping gives. `Advancing.reaches` is a chain of rounds, in either
+   format, whose times may be rounded down. If the code answers a time, a chain reaches it; if it answers `Never`, one reaches 1 or the end of
+   the requested time. *)
 Theorem no_contact_of_a_vertex_and_a_face_before place begin until t : Advancing.reaches Advancing.of_a_vertex_and_a_face place begin until ->
   begin <= t <= until -> t <= 1 ->
   ~ vertex_in_triangle (at_ (path_of place 0) t) (at_ (path_of place 1) t) (at_ (path_of place 2) t) (at_ (path_of place 3) t).
 Proof.
   rewrite Advancing.vertex_and_face_corners. intros chain between t1.
-  destruct (Advancing.rounds_keep_ahead _ _ _ _ chain t between t1) as (given & same & ahead).
-  exact (Advancing.ahead_excludes_contact_of_a_vertex_and_a_face place given t same ahead).
+  destruct (Advancing.rounds_keep_apart _ _ _ _ _ _ _ chain t between t1) as (given & same & [ahead|volume]).
+  - exact (Advancing.ahead_excludes_contact_of_a_vertex_and_a_face place given t same ahead).
+  - exact (Advancing.volume_excludes_contact_of_a_vertex_and_a_face place given t same volume).
 Qed.
 Theorem no_contact_of_two_edges_before place begin until t : Advancing.reaches Advancing.of_two_edges place begin until ->
   begin <= t <= until -> t <= 1 ->
   ~ segments_meet (at_ (path_of place 0) t) (at_ (path_of place 1) t) (at_ (path_of place 2) t) (at_ (path_of place 3) t).
 Proof.
   rewrite Advancing.two_edges_corners. intros chain between t1.
-  destruct (Advancing.rounds_keep_ahead _ _ _ _ chain t between t1) as (given & same & ahead).
-  exact (Advancing.ahead_excludes_contact_of_two_edges place given t same ahead).
+  destruct (Advancing.rounds_keep_apart _ _ _ _ _ _ _ chain t between t1) as (given & same & [ahead|volume]).
+  - exact (Advancing.ahead_excludes_contact_of_two_edges place given t same ahead).
+  - exact (Advancing.volume_excludes_contact_of_two_edges place given t same volume).
 Qed.
 
 (* 11. What the certificates of a separation and of truncation rest on stands in Certificates.v, in exact numbers: a direction held or turning
@@ -263,6 +270,7 @@ Print Assumptions Integers.carries_are_right.
 Print Assumptions Integers.what_fits_is_exact.
 Print Assumptions Integers.control_values_have_room.
 Print Assumptions constants_of_the_time_of_impact.
+Print Assumptions environments_exist.
 Print Assumptions no_contact_of_a_vertex_and_a_face_before.
 Print Assumptions no_contact_of_two_edges_before.
 Print Assumptions Certificates.a_product_bounds_the_distance.

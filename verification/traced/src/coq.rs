@@ -106,7 +106,7 @@ fn constants<S: Scalar>(name: &str, text: &mut String) {
 /// Writes the assumptions and results of each proof of one round, for corners in range.
 fn proofs_of_advance<const N: usize>(of: &str, corners: fn(&PairPoints<Traced>) -> Corners<Traced, N>, text: &mut String) {
     let direction = |number: usize| Vector::from(["X", "Y", "Z_"].map(|axis| Traced::input(format!("Along {number} {axis}"))));
-    let ((masks, times), steps) = trace(|| {
+    let ((margins, masks, times), steps) = trace(|| {
         let corners = corners(&coordinates());
         let in_range = corners.are_in_range();
         let moments = [0, 1].map(|number| Traced::input(format!("Moment {number}")));
@@ -114,8 +114,8 @@ fn proofs_of_advance<const N: usize>(of: &str, corners: fn(&PairPoints<Traced>) 
         let [first, second, third] = [0, 1, 2].map(|number| corners.direction(direction(number), None));
         let held = corners.apart_along(&first, &now, in_range);
         let volume = SignedVolume::new(&corners, None);
+        let margins = volume.margins_from(moments[0]);
         let clipped = volume.clipped::<false>(moments[0]);
-        let divided_first = volume.clipped::<true>(moments[0]);
         let masks = [
             ("in_range", in_range),
             ("held", held.is_apart),
@@ -127,15 +127,17 @@ fn proofs_of_advance<const N: usize>(of: &str, corners: fn(&PairPoints<Traced>) 
         let times = [
             ("held", held.until),
             ("volume", clipped.until),
-            ("volume_side_by_side", divided_first.until),
         ];
-        (masks, times)
+        (margins, masks, times)
     });
     let mut terms = Terms::new("number", &steps);
     terms.input = |name| match name.split(' ').next() {
         Some("Coordinate") => format!("Input (Place ({name}))"),
         _ => format!("Input ({name})"),
     };
+    for (index, margin) in margins.into_iter().enumerate() {
+        terms.define_for_use(&format!("margin_{index}"), margin);
+    }
     for (name, mask) in masks {
         let formula = terms.mask(mask);
         writeln!(terms.text, "Definition {name} : mask := {formula}.").expect("a string");
@@ -256,6 +258,17 @@ impl<'a> Terms<'a> {
     fn define(&mut self, name: &str, number: Traced) {
         let term = self.number(number);
         writeln!(self.text, "Definition {name} : {} := {term}.", self.number_type).expect("a string");
+    }
+
+    /// Defines a number whose name stands for it in all that follows. So what follows is compared without it.
+    fn define_for_use(&mut self, name: &str, number: Traced) {
+        self.define(name, number);
+        let term = self.number(number);
+        for known in self.names.values_mut().chain(self.steps.values_mut()) {
+            if *known == term {
+                name.clone_into(known);
+            }
+        }
     }
 
     /// Returns the name of a term, and defines the term if it has none.
