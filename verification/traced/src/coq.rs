@@ -124,10 +124,7 @@ fn proofs_of_advance<const N: usize>(of: &str, corners: fn(&PairPoints<Traced>) 
             ("volume_throughout", volume.proves_apart_throughout()),
             ("volume_to_the_end", clipped.to_the_end),
         ];
-        let times = [
-            ("held", held.until),
-            ("volume", clipped.until),
-        ];
+        let times = [("held", held.until), ("volume", clipped.until)];
         (margins, masks, times)
     });
     let mut terms = Terms::new("number", &steps);
