@@ -126,61 +126,6 @@ fn a_path_that_meets_the_swept_box_is_kept_f32() {
     check(40_000, pairs::<f32>(PairKind::VertexFace), a_path_that_meets_the_box_is_kept);
 }
 
-/// A search without the test's underflow term, which culled both, found these pairs. Their cross products are subnormal, and a
-/// rounded difference carries one over a rounding boundary.
-#[test]
-fn a_tiny_path_that_meets_the_box_is_kept_by_the_underflow_term_alone() {
-    let resting = |position: [f32; 3]| [position; 2];
-    let in_f32 = PairCase::<f32>::new(
-        PairKind::VertexFace,
-        [
-            [
-                [5.916_622_6e-21, 0.0, -3.142_964_8e-21],
-                [-1.068_372_4e-20, 0.0, 7.093_878e-21],
-            ],
-            resting([6.405_503e-23, 0.0, 4.661_052e-22]),
-            resting([2.710_505_4e-20, 0.0, 6.352_747e-22]),
-            resting([6.405_503e-23, 0.0, 4.661_052e-22]),
-        ],
-    );
-    let resting = |position: [f64; 3]| [position; 2];
-    let in_f64 = PairCase::<f64>::new(
-        PairKind::VertexFace,
-        [
-            [
-                [0.0, -5.879_625_518_037_162e-158, 8.139_709_717_471_553e-156],
-                [0.0, 2.663_308_704_314_631e-155, -2.418_029_249_419_207e-155],
-            ],
-            resting([0.0, 1.065_801_979_138_294e-155, 0.0]),
-            resting([0.0, 7.458_340_731_200_207e-155, 0.0]),
-            [
-                [0.0, 1.065_801_979_138_294e-155, 0.0],
-                [0.0, 1.065_801_979_138_294e-155, -4.836_801_323_569_613e-156],
-            ],
-        ],
-    );
-    assert!(segment_meets_box(&in_f32.points[0].map(rational), &swept_bounds(&in_f32)));
-    assert!(segment_meets_box(&in_f64.points[0].map(rational), &swept_bounds(&in_f64)));
-    assert!(!verdict(SegmentBox, &in_f32).is_culled());
-    assert!(!verdict(SegmentBox, &in_f64).is_culled());
-}
-
-/// A search with a quarter of the test's rounding bound, which culled it, found this pair.
-#[test]
-fn a_path_that_meets_the_box_by_less_than_its_rounding_error_is_kept() {
-    let pair = PairCase::<f32>::new(
-        PairKind::VertexFace,
-        [
-            [[-1.884_149_1, -0.034_371_793, 0.0], [0.277_877_8, -1.877_597_8, 0.0]],
-            [[-1.0, -1.113_415_8, 0.0]; 2],
-            [[-1.0, -1.1875, 0.0], [-2.0, -1.1875, 0.0]],
-            [[-1.0, -1.113_415_8, 0.0], [-0.618_475_6, -1.113_415_8, 0.0]],
-        ],
-    );
-    assert!(segment_meets_box(&pair.points[0].map(rational), &swept_bounds(&pair)));
-    assert!(!verdict(SegmentBox, &pair).is_culled());
-}
-
 /// A corner of the box, its size, the point where the path passes through it, the path's direction, and its length in either
 /// direction.
 type PathThroughBox = ([i16; 3], [u8; 3], [u8; 3], [i16; 3], [u8; 2]);

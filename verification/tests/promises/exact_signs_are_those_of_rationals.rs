@@ -13,10 +13,8 @@ use selvedge_core::verification::exact::{
 use selvedge_verification::culling::CullingTest;
 use selvedge_verification::culling::verdict;
 use selvedge_verification::formats;
-use selvedge_verification::generator::{
-    Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, from_choices, pairs_of_any_kind,
-};
-use selvedge_verification::oracle::{InRationals, coplanar, rational, within};
+use selvedge_verification::generator::{Format, PairCase, check, extraordinary_pairs, from_choices, pairs_of_any_kind};
+use selvedge_verification::oracle::{InRationals, rational, within};
 use std::cmp::Ordering::{self, Equal, Greater, Less};
 
 fn signs<S: Format>(pair: &PairCase<S>) -> Option<[Ordering; 4]> {
@@ -38,15 +36,7 @@ fn signs_are_those_of_rationals<S: Format>(pair: &PairCase<S>) -> Result<(), Tes
 
 formats!(signs_are_those_of_rationals(8_000, pairs_of_any_kind()));
 
-fn nothing_overflows_at_the_limit_of_a_width<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
-    prop_assert_eq!(signs(pair), Some(InRationals::new(pair).signs()));
-    Ok(())
-}
-
-formats!(nothing_overflows_at_the_limit_of_a_width(
-    2_000,
-    from_choices(at_the_limit_of_a_width)
-));
+formats!(nothing_overflows_at_the_limit_of_a_width is signs_are_those_of_rationals(2_000, from_choices(at_the_limit_of_a_width)));
 
 fn never_coplanar_means_one_sign_whatever_is_known_before<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
     let signs = signs(pair).expect("finite");
@@ -80,14 +70,6 @@ fn what_is_known_is_not_asked_again<S: Format>(pair: &PairCase<S>) -> Result<(),
 
 formats!(what_is_known_is_not_asked_again(2_000, pairs_of_any_kind()));
 
-fn never_culls_what_the_oracle_calls_coplanar<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
-    let question = pair.question();
-    prop_assert!(!never_coplanar(pair, UNKNOWN) || !coplanar(&question.start, &question.end));
-    Ok(())
-}
-
-formats!(never_culls_what_the_oracle_calls_coplanar(8_000, pairs_of_any_kind()));
-
 fn signs_that_rounding_cannot_change_are_the_exact_ones<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
     let tetrahedron = pair.tetrahedron();
     if !is_in_range(tetrahedron.largest_by_axis().largest()) {
@@ -108,21 +90,6 @@ formats!(signs_that_rounding_cannot_change_are_the_exact_ones(
     40_000,
     pairs_of_any_kind()
 ));
-
-fn culls_whatever_the_certified_filter_culls<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
-    let certified = verdict(CullingTest::CertifiedNonCoplanarity, pair);
-    prop_assert!(!certified.is_culled() || never_coplanar(pair, UNKNOWN));
-    Ok(())
-}
-
-formats!(culls_whatever_the_certified_filter_culls(40_000, pairs_of_any_kind()));
-
-fn never_culls_what_is_coplanar_by_construction<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
-    prop_assert!(!never_coplanar(&moment.pair(), UNKNOWN));
-    Ok(())
-}
-
-formats!(never_culls_what_is_coplanar_by_construction(8_000, coplanar_pairs()));
 
 fn what_is_not_finite_has_no_signs_and_is_kept<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
     prop_assert_eq!(signs(pair).is_some(), pair.is_finite());
