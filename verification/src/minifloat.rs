@@ -274,6 +274,19 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> fmt::Debug for Minifloa
     }
 }
 
+/// Returns the numbers with these values.
+///
+/// # Panics
+/// Panics if the format lacks one of them.
+#[must_use]
+pub fn numbers<const E: u32, const F: u32, const ENVIRONMENT: u32, const N: usize>(
+    values: [f64; N],
+) -> [Minifloat<E, F, ENVIRONMENT>; N] {
+    let numbers = values.map(Minifloat::nearest);
+    assert_eq!(numbers.map(Minifloat::value), values, "the format has these numbers");
+    numbers
+}
+
 /// Calls `visit` with every way to choose `N` of `values`, in counting order.
 pub fn every<T: Copy, const N: usize>(values: &[T], mut visit: impl FnMut([T; N])) {
     let mut digits = [0; N];

@@ -33,6 +33,12 @@ impl<S: Format> PairCase<S> {
         Self { kind, points }
     }
 
+    /// Makes a pair from its coordinates, point by point, at the start and at the end.
+    #[must_use]
+    pub fn from_coordinates(kind: PairKind, mut coordinate: impl FnMut() -> S) -> Self {
+        Self::new(kind, [(); 4].map(|()| [(); 2].map(|()| [(); 3].map(|()| coordinate()))))
+    }
+
     /// Returns the motions of the points, in their order.
     #[must_use]
     pub fn motions(&self) -> [Motion<S>; 4] {

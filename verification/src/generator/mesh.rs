@@ -114,9 +114,17 @@ impl<S: Format> MeshCase<S> {
     #[must_use]
     pub fn moved_by(&self, offset: [S; 3]) -> Self {
         let moved = |position: [S; 3]| std::array::from_fn(|axis| position[axis] + offset[axis]);
-        Self {
+        self.with_positions(|_, ends| ends.map(moved))
+    }
+
+    /// Returns the mesh with other positions, each made from a vertex and its positions, perhaps in another format.
+    #[must_use]
+    pub fn with_positions<T: Format>(&self, mut other: impl FnMut(usize, [[S; 3]; 2]) -> [[T; 3]; 2]) -> MeshCase<T> {
+        MeshCase {
             triangles: self.triangles.clone(),
-            positions: self.positions.iter().map(|ends| ends.map(moved)).collect(),
+            positions: { self.positions.iter().enumerate() }
+                .map(|(vertex, &ends)| other(vertex, ends))
+                .collect(),
         }
     }
 }

@@ -177,15 +177,10 @@ proptest! {
 /// Otherwise a box axis separates.
 fn a_path_clearly_past_the_box_is_culled<S: Format>() {
     let paths = from_choices(|choices| {
-        let points = std::array::from_fn(|_| {
-            std::array::from_fn(|_| {
-                std::array::from_fn(|_| {
-                    let whole = (choices.word() % 16_385) as i64 - 8192;
-                    S::exact(whole, -10)
-                })
-            })
-        });
-        PairCase::<S>::new(PairKind::VertexFace, points)
+        PairCase::<S>::from_coordinates(PairKind::VertexFace, || {
+            let whole = (choices.word() % 16_385) as i64 - 8192;
+            S::exact(whole, -10)
+        })
     });
     let culled = std::cell::Cell::new(0);
     check(10_000, paths, |pair| {

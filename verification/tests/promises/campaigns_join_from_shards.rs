@@ -117,7 +117,7 @@ proptest! {
     }
 
     #[test]
-    fn the_digest_tells_apart_what_differs_in_one_chunk(
+    fn the_digest_differs_if_one_chunk_differs(
         chunks in 2..60_u64,
         one in any::<prop::sample::Index>(),
         other in any::<prop::sample::Index>(),

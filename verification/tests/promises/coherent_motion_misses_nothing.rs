@@ -1,5 +1,6 @@
 //! A detector that follows pairs from step to step gives the results of one that has not seen earlier steps.
 
+use crate::support;
 use proptest::prelude::*;
 use selvedge::PairKind;
 use selvedge::glam::DVec3;
@@ -23,15 +24,7 @@ fn by_pair<S: Scalar>(contacts: &[Contact<S>]) -> Contacts {
 /// Makes steps from the step of a mesh: glides, rests, jumps, repeated steps, ends that a response has changed, and meshes that
 /// move far away.
 fn steps<S: Format>(mesh: &MeshCase<S>) -> Vec<MeshCase<S>> {
-    let step = |position: &dyn Fn(usize, [[S; 3]; 2]) -> [[S; 3]; 2]| MeshCase {
-        triangles: mesh.triangles.clone(),
-        positions: mesh
-            .positions
-            .iter()
-            .enumerate()
-            .map(|(k, &ends)| position(k, ends))
-            .collect(),
-    };
+    let step = |position: &dyn Fn(usize, [[S; 3]; 2]) -> [[S; 3]; 2]| mesh.with_positions(position);
     let between = |[from, to]: [[S; 3]; 2], share: f64| {
         [0, 1, 2].map(|axis| {
             let (from, to) = (from[axis].to_f64(), to[axis].to_f64());
@@ -97,10 +90,7 @@ fn are_those_of_a_new_one<S: Format>(
 
 fn are_followed<S: Format>(mesh: &MeshCase<S>, compared: &Cell<[usize; 2]>, separation: f64) -> Result<(), TestCaseError> {
     let topology = Arc::new(mesh.topology());
-    let limits = Limits {
-        separation: S::from_f64(separation),
-        ..Limits::default()
-    };
+    let limits = support::within(S::from_f64(separation));
     let new = || {
         let mut detector = CollisionDetector::<S>::new(Arc::clone(&topology));
         detector.set_criterion(Criterion::Within(limits)).expect("lengths");
@@ -189,10 +179,7 @@ fn no_contact_of_any_step_is_missed() {
     check(12, meshes::<f64>(), |mesh| {
         let topology = Arc::new(mesh.topology());
         for separation in [0.0, 0.125] {
-            let limits = Limits {
-                separation,
-                ..Limits::default()
-            };
+            let limits = support::within(separation);
             let mut coherent = CollisionDetector::<f64>::new(Arc::clone(&topology));
             coherent.set_criterion(Criterion::Within(limits)).expect("lengths");
             coherent.set_coherent(true);
@@ -240,10 +227,7 @@ fn threads_and_instruction_sets_change_nothing() {
     };
     let frames: Vec<_> = (36..61).map(frame).collect();
     for separation in [0.0, 1e-3] {
-        let limits = Limits {
-            separation,
-            ..Limits::default()
-        };
+        let limits = support::within(separation);
         let contacts = |threads: Threads, level, is_coherent: bool| -> (Vec<Vec<Contact<f64>>>, u64) {
             let mut detector = CollisionDetector::<f64>::new(Arc::clone(&topology));
             detector.set_criterion(Criterion::Within(limits)).expect("lengths");
@@ -283,12 +267,7 @@ fn what_rests_changes_nothing_for_what_moves() {
     check(60, meshes::<f64>(), |mesh| {
         let topology = Arc::new(mesh.topology());
         let moving: Vec<bool> = (0..mesh.positions.len()).map(|k| k % 2 == 0).collect();
-        let resting = MeshCase {
-            triangles: mesh.triangles.clone(),
-            positions: (mesh.positions.iter().zip(&moving))
-                .map(|(&[start, end], &moves)| [start, if moves { end } else { start }])
-                .collect(),
-        };
+        let resting = mesh.with_positions(|vertex, [start, end]| [start, if moving[vertex] { end } else { start }]);
         let mut coherent = CollisionDetector::<f64>::new(Arc::clone(&topology));
         coherent.set_coherent(true);
         coherent.set_moving(Some(&moving)).expect("one for each vertex");
@@ -355,10 +334,7 @@ fn what_is_asked_may_change_from_step_to_step() {
     let (mut found, mut expected) = (Vec::new(), Vec::new());
     for number in 46..60 {
         coherent.set_coherent(number % 5 != 4);
-        let limits = Limits {
-            separation: [0.0, 1e-3, 1e-3, 4e-3][number % 4],
-            ..Limits::default()
-        };
+        let limits = support::within([0.0, 1e-3, 1e-3, 4e-3][number % 4]);
         coherent.set_criterion(Criterion::Within(limits)).expect("lengths");
         let mut anew = CollisionDetector::<f64>::new(Arc::clone(&topology));
         anew.set_criterion(Criterion::Within(limits)).expect("lengths");

@@ -1,5 +1,6 @@
 //! The detector's results agree, step by step, with the exact oracle and with each other.
 
+use crate::support;
 use proptest::prelude::*;
 use selvedge::PairKind::{EdgeEdge, VertexFace};
 use selvedge::Topology;
@@ -98,10 +99,7 @@ fn no_pair_that_comes_within_the_separation_is_missed() {
         let topology = mesh.topology();
         let mut detector = detector(mesh);
         for separation in [1e-9, 0.25, 1.0] {
-            let limits = Limits {
-                separation,
-                ..Limits::default()
-            };
+            let limits = support::within(separation);
             detector.set_criterion(Criterion::Within(limits)).expect("a length");
             let found = by_pair(&contacts(&mut detector, mesh));
             for pair in with_kinds(all_pairs(&topology)) {
@@ -129,10 +127,7 @@ fn a_separation_beyond_the_numbers_of_f32_excludes_nothing() {
     let mut detector = CollisionDetector::<f64>::new(topology);
     let mut found = Vec::new();
     for separation in [10.0, 1e39] {
-        let limits = Limits {
-            separation,
-            ..Limits::default()
-        };
+        let limits = support::within(separation);
         detector.set_criterion(Criterion::Within(limits)).expect("a length");
         detector.contacts(&frame, &frame, &mut found).expect("finite positions");
         assert_eq!(found.len(), 15, "{separation}");
@@ -144,15 +139,11 @@ fn what_rests_changes_nothing_for_what_moves<S: Format>(mesh: &MeshCase<S>) -> R
     let topology = mesh.topology();
     let moving: Vec<bool> = (0..mesh.positions.len()).map(|k| k % 2 == 0).collect();
     let step = |step: usize| {
-        let position = |(ends, &moves): (&[[S; 3]; 2], &bool)| match (moves, step) {
-            (false, _) => [ends[0]; 2],
-            (true, 0) => *ends,
-            (true, _) => [ends[1], ends[0]],
-        };
-        MeshCase {
-            triangles: mesh.triangles.clone(),
-            positions: mesh.positions.iter().zip(&moving).map(position).collect(),
-        }
+        mesh.with_positions(|vertex, [start, end]| match (moving[vertex], step) {
+            (false, _) => [start; 2],
+            (true, 0) => [start, end],
+            (true, _) => [end, start],
+        })
     };
     let (mut whole, mut part) = (detector(mesh), detector(mesh));
     part.set_moving(Some(&moving)).expect("one for each vertex");
@@ -180,10 +171,7 @@ formats!(what_rests_changes_nothing_for_what_moves(250, meshes()));
 fn the_format_of_the_positions_changes_no_contact() {
     let compared = Cell::new(0);
     check(250, meshes::<f32>(), |mesh| {
-        let wide = MeshCase::<f64> {
-            triangles: mesh.triangles.clone(),
-            positions: mesh.positions.iter().map(|ends| ends.map(|end| end.map(f64::from))).collect(),
-        };
+        let wide = mesh.with_positions(|_, ends| ends.map(|end| end.map(f64::from)));
         let (mut narrow_detector, mut wide_detector) = (detector(mesh), detector(&wide));
         let limits = Limits::<f32>::default();
         let limits = Limits {

@@ -54,10 +54,7 @@ formats!(verdicts_are_the_oracles is agree_with_the_oracle(6_000, pairs_of_any_k
 /// degeneration.
 fn on_a_grid<S: Format>(limit: u32, choices: &mut Choices<'_>) -> PairCase<S> {
     let kind = choices.pick(&KINDS);
-    let mut whole = || S::exact(choices.below(limit + 1).into(), 0);
-    let mut end = || std::array::from_fn(|_| whole());
-    let mut point = || std::array::from_fn(|_| end());
-    PairCase::new(kind, std::array::from_fn(|_| point()))
+    PairCase::from_coordinates(kind, || S::exact(choices.below(limit + 1).into(), 0))
 }
 
 fn verdicts_are_the_oracles_on_small_whole_numbers<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {

@@ -13,7 +13,7 @@
 use rug::{Rational, ops::Pow};
 use selvedge_core::verification::coplanarity::MovingTetrahedron;
 use selvedge_core::verification::vector::Vector;
-use selvedge_verification::minifloat::{DOWNWARD, FLUSHING, Minifloat, TO_NEAREST, TOWARDS_ZERO, UPWARD, every};
+use selvedge_verification::minifloat::{DOWNWARD, FLUSHING, Minifloat, TO_NEAREST, TOWARDS_ZERO, UPWARD, every, numbers};
 
 /// A moving tetrahedron by the points a, b, c, p at times 0 and 1.
 type Points<T> = [[[T; 3]; 2]; 4];
@@ -86,16 +86,6 @@ impl Seen {
             assert!(signs == [1; 4] || signs == [-1; 4], "{points:?} is culled");
         }
     }
-}
-
-fn numbers<const E: u32, const F: u32, const ENVIRONMENT: u32, const N: usize>(
-    values: [f64; N],
-) -> [Minifloat<E, F, ENVIRONMENT>; N] {
-    values.map(|value| {
-        let number = Minifloat::nearest(value);
-        assert_eq!(number.value(), value, "the format has this number");
-        number
-    })
 }
 
 /// Returns k₀ of every tetrahedron at rest with all twelve coordinates on the grid.

@@ -192,7 +192,7 @@ fn times_have_the_order_of_their_numbers() {
 /// Two edges are in one plane, and one comes down from the largest number. The times that are compared are next to each other at
 /// the end of the step. The search must not add the bits of one by one while those of the other double.
 #[test]
-fn times_next_to_one_another_at_the_end_of_the_step_are_told_apart() {
+fn neighbouring_times_at_the_end_of_the_step_are_distinguished() {
     let (x, y, z) = (-9_007_199_254_740_967.0, 4_503_599_627_370_484.0, -9_007_199_254_740_967.0);
     let pair = edge_edge(
         [[x, y, z + 8.0], [x, y, z - 8.0], [x, y + 8.0, f64::MAX], [x, y - 8.0, z]],

@@ -54,7 +54,7 @@ fn a_point_of_a_body_that_turns_is_where_it_is_said_to_be_and_as_fast() {
                 let exact = (pose.at(start), pose.velocity(start));
                 for environment in Environment::all() {
                     let ask = |&(turn, start, time): &(&Screw, DVec3, f64)| turn.motion().path(start).moment(time);
-                    is_as_told(&environment.run(&(turn, start, time), ask), &exact)
+                    is_near(&environment.run(&(turn, start, time), ask), &exact)
                         .map_err(|error| TestCaseError::fail(format!("{environment:?} at {time}: {error}")))?;
                 }
             }
@@ -63,7 +63,7 @@ fn a_point_of_a_body_that_turns_is_where_it_is_said_to_be_and_as_fast() {
     });
 }
 
-fn is_as_told(moment: &Moment, (position, velocity): &(Place, Place)) -> Result<(), TestCaseError> {
+fn is_near(moment: &Moment, (position, velocity): &(Place, Place)) -> Result<(), TestCaseError> {
     let off = distance(&place(moment.position), position);
     prop_assert!(off <= float(moment.position_error), "{} of {}", off, moment.position_error);
     let off = distance(&place(moment.velocity), velocity);
@@ -99,8 +99,7 @@ fn a_point_on_straight_pieces_is_where_it_is_said_to_be_and_as_fast() {
                     [line.moment(*time), straight.moment(*time)]
                 });
                 for (moment, exact) in moments.iter().zip([&on_line, &on_straight]) {
-                    is_as_told(moment, exact)
-                        .map_err(|error| TestCaseError::fail(format!("{environment:?} at {time}: {error}")))?;
+                    is_near(moment, exact).map_err(|error| TestCaseError::fail(format!("{environment:?} at {time}: {error}")))?;
                 }
             }
         }

@@ -21,7 +21,7 @@ use selvedge_verification::formats;
 use selvedge_verification::generator::{
     Choices, Format, Moment, PairCase, Simplify, check, extraordinary_pairs, from_choices, pairs_of_any_kind, touching_pairs,
 };
-use selvedge_verification::oracle::{Pair, within, within_at};
+use selvedge_verification::oracle::{Pair, rational, within, within_at};
 
 /// A pair, and some decisions as well.
 #[derive(Clone, Debug)]
@@ -381,19 +381,18 @@ fn who_has_room_has_not_strayed_farther_from_the_course<S: Format>(question: &Qu
         let Some(course) = environment.run(question, |question| course_of(question)) else {
             continue;
         };
-        let exact = |x: S| Rational::from_f64(x.to_f64()).expect("finite");
         let position_of = |vector: S::Vector| {
             let position: [S; 3] = vector.into();
             point(position.map(S::to_f64))
         };
-        let share = exact(course.time) / exact(course.span);
+        let share = rational(course.time) / rational(course.span);
         let [origin, end, position] = [course.origin, course.end, course.position].map(position_of);
         for axis in 0..3 {
             let on_course = Rational::from(&end[axis] - &origin[axis]) * &share + &origin[axis];
             let strayed = Rational::from(&position[axis] - &on_course).abs();
             // The condition is 2·strayed ≤ stray + spare/√3.
-            let more = strayed * 2_u32 - exact(course.stray);
-            let (spare, squared) = (exact(course.spare), Rational::from(more.square_ref()) * 3_u32);
+            let more = strayed * 2_u32 - rational(course.stray);
+            let (spare, squared) = (rational(course.spare), Rational::from(more.square_ref()) * 3_u32);
             let is_within = match (more > 0, spare > 0) {
                 (true, true) => squared <= spare.square(),
                 (true, false) => false,
@@ -504,7 +503,7 @@ fn boxes_that_are_drawn_in_keep_the_smaller_separation<S: Format>(pair: &PairCas
 formats!(boxes_that_are_drawn_in_keep_the_smaller_separation(400, pairs_of_any_kind()));
 
 #[test]
-fn boxes_that_are_drawn_in_show_nearly_all_that_is_kept_and_nothing_that_cannot_be_told() {
+fn boxes_that_are_drawn_in_show_nearly_all_that_is_kept_and_nothing_that_is_uncertain() {
     let at = |x: f64| [[x, 0.3, 0.1], [x + 2.0, 0.4, 0.2]];
     let pair = PairCase {
         kind: PairKind::EdgeEdge,
@@ -625,8 +624,7 @@ formats!(narrowing_exchanges_no_two_numbers_in_any_environment(
 /// Returns (a·b)(e·e) − (a·e)(b·e), which is negative beyond a right angle. The vectors lead from the first point to the others,
 /// e to the second.
 fn across<S: Format>([v, others @ ..]: [[S; 3]; 4]) -> Rational {
-    let exact = |x: S| Rational::from_f64(x.to_f64()).expect("finite");
-    let way = |point: [S; 3]| [0, 1, 2].map(|axis| exact(point[axis]) - exact(v[axis]));
+    let way = |point: [S; 3]| [0, 1, 2].map(|axis| rational(point[axis]) - rational(v[axis]));
     let [e, a, b] = others.map(way);
     let dot = |x: &[Rational; 3], y: &[Rational; 3]| x.iter().zip(y).map(|(x, y)| Rational::from(x * y)).sum::<Rational>();
     dot(&a, &b) * dot(&e, &e) - dot(&a, &e) * dot(&b, &e)

@@ -17,7 +17,7 @@ use selvedge_core::verification::points::{EdgeEdge, PairPoints, PairShape, Verte
 use selvedge_core::verification::vector::Vector;
 use selvedge_verification::altered::{self, Factors};
 use selvedge_verification::generator::{Choices, Format, Meeting, Moment, PairCase};
-use selvedge_verification::minifloat::{DOWNWARD, FLUSHING, Minifloat, TO_NEAREST, TOWARDS_ZERO, UPWARD, every};
+use selvedge_verification::minifloat::{DOWNWARD, FLUSHING, Minifloat, TO_NEAREST, TOWARDS_ZERO, UPWARD, every, numbers};
 use selvedge_verification::oracle::collides;
 
 /// Pseudo-random numbers by `SplitMix64`.
@@ -123,14 +123,6 @@ impl Seen {
             }
         }
     }
-}
-
-fn numbers<const F: u32, const ENVIRONMENT: u32, const N: usize>(values: [f64; N]) -> [Number<F, ENVIRONMENT>; N] {
-    values.map(|value| {
-        let number = Minifloat::nearest(value);
-        assert_eq!(number.value(), value, "the format has this number");
-        number
-    })
 }
 
 /// Tries every direction and every motion of a vertex on a grid of three values, over a face that is one point. (Corners count

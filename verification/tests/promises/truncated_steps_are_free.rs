@@ -44,12 +44,7 @@ fn is_free<S: Format>(mesh: &MeshCase<S>, criterion: Criterion<S>, met: &Met) ->
         prop_assert!(!mesh.positions.iter().all(is_finite));
         return Ok(());
     };
-    let step = MeshCase {
-        triangles: mesh.triangles.clone(),
-        positions: (mesh.positions.iter().zip(&end))
-            .map(|(&[start, _], &end)| [start, end.into()])
-            .collect(),
-    };
+    let step = mesh.with_positions(|vertex, [start, _]| [start, end[vertex].into()]);
     for pair in with_kinds(all_pairs(&topology)) {
         let vertices = topology
             .vertices_of(pair.0, pair.1)

@@ -136,15 +136,10 @@ formats!(exchanging_the_edges_or_the_seconds_ends_changes_no_verdict_of_a_box_te
 fn on_a_grid<S: Format>(kind: PairKind, choices: &mut Choices<'_>) -> PairCase<S> {
     // Few values make nearly coplanar pairs, which matter; other cases use any.
     let limit = choices.pick(&[2, 64, 16_384]);
-    let points = std::array::from_fn(|_| {
-        std::array::from_fn(|_| {
-            std::array::from_fn(|_| {
-                let whole = (choices.word() % (2 * limit + 1)) as i64 - limit as i64;
-                S::exact(whole, -10)
-            })
-        })
-    });
-    PairCase::new(kind, points)
+    PairCase::from_coordinates(kind, || {
+        let whole = (choices.word() % (2 * limit + 1)) as i64 - limit as i64;
+        S::exact(whole, -10)
+    })
 }
 
 fn grids<S: Format>() -> impl Strategy<Value = PairCase<S>> {

@@ -1,5 +1,6 @@
 //! A world of meshes that are added and removed reports the contacts of a new detector for the same triangles.
 
+use crate::support;
 use proptest::prelude::*;
 use selvedge::core::elementary::Limits;
 use selvedge::glam::{DQuat, DVec3};
@@ -283,10 +284,7 @@ where
                 }
             }
             Event::Setting => {
-                let limits = Limits {
-                    separation: S::from_f64(random.pick(&[0.0, 0.01, 0.3])),
-                    ..Limits::default()
-                };
+                let limits = support::within(S::from_f64(random.pick(&[0.0, 0.01, 0.3])));
                 let tolerance = limits.tolerance;
                 criterion = random.pick(&[Criterion::Within(limits), Criterion::Touching { tolerance }]);
                 for world in &mut worlds {

@@ -10,7 +10,7 @@ fn place() -> Workplace {
 }
 
 #[test]
-fn json_tells_energy_and_stretch_at_every_frame_and_the_slowest_step() {
+fn json_has_energy_and_stretch_at_every_frame_and_the_slowest_step() {
     let document = place().json(&["simulate", "sheet.toml", "--json"]);
     let numbers =
         |value: &serde_json::Value| -> Vec<f64> { value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect() };
@@ -132,7 +132,7 @@ thickness = "2 mm"
 "#;
 
 #[test]
-fn cloth_that_tears_is_told_and_shown_and_resumed_as_it_is_torn() {
+fn cloth_that_tears_is_reported_and_shown_and_resumes_torn() {
     let place = Workplace::new();
     place.write("tear.toml", TEARING);
     let command = |more: &[&str]| {
@@ -200,7 +200,7 @@ fn a_scene_that_starts_tangled_is_refused_with_every_place_in_json_and_in_red() 
 }
 
 #[test]
-fn a_scene_that_starts_tangled_is_untangled_or_tolerated_if_it_says_so_and_the_report_tells() {
+fn a_scene_that_starts_tangled_is_untangled_or_tolerated_on_request_and_reported() {
     let place = tangled("tangled_start = \"untangle\"");
     let document = place.json(&["simulate", "sheet.toml", "--json"]);
     let untangled = &document["untangled"];

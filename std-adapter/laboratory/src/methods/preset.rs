@@ -147,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn an_unknown_name_is_told_the_known_ones() {
+    fn the_error_about_an_unknown_name_lists_the_known_ones() {
         let message = "curtis".parse::<Preset>().unwrap_err().to_string();
         assert!(
             message.contains("`curtis`") && message.contains("curtis_2008, tang_2010"),

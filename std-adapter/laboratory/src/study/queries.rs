@@ -236,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn an_unknown_name_is_told_the_known_ones() {
+    fn the_error_about_an_unknown_name_lists_the_known_ones() {
         let message = "quartic".parse::<QueryMethod>().unwrap_err().to_string();
         assert!(
             message.contains("no method `quartic`") && message.contains("dop_18, cubic"),

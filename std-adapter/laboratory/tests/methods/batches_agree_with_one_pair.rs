@@ -9,6 +9,7 @@ use selvedge_laboratory::baselines::nine_directions::{self, NineDirections};
 use selvedge_laboratory::baselines::plain::{Plain, non_coplanarity};
 use selvedge_laboratory::methods::Preset;
 use selvedge_laboratory::pipeline::Pipeline;
+use selvedge_verification::formats;
 use selvedge_verification::generator::{Format, PairCase, check, meshes, pairs};
 
 fn agrees<S: Format>(
@@ -33,7 +34,14 @@ fn agrees<S: Format>(
     Ok(())
 }
 
-fn baselines_agree<S: Format>(kind: PairKind) {
+fn baselines_agree<S: Format>() {
+    let kinds = [PairKind::VertexFace, PairKind::EdgeEdge];
+    kinds.into_iter().for_each(baselines_agree_on::<S>);
+}
+
+formats!(baselines_agree);
+
+fn baselines_agree_on<S: Format>(kind: PairKind) {
     let config = ProptestConfig {
         failure_persistence: None,
         ..ProptestConfig::default()
@@ -47,18 +55,6 @@ fn baselines_agree<S: Format>(kind: PairKind) {
             agrees(&cases, ByVolume(filter), |pair| filter.verdict(pair).is_culled())?;
         }
     });
-}
-
-#[test]
-fn in_single_precision() {
-    baselines_agree::<f32>(PairKind::VertexFace);
-    baselines_agree::<f32>(PairKind::EdgeEdge);
-}
-
-#[test]
-fn in_double_precision() {
-    baselines_agree::<f64>(PairKind::VertexFace);
-    baselines_agree::<f64>(PairKind::EdgeEdge);
 }
 
 /// The paper's filter is written twice, here and in `selvedge-verification`, whose campaigns show that they find its false culls.

@@ -4,6 +4,7 @@ use proptest::prelude::*;
 use selvedge_core::PairKind;
 use selvedge_laboratory::baselines::nine_directions::separated;
 use selvedge_laboratory::methods::CullingTest;
+use selvedge_verification::formats;
 use selvedge_verification::generator::{
     Format, PairCase, check, extraordinary_pairs, from_choices, pairs_of_any_kind, touching_pairs,
 };
@@ -33,15 +34,7 @@ fn certified_tests_are_right<S: Format>() {
     });
 }
 
-#[test]
-fn certified_tests_are_right_in_single_precision() {
-    certified_tests_are_right::<f32>();
-}
-
-#[test]
-fn certified_tests_are_right_in_double_precision() {
-    certified_tests_are_right::<f64>();
-}
+formats!(certified_tests_are_right);
 
 /// Small integers, whose sums do not round.
 #[test]
@@ -60,8 +53,7 @@ fn nine_directions_are_exact_where_sums_are() {
     let small = from_choices(|choices| {
         let kind = choices.pick(&[PairKind::VertexFace, PairKind::EdgeEdge]);
         let limit = choices.pick(&[2, 5, 100]);
-        let points = std::array::from_fn(|_| std::array::from_fn(|_| std::array::from_fn(|_| choices.within(limit) as f64)));
-        PairCase::<f64>::new(kind, points)
+        PairCase::<f64>::from_coordinates(kind, || choices.within(limit) as f64)
     });
     check(4_000, small, |pair| {
         let [one, other] = pair.sets();

@@ -66,6 +66,11 @@ impl<S: Format> Run<S> {
         KINDS.into_iter().flat_map(of_kind).collect()
     }
 
+    fn contacts(&self) -> BTreeSet<MeshPair> {
+        let contacts = self.pipeline.contacts().iter();
+        contacts.map(|contact| in_order(contact.kind, contact.pair)).collect()
+    }
+
     /// Returns candidates and contacts in order of their numbers.
     fn in_order(&mut self) -> (BTreeSet<MeshPair>, BTreeMap<MeshPair, String>) {
         let contacts = self.pipeline.contacts().iter();
@@ -131,14 +136,11 @@ formats!(every_overlapping_pair_is_distributed_exactly_once(600, meshes()));
 /// The mesh is ten million units from the origin, where the broad phase's `f32` has steps of 1.
 #[test]
 fn every_overlapping_pair_is_distributed_exactly_once_far_from_the_origin() {
-    check(400, meshes::<f64>(), |mesh| {
-        let far = mesh.moved_by([1e7, -1e7, 1e7]);
-        every_overlapping_pair_is_distributed_exactly_once(&far)
-    });
-    check(150, meshes::<f32>(), |mesh| {
-        let far = mesh.moved_by([1e7, -1e7, 1e7]);
-        every_overlapping_pair_is_distributed_exactly_once(&far)
-    });
+    fn far<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
+        every_overlapping_pair_is_distributed_exactly_once(&mesh.moved_by([1e7, -1e7, 1e7].map(S::from_f64)))
+    }
+    check(400, meshes::<f64>(), far);
+    check(150, meshes::<f32>(), far);
 }
 
 /// One triangle names a vertex twice. It has two vertices and one edge, and each pair with the other triangle's features is met
@@ -215,9 +217,7 @@ fn every_preset_ends_with_what_its_own_tests_leave<S: Format>(mesh: &MeshCase<S>
             }
         };
         candidates.retain(|pair| time(pair).is_some());
-        let contacts = run.pipeline.contacts().iter();
-        let found: BTreeSet<MeshPair> = contacts.map(|contact| in_order(contact.kind, contact.pair)).collect();
-        prop_assert_eq!(found, as_set(&candidates), "{}", preset);
+        prop_assert_eq!(run.contacts(), as_set(&candidates), "{}", preset);
         for contact in run.pipeline.contacts() {
             prop_assert_eq!(Some(contact.time), time(&(contact.kind, contact.pair)));
         }
@@ -227,17 +227,18 @@ fn every_preset_ends_with_what_its_own_tests_leave<S: Format>(mesh: &MeshCase<S>
 
 formats!(every_preset_ends_with_what_its_own_tests_leave(150, meshes()));
 
+/// Returns the pairs of the mesh that touch, by the exact oracle.
+fn colliding<S: Format>(mesh: &MeshCase<S>) -> BTreeSet<MeshPair> {
+    let topology = mesh.topology();
+    let mut pairs = with_kinds(all_pairs(&topology));
+    pairs.retain(|&pair| collides(&mesh.pair(&topology, pair).question()).is_some());
+    pairs.into_iter().collect()
+}
+
 /// The contacts agree with the exact oracle, from the mesh on.
 fn the_exact_preset_finds_the_pairs_that_collide_and_no_other<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
-    let topology = mesh.topology();
-    let colliding: BTreeSet<MeshPair> = with_kinds(all_pairs(&topology))
-        .into_iter()
-        .filter(|&pair| collides(&mesh.pair(&topology, pair).question()).is_some())
-        .collect();
     let run = Run::new(mesh, Preset::SelvedgeExact.stages(), 1);
-    let contacts = run.pipeline.contacts().iter();
-    let found: BTreeSet<MeshPair> = contacts.map(|contact| in_order(contact.kind, contact.pair)).collect();
-    prop_assert_eq!(found, colliding);
+    prop_assert_eq!(run.contacts(), colliding(mesh));
     Ok(())
 }
 
@@ -283,11 +284,7 @@ formats!(moving_boxes_end_with_what_the_certified_tests_leave(150, meshes()));
 
 /// The candidates agree with the exact oracle, from the mesh on.
 fn no_certified_preset_loses_a_pair_that_collides<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
-    let topology = mesh.topology();
-    let colliding: Vec<MeshPair> = with_kinds(all_pairs(&topology))
-        .into_iter()
-        .filter(|&pair| collides(&mesh.pair(&topology, pair).question()).is_some())
-        .collect();
+    let colliding = colliding(mesh);
     let is_certified = |preset: &Preset| preset.stages().tests.iter().all(|test| test.is_certified());
     for preset in Preset::ALL.into_iter().filter(is_certified) {
         let candidates = as_set(&Run::new(mesh, preset.stages(), 1).candidates());

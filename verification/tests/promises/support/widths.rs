@@ -11,18 +11,13 @@ pub(crate) fn at_the_limit_of_a_width<S: Format>(choices: &mut Choices<'_>) -> P
     let bits = (limits + choices.within(2) as i32).min(S::MAX_EXPONENT - S::MIN_EXPONENT);
     let unit = S::MIN_EXPONENT;
     let top = unit + bits - S::PRECISION.cast_signed();
-    let points = std::array::from_fn(|_| {
-        std::array::from_fn(|_| {
-            std::array::from_fn(|_| {
-                let sign = choices.pick(&[1, -1]);
-                match choices.below(8) {
-                    0 => S::exact(sign, unit),
-                    1 => S::ZERO,
-                    2 => S::exact(sign << (S::PRECISION - 1), top),
-                    _ => S::exact(sign * ((1 << S::PRECISION) - 1), top),
-                }
-            })
-        })
-    });
-    PairCase::new(kind, points)
+    PairCase::from_coordinates(kind, || {
+        let sign = choices.pick(&[1, -1]);
+        match choices.below(8) {
+            0 => S::exact(sign, unit),
+            1 => S::ZERO,
+            2 => S::exact(sign << (S::PRECISION - 1), top),
+            _ => S::exact(sign * ((1 << S::PRECISION) - 1), top),
+        }
+    })
 }

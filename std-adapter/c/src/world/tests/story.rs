@@ -35,7 +35,7 @@ fn pose((rotation, origin): (DQuat, DVec3)) -> Pose {
 
 /// Moves a sheet that folds onto itself, a plank that spins through it, and a floor that goes away.
 #[test]
-fn a_story_is_told_as_in_rust() {
+fn a_story_has_the_results_of_rust() {
     let mut handle = ptr::null_mut();
     // SAFETY: there is a place for it.
     assert_eq!(unsafe { selvedge_world_new(FORMAT as u32, &raw mut handle) }, Status::Ok);

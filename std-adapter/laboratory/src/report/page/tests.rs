@@ -182,7 +182,7 @@ fn the_same_recording_gives_the_same_bytes() {
 }
 
 #[test]
-fn what_is_measured_at_frames_is_drawn_and_told_and_weight_counts_from_its_least() {
+fn measures_at_frames_have_charts_and_rows_and_weight_counts_from_its_least() {
     let mut recording = recording(&two_frames(), &EVERY_KIND);
     let measures = [
         ("kinetic", MeasureKind::Energy, [0.0, 2.0]),

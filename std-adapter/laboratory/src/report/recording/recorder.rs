@@ -105,12 +105,6 @@ impl Recorder {
         self
     }
 
-    /// Returns whether a frame offered now would be kept. Otherwise it is only remembered in case it is the last.
-    #[must_use]
-    pub fn wants_frame(&self) -> bool {
-        self.frames.wants_next()
-    }
-
     /// Offers the state after `step` steps, 0 for the start. Steps must increase; a second state after the same step replaces the
     /// first.
     ///

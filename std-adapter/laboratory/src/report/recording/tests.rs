@@ -48,7 +48,7 @@ proptest! {
     }
 
     #[test]
-    fn values_are_means_of_as_many_steps_as_told_and_sum_to_the_total(
+    fn values_are_means_of_a_fixed_number_of_steps_and_sum_to_the_total(
         steps in 1..10_000_u64,
         start in 0..1000_u32,
     ) {

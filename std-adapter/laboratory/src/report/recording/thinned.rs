@@ -35,7 +35,7 @@ impl<N> Thinned<N> {
     }
 
     /// Returns whether the next entry is kept, or only remembered in case it is the last.
-    pub(super) const fn wants_next(&self) -> bool {
+    const fn wants_next(&self) -> bool {
         self.offered.is_multiple_of(self.stride)
     }
 
