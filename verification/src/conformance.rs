@@ -68,14 +68,22 @@ pub struct Case {
 }
 
 impl Case {
-    /// Returns the cases of a file of the suite.
+    /// Returns all cases of the suite, file by file.
     ///
     /// # Errors
-    /// Returns an error if the file cannot be read, or a line is not a case.
-    pub fn read(name: &str) -> std::io::Result<Vec<Self>> {
+    /// Returns an error if a file cannot be read, or a line is not a case.
+    pub fn read_all() -> std::io::Result<Vec<Self>> {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("conformance/cases");
-        let text = std::fs::read_to_string(folder.join(name))?;
-        text.lines().map(|line| Ok(serde_json::from_str(line)?)).collect()
+        let files = std::fs::read_dir(folder)?.map(|entry| Ok(entry?.path()));
+        let mut files = files.collect::<std::io::Result<Vec<_>>>()?;
+        files.sort();
+        let mut cases = Vec::new();
+        for file in files {
+            for line in std::fs::read_to_string(file)?.lines() {
+                cases.push(serde_json::from_str(line)?);
+            }
+        }
+        Ok(cases)
     }
 
     /// Returns all positions at the start and at the end.

@@ -12,11 +12,11 @@ use selvedge_core::elementary::{ContactVerdict, Impact, Limits, Reason, contact}
 use selvedge_verification::conformance::{Case, Question};
 use selvedge_verification::generator::{Format, PairCase};
 
-/// The cases of a file that a format holds exactly.
-fn cases<S: Format>(file: &str) -> Vec<Case> {
-    let mut cases = Case::read(file).expect("the suite's file");
-    cases.retain(|case| S::PRECISION == 53 || case.format == "f32");
-    assert!(cases.len() > 50, "only {} cases in {file}", cases.len());
+/// The cases of a question that a format holds exactly.
+fn cases<S: Format>(question: Question) -> Vec<Case> {
+    let mut cases = Case::read_all().expect("the suite's files");
+    cases.retain(|case| case.question == question && (S::PRECISION == 53 || case.format == "f32"));
+    assert!(cases.len() > 500, "only {} cases", cases.len());
     cases
 }
 
@@ -126,8 +126,8 @@ fn side_by_side<S: Format>(level: Level, kind: PairKind, pairs: &[PairCase<S>]) 
     impacts
 }
 
-fn pairs_are_answered<S: Format>(file: &str, kind: PairKind) {
-    let cases = cases::<S>(file);
+fn pairs_are_answered<S: Format>(question: Question, kind: PairKind) {
+    let cases = cases::<S>(question);
     let all: Vec<_> = cases.iter().map(|case| pairs::<S>(case)[0]).collect();
     for (case, pair) in cases.iter().zip(&all) {
         let pair = pair.pair();
@@ -160,20 +160,20 @@ fn pairs_are_answered<S: Format>(file: &str, kind: PairKind) {
 
 #[test]
 fn pairs_alone_and_side_by_side() {
-    for (file, kind) in [
-        ("vertex-face.jsonl", PairKind::VertexFace),
-        ("edge-edge.jsonl", PairKind::EdgeEdge),
+    for (question, kind) in [
+        (Question::VertexFace, PairKind::VertexFace),
+        (Question::EdgeEdge, PairKind::EdgeEdge),
     ] {
-        pairs_are_answered::<f64>(file, kind);
-        pairs_are_answered::<f32>(file, kind);
+        pairs_are_answered::<f64>(question, kind);
+        pairs_are_answered::<f32>(question, kind);
     }
 }
 
-fn detector_answers<S: Format>(file: &str)
+fn detector_answers<S: Format>(question: Question)
 where
     [S; 3]: Position<Scalar = S>,
 {
-    for case in cases::<S>(file) {
+    for case in cases::<S>(question) {
         let id = &case.id;
         let [start, end] = points::<S>(&case);
         let topology = Topology::new(start.len(), case.triangles()).expect("valid triangles");
@@ -205,21 +205,16 @@ where
 
 #[test]
 fn triangles_and_meshes_by_a_detector() {
-    for file in [
-        "triangles.jsonl",
-        "meshes.jsonl",
-        "moving-triangle.jsonl",
-        "moving-mesh.jsonl",
-    ] {
-        detector_answers::<f64>(file);
-        detector_answers::<f32>(file);
+    for question in [Question::Triangles, Question::Meshes, Question::MovingTriangle, Question::MovingMesh] {
+        detector_answers::<f64>(question);
+        detector_answers::<f32>(question);
     }
 }
 
 /// One pair alone gives the batch's earliest time or an earlier one, so the two are compared where a mesh has many pairs.
 #[test]
 fn meshes_pair_by_pair() {
-    for case in cases::<f64>("moving-mesh.jsonl") {
+    for case in cases::<f64>(Question::MovingMesh) {
         let impacts: Vec<_> = pairs::<f64>(&case)
             .iter()
             .map(|pair| time_of_impact(&pair.pair(), &Limits::default()))
