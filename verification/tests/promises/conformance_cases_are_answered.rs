@@ -205,7 +205,12 @@ where
 
 #[test]
 fn triangles_and_meshes_by_a_detector() {
-    for question in [Question::Triangles, Question::Meshes, Question::MovingTriangle, Question::MovingMesh] {
+    for question in [
+        Question::Triangles,
+        Question::Meshes,
+        Question::MovingTriangle,
+        Question::MovingMesh,
+    ] {
         detector_answers::<f64>(question);
         detector_answers::<f32>(question);
     }
