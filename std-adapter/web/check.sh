@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Checks the npm package and the page: builds them, runs the package in Node, compares its bits and its speed with native ones, checks the
 # declarations, packs, bundles with Vite, and drives the page in Chromium. SELVEDGE_TIMES=no leaves out bounds of time, for a busy machine.
+# SELVEDGE_COMMAND names a built command, whose report the page then opens.
 #
 # Installs what is missing and says so: Debian's chromium, and its rustc-web, cargo-web and rust-web-src unless rustup has the target; Node's
 # packages by `npm ci`.
@@ -51,6 +52,12 @@ node_modules/.bin/vite build --logLevel warn "$work"
 
 say "the package in Node"
 node --test tests/node.test.mjs
+
+if [ -n "${SELVEDGE_COMMAND:-}" ]; then
+    say "a report for the page"
+    "$SELVEDGE_COMMAND" simulate ../cloth/scenes/flag.toml --output "$out" >/dev/null
+    export SELVEDGE_REPORT=$out/flag.html
+fi
 
 say "the page"
 node --test --test-timeout=240000 tests/page.test.mjs

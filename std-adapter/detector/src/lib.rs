@@ -20,7 +20,7 @@
 //! | `parallel` (on by default) | [`Threads`]: steps on several threads, by rayon. Without it, the calling thread does everything |
 //! | `timing` | a clock for the seconds in [`StepStatistics`]. Without it, no clock is read |
 //!
-//! Without features the crate needs neither threads nor a clock, as on `wasm32-unknown-unknown`.
+//! Without features the crate needs neither threads nor a clock. On `wasm32-unknown-unknown`, `timing` reads JavaScript's clock.
 
 #![forbid(unsafe_code)]
 
