@@ -9,9 +9,9 @@
 # 3. What is kept passes through 3 roundings of c d, one of them of c, and 2 of 3E: at most c (1 + 2u)^3 d - 3 (1 - 2u)^2 E.
 # Underflow: eta in E exceeds 40 lambda (gap.g), and 3 more operations flush at most 4 lambda each.
 
-errors = 3; #! core/src/separation/carried.rs: const LOST_ERRORS: u8 = 3;
+errors = 3; #! core/src/separation/carried.rs: S::small(3) * error.length()
 #~ core/src/separation/carried.rs: const KEPT: f64 = 1.0 - 1e-5;
-#~ core/src/separation/carried.rs: let kept = S::from_f64(KEPT) * distance - S::small(LOST_ERRORS) * error.length();
+#~ core/src/separation/carried.rs: let kept = S::from_f64(KEPT) * distance - lost(error);
 #~ core/src/separation/carried.rs: separation.smaller(kept.larger(S::ZERO))
 c = 1 - 1e-5;
 eta = 1b@eta@;

@@ -24,9 +24,6 @@ use crate::scalar::Scalar;
 
 /// The share c of a pair's distance that it keeps, if it starts nearer than its separation.
 const KEPT: f64 = 1.0 - 1e-5;
-/// The errors of gaps that a carried pair may lose.
-const LOST_ERRORS: u8 = 3;
-
 /// The largest turn of a body in a step, in radians, that leaves a carried pair its [separation](kept_when_carried).
 pub const LARGEST_TURN: f64 = 6.3e-3;
 
@@ -43,7 +40,7 @@ pub const LARGEST_TURN: f64 = 6.3e-3;
 #[inline]
 #[must_use]
 pub fn kept_when_carried<S: Scalar>(separation: S, distance: S, error: GapError<S>) -> S {
-    let kept = S::from_f64(KEPT) * distance - S::small(LOST_ERRORS) * error.length();
+    let kept = S::from_f64(KEPT) * distance - lost(error);
     separation.smaller(kept.larger(S::ZERO))
 }
 
@@ -53,5 +50,11 @@ pub fn kept_when_carried<S: Scalar>(separation: S, distance: S, error: GapError<
 #[must_use]
 #[expect(clippy::neg_cmp_op_on_partial_ord, reason = "a distance that is NaN is too near")]
 pub fn is_too_near<S: Scalar>(distance: S, error: GapError<S>) -> bool {
-    !(distance > S::small(LOST_ERRORS) * error.length())
+    !(distance > lost(error))
+}
+
+/// Returns the length that a carried pair may lose to rounding.
+#[inline(always)]
+fn lost<S: Scalar>(error: GapError<S>) -> S {
+    S::small(3) * error.length()
 }

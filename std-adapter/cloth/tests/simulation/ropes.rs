@@ -155,30 +155,6 @@ fn a_clamped_rope_bends_under_its_weight_as_a_beam() {
     }
 }
 
-/// Returns the sag of a rope of the length s between two points of one height, d apart: a·(cosh(d/2a) − 1), where 2a·sinh(d/2a) =
-/// s.
-#[test]
-fn a_slack_rope_hangs_in_a_catenary() {
-    let (distance, drop) = (1.0, 0.4);
-    let points = [DVec3::ZERO, DVec3::new(0.5, 0.0, -drop), DVec3::X * distance];
-    let rope = Cloth::rope(&points, 120, 0.03).unwrap();
-    let whole = length(&rope.mesh().positions);
-    let mut scene = Scene::new(rope, 1e-3);
-    scene.add(Gravity::default()).add(RopeStretch::new(1e5));
-    scene.add(AirDrag { rate: 5.0 });
-    scene.add(resting([0, 120]));
-    let simulation = run(scene, 3000);
-    let (mut low, mut high) = (0.01, 100.0);
-    for _ in 0..100 {
-        let a: f64 = 0.5 * (low + high);
-        let is_long = 2.0 * a * (distance / (2.0 * a)).sinh() > whole;
-        *(if is_long { &mut low } else { &mut high }) = a;
-    }
-    let sag = low * ((distance / (2.0 * low)).cosh() - 1.0);
-    let found = -simulation.positions()[60].z;
-    assert!((found / sag - 1.0).abs() < 2e-3, "{found} for {sag}");
-}
-
 /// The rest shape as built keeps a hoop of 16 edges round; a straight rest shape stores energy.
 #[test]
 fn a_ring_keeps_the_shape_that_it_rests_in() {

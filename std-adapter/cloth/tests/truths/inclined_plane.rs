@@ -93,3 +93,40 @@ fn friction_slows_by_its_coefficient_and_holds_above_the_tangent_of_the_slope() 
         assert!(side.abs() < 1e-4, "{friction}: {side} to the side");
     }
 }
+
+/// Coulomb's cone: on a level plane, under a gravity that leans by `slope` towards any direction, a sheet slides that way alone.
+#[test]
+fn friction_is_the_same_in_every_direction() {
+    for direction in (0..8).map(|k| f64::from(k) * std::f64::consts::FRAC_PI_4 + 0.1) {
+        for (lean, friction) in [(0.3_f64, 0.2), (0.25, 0.35)] {
+            let along = DVec3::new(direction.cos(), direction.sin(), 0.0);
+            let corner = DVec3::new(-0.15, -0.15, 1.01 * THICKNESS);
+            let cloth = Cloth::sheet(corner, [0.3 * DVec3::X, 0.3 * DVec3::Y], [6, 6], 0.15).unwrap();
+            let mut scene = Scene::new(cloth, STEP);
+            scene
+                .bodies
+                .push(Body::from_mesh("plane", jittered(grid([4.0, 4.0], [40, 40]), [40, 40], 0.3)));
+            elastic(&mut scene, 400.0, 15e-6);
+            let acceleration = 9.81 * (along * lean.sin() - DVec3::Z * lean.cos());
+            scene
+                .add(Gravity { acceleration })
+                .add(BodyContact(Thickness::new(THICKNESS)));
+            scene.add(Friction { coefficient: friction });
+            let mut simulation = Simulation::new(scene, 1).unwrap();
+            let middle = |simulation: &Simulation| simulation.positions()[..49].iter().sum::<DVec3>() / 49.0;
+            let start = middle(&simulation);
+            (0..300).for_each(|_| simulation.step().unwrap());
+            let way = middle(&simulation) - start;
+            let expected = 0.5 * 9.81 * (lean.sin() - friction * lean.cos()).max(0.0) * 0.3 * (0.3 + STEP);
+            let (down, side) = (way.dot(along), way.cross(along).z);
+            println!(
+                "{direction:.2} rad, {friction}: {down:.6} m for {expected:.6}, {:.4} mm aside",
+                1e3 * side
+            );
+            assert!(
+                (down - expected).abs() < 1e-4 + 1e-3 * expected && side.abs() < 1e-5,
+                "{down} for {expected}, {side} aside"
+            );
+        }
+    }
+}

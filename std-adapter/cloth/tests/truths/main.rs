@@ -5,6 +5,7 @@ mod hanging_chain;
 mod inclined_plane;
 mod limits;
 mod momentum;
+mod oscillation;
 mod rest;
 
 use selvedge_cloth::effects::{Bend, Shear, Stretch};

@@ -87,6 +87,38 @@ fn ten_layers_on_a_table_come_to_rest() {
     assert!(speed(&simulation) < 1e-2, "{}", speed(&simulation));
 }
 
+#[test]
+fn a_sheet_that_falls_flat_on_a_table_does_not_bounce() {
+    let thickness = 2e-3;
+    let mut scene = Scene::new(sheet(0.05, 6), 1e-3);
+    scene.bodies.push(table());
+    elastic(&mut scene, 400.0, 15e-6);
+    scene.add(Gravity::default());
+    contact(&mut scene, thickness, 0.3);
+    let mut simulation = Simulation::new(scene, 1).unwrap();
+    let (mut fastest, mut highest) = (0.0_f64, 0.0_f64);
+    // It lands after 0.0989 s with 0.97 m/s.
+    for step in 1..=300 {
+        simulation.step().unwrap();
+        let cloth = 0..simulation.cloth_vertices();
+        let up = cloth
+            .clone()
+            .map(|v| simulation.velocities()[v].z)
+            .fold(f64::NEG_INFINITY, f64::max);
+        if step < 95 {
+            assert!(up < -0.9 * 9.81e-3 * f64::from(step), "step {step}: {up} m/s");
+        } else if step > 105 {
+            fastest = fastest.max(up);
+            highest = cloth.map(|v| simulation.positions()[v].z).fold(highest, f64::max);
+        }
+    }
+    println!("{fastest} m/s upward, {highest} m high");
+    assert!(
+        fastest < 1e-4 && highest < 1.0001 * thickness,
+        "{fastest} m/s upward, {highest} m high"
+    );
+}
+
 /// Makes a box with these corners.
 fn cuboid(low: DVec3, high: DVec3) -> Mesh {
     let corner = |k: u32| {
