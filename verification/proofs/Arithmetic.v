@@ -1,4 +1,5 @@
-(* One floating-point operation, in every environment that core's `Rounding` names, from Flocq's definition of the formats. *)
+(* One floating-point operation, in every environment that core's `Rounding` names, from Flocq's definition of the
+   formats. *)
 From Coq Require Import Reals ZArith Lra Lia Bool.
 From Flocq Require Import Core Relative FTZ.
 Open Scope R_scope.
@@ -15,8 +16,8 @@ Definition omega f := power (greatest_exponent f) - power (greatest_exponent f -
 
 Definition representable f := generic_format radix2 (FLT_exp (least_exponent f) (precision f)).
 
-(* r is what an operation with the exact result z may give: z rounded in any direction, subnormal numbers kept; or zero if z lies
-   below the normal numbers. *)
+(* r is what an operation with the exact result z may give: z rounded in any direction, subnormal numbers kept; or zero
+   if z lies below the normal numbers. *)
 Definition rounds f z r :=
   (Rabs z < lam f /\ r = 0) \/
   exists direction, Valid_rnd direction /\ r = round radix2 (FLT_exp (least_exponent f) (precision f)) direction z.
@@ -58,7 +59,8 @@ Proof.
   apply bpow_le. destruct ok; lia.
 Qed.
 Lemma eps_twice : eps f = 2 * unit_roundoff f.
-Proof. unfold eps, unit_roundoff, power. replace (1 - precision f)%Z with (1 + - precision f)%Z by ring. rewrite bpow_plus. simpl. lra. Qed.
+Proof. unfold eps, unit_roundoff, power. replace (1 - precision f)%Z with (1 + - precision f)%Z by ring.
+  rewrite bpow_plus. simpl. lra. Qed.
 
 (* A subnormal number that is rounded is off by less than λ. *)
 Lemma ulp_small x : Rabs x < lam f -> ulp radix2 fexp x <= lam f.
@@ -78,7 +80,8 @@ Proof.
     + pose proof (error_le_ulp radix2 fexp direction z). pose proof (ulp_small z small). pose proof (Rabs_pos z).
       fold fexp. nra.
     + pose proof (relative_error_FLT radix2 (least_exponent f) (precision f) gt_0 direction z large).
-      replace (- precision f + 1)%Z with (1 - precision f)%Z in H1 by ring. fold (power (1 - precision f)) (eps f) in H1. lra.
+      replace (- precision f + 1)%Z with (1 - precision f)%Z in H1 by ring. fold (power (1 - precision f)) (eps f) in
+        H1. lra.
 Qed.
 
 Theorem rounding_error_by_result z r : rounds f z r -> Rabs (r - z) <= eps f * Rabs r + lam f.
@@ -111,7 +114,8 @@ Theorem below_before_rounding z r e : rounds f z r -> representable f e -> 0 <= 
 Proof.
   intros [[_ ->]|[direction [v ->]]] rep pos beyond; [lra|].
   apply Rnot_le_lt. intro le. apply (Rlt_not_le _ _ beyond).
-  apply generic_format_opp in rep. rewrite <- (round_generic radix2 fexp direction (- e) rep). apply (round_le radix2 fexp direction). lra.
+  apply generic_format_opp in rep. rewrite <- (round_generic radix2 fexp direction (- e) rep).
+    apply (round_le radix2 fexp direction). lra.
 Qed.
 
 (* Flocq's formats that flush are covered. *)
@@ -122,7 +126,8 @@ Theorem flushing_is_covered direction z : Valid_rnd direction ->
 Proof.
   intro v. destruct (Rlt_le_dec (Rabs z) (lam f)) as [small|large].
   - left. split; [exact small|]. apply round_FTZ_small; auto using gt_0.
-  - right. exists direction. split; [exact v|]. rewrite round_FLT_FLX by exact large. apply round_FTZ_FLX; auto using gt_0.
+  - right. exists direction. split; [exact v|]. rewrite round_FLT_FLX by exact large.
+    apply round_FTZ_FLX; auto using gt_0.
 Qed.
 
 Lemma counts_error x x' : counts_as f x x' -> Rabs (x' - x) <= lam f.

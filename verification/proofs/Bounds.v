@@ -24,7 +24,8 @@ Lemma q_mono a b : (a <= b)%nat -> q a <= q b. Proof. intro. apply Rle_pow; [pos
 Lemma q_small n : (n <= 16)%nat -> q n <= 1 + slack.
 Proof.
   intro. eapply Rle_trans; [apply (q_mono n 16); assumption|]. unfold q, slack, e1.
-  eapply Rle_trans; [apply pow_incr with (y := 1 + / 8388608); pose proof (eps_pos f); pose proof (eps_small f ok); lra|].
+  eapply Rle_trans; [apply pow_incr with (y := 1 + / 8388608); pose proof (eps_pos f); pose proof (eps_small f ok);
+    lra|].
   assert (square : forall x, 0 <= x <= / 1000 -> (1 + x) * (1 + x) <= 1 + (2 + / 1000) * x) by (intros; nra).
   assert (two : (1 + / 8388608) ^ 2 <= 1 + 2.001 * / 8388608) by (simpl; lra).
   assert (p2 : 0 <= (1 + / 8388608) ^ 2) by (apply pow_le; lra).
@@ -41,7 +42,8 @@ Lemma M_mono a b : (a <= b)%nat -> m ^ a <= m ^ b. Proof. intro. now apply Rle_p
 
 (* The algebra of a product of two numbers that are off. *)
 Lemma product_error x y ex ey qa qb pa pb aa ab Ma Mb ca cb :
-  1 <= qa <= 1 + slack -> 1 <= qb <= 1 + slack -> Rabs ex <= pa -> Rabs ey <= pb -> 0 <= aa -> 0 <= ab -> 1 <= Ma -> 1 <= Mb ->
+  1 <= qa <= 1 + slack -> 1 <= qb <= 1 + slack -> Rabs ex <= pa -> Rabs ey <= pb -> 0 <= aa -> 0 <= ab -> 1 <= Ma -> 1
+    <= Mb ->
   pa <= ca * (m * Ma) -> pb <= cb * (m * Mb) -> 0 <= ca -> 0 <= cb ->
   ca * ab + aa * cb <= 16384 -> aa * ab <= 33554432 ->
   Rabs (x - ex) <= (qa - 1) * pa + l * aa * Ma -> Rabs (y - ey) <= (qb - 1) * pb + l * ab * Mb ->
@@ -56,19 +58,25 @@ Proof.
   eapply Rle_trans; [apply Rabs_triang|]. rewrite !Rabs_mult.
   assert (T1 : Rabs x * Rabs (y - ey) <= (qa * pa + l * aa * Ma) * ((qb - 1) * pb + l * ab * Mb))
     by (apply Rmult_le_compat; auto using Rabs_pos).
-  assert (T2 : Rabs (x - ex) * Rabs ey <= ((qa - 1) * pa + l * aa * Ma) * pb) by (apply Rmult_le_compat; auto using Rabs_pos).
+  assert (T2 : Rabs (x - ex) * Rabs ey <= ((qa - 1) * pa + l * aa * Ma) * pb) by (apply Rmult_le_compat;
+    auto using Rabs_pos).
   set (N := m * Ma * Mb).
-  assert (N1 : pa * Mb <= ca * N) by (replace (ca * N) with (ca * (m * Ma) * Mb) by (unfold N; ring); apply Rmult_le_compat_r; lra).
-  assert (N2 : pb * Ma <= cb * N) by (replace (cb * N) with (cb * (m * Mb) * Ma) by (unfold N; ring); apply Rmult_le_compat_r; lra).
+  assert (N1 : pa * Mb <= ca * N) by (replace (ca * N) with (ca * (m * Ma) * Mb) by (unfold N; ring);
+    apply Rmult_le_compat_r; lra).
+  assert (N2 : pb * Ma <= cb * N) by (replace (cb * N) with (cb * (m * Mb) * Ma) by (unfold N; ring);
+    apply Rmult_le_compat_r; lra).
   assert (MaMb : 1 <= Ma * Mb) by (rewrite <- (Rmult_1_l 1); apply Rmult_le_compat; lra).
-  assert (N3 : Ma * Mb <= N). { unfold N. rewrite Rmult_assoc. rewrite <- (Rmult_1_l (Ma * Mb)) at 1. apply Rmult_le_compat_r; lra. }
+  assert (N3 : Ma * Mb <= N). { unfold N. rewrite Rmult_assoc. rewrite <- (Rmult_1_l (Ma * Mb)) at 1.
+    apply Rmult_le_compat_r; lra. }
   assert (N0 : 0 <= N) by lra.
   assert (B : qa * ab * (pa * Mb) + qb * aa * (pb * Ma) + l * (aa * ab) * (Ma * Mb) <= (ca * ab + aa * cb + / 4) * N).
   { assert (0 <= aa * ab) by (apply Rmult_le_pos; assumption).
     assert (qa * ab * (pa * Mb) <= (1 + slack) * ab * (ca * N))
-      by (apply Rmult_le_compat; [apply Rmult_le_pos; lra|apply Rmult_le_pos; lra|apply Rmult_le_compat_r; lra|assumption]).
+      by (apply Rmult_le_compat; [apply Rmult_le_pos; lra|apply Rmult_le_pos; lra|apply Rmult_le_compat_r;
+        lra|assumption]).
     assert (qb * aa * (pb * Ma) <= (1 + slack) * aa * (cb * N))
-      by (apply Rmult_le_compat; [apply Rmult_le_pos; lra|apply Rmult_le_pos; lra|apply Rmult_le_compat_r; lra|assumption]).
+      by (apply Rmult_le_compat; [apply Rmult_le_pos; lra|apply Rmult_le_pos; lra|apply Rmult_le_compat_r;
+        lra|assumption]).
     assert (l * (aa * ab) <= / 8).
     { assert (l * (aa * ab) <= / 1152921504606846976 * 33554432) by (apply Rmult_le_compat; lra). lra. }
     assert (l * (aa * ab) * (Ma * Mb) <= / 8 * N) by (apply Rmult_le_compat; try lra; apply Rmult_le_pos; lra).
@@ -79,7 +87,8 @@ Proof.
   apply Rmult_le_compat_l with (r := l) in B; [|lra].
   replace (l * (ca * ab + aa * cb + / 4) * N) with (l * ((ca * ab + aa * cb + / 4) * N)) by ring.
   replace ((qa * pa + l * aa * Ma) * ((qb - 1) * pb + l * ab * Mb)) with
-    (qa * (qb - 1) * (pa * pb) + l * (qa * ab * (pa * Mb) + (qb - 1) * aa * (pb * Ma) + l * (aa * ab) * (Ma * Mb))) in T1 by ring.
+    (qa * (qb - 1) * (pa * pb) + l * (qa * ab * (pa * Mb) + (qb - 1) * aa * (pb * Ma) + l * (aa * ab) * (Ma * Mb))) in
+      T1 by ring.
   replace (((qa - 1) * pa + l * aa * Ma) * pb) with ((qa - 1) * (pa * pb) + l * (aa * (pb * Ma))) in T2 by ring.
   lra.
 Qed.
@@ -97,7 +106,8 @@ Proof.
   assert (0 <= a * N) by (apply Rmult_le_pos; lra).
   assert (small : e1 * a <= / 4). { assert (e1 * a <= / 8388608 * 16400) by (apply Rmult_le_compat; lra). lra. }
   assert (e1 * (l * (a * N)) <= l * (/ 4 * N)).
-  { replace (e1 * (l * (a * N))) with (l * ((e1 * a) * N)) by ring. apply Rmult_le_compat_l; [lra|]. apply Rmult_le_compat_r; lra. }
+  { replace (e1 * (l * (a * N))) with (l * ((e1 * a) * N)) by ring. apply Rmult_le_compat_l; [lra|].
+    apply Rmult_le_compat_r; lra. }
   assert (l * 1 <= l * N) by (apply Rmult_le_compat_l; lra).
   replace (r - ex) with ((r - z) + (z - ex)) by ring. eapply Rle_trans; [apply Rabs_triang|].
   replace (q (S n)) with ((1 + e1) * q n) by reflexivity.
@@ -148,7 +158,8 @@ Proof.
   - rewrite pow_add. replace (IZR (monomials e2) * IZR (monomials e3) * (m ^ degree e2 * m ^ degree e3)) with
       ((IZR (monomials e2) * m ^ degree e2) * (IZR (monomials e3) * m ^ degree e3)) by ring.
     apply Rmult_le_compat; auto using permanent_pos.
-  - rewrite Rmult_1_l. apply (M_ge (Nat.max (degree e2) (degree e3))) || (pose proof (M_ge (Nat.max (degree e2) (degree e3))); lra).
+  - rewrite Rmult_1_l. apply (M_ge (Nat.max (degree e2) (degree e3))) || (pose proof (M_ge (Nat.max (degree e2) (degree
+    e3))); lra).
   - pose proof (M_ge (Nat.max (degree e2) (degree e3))); lra.
 Qed.
 End Exactly.
@@ -173,9 +184,12 @@ Theorem error_of_differences computed exactly :
     (q (degree e) - 1) * permanent computed e + l * IZR (of_differences e) * m ^ pred (degree e).
 Proof.
   intros small off e. pose proof l_pos as l0. pose proof m1.
-  assert (sums : forall (a b : expr) (op : R -> R -> R), (op = Rplus \/ op = Rminus) -> (Nat.max (degree a) (degree b) <= 16)%nat ->
-    Rabs (exact exactly a - exact computed a) <= (q (degree a) - 1) * permanent computed a + l * IZR (of_differences a) * m ^ pred (degree a) ->
-    Rabs (exact exactly b - exact computed b) <= (q (degree b) - 1) * permanent computed b + l * IZR (of_differences b) * m ^ pred (degree b) ->
+  assert (sums : forall (a b : expr) (op : R -> R -> R), (op = Rplus \/ op = Rminus) -> (Nat.max (degree a) (degree b)
+    <= 16)%nat ->
+    Rabs (exact exactly a - exact computed a) <= (q (degree a) - 1) * permanent computed a + l * IZR (of_differences a)
+      * m ^ pred (degree a) ->
+    Rabs (exact exactly b - exact computed b) <= (q (degree b) - 1) * permanent computed b + l * IZR (of_differences b)
+      * m ^ pred (degree b) ->
     Rabs (op (exact exactly a) (exact exactly b) - op (exact computed a) (exact computed b)) <=
     (q (Nat.max (degree a) (degree b)) - 1) * (permanent computed a + permanent computed b)
     + l * (IZR (of_differences a) + IZR (of_differences b)) * m ^ pred (Nat.max (degree a) (degree b))).
@@ -190,8 +204,10 @@ Proof.
         eapply Rle_trans; [apply Rabs_triang|]. rewrite Rabs_Ropp. lra. }
     pose proof (q_mono (degree a) d ltac:(lia)). pose proof (q_mono (degree b) d ltac:(lia)).
     pose proof (permanent_pos computed a). pose proof (permanent_pos computed b).
-    assert ((q (degree a) - 1) * permanent computed a <= (q d - 1) * permanent computed a) by (apply Rmult_le_compat_r; lra).
-    assert ((q (degree b) - 1) * permanent computed b <= (q d - 1) * permanent computed b) by (apply Rmult_le_compat_r; lra).
+    assert ((q (degree a) - 1) * permanent computed a <= (q d - 1) * permanent computed a) by (apply Rmult_le_compat_r;
+      lra).
+    assert ((q (degree b) - 1) * permanent computed b <= (q d - 1) * permanent computed b) by (apply Rmult_le_compat_r;
+      lra).
     pose proof (counts_real a). pose proof (counts_real b).
     assert (l * IZR (of_differences a) * m ^ pred (degree a) <= l * IZR (of_differences a) * m ^ pred d)
       by (apply Rmult_le_compat_l; [apply Rmult_le_pos; lra|apply M_mono; lia]).
@@ -208,7 +224,8 @@ Proof.
   - apply andb_prop in below as [pa pb]. apply andb_prop in sign as [sa sb].
     specialize (IHa pa sa ltac:(lia)). specialize (IHb pb sb ltac:(lia)).
     pose proof (degree_pos a pa) as da. pose proof (degree_pos b pb) as db.
-    pose proof (counts_pos a) as ca. pose proof (counts_pos b) as cb. pose proof (counts_real a). pose proof (counts_real b).
+    pose proof (counts_pos a) as ca. pose proof (counts_pos b) as cb. pose proof (counts_real a).
+      pose proof (counts_real b).
     pose proof (permanent_monomials computed small a) as ma. pose proof (permanent_monomials computed small b) as mb.
     assert (factor : forall k, (1 <= k)%nat -> m ^ k = m * m ^ pred k) by (intros [|k] hk; [lia|reflexivity]).
     rewrite (factor _ da) in ma. rewrite (factor _ db) in mb.
@@ -218,18 +235,22 @@ Proof.
     { split; apply steps_bounded; assumption. }
     assert (Y : IZR (of_differences a) * IZR (of_differences b) <= 33554432).
     { rewrite <- mult_IZR. apply IZR_le. nia. }
-    pose proof (product_error (exact exactly a) (exact exactly b) (exact computed a) (exact computed b) (q (degree a)) (q (degree b))
+    pose proof (product_error (exact exactly a) (exact exactly b) (exact computed a) (exact computed b) (q (degree a))
+      (q (degree b))
       (permanent computed a) (permanent computed b) (IZR (of_differences a)) (IZR (of_differences b))
       (m ^ pred (degree a)) (m ^ pred (degree b)) (IZR (monomials a)) (IZR (monomials b))
       (conj (q_ge _) (q_small (degree a) ltac:(lia))) (conj (q_ge _) (q_small (degree b) ltac:(lia)))
-      (exact_permanent _ a) (exact_permanent _ b) (proj2 (proj2 (counts_real a))) (proj2 (proj2 (counts_real b))) (M_ge _) (M_ge _) ma mb (Rle_trans _ _ _ Rle_0_1 (proj1 (counts_real a))) (Rle_trans _ _ _ Rle_0_1 (proj1 (counts_real b)))
+      (exact_permanent _ a) (exact_permanent _ b) (proj2 (proj2 (counts_real a))) (proj2 (proj2 (counts_real b))) (M_ge
+        _) (M_ge _) ma mb (Rle_trans _ _ _ Rle_0_1 (proj1 (counts_real a))) (Rle_trans _ _ _ Rle_0_1 (proj1 (counts_real
+        b)))
       X Y IHa IHb) as E.
     replace (q (degree a) * q (degree b)) with (q (degree a + degree b)) in E by (unfold q; apply pow_add).
     eapply Rle_trans; [exact E|]. rewrite !plus_IZR, !mult_IZR.
     replace (pred (degree a + degree b)) with (S (pred (degree a) + pred (degree b))) by lia.
     cbn [pow]. rewrite pow_add. set (N := m * m ^ pred (degree a) * m ^ pred (degree b)).
     replace (m * (m ^ pred (degree a) * m ^ pred (degree b))) with N by (unfold N; ring).
-    assert (0 <= N). { unfold N. pose proof (M_ge (pred (degree a))). pose proof (M_ge (pred (degree b))). repeat apply Rmult_le_pos; lra. }
+    assert (0 <= N). { unfold N. pose proof (M_ge (pred (degree a))). pose proof (M_ge (pred (degree b))).
+      repeat apply Rmult_le_pos; lra. }
     apply Rplus_le_compat_l. rewrite !Rmult_assoc. apply Rmult_le_compat_l; [lra|]. apply Rmult_le_compat_r; lra.
 Qed.
 
@@ -244,7 +265,8 @@ Hypothesis computed_m : forall c, Rabs (computed c) <= m.
 Notation E := (exact computed).
 Notation p := (permanent computed).
 
-Lemma operand (a : expr) x a_exact n w M : counts_as f (val a) x -> 1 <= M -> Rabs (val a - a_exact) <= (q n - 1) * p a + l * w * M ->
+Lemma operand (a : expr) x a_exact n w M : counts_as f (val a) x -> 1 <= M -> Rabs (val a - a_exact) <= (q n - 1) * p a
+  + l * w * M ->
   Rabs (x - a_exact) <= (q n - 1) * p a + l * (w + 1) * M.
 Proof.
   intros c M1 d. apply counts_error in c. fold l in c. pose proof l_pos.
@@ -285,7 +307,8 @@ Proof.
   unfold within. pose proof l_pos as l0. pose proof m1.
   induction e as [c|c|a IHa b IHb|a IHa b IHb|a IHa b IHb|a IHa|a IHa|a IHa b IHb|a IHa b IHb]; intros poly fit;
     pose proof poly as h; parts h; try discriminate.
-  - cbn. unfold computed. replace (val (Difference c) - val (Difference c)) with 0 by ring. rewrite Rabs_R0. unfold q. simpl. lra.
+  - cbn. unfold computed. replace (val (Difference c) - val (Difference c)) with 0 by ring. rewrite Rabs_R0. unfold q.
+    simpl. lra.
   - destruct (fits_parts a b (Sum a b) ltac:(auto) fit) as [fa fb]. apply andb_prop in below as [pa pb].
     destruct (sizes f ok from to value_of run in_range _ fit) as (_ & _ & _ & x & y & cx & cy & rounded).
     specialize (IHa pa fa). specialize (IHb pb fb).
@@ -317,9 +340,11 @@ Proof.
     specialize (IHa pa fa). specialize (IHb pb fb).
     apply (operand a x _ _ _ _ cx (M_ge _)) in IHa. apply (operand b y _ _ _ _ cy (M_ge _)) in IHb.
     pose proof (degree_pos a pa) as da. pose proof (degree_pos b pb) as db.
-    pose proof (counts_pos a) as ca. pose proof (counts_pos b) as cb. pose proof (counts_real a). pose proof (counts_real b).
+    pose proof (counts_pos a) as ca. pose proof (counts_pos b) as cb. pose proof (counts_real a).
+      pose proof (counts_real b).
     destruct (steps_bounded a pa) as (sa & na & ta & _). destruct (steps_bounded b pb) as (sb & nb & tb & _).
-    pose proof (permanent_monomials computed computed_m a) as ma. pose proof (permanent_monomials computed computed_m b) as mb.
+    pose proof (permanent_monomials computed computed_m a) as ma. pose proof (permanent_monomials computed computed_m b)
+      as mb.
     assert (factor : forall k, (1 <= k)%nat -> m ^ k = m * m ^ pred k) by (intros [|k] hk; [lia|reflexivity]).
     rewrite (factor _ da) in ma. rewrite (factor _ db) in mb. cbn [of_steps depth] in steps_le, depth_le.
     assert (X : IZR (monomials a) * (IZR (of_steps b) + 1) + (IZR (of_steps a) + 1) * IZR (monomials b) <= 4096).
@@ -327,17 +352,20 @@ Proof.
     assert (X0 : 0 <= IZR (monomials a) * (IZR (of_steps b) + 1) + (IZR (of_steps a) + 1) * IZR (monomials b)).
     { rewrite <- !(plus_IZR _ 1), <- !mult_IZR, <- plus_IZR. apply IZR_le. nia. }
     assert (wa0 : 0 <= IZR (of_steps a) + 1) by lra. assert (wb0 : 0 <= IZR (of_steps b) + 1) by lra.
-    assert (X16 : IZR (monomials a) * (IZR (of_steps b) + 1) + (IZR (of_steps a) + 1) * IZR (monomials b) <= 16384) by lra.
+    assert (X16 : IZR (monomials a) * (IZR (of_steps b) + 1) + (IZR (of_steps a) + 1) * IZR (monomials b) <= 16384) by
+      lra.
     assert (Y : (IZR (of_steps a) + 1) * (IZR (of_steps b) + 1) <= 33554432).
     { rewrite <- !(plus_IZR _ 1), <- mult_IZR. apply IZR_le. nia. }
     pose proof (product_error x y (E a) (E b) (q (depth a)) (q (depth b))
       (p a) (p b) (IZR (of_steps a) + 1) (IZR (of_steps b) + 1)
       (m ^ pred (degree a)) (m ^ pred (degree b)) (IZR (monomials a)) (IZR (monomials b))
       (conj (q_ge _) (q_small (depth a) ltac:(lia))) (conj (q_ge _) (q_small (depth b) ltac:(lia)))
-      (exact_permanent _ a) (exact_permanent _ b) wa0 wb0 (M_ge _) (M_ge _) ma mb (Rle_trans _ _ _ Rle_0_1 (proj1 (counts_real a))) (Rle_trans _ _ _ Rle_0_1 (proj1 (counts_real b)))
+      (exact_permanent _ a) (exact_permanent _ b) wa0 wb0 (M_ge _) (M_ge _) ma mb (Rle_trans _ _ _ Rle_0_1 (proj1
+        (counts_real a))) (Rle_trans _ _ _ Rle_0_1 (proj1 (counts_real b)))
       X16 Y IHa IHb) as D.
     replace (q (depth a) * q (depth b)) with (q (depth a + depth b)) in D by (unfold q; apply pow_add).
-    rewrite (Rmult_assoc l) in D. pose proof (exact_permanent computed (Product a b)) as ep. cbn [exact permanent] in ep.
+    rewrite (Rmult_assoc l) in D. pose proof (exact_permanent computed (Product a b)) as ep.
+      cbn [exact permanent] in ep.
     assert (N1 : 1 <= m * m ^ pred (degree a) * m ^ pred (degree b)).
     { rewrite Rmult_assoc, <- pow_add. change (1 <= m ^ S (pred (degree a) + pred (degree b))). apply M_ge. }
     pose proof (fun u v w => step_error _ _ _ _ _ _ _ rounded u ep v w D) as S_.
@@ -349,7 +377,8 @@ Proof.
     apply Rplus_le_compat_l. rewrite (Rmult_assoc l _ N). apply Rmult_le_compat_l; [lra|]. apply Rmult_le_compat_r; lra.
   - destruct a; try discriminate. cbn [exact permanent of_steps depth degree]. unfold Errors.val.
     pose proof (run (Magnitude (Difference c))) as v. simpl in v. rewrite v. unfold computed, Errors.val.
-    destruct (in_range c) as (x & -> & _). simpl. replace (Rabs x - Rabs x) with 0 by ring. rewrite Rabs_R0. unfold q. simpl. lra.
+    destruct (in_range c) as (x & -> & _). simpl. replace (Rabs x - Rabs x) with 0 by ring. rewrite Rabs_R0. unfold q.
+      simpl. lra.
 Qed.
 
 End Polynomials.

@@ -72,7 +72,8 @@ Lemma at_most_counts v w B : l <= B -> counts f v w -> at_most v B -> at_most w 
 Proof. pose proof l0. intros lB [->|(x & -> & small & ->)] h; [assumption|]. simpl. lra. Qed.
 Lemma below_at_most v w B : below v w -> at_most w B -> at_most v B.
 Proof. destruct v as [x|[|]|], w as [y|[|]|]; simpl; try tauto. lra. Qed.
-Lemma larger_at_most v w out B : larger f v w out -> v <> NaN -> w <> NaN -> l <= B -> at_most out B -> at_most v B /\ at_most w B.
+Lemma larger_at_most v w out B : larger f v w out -> v <> NaN -> w <> NaN -> l <= B -> at_most out B -> at_most v B /\
+  at_most w B.
 Proof.
   intros h nv nw lB most. destruct (h nv nw) as (v' & w' & cv & cw & [[b c]|[b c]]).
   - assert (at_most v B) by (eapply counts_at_most; eauto). split; [assumption|].
@@ -91,19 +92,23 @@ Proof.
 Qed.
 
 (* If the pair is in range, every difference is a number. *)
-Theorem range_of e c : maxima e = true -> occurs c e = true -> greater f (value_of (Constant LargestEdge)) (value_of e) ->
+Theorem range_of e c : maxima e = true -> occurs c e = true -> greater f (value_of (Constant LargestEdge)) (value_of e)
+  ->
   exists x, value_of (Difference c) = Number x /\ Rabs x <= L.
 Proof.
   intros h there (v' & w' & cv & cw & b). pose proof L1. pose proof l1.
   pose proof (run (Constant LargestEdge)) as E. simpl in E. fold L in E. rewrite E in cv.
   assert (v' = Number L) as ->.
-  { destruct cv as [->|(x & X & small & _)]; [reflexivity|]. injection X as <-. rewrite Rabs_pos_eq in small; fold l in small; lra. }
+  { destruct cv as [->|(x & X & small & _)]; [reflexivity|]. injection X as <-.
+    rewrite Rabs_pos_eq in small; fold l in small; lra. }
   assert (most : at_most (value_of e) L).
   { eapply counts_at_most; [lra|exact cw|]. destruct w' as [y|[|]|]; simpl in *; try tauto. lra. }
-  pose proof (maxima_at_most e c L h there ltac:(lra) most) as m. pose proof (run (Magnitude (Difference c))) as v. simpl in v.
+  pose proof (maxima_at_most e c L h there ltac:(lra) most) as m. pose proof (run (Magnitude (Difference c))) as v.
+    simpl in v.
   rewrite v in m. destruct (value_of (Difference c)) as [x| |]; simpl in m; try contradiction. exists x. auto.
 Qed.
-Theorem range e : maxima e = true -> (forall c, occurs c e = true) -> greater f (value_of (Constant LargestEdge)) (value_of e) ->
+Theorem range e : maxima e = true -> (forall c, occurs c e = true) -> greater f (value_of (Constant LargestEdge))
+  (value_of e) ->
   forall c, exists x, value_of (Difference c) = Number x /\ Rabs x <= reach f.
 Proof.
   intros h all in_range_ c. destruct (range_of e c h (all c) in_range_) as (x & E & small). exists x. split; [exact E|].
@@ -111,9 +116,11 @@ Proof.
 Qed.
 
 Definition exactly c := to c - from c.
-Theorem off_of c x : value_of (Difference c) = Number x -> Rabs x <= reach f -> Rabs (exactly c - x) <= e1 * Rabs x + l * 3.
+Theorem off_of c x : value_of (Difference c) = Number x -> Rabs x <= reach f -> Rabs (exactly c - x) <= e1 * Rabs x + l
+  * 3.
 Proof.
-  intros E small. pose proof (run (Difference c)) as v. simpl in v. destruct (v _ _ eq_refl eq_refl) as (y & z & cy & cz & r & rounded & cases).
+  intros E small. pose proof (run (Difference c)) as v. simpl in v. destruct (v _ _ eq_refl eq_refl) as (y & z & cy & cz
+    & r & rounded & cases).
   assert (rd : rounds f (y - z) x).
   { pose proof (omega_large f ok) as big. pose proof (L_ge_1 f ok) as one. simpl in big. rewrite Rmult_1_r in big.
     set (R_ := reach f) in *. assert (R_ * 1 <= R_ * (R_ * R_)) by (apply Rmult_le_compat_l; nra).
@@ -122,9 +129,11 @@ Proof.
     - exact rounded.
     - pose proof (Rle_abs (omega f)). lra.
     - rewrite Rabs_Ropp in small. pose proof (Rle_abs (omega f)). lra. }
-  pose proof (rounding_error_by_result f ok _ _ rd) as B. apply counts_error in cy. apply counts_error in cz. fold l e1 in B. fold l in cy, cz.
+  pose proof (rounding_error_by_result f ok _ _ rd) as B. apply counts_error in cy. apply counts_error in cz.
+    fold l e1 in B. fold l in cy, cz.
   unfold exactly. replace (to c - from c - x) with ((z - from c) + (- (y - to c) + - (x - (y - z)))) by ring.
-  eapply Rle_trans; [apply Rabs_triang|]. eapply Rle_trans; [apply Rplus_le_compat_l, Rabs_triang|]. rewrite !Rabs_Ropp. lra.
+  eapply Rle_trans; [apply Rabs_triang|]. eapply Rle_trans; [apply Rplus_le_compat_l, Rabs_triang|].
+    rewrite !Rabs_Ropp. lra.
 Qed.
 
 Hypothesis in_range : forall c, exists x, value_of (Difference c) = Number x /\ Rabs x <= reach f.
@@ -142,7 +151,8 @@ Proof. destruct (in_range c) as (x & E & small). unfold computed, Errors.val. re
 Lemma maxima_pos e : maxima e = true -> fits e = true -> 0 <= val e.
 Proof.
   induction e; intros h fit; try discriminate.
-  - destruct e; try discriminate. unfold Errors.val. pose proof (run (Magnitude (Difference c))) as v. simpl in v. rewrite v, d_value.
+  - destruct e; try discriminate. unfold Errors.val. pose proof (run (Magnitude (Difference c))) as v. simpl in v.
+    rewrite v, d_value.
     apply Rabs_pos.
   - simpl in h. apply andb_prop in h as [ha hb]. destruct (fits_parts e2 e3 (Larger e2 e3) ltac:(auto) fit) as [fa fb].
     specialize (IHe1 ha fa). specialize (IHe2 hb fb).
@@ -153,13 +163,15 @@ Qed.
 Lemma maxima_bound e c : maxima e = true -> fits e = true -> occurs c e = true -> Rabs (d c) <= Rmax (val e) l.
 Proof.
   intros h fit o. assert (most : at_most (value_of e) (Rmax (val e) l)) by (rewrite (number e fit); apply Rmax_l).
-  pose proof (maxima_at_most e c _ h o (Rmax_r _ _) most) as m. pose proof (run (Magnitude (Difference c))) as v. simpl in v.
+  pose proof (maxima_at_most e c _ h o (Rmax_r _ _) most) as m. pose proof (run (Magnitude (Difference c))) as v.
+    simpl in v.
   rewrite v, d_value in m. exact m.
 Qed.
 
 (* A lower bound of the result of a step: operands that are not subnormal count unchanged. *)
 Lemma unflushed x x' : l <= x -> counts_as f x x' -> x' = x.
-Proof. pose proof l0. intros big [->|[small ->]]; [reflexivity|]. fold l in small. rewrite Rabs_pos_eq in small; lra. Qed.
+Proof. pose proof l0. intros big [->|[small ->]]; [reflexivity|]. fold l in small. rewrite Rabs_pos_eq in small; lra.
+  Qed.
 Lemma rounds_below z r : rounds f z r -> 0 <= z -> (1 - e1) * z - l <= r.
 Proof.
   intros R_ pos. pose proof (rounding_error f ok _ _ R_) as E. rewrite (Rabs_pos_eq z pos) in E.

@@ -54,7 +54,8 @@ Proof.
 Qed.
 Lemma u_large : 1099511627776 * l <= u.
 Proof.
-  unfold lam, unit_roundoff, power. change 1099511627776 with (bpow radix2 40). rewrite <- bpow_plus. apply bpow_le. destruct ok; lia.
+  unfold lam, unit_roundoff, power. change 1099511627776 with (bpow radix2 40). rewrite <- bpow_plus. apply bpow_le.
+    destruct ok; lia.
 Qed.
 Lemma u_small : u <= / 16777216. Proof. pose proof e_small. pose proof (eps_twice f). lra. Qed.
 
@@ -67,7 +68,8 @@ Proof.
   intro fit. destruct (fits_product _ _ fit) as [fit2 _]. destruct (fits_product _ _ fit2) as [fit1 _].
   pose proof (step_of _ fit1) as S1. pose proof (step_of _ fit2) as S2. pose proof (step_of _ fit) as S3.
   destruct S1 as (x & y & cx & cy & r1). destruct S2 as (a & b & ca & cb & r2). destruct S3 as (v & w & cv & cw & r3).
-  pose proof l_pos. pose proof l_small. pose proof e_pos. pose proof e_small. pose proof M_pos as M0. pose proof m1 as M1.
+  pose proof l_pos. pose proof l_small. pose proof e_pos. pose proof e_small. pose proof M_pos as M0.
+    pose proof m1 as M1.
   pose proof eta_large as eta. rewrite constant in cy, cw. cbn [constant_value] in *.
   apply (unflushed f) in cy; [|lra]. subst y. pose proof (counts_error _ _ _ cx) as ex. apply Rabs_le_inv in ex.
   assert (more_large : (1 - / 1000000) * m <= val more).
@@ -98,7 +100,8 @@ Lemma roundoffs_large n size_ t : fits (roundoffs n size_) = true -> (1 <= n <= 
 Proof.
   intros fit n_le t0 large. destruct (fits_product _ _ fit) as [fit1 _].
   pose proof (step_of _ fit1) as S1. pose proof (step_of _ fit) as S2.
-  destruct S1 as (x & y & cx & cy & r1). destruct S2 as (a & b & ca & cb & r2). rewrite !constant in *. cbn [constant_value] in *.
+  destruct S1 as (x & y & cx & cy & r1). destruct S2 as (a & b & ca & cb & r2). rewrite !constant in *.
+    cbn [constant_value] in *.
   pose proof l_pos. pose proof l_small. pose proof e_pos. pose proof e_small. pose proof u_large. pose proof u_small. 
   assert (n1 : 1 <= IZR n <= 100) by (split; apply IZR_le; lia).
   apply (unflushed f) in cx; [|lra]. apply (unflushed f) in cy; [|lra]. subst x y. 
@@ -112,7 +115,8 @@ Proof.
   { pose proof (rounding_error f ok _ _ r1) as E. rewrite (Rabs_pos_eq (u * IZR n)) in E by lra. apply Rabs_le_inv in E.
     assert (e1 * (u * IZR n) <= / 8388608 * (u * IZR n)) by (apply Rmult_le_compat_r; lra). lra. }
   apply (unflushed f) in ca; [|lra]. subst a. pose proof (counts_error _ _ _ cb) as eb. apply Rabs_le_inv in eb.
-  assert (1 <= m ^ 2) by (pose proof m1; simpl; nra). assert (L2 : l * 1 <= l * m ^ 2) by (apply Rmult_le_compat_l; lra).
+  assert (1 <= m ^ 2) by (pose proof m1; simpl; nra). assert (L2 : l * 1 <= l * m ^ 2) by (apply Rmult_le_compat_l;
+    lra).
   assert (b_large : (1 - sigma) * t - 401 * (l * m ^ 2) <= b) by lra.
   set (N := l * m ^ 2) in *. assert (0 <= N) by lra.
   assert (z_large : C * ((1 - sigma) * t) - N <= C * b).
@@ -120,13 +124,15 @@ Proof.
     assert (C * (401 * N) <= / 10000 * (401 * N)) by (apply Rmult_le_compat_r; lra). lra. }
   assert (s01 : 0 <= 1 - sigma <= 1) by (unfold sigma; lra).
   assert (st0 : 0 <= (1 - sigma) * t) by (apply Rmult_le_pos; lra).
-  assert (Ct : (1 - / 1000000) * (u * IZR n) * ((1 - sigma) * t) <= C * ((1 - sigma) * t)) by (apply Rmult_le_compat_r; lra).
+  assert (Ct : (1 - / 1000000) * (u * IZR n) * ((1 - sigma) * t) <= C * ((1 - sigma) * t)) by (apply Rmult_le_compat_r;
+    lra).
   assert (Ct0 : 0 <= C * ((1 - sigma) * t)) by (apply Rmult_le_pos; lra).
   pose proof (rounding_error f ok _ _ r2) as E. apply Rabs_le_inv in E.
   fold (roundoffs n size_) in E.
   assert (low : (1 - / 8388608) * (C * ((1 - sigma) * t)) - 3 * N <= val (roundoffs n size_)).
   { destruct (Rle_lt_dec 0 (C * b)) as [pos|neg].
-    - rewrite (Rabs_pos_eq _ pos) in E. assert (e1 * (C * b) <= / 8388608 * (C * b)) by (apply Rmult_le_compat_r; lra). lra.
+    - rewrite (Rabs_pos_eq _ pos) in E. assert (e1 * (C * b) <= / 8388608 * (C * b)) by (apply Rmult_le_compat_r; lra).
+      lra.
     - rewrite Rabs_left in E by assumption.
       assert (e1 * - (C * b) <= / 8388608 * - (C * b)) by (apply Rmult_le_compat_r; lra). lra. }
   assert (0 <= u * IZR n * t) by (apply Rmult_le_pos; lra).
@@ -145,17 +151,20 @@ Proof.
   pose proof (roundoffs_large n size_ t fa n_le t0 large) as A. pose proof (margin_large fb) as B.
   destruct (step_of _ fit) as (x & y & cx & cy & r).
   pose proof l_pos. pose proof l_small. pose proof e_pos. pose proof e_small. pose proof u_large. 
-  assert (1 <= m ^ 2) by (pose proof m1; simpl; nra). assert (L2 : l * 1 <= l * m ^ 2) by (apply Rmult_le_compat_l; lra).
+  assert (1 <= m ^ 2) by (pose proof m1; simpl; nra). assert (L2 : l * 1 <= l * m ^ 2) by (apply Rmult_le_compat_l;
+    lra).
   apply (unflushed f) in cy; [|lra]. subst y. pose proof (counts_error _ _ _ cx) as ex. apply Rabs_le_inv in ex.
   assert (n1 : 1 <= IZR n) by (apply IZR_le; lia).
   assert (nut : 0 <= IZR n * u * t) by (repeat apply Rmult_le_pos; lra).
   assert (z : (1 - 2 * sigma) * (IZR n * u) * t + 506 * (l * m ^ 2) <= x + val margin) by lra.
-  assert (zp : 0 <= (1 - 2 * sigma) * (IZR n * u) * t) by (rewrite Rmult_assoc; apply Rmult_le_pos; [unfold sigma; lra|assumption]).
+  assert (zp : 0 <= (1 - 2 * sigma) * (IZR n * u) * t) by (rewrite Rmult_assoc; apply Rmult_le_pos; [unfold sigma;
+    lra|assumption]).
   pose proof (rounds_below' _ _ r ltac:(lra)) as low.
   assert (e1 * (x + val margin) <= / 8388608 * (x + val margin)) by (apply Rmult_le_compat_r; lra).
   assert ((1 - 3 * sigma) * (IZR n * u) * t <= (1 - / 8388608) * ((1 - 2 * sigma) * (IZR n * u) * t)).
   { replace ((1 - 3 * sigma) * (IZR n * u) * t) with ((1 - 3 * sigma) * (IZR n * u * t)) by ring.
-    replace ((1 - / 8388608) * ((1 - 2 * sigma) * (IZR n * u) * t)) with ((1 - / 8388608) * (1 - 2 * sigma) * (IZR n * u * t)) by ring.
+    replace ((1 - / 8388608) * ((1 - 2 * sigma) * (IZR n * u) * t)) with ((1 - / 8388608) * (1 - 2 * sigma) * (IZR n * u
+      * t)) by ring.
     apply Rmult_le_compat_r; [assumption|]. unfold sigma; lra. }
   lra.
 Qed.
@@ -174,16 +183,19 @@ Proof.
   pose proof (error_of_steps f ok m m1 from to value_of run in_range d_m a pa fa) as wa.
   pose proof (error_of_steps f ok m m1 from to value_of run in_range d_m b pb fb) as wb.
   pose proof (sum_before_rounding f m m1 value_of a b x y Rplus ltac:(auto) cx cy wa wb) as S_.
-  pose proof (error_of_differences f ok m m1 d D d_m (off f ok from to value_of run in_range) (Sum a b) poly sig ltac:(lia)) as X_.
+  pose proof (error_of_differences f ok m m1 d D d_m (off f ok from to value_of run in_range) (Sum a b) poly sig
+    ltac:(lia)) as X_.
   rewrite deg in X_. cbn [degree] in deg. rewrite deg in S_. cbn [exact permanent pred] in *. 
   pose proof (permanent_pos d (Sum a b)) as pp. cbn [permanent] in pp.
   pose proof (q_mono f (Nat.max (depth a) (depth b)) n ltac:(lia)) as qn.
-  assert ((q f (Nat.max (depth a) (depth b)) - 1) * (permanent d a + permanent d b) <= (q f n - 1) * (permanent d a + permanent d b))
+  assert ((q f (Nat.max (depth a) (depth b)) - 1) * (permanent d a + permanent d b) <= (q f n - 1) * (permanent d a +
+    permanent d b))
     by (apply Rmult_le_compat_r; lra).
   unfold losses. rewrite !plus_IZR. apply Rabs_le_inv in S_. apply Rabs_le_inv in X_.
   change (Init.Nat.pred 3) with 2%nat in *. apply Rabs_le. lra.
 Qed.
-Theorem sign_of (z k e b : R) : rounds f z k -> Rabs (z - e) <= b -> representable f b -> (b < k -> 0 < e) /\ (k < - b -> e < 0).
+Theorem sign_of (z k e b : R) : rounds f z k -> Rabs (z - e) <= b -> representable f b -> (b < k -> 0 < e) /\
+  (k < - b -> e < 0).
 Proof.
   intros rounded close rep. pose proof (Rabs_pos (z - e)). apply Rabs_le_inv in close. split; intro beyond_.
   - pose proof (above_before_rounding f ok _ _ _ rounded rep ltac:(lra) beyond_). lra.
@@ -191,7 +203,8 @@ Proof.
 Qed.
 
 Lemma q3 : q f 3 <= 1 + 3.001 * e1.
-Proof. unfold q. pose proof e_pos. pose proof e_small. simpl. assert (e1 * e1 <= / 8388608 * e1) by (apply Rmult_le_compat_r; lra).
+Proof. unfold q. pose proof e_pos. pose proof e_small. simpl. assert (e1 * e1 <= / 8388608 * e1) by (apply
+  Rmult_le_compat_r; lra).
   assert (e1 * e1 * e1 <= / 8388608 * e1) by (apply Rmult_le_compat_r; lra). lra. Qed.
 Lemma q6 : q f 6 <= 1 + 6.01 * e1.
 Proof.
@@ -219,26 +232,33 @@ Lemma greater_below x y : greater f (Number (- y)) (Number x) -> l <= y -> x < -
 Proof.
   pose proof l_pos. intros (v & w & cv & cw & b) big. destruct (counts_val f _ _ _ eq_refl cv) as (y' & -> & cy).
   destruct (counts_val f _ _ _ eq_refl cw) as (x' & -> & cx).
-  assert (y' = - y) as ->. { destruct cy as [->|[small ->]]; [reflexivity|]. rewrite Rabs_Ropp, Rabs_pos_eq in small; lra. }
+  assert (y' = - y) as ->. { destruct cy as [->|[small ->]]; [reflexivity|]. rewrite Rabs_Ropp, Rabs_pos_eq in small;
+    lra. }
   simpl in b. destruct cx as [->|[_ ->]]; lra.
 Qed.
-Lemma smaller_both a b : fits (Smaller a b) = true -> l <= val (Smaller a b) -> val (Smaller a b) <= val a /\ val (Smaller a b) <= val b.
+Lemma smaller_both a b : fits (Smaller a b) = true -> l <= val (Smaller a b) -> val (Smaller a b) <= val a /\
+  val (Smaller a b) <= val b.
 Proof.
-  intros fit big. destruct (fits_parts a b _ ltac:(auto) fit) as [fa fb]. pose proof (run (Smaller a b)) as v. simpl in v.
+  intros fit big. destruct (fits_parts a b _ ltac:(auto) fit) as [fa fb]. pose proof (run (Smaller a b)) as v.
+    simpl in v.
   rewrite (number _ fit), (number _ fa), (number _ fb) in v. pose proof l_pos.
   destruct v as (v & w & cv & cw & which); try discriminate.
   destruct (counts_val f _ _ _ eq_refl cv) as (x & -> & cx). destruct (counts_val f _ _ _ eq_refl cw) as (y & -> & cy).
-  destruct which as [[b_ c]|[b_ c]]; simpl in b_; destruct (counts_val f _ _ _ eq_refl c) as (r & E & cr); injection E as <-; 
+  destruct which as [[b_ c]|[b_ c]]; simpl in b_; destruct (counts_val f _ _ _ eq_refl c) as (r & E & cr);
+    injection E as <-; 
     destruct cr as [cr|[_ cr]]; destruct cx as [cx|[? cx]]; destruct cy as [cy|[? cy]]; try lra; 
     try (rewrite Rabs_pos_eq in * by lra); lra.
 Qed.
-Lemma larger_both a b : fits (Larger a b) = true -> val (Larger a b) <= - l -> val a <= val (Larger a b) /\ val b <= val (Larger a b).
+Lemma larger_both a b : fits (Larger a b) = true -> val (Larger a b) <= - l -> val a <= val (Larger a b) /\
+  val b <= val (Larger a b).
 Proof.
-  intros fit big. destruct (fits_parts a b _ ltac:(auto) fit) as [fa fb]. pose proof (run (Larger a b)) as v. simpl in v.
+  intros fit big. destruct (fits_parts a b _ ltac:(auto) fit) as [fa fb]. pose proof (run (Larger a b)) as v.
+    simpl in v.
   rewrite (number _ fit), (number _ fa), (number _ fb) in v. pose proof l_pos.
   destruct v as (v & w & cv & cw & which); try discriminate.
   destruct (counts_val f _ _ _ eq_refl cv) as (x & -> & cx). destruct (counts_val f _ _ _ eq_refl cw) as (y & -> & cy).
-  destruct which as [[b_ c]|[b_ c]]; simpl in b_; destruct (counts_val f _ _ _ eq_refl c) as (r & E & cr); injection E as <-; 
+  destruct which as [[b_ c]|[b_ c]]; simpl in b_; destruct (counts_val f _ _ _ eq_refl c) as (r & E & cr);
+    injection E as <-; 
     destruct cr as [cr|[_ cr]]; destruct cx as [cx|[? cx]]; destruct cy as [cy|[? cy]]; try lra; 
     try (rewrite Rabs_left1 in * by lra); lra.
 Qed.

@@ -23,17 +23,21 @@ Hypothesis in_range : forall c, exists x, value_of (Difference c) = Number x /\ 
 
 Lemma L_ge_1 : 1 <= L.
 Proof.
-  unfold L, reach, power. assert (bpow radix2 0 <= bpow radix2 (largest_edge f)) by (apply bpow_le; destruct ok; lia). simpl in H. lra.
+  unfold L, reach, power. assert (bpow radix2 0 <= bpow radix2 (largest_edge f)) by (apply bpow_le; destruct ok; lia).
+    simpl in H. lra.
 Qed.
 Lemma omega_large : IZR (2 ^ 30) * L ^ 3 <= omega f.
 Proof.
   unfold omega, L, reach, power. replace (IZR (2 ^ 30) * (4 * bpow radix2 (largest_edge f)) ^ 3) with
     (bpow radix2 36 * bpow radix2 (largest_edge f) ^ 3) by (change (IZR (2 ^ 30)) with 1073741824; simpl; lra).
   replace (bpow radix2 (largest_edge f) ^ 3) with (bpow radix2 (3 * largest_edge f)).
-  2: { replace (3 * largest_edge f)%Z with (largest_edge f + (largest_edge f + largest_edge f))%Z by ring. rewrite !bpow_plus. ring. }
+  2: { replace (3 * largest_edge f)%Z with (largest_edge f + (largest_edge f + largest_edge f))%Z by ring.
+    rewrite !bpow_plus. ring. }
   rewrite <- bpow_plus.
-  assert (bpow radix2 (36 + 3 * largest_edge f) <= bpow radix2 (greatest_exponent f - 1)) by (apply bpow_le; destruct ok; lia).
-  assert (bpow radix2 (greatest_exponent f - precision f) <= bpow radix2 (greatest_exponent f - 1)) by (apply bpow_le; destruct ok; lia).
+  assert (bpow radix2 (36 + 3 * largest_edge f) <= bpow radix2 (greatest_exponent f - 1)) by (apply bpow_le;
+    destruct ok; lia).
+  assert (bpow radix2 (greatest_exponent f - precision f) <= bpow radix2 (greatest_exponent f - 1)) by (apply bpow_le;
+    destruct ok; lia).
   assert (bpow radix2 (greatest_exponent f) = 2 * bpow radix2 (greatest_exponent f - 1)).
   { replace (greatest_exponent f) with (1 + (greatest_exponent f - 1))%Z at 1 by ring. rewrite bpow_plus. reflexivity. }
   lra.
@@ -57,15 +61,18 @@ Qed.
 Lemma size_pos e : (1 <= size e)%Z.
 Proof. induction e as [|c| | | | | | |]; cbn [size]; try lia. destruct c; lia. Qed.
 
-Lemma fits_bound e n : (size e <= n)%Z -> (n <= 2 ^ 30)%Z -> (degree e <= 3)%nat -> IZR (size e) * L ^ degree e <= omega f.
+Lemma fits_bound e n : (size e <= n)%Z -> (n <= 2 ^ 30)%Z -> (degree e <= 3)%nat -> IZR (size e) * L ^ degree e <= omega
+  f.
 Proof.
   intros. pose proof omega_large. pose proof L_ge_1. eapply Rle_trans; [|exact H2].
-  apply Rmult_le_compat; [apply IZR_le; pose proof (size_pos e); lia|apply pow_le; lra|apply IZR_le; lia|apply Rle_pow; assumption].
+  apply Rmult_le_compat; [apply IZR_le; pose proof (size_pos e); lia|apply pow_le; lra|apply IZR_le; lia|apply Rle_pow;
+    assumption].
 Qed.
 Lemma pow_pos_L n : 1 <= L ^ n. Proof. apply pow_R1_Rle, L_ge_1. Qed.
 Lemma widen s n s' n' : (1 <= s <= s')%Z -> (n <= n')%nat -> IZR s * L ^ n <= IZR s' * L ^ n'.
 Proof.
-  intros. pose proof L_ge_1. apply Rmult_le_compat; [apply IZR_le; lia|apply pow_le; lra|apply IZR_le; lia|apply Rle_pow; assumption].
+  intros. pose proof L_ge_1. apply Rmult_le_compat; [apply IZR_le; lia|apply pow_le; lra|apply IZR_le;
+    lia|apply Rle_pow; assumption].
 Qed.
 
 Lemma counts_val v x v' : v = Number x -> counts f v v' -> exists x', v' = Number x' /\ counts_as f x x'.
@@ -76,7 +83,8 @@ Proof.
 Qed.
 
 (* The result of each step, with operands that may count as zero. *)
-Definition step (op : R -> R -> R) a b e := exists x y, counts_as f (val a) x /\ counts_as f (val b) y /\ rounds f (op x y) (val e).
+Definition step (op : R -> R -> R) a b e := exists x y, counts_as f (val a) x /\ counts_as f (val b) y /\
+  rounds f (op x y) (val e).
 Definition node e := match e with
   | Sum a b => step Rplus a b e
   | Minus a b => step Rminus a b e
@@ -100,7 +108,8 @@ Proof.
     + discriminate.
     + rewrite Rabs_pos_eq; lra.
     + apply Z.leb_le in below_. rewrite Rabs_pos_eq by (now apply IZR_le). rewrite Rmult_1_r. apply IZR_le. lia.
-  - apply andb_prop in below_ as [fa fb]. destruct (IHa fa) as (x & vx & bx & _). destruct (IHb fb) as (y & vy & by_ & _).
+  - apply andb_prop in below_ as [fa fb]. destruct (IHa fa) as (x & vx & bx & _).
+    destruct (IHb fb) as (y & vy & by_ & _).
     destruct (run (Sum a b) x y vx vy) as (x' & y' & cx & cy & res).
     pose proof (counts_smaller _ _ _ cx). pose proof (counts_smaller _ _ _ cy).
     pose proof (size_pos a); pose proof (size_pos b). set (d := Nat.max (degree a) (degree b)) in *.
@@ -113,20 +122,23 @@ Proof.
     + eapply Rle_trans; [apply Rabs_triang|]. lra.
     + eapply Rle_trans; [exact target|]. eapply fits_bound; eauto. apply Z.le_refl. 
     + exists r. split; [exact vr|]. split; [lra|]. exists x', y'. unfold val. rewrite vx, vy, vr. auto.
-  - apply andb_prop in below_ as [fa fb]. destruct (IHa fa) as (x & vx & bx & _). destruct (IHb fb) as (y & vy & by_ & _).
+  - apply andb_prop in below_ as [fa fb]. destruct (IHa fa) as (x & vx & bx & _).
+    destruct (IHb fb) as (y & vy & by_ & _).
     destruct (run (Minus a b) x y vx vy) as (x' & y' & cx & cy & res).
     pose proof (counts_smaller _ _ _ cx). pose proof (counts_smaller _ _ _ cy).
     pose proof (size_pos a); pose proof (size_pos b). set (d := Nat.max (degree a) (degree b)) in *.
     assert (IZR (size a) * L ^ degree a <= IZR (size a) * L ^ d) by (apply widen; lia).
     assert (IZR (size b) * L ^ degree b <= IZR (size b) * L ^ d) by (apply widen; lia).
     pose proof (pow_pos_L d).
-    assert (target : 2 * ((IZR (size a) + IZR (size b)) * L ^ d) + 1 <= IZR (size (Minus a b)) * L ^ degree (Minus a b)).
+    assert (target : 2 * ((IZR (size a) + IZR (size b)) * L ^ d) + 1 <= IZR (size (Minus a b)) * L ^ degree (Minus a
+      b)).
     { cbn [size degree]. fold d. rewrite plus_IZR, mult_IZR, plus_IZR. nra. }
     destruct (result_is_number _ _ ((IZR (size a) + IZR (size b)) * L ^ d) res) as (r & vr & rounded & small).
     + eapply Rle_trans; [apply Rabs_triang|]. rewrite Rabs_Ropp. lra.
     + eapply Rle_trans; [exact target|]. eapply fits_bound; eauto. apply Z.le_refl.
     + exists r. split; [exact vr|]. split; [lra|]. exists x', y'. unfold val. rewrite vx, vy, vr. auto.
-  - apply andb_prop in below_ as [fa fb]. destruct (IHa fa) as (x & vx & bx & _). destruct (IHb fb) as (y & vy & by_ & _).
+  - apply andb_prop in below_ as [fa fb]. destruct (IHa fa) as (x & vx & bx & _).
+    destruct (IHb fb) as (y & vy & by_ & _).
     destruct (run (Product a b) x y vx vy) as (x' & y' & cx & cy & res).
     pose proof (counts_smaller _ _ _ cx). pose proof (counts_smaller _ _ _ cy).
     pose proof (size_pos a); pose proof (size_pos b).
@@ -134,7 +146,8 @@ Proof.
     assert (target : 2 * ((IZR (size a) * L ^ degree a) * (IZR (size b) * L ^ degree b)) + 1
       <= IZR (size (Product a b)) * L ^ degree (Product a b)).
     { cbn [size degree]. rewrite plus_IZR, !mult_IZR. rewrite pow_add in *. nra. }
-    destruct (result_is_number _ _ ((IZR (size a) * L ^ degree a) * (IZR (size b) * L ^ degree b)) res) as (r & vr & rounded & small).
+    destruct (result_is_number _ _ ((IZR (size a) * L ^ degree a) * (IZR (size b) * L ^ degree b)) res) as (r & vr &
+      rounded & small).
     + rewrite Rabs_mult. apply Rmult_le_compat; try apply Rabs_pos; lra.
     + eapply Rle_trans; [exact target|]. eapply fits_bound; eauto. apply Z.le_refl.
     + exists r. split; [exact vr|]. split; [lra|]. exists x', y'. unfold val. rewrite vx, vy, vr. auto.
@@ -142,29 +155,39 @@ Proof.
     exists (- x). rewrite Rabs_Ropp. simpl. auto.
   - destruct (IHa below_) as (x & vx & bx & _). pose proof (run (Magnitude a)) as v. simpl in v. rewrite v, vx. simpl.
     exists (Rabs x). rewrite Rabs_Rabsolu. simpl. auto.
-  - apply andb_prop in below_ as [fa fb]. destruct (IHa fa) as (x & vx & bx & _). destruct (IHb fb) as (y & vy & by_ & _).
+  - apply andb_prop in below_ as [fa fb]. destruct (IHa fa) as (x & vx & bx & _).
+    destruct (IHb fb) as (y & vy & by_ & _).
     pose proof (run (Larger a b)) as v. simpl in v. unfold larger in v. rewrite vx, vy in v.
     destruct v as (v' & w' & _ & _ & which); try discriminate.
     pose proof (size_pos a); pose proof (size_pos b).
-    assert (IZR (size a) * L ^ degree a <= IZR (size (Larger a b)) * L ^ degree (Larger a b)) by (apply widen; simpl; lia).
-    assert (IZR (size b) * L ^ degree b <= IZR (size (Larger a b)) * L ^ degree (Larger a b)) by (apply widen; simpl; lia).
-    destruct which as [[_ c]|[_ c]]; destruct (counts_val _ _ _ eq_refl c) as (r & -> & small); apply counts_smaller in small;
+    assert (IZR (size a) * L ^ degree a <= IZR (size (Larger a b)) * L ^ degree (Larger a b)) by (apply widen; simpl;
+      lia).
+    assert (IZR (size b) * L ^ degree b <= IZR (size (Larger a b)) * L ^ degree (Larger a b)) by (apply widen; simpl;
+      lia).
+    destruct which as [[_ c]|[_ c]]; destruct (counts_val _ _ _ eq_refl c) as (r & -> & small);
+      apply counts_smaller in small;
       exists r; (split; [reflexivity|split; [lra|exact I]]).
-  - apply andb_prop in below_ as [fa fb]. destruct (IHa fa) as (x & vx & bx & _). destruct (IHb fb) as (y & vy & by_ & _).
+  - apply andb_prop in below_ as [fa fb]. destruct (IHa fa) as (x & vx & bx & _).
+    destruct (IHb fb) as (y & vy & by_ & _).
     pose proof (run (Smaller a b)) as v. simpl in v. unfold smaller in v. rewrite vx, vy in v.
     destruct v as (v' & w' & _ & _ & which); try discriminate.
     pose proof (size_pos a); pose proof (size_pos b).
-    assert (IZR (size a) * L ^ degree a <= IZR (size (Smaller a b)) * L ^ degree (Smaller a b)) by (apply widen; simpl; lia).
-    assert (IZR (size b) * L ^ degree b <= IZR (size (Smaller a b)) * L ^ degree (Smaller a b)) by (apply widen; simpl; lia).
-    destruct which as [[_ c]|[_ c]]; destruct (counts_val _ _ _ eq_refl c) as (r & -> & small); apply counts_smaller in small;
+    assert (IZR (size a) * L ^ degree a <= IZR (size (Smaller a b)) * L ^ degree (Smaller a b)) by (apply widen; simpl;
+      lia).
+    assert (IZR (size b) * L ^ degree b <= IZR (size (Smaller a b)) * L ^ degree (Smaller a b)) by (apply widen; simpl;
+      lia).
+    destruct which as [[_ c]|[_ c]]; destruct (counts_val _ _ _ eq_refl c) as (r & -> & small);
+      apply counts_smaller in small;
       exists r; (split; [reflexivity|split; [lra|exact I]]).
 Qed.
 
 Lemma is_number e : fits e = true -> value_of e = Number (val e).
 Proof. intro fit. destruct (sizes e fit) as (x & vx & _). unfold val. now rewrite vx. Qed.
 
-Lemma fits_parts (a : expr) b e : e = Sum a b \/ e = Minus a b \/ e = Product a b \/ e = Larger a b \/ e = Smaller a b ->
+Lemma fits_parts (a : expr) b e : e = Sum a b \/ e = Minus a b \/ e = Product a b \/ e = Larger a b \/ e = Smaller a b
+  ->
   fits e = true -> fits a = true /\ fits b = true.
-Proof. intros [->|[->|[->|[->| ->]]]] fit; cbn [fits] in fit; apply andb_prop in fit as [_ fit]; now apply andb_prop in fit. Qed.
+Proof. intros [->|[->|[->|[->| ->]]]] fit; cbn [fits] in fit; apply andb_prop in fit as [_ fit];
+  now apply andb_prop in fit. Qed.
 
 End Errors.

@@ -21,9 +21,12 @@ Inductive expr_of (difference : Type) :=
 (* A mask, without negations. `Finite` asks whether the coordinates are, which the theorems assume. *)
 Inductive mask_of (difference : Type) :=
   Greater (a b : expr_of difference) | Both (a b : mask_of difference) | Either (a b : mask_of difference) | Finite.
-Arguments Difference {difference}. Arguments Constant {difference}. Arguments Sum {difference}. Arguments Minus {difference}.
-Arguments Product {difference}. Arguments Negative {difference}. Arguments Magnitude {difference}. Arguments Larger {difference}.
-Arguments Smaller {difference}. Arguments Greater {difference}. Arguments Both {difference}. Arguments Either {difference}.
+Arguments Difference {difference}. Arguments Constant {difference}. Arguments Sum {difference}.
+  Arguments Minus {difference}.
+Arguments Product {difference}. Arguments Negative {difference}. Arguments Magnitude {difference}.
+  Arguments Larger {difference}.
+Arguments Smaller {difference}. Arguments Greater {difference}. Arguments Both {difference}.
+  Arguments Either {difference}.
 Arguments Finite {difference}.
 Notation expr := (expr_of component).
 Notation mask := (mask_of component).
@@ -36,7 +39,8 @@ Context {component : Type}.
 Notation expr := (expr_of component).
 Notation mask := (mask_of component).
 
-(* The result of an operation whose exact result is z: rounded, or overflow, which is infinite or the largest finite number. *)
+(* The result of an operation whose exact result is z: rounded, or overflow, which is infinite or the largest finite
+   number. *)
 Definition result z v := exists r, rounds f z r /\
   ((Rabs r <= omega f /\ v = Number r) \/
    (omega f < r /\ (v = Infinite true \/ v = Number (omega f))) \/
@@ -69,7 +73,8 @@ Definition constant_value c := match c with
   | Half => / 2
   | Small count => IZR count end.
 
-(* An execution gives each expression a value that its operation allows; `from` and `to` are the coordinates of the points. *)
+(* An execution gives each expression a value that its operation allows; `from` and `to` are the coordinates of the
+   points. *)
 Definition execution (from to : component -> R) (value_of : expr -> value) := forall e : expr, match e with
   | Difference c => operation Rminus (Number (to c)) (Number (from c)) (value_of e)
   | Constant c => value_of e = Number (constant_value c)
@@ -158,7 +163,8 @@ Fixpoint of_differences (e : expr) : Z := match e with
   | Sum a b | Minus a b => of_differences a + of_differences b
   | Product a b => monomials a * of_differences b + of_differences a * monomials b + 1
   | _ => 0 end%Z.
-Fixpoint polynomial (e : expr) : bool := ((of_steps e <=? 4096)%Z && (of_differences e <=? 4096)%Z && (monomials e <=? 64)%Z
+Fixpoint polynomial (e : expr) : bool := ((of_steps e <=? 4096)%Z && (of_differences e <=? 4096)%Z && (monomials e <=?
+  64)%Z
   && (depth e <=? 16)%nat && match e with
   | Difference _ => true
   | Sum a b | Minus a b | Product a b => polynomial a && polynomial b

@@ -35,7 +35,8 @@ Proof.
     { rewrite same. destruct k, l. unfold plus, scaled; simpl. f_equal; ring. }
     unfold volume, dot, cross, minus, plus, scaled; simpl; ring.
   - apply (Rmult_eq_reg_l s); [|exact s0]. rewrite Rmult_0_r.
-    replace (s * volume k u v l) with (dot (minus (plus (scaled (1 - s) k) (scaled s l)) k) (cross (minus u k) (minus v k))).
+    replace (s * volume k u v l) with (dot (minus (plus (scaled (1 - s) k) (scaled s l)) k) (cross (minus u k) (minus v
+      k))).
     + rewrite <- same. unfold dot, cross, minus, plus, scaled; simpl; ring.
     + unfold volume, dot, cross, minus, plus, scaled; simpl; ring.
 Qed.
@@ -50,7 +51,8 @@ Definition k2 := dot p1 h + dot p0 (cross b1 c1).
 Definition k3 := dot p1 (cross b1 c1).
 End Control.
 Definition of_control k a b c p := k (minus (start b) (start a)) (minus (finish b) (finish a))
-  (minus (start c) (start a)) (minus (finish c) (finish a)) (minus (start p) (start a)) (minus (finish p) (finish a)) : R.
+  (minus (start c) (start a)) (minus (finish c) (finish a)) (minus (start p) (start a)) (minus (finish p) (finish a)) :
+    R.
 
 Theorem bernstein_form a b c p t : volume (at_ a t) (at_ b t) (at_ c t) (at_ p t) =
   of_control (fun b0 _ c0 _ p0 _ => k0 b0 c0 p0) a b c p * (1 - t) ^ 3 + of_control k1 a b c p * (1 - t) ^ 2 * t

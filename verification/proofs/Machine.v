@@ -5,7 +5,8 @@ From Selvedge Require Import Arithmetic.
 From Selvedge Require Expressions.
 Open Scope R_scope.
 
-(* The format's constants that the time of impact adds: the exponents of μ, of the largest extent and of two limits of lengths. *)
+(* The format's constants that the time of impact adds: the exponents of μ, of the largest extent and of two limits of
+   lengths. *)
 Record constants := Constants { base :> format; extent_underflow : Z; largest_extent : Z }.
 
 (* A coordinate of one of the four points, a component of one of the directions that are tried, a time. *)
@@ -23,14 +24,16 @@ with mask := Always | Greater (a b : number) | Both (a b : mask) | Either (a b :
 
 Inductive value := Number (x : R) | Infinite (positive : bool) | NaN.
 
-(* An environment: how results are rounded, and whether subnormal operands count as zero. Both stay the same for all of a pair. *)
+(* An environment: how results are rounded, and whether subnormal operands count as zero. Both stay the same for all of
+   a pair. *)
 Record environment f := Environment {
   rounded : R -> R;
   flushes_operands : bool;
   monotone : forall x y, x <= y -> rounded x <= rounded y;
   settled : forall z, rounded (rounded z) = rounded z;
   nearly : forall z, rounds f z (rounded z) }.
-Arguments rounded {f}. Arguments flushes_operands {f}. Arguments monotone {f}. Arguments settled {f}. Arguments nearly {f}.
+Arguments rounded {f}. Arguments flushes_operands {f}. Arguments monotone {f}. Arguments settled {f}.
+  Arguments nearly {f}.
 
 Section Machine.
 Variable f : constants.
@@ -40,7 +43,8 @@ Variable env : environment f.
 Definition seen x := if flushes_operands env then if Rlt_dec (Rabs x) (lam f) then 0 else x else x.
 Definition seen_value v := match v with Number x => Number (seen x) | _ => v end.
 
-(* The result of an operation whose exact result is z: rounded, or overflow, which is infinite or the largest finite number. *)
+(* The result of an operation whose exact result is z: rounded, or overflow, which is infinite or the largest finite
+   number. *)
 Definition result z out := let r := rounded env z in
   (Rabs r <= omega f /\ out = Number r) \/
   (omega f < r /\ (out = Infinite true \/ out = Number (omega f))) \/
@@ -56,8 +60,8 @@ Definition product v w out := match seen_value v, seen_value w with
   | NaN, _ | _, NaN => out = NaN
   | Infinite s, Number y | Number y, Infinite s => 0 < y -> out = Infinite s
   | _, _ => True end.
-(* By zero: 0/0 is NaN, and other quotients are infinite. They have the dividend's sign if the zero is what is left of a positive
-   number. *)
+(* By zero: 0/0 is NaN, and other quotients are infinite. They have the dividend's sign if the zero is what is left of a
+   positive number. *)
 Definition quotient v w (divisor_is_positive : Prop) out := match seen_value v, seen_value w with
   | Number x, Number y => (y <> 0 -> result (x / y) out) /\ (y = 0 -> x = 0 -> out = NaN) /\
     (y = 0 -> 0 < x -> divisor_is_positive -> out = Infinite true) /\

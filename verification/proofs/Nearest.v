@@ -1,5 +1,5 @@
-(* Executions exist: rounding to nearest is one for any coordinates, and where nothing overflows Flocq's own binary numbers compute it.
-   So Coq can run the traced code, and what it culls shows that the theorems are about something. *)
+(* Executions exist: rounding to nearest is one for any coordinates, and where nothing overflows Flocq's own binary
+   numbers compute it. So Coq can run the traced code, and what it culls shows that the theorems are about something. *)
 From Coq Require Import Reals ZArith Lra Lia Bool.
 From Flocq Require Import Core BinarySingleNaN.
 From Selvedge Require Import Arithmetic Expressions.
@@ -17,10 +17,12 @@ Variables underflow_ largest_ : Z.
 Definition format_of := Format prec (3 - emax - prec) emax underflow_ largest_.
 Notation f := format_of.
 Hypothesis ok : reasonable f.
-Lemma facts : (24 <= prec /\ prec < emax /\ 2 - emax <= -60 /\ 2 - emax + 9 <= underflow_ /\ underflow_ <= -60 /\ 2 - emax + 40 <= - prec /\
+Lemma facts : (24 <= prec /\ prec < emax /\ 2 - emax <= -60 /\ 2 - emax + 9 <= underflow_ /\ underflow_ <= -60 /\
+  2 - emax + 40 <= - prec /\
   0 <= largest_ /\ 3 * largest_ + 38 <= emax)%Z.
 Proof.
-  destruct ok as [a b c d e g h]. unfold format_of in *. cbn [precision least_exponent greatest_exponent underflow largest_edge] in *.
+  destruct ok as [a b c d e g h]. unfold format_of in *. cbn [precision least_exponent greatest_exponent underflow
+    largest_edge] in *.
   assert (prec < emax)%Z by exact prec_lt_emax_. lia.
 Qed.
 Notation number := (binary_float prec emax).
@@ -32,7 +34,8 @@ Proof. right. exists (round_mode mode_NE). split; [apply valid_rnd_round_mode|re
 (* An execution in real numbers, for any coordinates. *)
 Variables from to : component -> R.
 Definition settled r := if Rle_dec (Rabs r) (omega f) then Number r else Infinite (if Rlt_dec 0 r then true else false).
-Definition lifted (op : R -> R -> R) v w := match v, w with Number x, Number y => settled (to_nearest (op x y)) | _, _ => NaN end.
+Definition lifted (op : R -> R -> R) v w := match v, w with Number x, Number y => settled (to_nearest (op x y)) | _,
+  _ => NaN end.
 Definition is_below v w : bool := match v, w with
   | NaN, _ | _, NaN => false
   | Number x, Number y => if Rle_dec x y then true else false
@@ -51,7 +54,8 @@ Fixpoint nearest (e : expr) : value := match e with
 
 Lemma settled_result z : result f z (settled (to_nearest z)).
 Proof.
-  exists (to_nearest z). split; [apply nearest_rounds|]. unfold settled. destruct (Rle_dec _ _) as [le|gt]; [left; auto|right].
+  exists (to_nearest z). split; [apply nearest_rounds|]. unfold settled. destruct (Rle_dec _ _) as [le|gt]; [left;
+    auto|right].
   apply Rnot_le_lt in gt. assert (0 < omega f).
   { unfold omega, power. apply Rlt_Rminus, bpow_lt. cbn; pose proof facts; lia. }
   destruct (Rlt_dec 0 (to_nearest z)) as [p|n].
@@ -80,14 +84,16 @@ Hypothesis same_to : forall c, to c = B2R (to_ c).
 Hypothesis finite_from : forall c, is_finite (from_ c) = true.
 Hypothesis finite_to : forall c, is_finite (to_ c) = true.
 Definition finite (x : number) := if is_finite x then Some x else None.
-Definition both (op : number -> number -> number) x y := match x, y with Some x, Some y => finite (op x y) | _, _ => None end.
+Definition both (op : number -> number -> number) x y := match x, y with Some x, Some y => finite (op x y) | _,
+  _ => None end.
 Definition power_of_two e := binary_normalize prec emax _ _ mode_NE 1 e false.
 Definition constant_number c := match c with
   | UnitRoundoff => Some (power_of_two (- prec))
   | Underflow => Some (power_of_two underflow_)
   | LargestEdge => Some (power_of_two largest_)
   | Half => Some (power_of_two (-1))
-  | Small n => if ((0 <=? n) && (n <? 256))%Z then Some (binary_normalize prec emax _ _ mode_NE n 0 false) else None end.
+  | Small n => if ((0 <=? n) && (n <? 256))%Z then Some (binary_normalize prec emax _ _ mode_NE n 0 false) else None
+    end.
 Fixpoint run (e : expr) : option number := match e with
   | Difference c => finite (Bminus mode_NE (to_ c) (from_ c))
   | Constant c => constant_number c
@@ -107,48 +113,68 @@ Fixpoint holds (m : mask) : bool := match m with
 Lemma finite_is_small (x : number) : Rabs (B2R x) <= omega f.
 Proof. exact (abs_B2R_le_emax_minus_prec prec emax _ x). Qed.
 Lemma of_settled z (x : number) : is_finite x = true -> B2R x = to_nearest z -> settled (to_nearest z) = Number (B2R x).
-Proof. intros _ E. unfold settled. rewrite <- E. destruct (Rle_dec _ _) as [|n]; [reflexivity|]. destruct n. apply finite_is_small. Qed.
+Proof. intros _ E. unfold settled. rewrite <- E. destruct (Rle_dec _ _) as [|n]; [reflexivity|]. destruct n.
+  apply finite_is_small. Qed.
 Lemma sum_is z (x y out : number) s (test : bool) :
-  (if test then B2R out = to_nearest z /\ is_finite out = true /\ s else B2SF out = binary_overflow prec emax mode_NE (Bsign x) /\ Bsign x = Bsign y) ->
+  (if test then B2R out = to_nearest z /\ is_finite out = true /\ s else B2SF out = binary_overflow prec emax mode_NE
+    (Bsign x) /\ Bsign x = Bsign y) ->
   is_finite out = true -> B2R out = to_nearest z.
 Proof. destruct test; [tauto|]. intros [E _] fin. exfalso. destruct out; cbn in E, fin; discriminate. Qed.
-Lemma exact_constant n e : representable f (F2R (Float radix2 n e)) -> Rabs (F2R (Float radix2 n e)) < bpow radix2 emax ->
+Lemma exact_constant n e : representable f (F2R (Float radix2 n e)) -> Rabs (F2R (Float radix2 n e)) < bpow radix2 emax
+  ->
   let x := binary_normalize prec emax _ _ mode_NE n e false in B2R x = F2R (Float radix2 n e) /\ is_finite x = true.
 Proof.
-  intros rep small x. pose proof (binary_normalize_correct prec emax _ _ mode_NE n e false) as c. cbv zeta in c. fold x in c.
+  intros rep small x. pose proof (binary_normalize_correct prec emax _ _ mode_NE n e false) as c. cbv zeta in c.
+    fold x in c.
   change (SpecFloat.fexp prec emax) with fexp in c.
   rewrite (round_generic radix2 fexp (round_mode mode_NE) _ rep) in c.
   rewrite Rlt_bool_true in c by assumption. tauto.
 Qed.
-Lemma exact_power e : (3 - emax - prec + prec - 1 <= e < emax)%Z -> B2R (power_of_two e) = power e /\ is_finite (power_of_two e) = true.
+Lemma exact_power e : (3 - emax - prec + prec - 1 <= e < emax)%Z -> B2R (power_of_two e) = power e /\
+  is_finite (power_of_two e) = true.
 Proof.
   intro range. replace (power e) with (F2R (Float radix2 1 e)) by (unfold F2R, power; simpl; ring).
   apply exact_constant.
-  - unfold F2R; simpl. rewrite Rmult_1_l. apply generic_format_bpow. change (Z.max (e + 1 - prec) (3 - emax - prec) <= e)%Z. assert (24 <= prec)%Z by (destruct ok; assumption). lia.
+  - unfold F2R; simpl. rewrite Rmult_1_l. apply generic_format_bpow. change (Z.max (e + 1 - prec) (3 - emax - prec) <=
+    e)%Z. assert (24 <= prec)%Z by (destruct ok; assumption). lia.
   - unfold F2R; simpl. rewrite Rmult_1_l, Rabs_pos_eq by apply bpow_ge_0. apply bpow_lt. lia.
 Qed.
 Lemma run_is_nearest (e : expr) : forall x, run e = Some x -> nearest e = Number (B2R x) /\ is_finite x = true.
 Proof.
-  assert (op_is : forall (op : number -> number -> number) opR x y, (is_finite x = true -> is_finite y = true -> forall out, finite (op x y) = Some out ->
-      B2R out = to_nearest (opR (B2R x) (B2R y))) -> is_finite x = true -> is_finite y = true -> forall out, finite (op x y) = Some out ->
+  assert (op_is : forall (op : number -> number -> number) opR x y, (is_finite x = true -> is_finite y = true -> forall
+    out, finite (op x y) = Some out ->
+      B2R out = to_nearest (opR (B2R x) (B2R y))) -> is_finite x = true -> is_finite y = true -> forall out,
+        finite (op x y) = Some out ->
       lifted opR (Number (B2R x)) (Number (B2R y)) = Number (B2R out) /\ is_finite out = true).
-  { intros op opR x y E fx fy out h. specialize (E fx fy out h). unfold finite in h. destruct (is_finite (op x y)) eqn:fin; [|discriminate].
+  { intros op opR x y E fx fy out h. specialize (E fx fy out h). unfold finite in h.
+    destruct (is_finite (op x y)) eqn:fin; [|discriminate].
     injection h as <-. cbn [lifted]. split; [apply of_settled; assumption|assumption]. }
-  assert (plus : forall x y, is_finite x = true -> is_finite y = true -> forall out, finite (Bplus mode_NE x y) = Some out -> B2R out = to_nearest (B2R x + B2R y)).
-  { intros x y fx fy out h. unfold finite in h. destruct (is_finite (Bplus mode_NE x y)) eqn:fin; [|discriminate]. injection h as <-.
-    pose proof (Bplus_correct prec emax _ _ mode_NE x y fx fy) as c. destruct (Rlt_bool _ _); [tauto|]. destruct c as [c _].
+  assert (plus : forall x y, is_finite x = true -> is_finite y = true -> forall out,
+    finite (Bplus mode_NE x y) = Some out -> B2R out = to_nearest (B2R x + B2R y)).
+  { intros x y fx fy out h. unfold finite in h. destruct (is_finite (Bplus mode_NE x y)) eqn:fin; [|discriminate].
+    injection h as <-.
+    pose proof (Bplus_correct prec emax _ _ mode_NE x y fx fy) as c. destruct (Rlt_bool _ _); [tauto|].
+      destruct c as [c _].
     exfalso. destruct (Bplus mode_NE x y); cbn in c, fin; discriminate. }
-  assert (minus_ : forall x y, is_finite x = true -> is_finite y = true -> forall out, finite (Bminus mode_NE x y) = Some out -> B2R out = to_nearest (B2R x - B2R y)).
-  { intros x y fx fy out h. unfold finite in h. destruct (is_finite (Bminus mode_NE x y)) eqn:fin; [|discriminate]. injection h as <-.
-    pose proof (Bminus_correct prec emax _ _ mode_NE x y fx fy) as c. destruct (Rlt_bool _ _); [tauto|]. destruct c as [c _].
+  assert (minus_ : forall x y, is_finite x = true -> is_finite y = true -> forall out,
+    finite (Bminus mode_NE x y) = Some out -> B2R out = to_nearest (B2R x - B2R y)).
+  { intros x y fx fy out h. unfold finite in h. destruct (is_finite (Bminus mode_NE x y)) eqn:fin; [|discriminate].
+    injection h as <-.
+    pose proof (Bminus_correct prec emax _ _ mode_NE x y fx fy) as c. destruct (Rlt_bool _ _); [tauto|].
+      destruct c as [c _].
     exfalso. destruct (Bminus mode_NE x y); cbn in c, fin; discriminate. }
-  assert (mult : forall x y, is_finite x = true -> is_finite y = true -> forall out, finite (Bmult mode_NE x y) = Some out -> B2R out = to_nearest (B2R x * B2R y)).
-  { intros x y fx fy out h. unfold finite in h. destruct (is_finite (Bmult mode_NE x y)) eqn:fin; [|discriminate]. injection h as <-.
+  assert (mult : forall x y, is_finite x = true -> is_finite y = true -> forall out,
+    finite (Bmult mode_NE x y) = Some out -> B2R out = to_nearest (B2R x * B2R y)).
+  { intros x y fx fy out h. unfold finite in h. destruct (is_finite (Bmult mode_NE x y)) eqn:fin; [|discriminate].
+    injection h as <-.
     pose proof (Bmult_correct prec emax _ _ mode_NE x y) as c. destruct (Rlt_bool _ _); [tauto|].
     exfalso. destruct (Bmult mode_NE x y); cbn in c, fin; discriminate. }
-  assert (less : forall x y : number, is_finite x = true -> is_finite y = true -> Bltb x y = if Rlt_dec (B2R x) (B2R y) then true else false).
-  { intros x y fx fy. rewrite (Bltb_correct _ _ x y fx fy). unfold Rlt_bool. destruct (Rcompare_spec (B2R x) (B2R y)), (Rlt_dec (B2R x) (B2R y)); try reflexivity; lra. }
-  induction e as [c|c|a IHa b IHb|a IHa b IHb|a IHa b IHb|a IHa|a IHa|a IHa b IHb|a IHa b IHb]; cbn [run nearest]; intros out h;
+  assert (less : forall x y : number, is_finite x = true -> is_finite y = true -> Bltb x y = if Rlt_dec (B2R x) (B2R y)
+    then true else false).
+  { intros x y fx fy. rewrite (Bltb_correct _ _ x y fx fy). unfold Rlt_bool. destruct (Rcompare_spec (B2R x) (B2R y)),
+    (Rlt_dec (B2R x) (B2R y)); try reflexivity; lra. }
+  induction e as [c|c|a IHa b IHb|a IHa b IHb|a IHa b IHb|a IHa|a IHa|a IHa b IHb|a IHa b IHb]; cbn [run nearest];
+    intros out h;
     try (unfold both in h; destruct (run a) as [x|]; [|discriminate]; destruct (IHa x eq_refl) as [va fx]; rewrite va);
     try (destruct (run b) as [y|]; [|discriminate]; destruct (IHb y eq_refl) as [vb fy]; rewrite vb).
   - rewrite same_from, same_to. apply (op_is (Bminus mode_NE) Rminus); auto.
@@ -161,19 +187,23 @@ Proof.
       apply Z.leb_le in lo. apply Z.ltb_lt in hi.
       destruct (exact_constant n 0) as [E fin].
       * apply generic_format_FLT. exists (Float radix2 n 0); [reflexivity| |].
-        -- cbn [Fnum]. assert (256 <= 2 ^ prec)%Z by (change 256%Z with (2 ^ 8)%Z; apply Z.pow_le_mono_r; pose proof facts; lia).
+        -- cbn [Fnum]. assert (256 <= 2 ^ prec)%Z by (change 256%Z with (2 ^ 8)%Z; apply Z.pow_le_mono_r;
+          pose proof facts; lia).
            change (radix_val radix2) with 2%Z. change (precision f) with prec. lia.
         -- change (3 - emax - prec <= 0)%Z. pose proof facts; lia.
       * unfold F2R; cbn [Fnum Fexp bpow]. rewrite Rmult_1_r, Rabs_pos_eq by (now apply IZR_le).
-        apply Rlt_le_trans with (IZR 256); [now apply IZR_lt|]. change (IZR 256) with (bpow radix2 8). apply bpow_le. pose proof facts; lia.
+        apply Rlt_le_trans with (IZR 256); [now apply IZR_lt|]. change (IZR 256) with (bpow radix2 8). apply bpow_le.
+          pose proof facts; lia.
       * rewrite E, fin. unfold F2R; cbn [Fnum Fexp bpow constant_value]. now rewrite Rmult_1_r.
   - apply (op_is (Bplus mode_NE) Rplus); auto.
   - apply (op_is (Bminus mode_NE) Rminus); auto.
   - apply (op_is (Bmult mode_NE) Rmult); auto.
   - injection h as <-. cbn. rewrite B2R_Bopp, is_finite_Bopp. auto.
   - injection h as <-. cbn. rewrite B2R_Babs, is_finite_Babs. auto.
-  - injection h as <-. cbn [is_below]. rewrite (less x y fx fy). destruct (Rlt_dec (B2R x) (B2R y)), (Rle_dec (B2R y) (B2R x)); auto; lra.
-  - injection h as <-. cbn [is_below]. rewrite (less y x fy fx). destruct (Rlt_dec (B2R y) (B2R x)), (Rle_dec (B2R x) (B2R y)); auto; lra.
+  - injection h as <-. cbn [is_below]. rewrite (less x y fx fy). destruct (Rlt_dec (B2R x) (B2R y)),
+    (Rle_dec (B2R y) (B2R x)); auto; lra.
+  - injection h as <-. cbn [is_below]. rewrite (less y x fy fx). destruct (Rlt_dec (B2R y) (B2R x)),
+    (Rle_dec (B2R x) (B2R y)); auto; lra.
 Qed.
 Theorem what_holds_is_said m : holds m = true -> says f nearest m.
 Proof.

@@ -21,7 +21,8 @@ Definition flushed (x : R) := if Rlt_dec (Rabs x) (lam f) then 0 else x.
 Definition seen x := if flushes_operands of then flushed x else x.
 Variable place : coordinate -> R.
 (* One of the two, as a comparison has it, and perhaps as it is seen. *)
-Definition chosen x y out := (seen y <= seen x /\ (out = x \/ out = seen x)) \/ (seen x <= seen y /\ (out = y \/ out = seen y)).
+Definition chosen x y out := (seen y <= seen x /\ (out = x \/ out = seen x)) \/ (seen x <= seen y /\
+  (out = y \/ out = seen y)).
 Definition execution (value_of : number -> R) := forall e, match e with
   | Value c => value_of e = place c
   | Larger a b => chosen (value_of a) (value_of b) (value_of e)
@@ -40,7 +41,8 @@ Proof.
   - unfold Rabs in *. destruct (Rcase_abs x), (Rcase_abs y); lra.
 Qed.
 Lemma flushed_twice x : flushed (flushed x) = flushed x.
-Proof. unfold flushed. destruct (Rlt_dec (Rabs x) (lam f)); [|destruct (Rlt_dec (Rabs x) (lam f)); tauto]. destruct (Rlt_dec (Rabs 0) (lam f)); reflexivity. Qed.
+Proof. unfold flushed. destruct (Rlt_dec (Rabs x) (lam f)); [|destruct (Rlt_dec (Rabs x) (lam f)); tauto].
+  destruct (Rlt_dec (Rabs 0) (lam f)); reflexivity. Qed.
 Lemma flushed_opposite x : flushed (- x) = - flushed x.
 Proof. unfold flushed. rewrite Rabs_Ropp. destruct (Rlt_dec (Rabs x) (lam f)); [ring|reflexivity]. Qed.
 Lemma seen_monotone x y : x <= y -> seen x <= seen y.
@@ -58,13 +60,15 @@ Hypothesis run : execution value_of.
 Lemma seen_larger a b : seen (value_of (Larger a b)) = Rmax (seen (value_of a)) (seen (value_of b)).
 Proof.
   pose proof (run (Larger a b)) as c. simpl in c.
-  destruct c as [[le [-> | ->]]|[le [-> | ->]]]; rewrite ?seen_twice; [rewrite Rmax_left|rewrite Rmax_left|rewrite Rmax_right|rewrite Rmax_right]; auto.
+  destruct c as [[le [-> | ->]]|[le [-> | ->]]]; rewrite ?seen_twice; [rewrite Rmax_left|rewrite Rmax_left|rewrite
+    Rmax_right|rewrite Rmax_right]; auto.
 Qed.
 Lemma seen_smaller a b : seen (value_of (Smaller a b)) = Rmin (seen (value_of a)) (seen (value_of b)).
 Proof.
   pose proof (run (Smaller a b)) as c. simpl in c.
   assert (E : value_of (Smaller a b) = - - value_of (Smaller a b)) by ring. rewrite E.
-  destruct c as [[le [-> | ->]]|[le [-> | ->]]]; rewrite ?seen_opposite, ?seen_twice, ?seen_opposite, ?Ropp_involutive in *;
+  destruct c as [[le [-> | ->]]|[le [-> | ->]]]; rewrite ?seen_opposite, ?seen_twice, ?seen_opposite,
+    ?Ropp_involutive in *;
     [rewrite Rmin_left|rewrite Rmin_left|rewrite Rmin_right|rewrite Rmin_right]; lra.
 Qed.
 (* The number that operations see, whichever of two equal ones a maximum is. *)

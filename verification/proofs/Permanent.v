@@ -1,4 +1,5 @@
-(* The decision of the certified filter by the permanent, in the code's terms, proves that exact control values have one sign. *)
+(* The decision of the certified filter by the permanent, in the code's terms, proves that exact control values have one
+   sign. *)
 From Coq Require Import Reals ZArith Lra Lia Bool Psatz.
 From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Filter.
@@ -18,7 +19,8 @@ Notation l := (lam f).
 Notation e1 := (eps f).
 Notation u := (unit_roundoff f).
 
-Definition proves (k : expr) bound := l <= bound /\ (bound < val k -> 0 < exact D k) /\ (val k < - bound -> exact D k < 0).
+Definition proves (k : expr) bound := l <= bound /\ (bound < val k -> 0 < exact D k) /\
+  (val k < - bound -> exact D k < 0).
 (* And some of the bound is left over, for what is computed from the value. *)
 Definition is_near (k : expr) bound := exists z, rounds f z (val k) /\ Rabs (z - exact D k) <= 0.985 * bound.
 
@@ -38,7 +40,8 @@ Let small c : Rabs (d c) <= m := d_m f ok from to value_of run in_range M M_maxi
 Definition fine a b n := (polynomial (Sum a b) && signed (Sum a b) && fits (Sum a b) && (degree (Sum a b) =? 3)%nat
   && (depth a <=? n)%nat && (depth b <=? n)%nat && (losses a b <=? 490)%Z)%bool.
 Lemma sign' a b bound n : fine a b n = true -> representable f bound -> l <= bound ->
-  (q f n + q f 3 - 2) * permanent d (Sum a b) + 490 * (l * m ^ 2) <= 0.985 * bound -> proves (Sum a b) bound /\ is_near (Sum a b) bound.
+  (q f n + q f 3 - 2) * permanent d (Sum a b) + 490 * (l * m ^ 2) <= 0.985 * bound -> proves (Sum a b) bound /\
+    is_near (Sum a b) bound.
 Proof.
   unfold fine. intros h rep big enough.
   apply andb_prop in h as [h lo]. apply andb_prop in h as [h db]. apply andb_prop in h as [h da].
@@ -47,14 +50,18 @@ Proof.
   pose proof (lam_pos f). assert (1 <= m ^ 2) by (simpl; nra).
   destruct (near f ok from to value_of run in_range M M_maxima M_all M_fits a b n) as (z & rounded & close); auto.
   assert (IZR (losses a b) <= 490) by (now apply IZR_le).
-  assert (l * m ^ 2 * IZR (losses a b) <= l * m ^ 2 * 490) by (apply Rmult_le_compat_l; [apply Rmult_le_pos; lra|assumption]).
-  split; [split; [exact big|]|exists z; split; [exact rounded|lra]]. apply (sign_of f ok z _ _ bound rounded); [lra|exact rep].
+  assert (l * m ^ 2 * IZR (losses a b) <= l * m ^ 2 * 490) by (apply Rmult_le_compat_l; [apply Rmult_le_pos;
+    lra|assumption]).
+  split; [split; [exact big|]|exists z; split; [exact rounded|lra]]. apply (sign_of f ok z _ _ bound rounded);
+    [lra|exact rep].
 Qed.
 
 Lemma coefficient4 : q f 4 + q f 3 - 2 <= (1 - 4 * sigma) * (15 * u).
-Proof. pose proof (q3 f ok). pose proof (q4 f ok). pose proof (eps_twice f). pose proof (eps_pos f). unfold sigma. lra. Qed.
+Proof. pose proof (q3 f ok). pose proof (q4 f ok). pose proof (eps_twice f). pose proof (eps_pos f). unfold sigma. lra.
+  Qed.
 Lemma coefficient6 : q f 6 + q f 3 - 2 <= (1 - 4 * sigma) * (19 * u).
-Proof. pose proof (q3 f ok). pose proof (q6 f ok). pose proof (eps_twice f). pose proof (eps_pos f). unfold sigma. lra. Qed.
+Proof. pose proof (q3 f ok). pose proof (q6 f ok). pose proof (eps_twice f). pose proof (eps_pos f). unfold sigma. lra.
+  Qed.
 Lemma u_pos : 0 < u. Proof. pose proof (eps_twice f). pose proof (eps_pos f). lra. Qed.
 Lemma representable_sum a b : fits (Sum a b) = true -> representable f (val (Sum a b)).
 Proof. intro h. destruct (step_of _ h) as (x & y & _ & _ & r). exact (result_is_representable f ok _ _ r). Qed.
@@ -68,26 +75,31 @@ Theorem by_permanent a b n p count : fine a b n = true -> polynomial p = true ->
   (n = 4%nat /\ count = 16%Z) \/ (n = 6%nat /\ count = 20%Z) ->
   proves (Sum a b) (val (Sum (roundoffs count p) margin)) /\ is_near (Sum a b) (val (Sum (roundoffs count p) margin)).
 Proof.
-  intros h poly fit fit_b deg steps ex pe which. pose proof (permanent_pos d (Sum a b)) as t0. set (t := permanent d (Sum a b)) in *.
+  intros h poly fit fit_b deg steps ex pe which. pose proof (permanent_pos d (Sum a b)) as t0.
+    set (t := permanent d (Sum a b)) in *.
   pose proof (error_of_steps f ok m m_1 from to value_of run in_range small p poly fit) as E. unfold within in E.
   rewrite deg in E. change (Init.Nat.pred 3) with 2%nat in E. fold d in E. rewrite ex, pe in E.
   destruct (steps_bounded p poly) as (_ & _ & dp & _). pose proof (q_small f ok _ dp) as Q. apply Rabs_le_inv in E.
   pose proof (lam_pos f). assert (m2 : 1 <= m ^ 2) by (simpl; nra).
   assert (IZR (of_steps p) <= 400) by (now apply IZR_le).
-  assert (l * m ^ 2 * IZR (of_steps p) <= l * m ^ 2 * 400) by (apply Rmult_le_compat_l; [apply Rmult_le_pos; lra|assumption]).
+  assert (l * m ^ 2 * IZR (of_steps p) <= l * m ^ 2 * 400) by (apply Rmult_le_compat_l; [apply Rmult_le_pos;
+    lra|assumption]).
   assert ((q f (depth p) - 1) * t <= slack * t) by (apply Rmult_le_compat_r; lra).
   assert (large : (1 - sigma) * t - 400 * l * m ^ 2 <= val p) by (unfold slack, sigma in *; lra).
   pose proof u_pos.
-  pose proof (bound_large f ok from to value_of run in_range M M_maxima M_fits count p t fit_b ltac:(lia) t0 large) as B.
+  pose proof (bound_large f ok from to value_of run in_range M M_maxima M_fits count p t fit_b ltac:(lia) t0 large) as
+    B.
   assert (0 <= (1 - 3 * sigma) * (IZR count * u) * t).
   { repeat apply Rmult_le_pos; try lra; [unfold sigma; lra|apply IZR_le; lia]. }
   assert (l * 1 <= l * m ^ 2) by (apply Rmult_le_compat_l; lra).
   apply (sign' a b _ n h); [apply representable_sum; assumption|lra|]. fold t.
   assert (0 <= u * t) by (apply Rmult_le_pos; lra).
   destruct which as [[-> ->]|[-> ->]].
-  - pose proof coefficient4. assert ((q f 4 + q f 3 - 2) * t <= (1 - 4 * sigma) * (15 * u) * t) by (apply Rmult_le_compat_r; lra).
+  - pose proof coefficient4. assert ((q f 4 + q f 3 - 2) * t <= (1 - 4 * sigma) * (15 * u) * t) by (apply
+    Rmult_le_compat_r; lra).
     unfold sigma in *. lra.
-  - pose proof coefficient6. assert ((q f 6 + q f 3 - 2) * t <= (1 - 4 * sigma) * (19 * u) * t) by (apply Rmult_le_compat_r; lra).
+  - pose proof coefficient6. assert ((q f 6 + q f 3 - 2) * t <= (1 - 4 * sigma) * (19 * u) * t) by (apply
+    Rmult_le_compat_r; lra).
     unfold sigma in *. lra.
 Qed.
 
@@ -128,8 +140,10 @@ Hypothesis in_range : forall c, exists x, value_of (Difference c) = Number x /\ 
 Ltac prove_bound k b n count :=
   apply (by_permanent f ok from to value_of run in_range largest eq_refl all_occur eq_refl
     (first_of k) (second_of k) n (permanent_of b) count);
-  [vm_compute; reflexivity | vm_compute; reflexivity | vm_compute; reflexivity | vm_compute; reflexivity | vm_compute; reflexivity
-  | vm_compute; discriminate | cbv -[Rplus Rminus Rmult Ropp Rabs computed]; ring | cbv -[Rplus Rminus Rmult Ropp Rabs computed]; ring | auto].
+  [vm_compute; reflexivity | vm_compute; reflexivity | vm_compute; reflexivity | vm_compute; reflexivity | vm_compute;
+    reflexivity
+  | vm_compute; discriminate | cbv -[Rplus Rminus Rmult Ropp Rabs computed]; ring | cbv -[Rplus Rminus Rmult Ropp Rabs
+    computed]; ring | auto].
 Lemma bound_0 : proves f from to value_of control_value_0 (val value_of error_bound_0) /\
   is_near f from to value_of control_value_0 (val value_of error_bound_0).
 Proof. prove_bound control_value_0 error_bound_0 4%nat 16%Z. Qed.
@@ -153,7 +167,8 @@ Qed.
 Lemma below_ k b : fits k = true -> fits b = true -> proves f from to value_of k (val b) ->
   greater f (value_of (Negative b)) (value_of k) -> exact (exactly from to) k < 0.
 Proof.
-  intros fk fb (big & _ & down) g. pose proof (run (Negative b)) as n. simpl in n. rewrite (value b fb) in n. simpl in n.
+  intros fk fb (big & _ & down) g. pose proof (run (Negative b)) as n. simpl in n. rewrite (value b fb) in n.
+    simpl in n.
   rewrite n, (value k fk) in g. apply down. exact (greater_below f _ _ g big).
 Qed.
 End InRange.
@@ -168,9 +183,11 @@ Proof.
   destruct signs as [[[A B] [C D]]|[[A B] [C D]]]; [left|right].
   - repeat split; [eapply (above in_range _ error_bound_0)|eapply (above in_range _ error_bound_1)|
       eapply (above in_range _ error_bound_2)|eapply (above in_range _ error_bound_3)];
-    first [assumption | apply bound_0; assumption | apply bound_1; assumption | apply bound_2; assumption | apply bound_3; assumption | vm_compute; reflexivity].
+    first [assumption | apply bound_0; assumption | apply bound_1; assumption | apply bound_2;
+      assumption | apply bound_3; assumption | vm_compute; reflexivity].
   - repeat split; [eapply (below_ in_range _ error_bound_0)|eapply (below_ in_range _ error_bound_1)|
       eapply (below_ in_range _ error_bound_2)|eapply (below_ in_range _ error_bound_3)];
-    first [assumption | apply bound_0; assumption | apply bound_1; assumption | apply bound_2; assumption | apply bound_3; assumption | vm_compute; reflexivity].
+    first [assumption | apply bound_0; assumption | apply bound_1; assumption | apply bound_2;
+      assumption | apply bound_3; assumption | vm_compute; reflexivity].
 Qed.
 End OfTheCode.

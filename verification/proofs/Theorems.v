@@ -1,19 +1,23 @@
-(* The theorems, for a reader who reads no other file. Words are defined in Geometry.v (contact, volume), Arithmetic.v (one operation),
-   Expressions.v (an execution), and Filter.v (what the code of the certified filter computes); for boxes in Orders.v (an
-   execution) and Boxes.v. *)
+(* The theorems, for a reader who reads no other file. Words are defined in Geometry.v (contact, volume), Arithmetic.v
+   (one operation), Expressions.v (an execution), and Filter.v (what the code of the certified filter computes); for
+   boxes in Orders.v (an execution) and Boxes.v; for the time of impact in Machine.v (an environment, an execution) and
+   Advancing.v (a round, a chain). *)
 From Coq Require Import Reals ZArith Lra Lia.
 From Flocq Require Import Core.
-From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Magnitudes.
+From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent
+  Magnitudes.
 From Selvedge Require Orders Boxes Apart Certificates Nearest Witnesses Integers.
-From Selvedge Require Machine Nearness Corners Advance Advancing.
+From Selvedge Require Machine Nearness Corners Advance Advancing Checker.
+From Coq Require QArith_base List.
+Import List.ListNotations.
 Open Scope R_scope.
 
 (* 1. Both formats are ones that the theorems below hold for. *)
 Theorem formats_are_reasonable : reasonable binary32 /\ reasonable binary64.
 Proof. split; constructor; cbn; lia. Qed.
 
-(* 2. An operation of Flocq's formats, rounded in any direction, subnormal results kept or flushed, is off by at most 2u of its result and
-      the smallest normal number. *)
+(* 2. An operation of Flocq's formats, rounded in any direction, subnormal results kept or flushed, is off by at most 2u
+      of its result and the smallest normal number. *)
 Theorem an_operation_is_nearly_exact f z r : reasonable f -> rounds f z r -> Rabs (r - z) <= eps f * Rabs z + lam f.
 Proof. intros ok. exact (rounding_error f ok z r). Qed.
 
@@ -31,12 +35,14 @@ Definition control a b c p := (of_control (fun b0 _ c0 _ p0 _ => k0 b0 c0 p0) a 
 
 (* 3. Apart from rounding, the code computes the control values of the moving volume: VF, EE. *)
 Theorem the_code_computes_control_values_of_a_vertex_and_a_face : let e := exact (differences vertex_face) in
-  (e control_value_0, e control_value_1, e control_value_2, e control_value_3) = control (path_of 1) (path_of 2) (path_of 3) (path_of 0).
+  (e control_value_0, e control_value_1, e control_value_2, e control_value_3) = control (path_of 1) (path_of 2)
+    (path_of 3) (path_of 0).
 Proof.
   cbv beta zeta. unfold control. repeat apply f_equal2; cbv -[Rplus Rminus Rmult Ropp]; ring.
 Qed.
 Theorem the_code_computes_control_values_of_two_edges : let e := exact (differences edge_edge) in
-  (e control_value_0, e control_value_1, e control_value_2, e control_value_3) = control (path_of 2) (path_of 0) (path_of 1) (path_of 3).
+  (e control_value_0, e control_value_1, e control_value_2, e control_value_3) = control (path_of 2) (path_of 0)
+    (path_of 1) (path_of 3).
 Proof.
   cbv beta zeta. unfold control. repeat apply f_equal2; cbv -[Rplus Rminus Rmult Ropp]; ring.
 Qed.
@@ -51,26 +57,31 @@ Theorem one_sign_excludes_contact_of_a_vertex_and_a_face t : have_one_sign verte
 Proof.
   intros sign time contact. apply vertex_in_triangle_is_flat in contact. revert contact.
   apply one_sign_is_never_flat; [exact time|]. unfold have_one_sign in sign.
-  pose proof the_code_computes_control_values_of_a_vertex_and_a_face as same. cbv beta zeta in same, sign. rewrite same in sign. exact sign.
+  pose proof the_code_computes_control_values_of_a_vertex_and_a_face as same. cbv beta zeta in same, sign.
+    rewrite same in sign. exact sign.
 Qed.
 Theorem one_sign_excludes_contact_of_two_edges t : have_one_sign edge_edge -> 0 <= t <= 1 ->
   ~ segments_meet (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
 Proof.
   intros sign time contact. apply segments_that_meet_are_flat in contact. revert contact.
   apply one_sign_is_never_flat; [exact time|]. unfold have_one_sign in sign.
-  pose proof the_code_computes_control_values_of_two_edges as same. cbv beta zeta in same, sign. rewrite same in sign. exact sign.
+  pose proof the_code_computes_control_values_of_two_edges as same. cbv beta zeta in same, sign. rewrite same in sign.
+    exact sign.
 Qed.
 
-(* 5. **From the bits to the geometry**: what a tier of the filter culls has no contact in the step. `place` are the coordinates, any
-      finite numbers; `value_of` any execution of the code's operations, in any rounding direction, with subnormal numbers kept or
-      flushed, operands and results; `says` that the comparisons may come out so. *)
+(* 5. **From the bits to the geometry**: what a tier of the filter culls has no contact in the step. `place` are the
+      coordinates, any finite numbers; `value_of` any execution of the code's operations, in any rounding direction,
+      with subnormal numbers kept or flushed, operands and results; `says` that the comparisons may come out so. *)
 Inductive decision := PermanentOfNoLane | PermanentOfSomeLane.
-(* The code's decisions, term by term, from Filter.v. The permanent's tier leaves out its second half if no lane needs it. *)
+(* The code's decisions, term by term, from Filter.v. The permanent's tier leaves out its second half if no lane needs
+   it. *)
 Definition culled_by decision := match decision with
   | PermanentOfNoLane => culled_by_permanent_alone
   | PermanentOfSomeLane => culled_by_permanent end.
-Definition executed {component : Type} f (of : component -> coordinate * coordinate) := execution f (fun c => place (snd (of c))) (fun c => place (fst (of c))).
-Lemma culled_has_one_sign f of tier value_of : reasonable f -> executed f of value_of -> says f value_of (culled_by tier) -> have_one_sign of.
+Definition executed {component : Type} f (of : component -> coordinate * coordinate) := execution f (fun c => place (snd
+  (of c))) (fun c => place (fst (of c))).
+Lemma culled_has_one_sign f of tier value_of : reasonable f -> executed f of value_of -> says f value_of (culled_by
+  tier) -> have_one_sign of.
 Proof.
   intros ok run culled. destruct tier.
   - exact (alone_proves_one_sign f ok _ _ value_of run culled).
@@ -79,7 +90,8 @@ Qed.
 Theorem a_culled_vertex_and_face_do_not_touch f tier value_of t : reasonable f -> executed f vertex_face value_of ->
   says f value_of (culled_by tier) -> 0 <= t <= 1 ->
   ~ vertex_in_triangle (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
-Proof. intros ok run culled. apply one_sign_excludes_contact_of_a_vertex_and_a_face. eapply culled_has_one_sign; eassumption. Qed.
+Proof. intros ok run culled. apply one_sign_excludes_contact_of_a_vertex_and_a_face.
+  eapply culled_has_one_sign; eassumption. Qed.
 Theorem culled_edges_do_not_touch f tier value_of t : reasonable f -> executed f edge_edge value_of ->
   says f value_of (culled_by tier) -> 0 <= t <= 1 ->
   ~ segments_meet (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
@@ -93,17 +105,19 @@ Theorem widened_culls_no_vertex_and_face_that_touch t : culled_widened vertex_fa
   ~ vertex_in_triangle (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
 Proof.
   intros (f & value_of & which & run & culled). destruct formats_are_reasonable.
-  apply (a_culled_vertex_and_face_do_not_touch f PermanentOfSomeLane value_of); try assumption. destruct which as [-> | ->]; assumption.
+  apply (a_culled_vertex_and_face_do_not_touch f PermanentOfSomeLane value_of); try assumption.
+    destruct which as [-> | ->]; assumption.
 Qed.
 Theorem widened_culls_no_edges_that_touch t : culled_widened edge_edge -> 0 <= t <= 1 ->
   ~ segments_meet (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
 Proof.
   intros (f & value_of & which & run & culled). destruct formats_are_reasonable.
-  apply (culled_edges_do_not_touch f PermanentOfSomeLane value_of); try assumption. destruct which as [-> | ->]; assumption.
+  apply (culled_edges_do_not_touch f PermanentOfSomeLane value_of); try assumption.
+    destruct which as [-> | ->]; assumption.
 Qed.
 
-(* 7. Swept boxes, and relative boxes along three axes: they compare coordinates. `environment` says whether subnormal operands count as
-      zero, the same for all of a pair. *)
+(* 7. Swept boxes, and relative boxes along three axes: they compare coordinates. `environment` says whether subnormal
+      operands count as zero, the same for all of a pair. *)
 Inductive box_test := SweptBoxes | ThreeAxes.
 Definition of_a_vertex_and_a_face test := match test with
   | SweptBoxes => Boxes.a_vertex_and_a_face.culled_by_swept_boxes
@@ -112,7 +126,8 @@ Definition of_two_edges test := match test with
   | SweptBoxes => Boxes.two_edges.culled_by_swept_boxes
   | ThreeAxes => Boxes.two_edges.culled_by_three_axes end.
 Theorem boxes_apart_exclude_contact_of_a_vertex_and_a_face f environment test value_of t :
-  Orders.execution f environment place value_of -> Orders.says f environment value_of (of_a_vertex_and_a_face test) -> 0 <= t <= 1 ->
+  Orders.execution f environment place value_of -> Orders.says f environment value_of (of_a_vertex_and_a_face test) -> 0
+    <= t <= 1 ->
   ~ vertex_in_triangle (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
 Proof.
   intros run culled. revert t. destruct test.
@@ -120,7 +135,8 @@ Proof.
   - exact (Apart.three_axes_of_a_vertex_and_a_face place f environment value_of run culled).
 Qed.
 Theorem boxes_apart_exclude_contact_of_two_edges f environment test value_of t :
-  Orders.execution f environment place value_of -> Orders.says f environment value_of (of_two_edges test) -> 0 <= t <= 1 ->
+  Orders.execution f environment place value_of -> Orders.says f environment value_of (of_two_edges test) -> 0 <= t <= 1
+    ->
   ~ segments_meet (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
 Proof.
   intros run culled. revert t. destruct test.
@@ -129,21 +145,26 @@ Proof.
 Qed.
 End OfAPair.
 
-(* 8. None of this is empty. Executions exist, whatever the coordinates (to nearest is one); and there are coordinates that each decision
-      culls in one, vertex and face or two edges, in both formats: computed in Coq with Flocq's binary numbers. *)
-Theorem executions_exist place (of : component -> coordinate * coordinate) : (exists value_of, executed place binary32 of value_of) /\ (exists value_of, executed place binary64 of value_of).
+(* 8. None of this is empty. Executions exist, whatever the coordinates (to nearest is one); and there are coordinates
+      that each decision culls in one, vertex and face or two edges, in both formats: computed in Coq with Flocq's
+      binary numbers. *)
+Theorem executions_exist place (of : component -> coordinate * coordinate) : (exists value_of,
+  executed place binary32 of value_of) /\ (exists value_of, executed place binary64 of value_of).
 Proof.
   destruct formats_are_reasonable as [a b]. split; eexists.
   - exact (Nearest.an_execution_exists 24 128 Witnesses.gt24 (-117) 30 a _ _).
   - exact (Nearest.an_execution_exists 53 1024 Witnesses.gt53 (-1000) 250 b _ _).
 Qed.
-Definition culls_some_pair {component : Type} f (of : component -> coordinate * coordinate) culled := exists place value_of, (forall c, representable f (place (fst (of c))) /\
+Definition culls_some_pair {component : Type} f (of : component -> coordinate * coordinate) culled := exists place
+  value_of, (forall c, representable f (place (fst (of c))) /\
   representable f (place (snd (of c)))) /\ executed place f of value_of /\ says f value_of culled.
 Theorem every_decision_culls_some_pair tier f : f = binary32 \/ f = binary64 ->
   culls_some_pair f vertex_face (culled_by tier) /\ culls_some_pair f edge_edge (culled_by tier).
-Proof. intro which. apply (Witnesses.every_decision_culls_some (culled_by tier) f); [destruct tier; cbn; tauto|exact which]. Qed.
+Proof. intro which. apply (Witnesses.every_decision_culls_some (culled_by tier) f); [destruct tier; cbn;
+  tauto|exact which]. Qed.
 (* The permanent alone, which the code tests last, culls some pair. *)
-Theorem the_permanent_culls_some_pair : culls_some_pair binary32 vertex_face last_part /\ culls_some_pair binary32 edge_edge last_part.
+Theorem the_permanent_culls_some_pair : culls_some_pair binary32 vertex_face last_part /\
+  culls_some_pair binary32 edge_edge last_part.
 Proof. exact Witnesses.the_last_part_culls_some. Qed.
 Theorem every_box_test_culls_some_pair f test : exists environment place place' value_of value_of',
   Orders.execution f environment place value_of /\ Orders.says f environment value_of (of_a_vertex_and_a_face test) /\
@@ -154,17 +175,20 @@ Proof.
   split; [exact run|]. split; [destruct test; assumption|]. split; [exact run'|]. destruct test; assumption.
 Qed.
 
-(* 9. Exact signs: whole numbers in words of 64 bits. Written after the code by hand (`Integers.v`), not traced from it. A coordinate is
-       a significand and a shift, of at most 64 n - 3 bits; b, c, p are differences of such; along each axis they count in a unit of their own,
-       a power of two. What the words of a control value say is that value in those units, so that its sign is that of their top word. *)
-Theorem coordinates_are_exact n significand shift : (- 2 ^ 63 <= significand < 2 ^ 63)%Z -> (0 <= shift)%Z -> Integers.fits n (significand * 2 ^ shift) ->
+(* 9. Exact signs: whole numbers in words of 64 bits. Written after the code by hand (`Integers.v`), not traced from it.
+      A coordinate is a significand and a shift, of at most 64 n - 3 bits; b, c, p are differences of such; along each
+      axis they count in a unit of their own, a power of two. What the words of a control value say is that value in
+      those units, so that its sign is that of their top word. *)
+Theorem coordinates_are_exact n significand shift : (- 2 ^ 63 <= significand < 2 ^ 63)%Z -> (0 <= shift)%Z ->
+  Integers.fits n (significand * 2 ^ shift) ->
   Integers.is n (Integers.shifted n significand shift) (significand * 2 ^ shift).
 Proof. exact (Integers.shifted_is_exact n significand shift). Qed.
 Section Units.
 Variables ux uy uz : R.
 Hypothesis units : 0 < ux /\ 0 < uy /\ 0 < uz.
 Definition placed v := Point (ux * IZR (Integers.x_ v)) (uy * IZR (Integers.y_ v)) (uz * IZR (Integers.z_ v)).
-Definition says_the_sign_of ws value := (Z.lt (Integers.signed ws) 0 <-> value < 0) /\ (Z.lt 0 (Integers.signed ws) <-> 0 < value).
+Definition says_the_sign_of ws value := (Z.lt (Integers.signed ws) 0 <-> value < 0) /\
+  (Z.lt 0 (Integers.signed ws) <-> 0 < value).
 Lemma in_units ws k value : Integers.signed ws = k -> value = ux * uy * uz * IZR k -> says_the_sign_of ws value.
 Proof.
   intros E1 E2. unfold says_the_sign_of. rewrite E1, E2. destruct units as (a & b & c).
@@ -178,13 +202,17 @@ Hypothesis some_words : (0 < n)%nat.
 (* A vector in words, and that each component is the number that `v` has, and small enough. *)
 Definition stands_for ws v := Integers.all_are n ws v /\ Integers.all_below (2 ^ (64 * Z.of_nat n - 2)) v.
 Theorem outer_signs_are_exact p b c vp vb vc : stands_for p vp -> stands_for b vb -> stands_for c vc ->
-  says_the_sign_of (Integers.outer_of Integers.plus Integers.minus Integers.times p b c) (k0 (placed vb) (placed vc) (placed vp)).
+  says_the_sign_of (Integers.outer_of Integers.plus Integers.minus Integers.times p b c) (k0 (placed vb) (placed vc)
+    (placed vp)).
 Proof.
-  intros [hp sp] [hb sb] [hc sc]. destruct (Integers.outer_control_values_are_exact n some_words p b c vp vb vc hp hb hc sp sb sc) as [_ E].
-  apply (in_units _ _ _ E). unfold Integers.outer_of, Integers.dot_of, Integers.cross_of, k0, dot, cross, placed; cbn [Integers.x_ Integers.y_ Integers.z_ x y z].
+  intros [hp sp] [hb sb] [hc sc]. destruct (Integers.outer_control_values_are_exact n some_words p b c vp vb vc hp hb hc
+    sp sb sc) as [_ E].
+  apply (in_units _ _ _ E). unfold Integers.outer_of, Integers.dot_of, Integers.cross_of, k0, dot, cross, placed;
+    cbn [Integers.x_ Integers.y_ Integers.z_ x y z].
   rewrite ?plus_IZR, ?mult_IZR, ?minus_IZR, ?plus_IZR, ?mult_IZR, ?minus_IZR. ring.
 Qed.
-Theorem inner_signs_are_exact p0 p1 b0 b1 c0 c1 vp0 vp1 vb0 vb1 vc0 vc1 : stands_for p0 vp0 -> stands_for p1 vp1 -> stands_for b0 vb0 ->
+Theorem inner_signs_are_exact p0 p1 b0 b1 c0 c1 vp0 vp1 vb0 vb1 vc0 vc1 : stands_for p0 vp0 -> stands_for p1 vp1 ->
+  stands_for b0 vb0 ->
   stands_for b1 vb1 -> stands_for c0 vc0 -> stands_for c1 vc1 ->
   says_the_sign_of (Integers.inner_of Integers.plus Integers.minus Integers.times p0 b0 b1 c1 c0 p1 b0 c0)
     (k1 (placed vb0) (placed vb1) (placed vc0) (placed vc1) (placed vp0) (placed vp1)) /\
@@ -192,48 +220,61 @@ Theorem inner_signs_are_exact p0 p1 b0 b1 c0 c1 vp0 vp1 vb0 vb1 vc0 vc1 : stands
     (k2 (placed vb0) (placed vb1) (placed vc0) (placed vc1) (placed vp0) (placed vp1)).
 Proof.
   intros [hp0 sp0] [hp1 sp1] [hb0 sb0] [hb1 sb1] [hc0 sc0] [hc1 sc1]. split.
-  - destruct (Integers.inner_control_values_are_exact n some_words p0 b0 b1 c1 c0 p1 b0 c0 vp0 vb0 vb1 vc1 vc0 vp1 vb0 vc0) as [_ E]; try assumption.
-    apply (in_units _ _ _ E). unfold Integers.inner_of, Integers.dot_of, Integers.sum_of, Integers.cross_of, k1, h, dot, cross, plus, placed; cbn [Integers.x_ Integers.y_ Integers.z_ x y z].
+  - destruct (Integers.inner_control_values_are_exact n some_words p0 b0 b1 c1 c0 p1 b0 c0 vp0 vb0 vb1 vc1 vc0 vp1 vb0
+    vc0) as [_ E]; try assumption.
+    apply (in_units _ _ _ E). unfold Integers.inner_of, Integers.dot_of, Integers.sum_of, Integers.cross_of, k1, h,
+      dot, cross, plus, placed; cbn [Integers.x_ Integers.y_ Integers.z_ x y z].
     repeat rewrite ?plus_IZR, ?mult_IZR, ?minus_IZR. ring.
-  - destruct (Integers.inner_control_values_are_exact n some_words p1 b0 b1 c1 c0 p0 b1 c1 vp1 vb0 vb1 vc1 vc0 vp0 vb1 vc1) as [_ E]; try assumption.
-    apply (in_units _ _ _ E). unfold Integers.inner_of, Integers.dot_of, Integers.sum_of, Integers.cross_of, k2, h, dot, cross, plus, placed; cbn [Integers.x_ Integers.y_ Integers.z_ x y z].
+  - destruct (Integers.inner_control_values_are_exact n some_words p1 b0 b1 c1 c0 p0 b1 c1 vp1 vb0 vb1 vc1 vc0 vp0 vb1
+    vc1) as [_ E]; try assumption.
+    apply (in_units _ _ _ E). unfold Integers.inner_of, Integers.dot_of, Integers.sum_of, Integers.cross_of, k2, h,
+      dot, cross, plus, placed; cbn [Integers.x_ Integers.y_ Integers.z_ x y z].
     repeat rewrite ?plus_IZR, ?mult_IZR, ?minus_IZR. ring.
 Qed.
 End Units.
 (* For two edges the code takes b = v - u, c = l - k, p = u - k; the control values are the same. *)
-Theorem edges_have_the_same_control_values u v k l : let of f := f (minus (start v) (start u)) (minus (finish v) (finish u)) (minus (start l) (start k))
+Theorem edges_have_the_same_control_values u v k l : let of f := f (minus (start v) (start u)) (minus (finish v) (finish
+  u)) (minus (start l) (start k))
     (minus (finish l) (finish k)) (minus (start u) (start k)) (minus (finish u) (finish k)) in
   (of (fun b0 _ c0 _ p0 _ => k0 b0 c0 p0), of k1, of k2, of (fun _ b1 _ c1 _ p1 => k3 b1 c1 p1)) = control k u v l.
 Proof. cbv beta zeta. unfold control. repeat apply f_equal2; cbv -[Rplus Rminus Rmult Ropp]; ring. Qed.
-Theorem control_values_fit_three_times_the_words n x : (1 <= n)%Z -> (Z.abs x <= 18 * (2 ^ (64 * n - 2) * (2 ^ (64 * n - 2) * 2 ^ (64 * n - 2))))%Z ->
+Theorem control_values_fit_three_times_the_words n x : (1 <= n)%Z -> (Z.abs x <= 18 * (2 ^ (64 * n - 2) * (2 ^ (64 * n -
+  2) * 2 ^ (64 * n - 2))))%Z ->
   (- Integers.word ^ (3 * n) <= 2 * x < Integers.word ^ (3 * n))%Z.
 Proof. intro h. exact (Integers.three_words_suffice n h x). Qed.
 
-(* 10. **The time of impact**, without a separation, from the operations to the geometry. Its constants: both formats are ones that the
-       following theorems hold for. *)
-Theorem constants_of_the_time_of_impact : Corners.reasonable_constants Advance.binary32 /\ Corners.reasonable_constants Advance.binary64.
+(* 10. **The time of impact**, without a separation, from the operations to the geometry. Its constants: both formats
+       are ones that the following theorems hold for. *)
+Theorem constants_of_the_time_of_impact : Corners.reasonable_constants Advance.binary32 /\
+  Corners.reasonable_constants Advance.binary64.
 Proof. destruct formats_are_reasonable. split; constructor; try assumption; cbn; lia. Qed.
-(* An environment of a thread rounds to nearest or in another direction, and flushes or keeps subnormal numbers. To nearest is one. *)
+(* An environment of a thread rounds to nearest or in another direction, and flushes or keeps subnormal numbers. To
+   nearest is one. *)
 Theorem environments_exist : inhabited (Machine.environment binary32) /\ inhabited (Machine.environment binary64).
 Proof. destruct formats_are_reasonable as [a b]. split; constructor; now apply Nearness.to_nearest. Qed.
-(* The code goes in rounds from a time up to which the pair is proven to be apart to a later one. `Advancing.step` says what a round has:
-   coordinates, directions and moments of any origin; an execution of the traced terms (Advance.v) in any environment (Machine.v); and the
-   comparisons of one proof, which come out true. The proofs are a direction that is held, turns or moves on a curve, and the signed volume,
-   throughout the step, from a moment to its end, or up to a time that clipping gives. `Advancing.reaches` is a chain of rounds, in either
-   format, whose times may be rounded down. If the code answers a time, a chain reaches it; if it answers `Never`, one reaches 1 or the end of
-   the requested time. *)
-Theorem no_contact_of_a_vertex_and_a_face_before place begin until t : Advancing.reaches Advancing.of_a_vertex_and_a_face place begin until ->
+(* The code goes in rounds from a time up to which the pair is proven to be apart to a later one. `Advancing.step` says
+   what a round has: coordinates, directions and moments of any origin; an execution of the traced terms (Advance.v) in
+   any environment (Machine.v); and the comparisons of one proof, which come out true. The proofs are a direction that
+   is held, turns or moves on a curve, and the signed volume, throughout the step, from a moment to its end, or up to a
+   time that clipping gives. `Advancing.reaches` is a chain of rounds, in either format, whose times may be rounded
+   down. If the code answers a time, a chain reaches it; if it answers `Never`, one reaches 1 or the end of the
+   requested time. *)
+Theorem no_contact_of_a_vertex_and_a_face_before place begin until t : Advancing.reaches
+  Advancing.of_a_vertex_and_a_face place begin until ->
   begin <= t <= until -> t <= 1 ->
-  ~ vertex_in_triangle (at_ (path_of place 0) t) (at_ (path_of place 1) t) (at_ (path_of place 2) t) (at_ (path_of place 3) t).
+  ~ vertex_in_triangle (at_ (path_of place 0) t) (at_ (path_of place 1) t) (at_ (path_of place 2) t) (at_ (path_of place
+    3) t).
 Proof.
   rewrite Advancing.vertex_and_face_corners. intros chain between t1.
   destruct (Advancing.rounds_keep_apart _ _ _ _ _ _ _ chain t between t1) as (given & same & [ahead|volume]).
   - exact (Advancing.ahead_excludes_contact_of_a_vertex_and_a_face place given t same ahead).
   - exact (Advancing.volume_excludes_contact_of_a_vertex_and_a_face place given t same volume).
 Qed.
-Theorem no_contact_of_two_edges_before place begin until t : Advancing.reaches Advancing.of_two_edges place begin until ->
+Theorem no_contact_of_two_edges_before place begin until t : Advancing.reaches Advancing.of_two_edges place begin until
+  ->
   begin <= t <= until -> t <= 1 ->
-  ~ segments_meet (at_ (path_of place 0) t) (at_ (path_of place 1) t) (at_ (path_of place 2) t) (at_ (path_of place 3) t).
+  ~ segments_meet (at_ (path_of place 0) t) (at_ (path_of place 1) t) (at_ (path_of place 2) t) (at_ (path_of place 3)
+    t).
 Proof.
   rewrite Advancing.two_edges_corners. intros chain between t1.
   destruct (Advancing.rounds_keep_apart _ _ _ _ _ _ _ chain t between t1) as (given & same & [ahead|volume]).
@@ -241,8 +282,32 @@ Proof.
   - exact (Advancing.volume_excludes_contact_of_two_edges place given t same volume).
 Qed.
 
-(* 11. What the certificates of a separation and of truncation rest on stands in Certificates.v, in exact numbers: a direction held or turning
-       over a part of the step, the volume there, shares of ways. *)
+(* 11. A checker of witnesses without a separation, in rational numbers (Checker.v): for whoever distrusts the code and
+       the model of its arithmetic. A witness is a list of parts of the step, each with its proof (docs/witnesses.md).
+       What the checker accepts, from time zero to a claimed time, does not touch before that. *)
+Theorem an_accepted_witness_of_a_vertex_and_a_face_is_right depth points_ parts until t :
+  Checker.accepts depth points_ Corners.vertex_face (QArith_base.Qmake 0 1) parts until = true -> 0 <= t < Q2R until ->
+  let path := path_of (Checker.place points_) in
+  ~ vertex_in_triangle (at_ (path 0%nat) t) (at_ (path 1%nat) t) (at_ (path 2%nat) t) (at_ (path 3%nat) t).
+Proof. exact (Checker.an_accepted_vertex_and_face_do_not_touch depth points_ parts until t). Qed.
+Theorem an_accepted_witness_of_two_edges_is_right depth points_ parts until t :
+  Checker.accepts depth points_ Corners.edge_edge (QArith_base.Qmake 0 1) parts until = true -> 0 <= t < Q2R until ->
+  let path := path_of (Checker.place points_) in
+  ~ segments_meet (at_ (path 0%nat) t) (at_ (path 1%nat) t) (at_ (path 2%nat) t) (at_ (path 3%nat) t).
+Proof. exact (Checker.accepted_edges_do_not_touch depth points_ parts until t). Qed.
+(* It accepts some: a vertex that falls from 2 to 1 above a resting triangle, by a direction upwards and by the volume.
+   *)
+Definition falling c : QArith_base.Q := match c with
+  | Coordinate 0 Start Z_ => QArith_base.Qmake 2 1 | Coordinate 0 End Z_ => QArith_base.Qmake 1 1
+  | Coordinate 2 _ X | Coordinate 3 _ Y => QArith_base.Qmake 1 1 | _ => QArith_base.Qmake 0 1 end.
+Definition upwards a : QArith_base.Q := match a with Z_ => QArith_base.Qmake 1 1 | _ => QArith_base.Qmake 0 1 end.
+Theorem the_checker_accepts_some : let one := QArith_base.Qmake 1 1 in
+  Checker.accepts 0 falling Corners.vertex_face (QArith_base.Qmake 0 1) [(one, Checker.Held upwards)] one = true /\
+  Checker.accepts 0 falling Corners.vertex_face (QArith_base.Qmake 0 1) [(one, Checker.Volume)] one = true.
+Proof. split; vm_compute; reflexivity. Qed.
+
+(* 12. What the certificates of a separation and of truncation rest on stands in Certificates.v, in exact numbers: a
+       direction held or turning over a part of the step, the volume there, shares of ways. *)
 
 Print Assumptions formats_are_reasonable.
 Print Assumptions an_operation_is_nearly_exact.
@@ -273,6 +338,9 @@ Print Assumptions constants_of_the_time_of_impact.
 Print Assumptions environments_exist.
 Print Assumptions no_contact_of_a_vertex_and_a_face_before.
 Print Assumptions no_contact_of_two_edges_before.
+Print Assumptions an_accepted_witness_of_a_vertex_and_a_face_is_right.
+Print Assumptions an_accepted_witness_of_two_edges_is_right.
+Print Assumptions the_checker_accepts_some.
 Print Assumptions Certificates.a_product_bounds_the_distance.
 Print Assumptions Certificates.ahead_of_the_triangle.
 Print Assumptions Certificates.between_two_ahead.

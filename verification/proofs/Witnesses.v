@@ -27,27 +27,35 @@ Context (p0 : Prec_gt_0 prec) (pe : Prec_lt_emax prec emax).
 Notation f := (format_of prec emax underflow_ largest_).
 Hypothesis ok : reasonable f.
 Context {component : Type}.
-Definition binary n h roles c : binary_float prec emax := binary_normalize prec emax _ _ mode_NE (whole n h roles c) 0 false.
+Definition binary n h roles c : binary_float prec emax := binary_normalize prec emax _ _ mode_NE (whole n h roles c) 0
+  false.
 Definition placed n h roles c := B2R (binary n h roles c).
 Definition holds_of n h roles (of : component -> coordinate * coordinate) :=
-  holds prec emax p0 pe underflow_ largest_ (fun c => binary n h roles (snd (of c))) (fun c => binary n h roles (fst (of c))).
+  holds prec emax p0 pe underflow_ largest_ (fun c => binary n h roles (snd (of c))) (fun c => binary n h roles (fst (of
+    c))).
 Definition all_finite n h roles (of : component -> coordinate * coordinate) := forall c,
   is_finite (binary n h roles (fst (of c))) = true /\ is_finite (binary n h roles (snd (of c))) = true.
 (* To nearest with nothing flushed; so products take their operands as they are. *)
-Theorem witness_alike n h roles (of : component -> coordinate * coordinate) m : all_finite n h roles of -> holds_of n h roles of m = true ->
-  exists value_of, execution f (fun c => placed n h roles (snd (of c))) (fun c => placed n h roles (fst (of c))) value_of /\
-  (forall a b x y, value_of a = Number x -> value_of b = Number y -> result f (x * y) (value_of (Product a b))) /\ says f value_of m.
+Theorem witness_alike n h roles (of : component -> coordinate * coordinate) m : all_finite n h roles of -> holds_of n h
+  roles of m = true ->
+  exists value_of, execution f (fun c => placed n h roles (snd (of c))) (fun c => placed n h roles (fst (of c)))
+    value_of /\
+  (forall a b x y, value_of a = Number x -> value_of b = Number y -> result f (x * y) (value_of (Product a b))) /\
+    says f value_of m.
 Proof.
-  intros fin h_. exists (nearest prec emax underflow_ largest_ (fun c => placed n h roles (snd (of c))) (fun c => placed n h roles (fst (of c)))).
+  intros fin h_. exists (nearest prec emax underflow_ largest_ (fun c => placed n h roles (snd (of c))) (fun c => placed
+    n h roles (fst (of c)))).
   split; [|split].
   - apply an_execution_exists; assumption.
   - intros a b x y va vb. cbn [nearest]. rewrite va, vb. cbn [lifted]. apply settled_result; assumption.
   - eapply what_holds_is_said; [exact ok|reflexivity|reflexivity|apply fin|apply fin|exact h_].
 Qed.
 Theorem witness n h roles of m : all_finite n h roles of -> holds_of n h roles of m = true ->
-  exists value_of, execution f (fun c => placed n h roles (snd (of c))) (fun c => placed n h roles (fst (of c))) value_of /\
+  exists value_of, execution f (fun c => placed n h roles (snd (of c))) (fun c => placed n h roles (fst (of c)))
+    value_of /\
   says f value_of m.
-Proof. intros fin h_. destruct (witness_alike n h roles of m fin h_) as (value_of & run & _ & culled). exists value_of. auto. Qed.
+Proof. intros fin h_. destruct (witness_alike n h roles of m fin h_) as (value_of & run & _ & culled). exists value_of.
+  auto. Qed.
 End InAFormat.
 
 #[global] Instance gt24 : Prec_gt_0 24. Proof. reflexivity. Qed.
@@ -57,25 +65,30 @@ End InAFormat.
 Definition single {component : Type} := holds_of (component := component) 24 128 (-117) 30 gt24 lt24.
 Definition double {component : Type} := holds_of (component := component) 53 1024 (-1000) 250 gt53 lt53.
 
-(* All tiers cull a pair at rest far above, in both formats; close above, only the permanent, the last part of the decision, culls it. *)
+(* All tiers cull a pair at rest far above, in both formats; close above, only the permanent, the last part of the
+   decision, culls it. *)
 Definition decisions := [culled_by_permanent_alone; culled_by_permanent].
 Lemma all_tiers_cull_what_is_far : forall m, In m decisions ->
   single 4 4 in_vertex_face vertex_face m = true /\ single 4 4 in_edge_edge edge_edge m = true /\
   double 4 4 in_vertex_face vertex_face m = true /\ double 4 4 in_edge_edge edge_edge m = true.
 Proof. intros m [<-|[<-|[]]]; repeat split; vm_compute; reflexivity. Qed.
 Lemma the_permanent_culls_what_is_close :
-  single 1048576 32 in_vertex_face vertex_face first_part = false /\ single 1048576 32 in_vertex_face vertex_face last_part = true /\
-  single 1048576 32 in_edge_edge edge_edge first_part = false /\ single 1048576 32 in_edge_edge edge_edge last_part = true.
+  single 1048576 32 in_vertex_face vertex_face first_part = false /\ single 1048576 32 in_vertex_face vertex_face
+    last_part = true /\
+  single 1048576 32 in_edge_edge edge_edge first_part = false /\ single 1048576 32 in_edge_edge edge_edge last_part =
+    true.
 Proof. repeat split; vm_compute; reflexivity. Qed.
 
-Definition culls_some {component : Type} f (of : component -> coordinate * coordinate) m := exists (place : coordinate -> R) value_of, (forall c, representable f (place (fst (of c))) /\
+Definition culls_some {component : Type} f (of : component -> coordinate * coordinate) m := exists (place : coordinate
+  -> R) value_of, (forall c, representable f (place (fst (of c))) /\
   representable f (place (snd (of c)))) /\
   execution f (fun c => place (snd (of c))) (fun c => place (fst (of c))) value_of /\ says f value_of m.
 Lemma binary_is_representable prec emax (p0 : Prec_gt_0 prec) (x : binary_float prec emax) :
   generic_format radix2 (FLT_exp (3 - emax - prec) prec) (B2R x).
 Proof. apply generic_format_B2R. Qed.
 Ltac culls_by prec emax underflow_ largest_ ok n h roles of proof :=
-  destruct (witness prec emax underflow_ largest_ _ _ ok n h roles of _ ltac:(intros [[| |] [|] [| |]]; split; vm_compute; reflexivity) proof)
+  destruct (witness prec emax underflow_ largest_ _ _ ok n h roles of _ ltac:(intros [[| |] [|] [| |]]; split;
+    vm_compute; reflexivity) proof)
     as (value_of & run & culled); clear - run culled; exists (placed prec emax _ _ n h roles), value_of;
   split; [intro c; split; apply binary_is_representable; exact _|split; assumption].
 Lemma single_is_reasonable : reasonable (format_of 24 128 (-117) 30). Proof. constructor; cbn; lia. Qed.

@@ -21,11 +21,11 @@ fi
 
 # In the order of their dependencies; the last one prints the axioms of its theorems. mutations.py reads the following lists of the files
 # that build on the ones written from the kernels:
-# above Filter: Permanent Magnitudes Advance Advancing Witnesses Theorems
-# above Boxes: Apart Certificates Volume Clipping VolumeSteps Advancing Witnesses Theorems
-# above Advance: Advancing Theorems
+# above Filter: Permanent Magnitudes Advance Advancing Checker Witnesses Theorems
+# above Boxes: Apart Certificates Volume Clipping VolumeSteps Advancing Checker Witnesses Theorems
+# above Advance: Advancing Checker Theorems
 files=(Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Magnitudes Orders Boxes Apart Certificates Machine
-    Nearness Corners Directions Held Hull Volume Clipping VolumeSteps Advance Advancing Nearest Witnesses Integers Theorems)
+    Nearness Corners Directions Held Hull Volume Clipping VolumeSteps Advance Advancing Checker Nearest Witnesses Integers Theorems)
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cp ./*.v "$folder"
