@@ -19,7 +19,7 @@ const SWEEPS: usize = 4;
 /// The largest length of an edge, over its limit, that needs no other round.
 const TOLERANCE: f64 = 1.01;
 /// The largest number of rounds of limits and contacts.
-const ROUNDS: usize = 4;
+const ROUNDS: usize = 8;
 
 /// A substep in progress. It changes no state before it is accepted.
 pub(super) struct Substep<'a> {
