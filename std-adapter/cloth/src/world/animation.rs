@@ -59,7 +59,7 @@ struct Source {
 #[derive(PartialEq)]
 enum Shapes {
     Frames { frames: Vec<Vec<DVec3>>, rate: f64 },
-    Figure(Figure),
+    Figure(Box<Figure>),
 }
 
 /// The fastest vertex and the longest jump, each with its time from the first key, and its vertex.
@@ -146,7 +146,7 @@ impl Animation {
             length: last - first,
             vertices: figure.mesh().positions.len(),
             fingerprint: figure.fingerprint(),
-            shapes: Shapes::Figure(figure),
+            shapes: Shapes::Figure(Box::new(figure)),
             jumps,
         });
         Ok(animation.starting_at(first))

@@ -169,14 +169,16 @@ fn read_face(face: usize, line: usize, text: &[u8], vertex_count: usize, corners
                 quoted(field, 40)
             ))
         })?;
-        let index = u32::try_from(vertex).ok().filter(|&index| (index as usize) < vertex_count);
-        corners.push(index.ok_or_else(|| FileProblem::IndexOutOfRange {
-            line: Some(line),
-            face,
-            vertex,
-            first: 0,
-            vertex_count,
-        })?);
+        let Some(index) = u32::try_from(vertex).ok().filter(|&index| (index as usize) < vertex_count) else {
+            return Err(FileProblem::IndexOutOfRange {
+                line: Some(line),
+                face,
+                vertex,
+                first: 0,
+                vertex_count,
+            });
+        };
+        corners.push(index);
     }
     Ok(())
 }

@@ -100,13 +100,15 @@ impl Reader {
         let face = self.face;
         self.corners.clear();
         for &vertex in corners {
-            let index = self.is_vertex(vertex).ok_or_else(|| FileProblem::IndexOutOfRange {
-                line,
-                face,
-                vertex,
-                first: 0,
-                vertex_count: self.vertex_count,
-            })?;
+            let Some(index) = self.is_vertex(vertex) else {
+                return Err(FileProblem::IndexOutOfRange {
+                    line,
+                    face,
+                    vertex,
+                    first: 0,
+                    vertex_count: self.vertex_count,
+                });
+            };
             self.corners.push(index);
         }
         if self.corners.len() < 3 {
