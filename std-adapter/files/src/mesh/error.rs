@@ -129,7 +129,7 @@ pub enum FileProblem {
         found: usize,
     },
     /// An element of a binary file cannot be understood.
-    #[error("'{element}' element {index}: {reason}")]
+    #[error("'{}' element {index}: {reason}", excerpt(element, 60))]
     Element {
         /// Name of the element.
         element: String,

@@ -35,9 +35,12 @@ impl MeshNotes {
     }
 }
 
+/// The largest number of parts that a message names.
+const MOST_NAMED: usize = 6;
+
 pub(super) fn missing(left_out: &[LeftOut]) -> Option<String> {
     let parts = left_out.iter().filter(|part| part.may_have_area);
-    let parts: Vec<String> = parts.map(LeftOut::to_string).collect();
+    let parts: Vec<String> = parts.take(MOST_NAMED).map(LeftOut::to_string).collect();
     (!parts.is_empty()).then(|| parts.join(", "))
 }
 
@@ -70,8 +73,11 @@ impl fmt::Display for MeshNotes {
             };
             write!(f, ", {} {plural} collapsed by that", self.collapsed_triangles)?;
         }
-        for part in &self.left_out {
+        for part in self.left_out.iter().take(MOST_NAMED) {
             write!(f, ", left out: {part}")?;
+        }
+        if self.left_out.len() > MOST_NAMED {
+            write!(f, ", and {} other kinds of parts", self.left_out.len() - MOST_NAMED)?;
         }
         Ok(())
     }
