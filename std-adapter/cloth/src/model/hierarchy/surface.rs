@@ -2,6 +2,7 @@
 
 use super::grouped::Grouped;
 use crate::world::Cloth;
+use libm::hypot;
 use selvedge::Topology;
 use selvedge_core::glam::DVec3;
 use std::f64::consts::{FRAC_PI_4, PI};
@@ -136,5 +137,5 @@ fn across([a, b, c, d]: [DVec3; 4]) -> Option<f64> {
     let length = edge.length();
     let [[cx, cy], [dx, dy]] = [c, d].map(|tip| [(tip - a).dot(edge) / length, (tip - a).cross(edge).length() / length]);
     let crossing = cx + (dx - cx) * cy / (cy + dy);
-    (0.0 < crossing && crossing < length).then(|| (dx - cx).hypot(cy + dy))
+    (0.0 < crossing && crossing < length).then(|| hypot(dx - cx, cy + dy))
 }
