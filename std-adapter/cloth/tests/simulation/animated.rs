@@ -6,8 +6,6 @@ use selvedge_cloth::files::animation::{Choice, read};
 use selvedge_cloth::files::mesh;
 use selvedge_cloth::glam::DVec3;
 use selvedge_cloth::{Animation, Body, BodyMotion, CHECKPOINT_STEPS, CheckpointError, Cloth, Mesh, OnBlocked, Scene, Simulation};
-use std::fs;
-use std::path::Path;
 
 /// Counts the intersections of the cloth by the exact test, which is independent of the certificate.
 fn crossings(simulation: &Simulation) -> usize {
@@ -159,31 +157,7 @@ fn numbered_files_and_frames_of_code_make_the_same_scene() {
         mesh::write(&folder.path().join(format!("ball-{number:04}.ply")), &mesh).unwrap();
     }
     let of_files = |files: &str| {
-        let text = format!(
-            r#"
-            time_step = 0.002
-            duration = 1
-            [cloth]
-            shape = "sheet"
-            corner = [-0.15, -0.15, 0.08]
-            sides = {{ first = [0.3, 0, 0], second = [0, 0.3, 0] }}
-            cells = [12, 12]
-            density = 0.2
-            [[body]]
-            name = "ball"
-            shape = "frames"
-            files = "{files}"
-            frames_per_second = 24
-            start = "20 ms"
-            [effects.gravity]
-            [effects.stretch]
-            stiffness = 200
-            [effects.body_contact]
-            thickness = 0.004
-            [effects.self_collision]
-            thickness = 0.004
-            "#
-        );
+        let text = include_str!("scenes/frames.toml").replace("ball-####.ply", files);
         Scene::parse(&text, &folder.path().join("s.toml")).unwrap()
     };
     let animation = Animation::from_frames(frames, 24.0).unwrap().starting_at(0.02);
@@ -298,86 +272,4 @@ fn animations_that_cannot_be_are_refused_where_they_are_made() {
     scene.bodies[0].mesh.positions.push(DVec3::ONE);
     let message = Simulation::new(scene, 1).unwrap_err().to_string();
     assert_eq!(message, "leaf: the animation has 3 vertices, but it moves 4");
-}
-
-#[test]
-fn what_is_wrong_with_files_of_animated_bodies_is_said_with_the_place_in_the_scene() {
-    let folder = tempfile::tempdir().unwrap();
-    let put = |name: &str, lines: &str| fs::write(folder.path().join(name), lines).unwrap();
-    fs::copy(scene_file("walker.glb"), folder.path().join("walker.glb")).unwrap();
-    put("leaf-1.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    put("leaf-3.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    put("cut-1.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    put("cut-2.obj", "v 0 0 0\nv 1 0 0\nv 0 90 0\nf 1 2 3\n");
-    put("text.glb", "no figure");
-    let message = |body: &str| {
-        let text = format!(
-            "time_step = 0.002\nduration = 1\n[cloth]\nshape = \"sheet\"\nsides = {{ first = [1, 0, 0], second = [0, 0, 1] }}\ncells = [2, 2]\ndensity = 0.2\n[[body]]\nname = \"body\"\n{body}\n[effects.body_contact]\nthickness = 0.003\n"
-        );
-        let error = Scene::parse(&text, Path::new(&folder.path().join("s.toml"))).unwrap_err();
-        let found = error.to_string();
-        found.replace(&*folder.path().to_string_lossy(), "F")
-    };
-    let cases = [
-        (
-            "shape = \"frames\"",
-            "F/s.toml:8:1: [body] needs `files`, such as \"frames/body-####.ply\"",
-        ),
-        (
-            "shape = \"frames\"\nfiles = \"leaf-#.obj\"",
-            "F/s.toml:8:1: [body] needs `frames_per_second`",
-        ),
-        (
-            "shape = \"frames\"\nfiles = \"leaf-#.obj\"\nframes_per_second = -24",
-            "F/s.toml:12:21: `frames_per_second` is -24 Hz, but must be from",
-        ),
-        (
-            "shape = \"frames\"\nfiles = \"leaf-#.obj\"\nframes_per_second = 24",
-            "F/s.toml:11:9: F/leaf-#.obj: frame 2 is missing",
-        ),
-        (
-            "shape = \"frames\"\nfiles = \"no-#.obj\"\nframes_per_second = 24",
-            "F/s.toml:11:9: F/no-#.obj: there is no such file in 'F'",
-        ),
-        (
-            "shape = \"frames\"\nfiles = \"cut-#.obj\"\nframes_per_second = 24",
-            "F/s.toml:11:9: vertex 2 moves at 2136 m/s from 0.000 s of the animation on",
-        ),
-        (
-            "shape = \"frames\"\nfiles = \"cut-#.obj\"\nframes_per_second = 24\naxis = [0, 0, 1]",
-            "F/s.toml:13:1: [body] has no key 'axis'",
-        ),
-        (
-            "shape = \"gltf\"",
-            "F/s.toml:8:1: [body] needs `file`, such as \"figure.glb\"",
-        ),
-        (
-            "shape = \"gltf\"\nfile = \"no.glb\"",
-            "F/s.toml:11:8: F/no.glb: there is no such file",
-        ),
-        (
-            "shape = \"gltf\"\nfile = \"text.glb\"",
-            "F/s.toml:11:8: F/text.glb: is not a valid glTF 2.0 file: ",
-        ),
-        (
-            "shape = \"gltf\"\nfile = \"walker.glb\"\nnode = \"figur\"",
-            "F/s.toml:12:8: F/walker.glb: no node 'figur' has a mesh; those that have: 'figure'",
-        ),
-        (
-            "shape = \"gltf\"\nfile = \"walker.glb\"\nanimation = \"run\"",
-            "F/s.toml:12:13: F/walker.glb: there is no animation 'run'; choose from 'walk'",
-        ),
-        (
-            "shape = \"gltf\"\nfile = \"walker.glb\"\nstart = -1",
-            "F/s.toml:12:9: `start` is -1 s, but must be from 0 s",
-        ),
-        (
-            "shape = \"glb\"\nfile = \"walker.glb\"",
-            "F/s.toml:10:9: `shape` cannot be 'glb'",
-        ),
-    ];
-    for (body, expected) in cases {
-        let found = message(body);
-        assert!(found.starts_with(expected), "{found}\nis not\n{expected}");
-    }
 }

@@ -1,6 +1,6 @@
 //! Attachments hold with a limited force, and report releases.
 
-use crate::common::{advance, assert_messages, assert_same_bits, run};
+use crate::common::{advance, assert_complaints, assert_same_bits, run};
 use selvedge::glam::DVec3;
 use selvedge_cloth::effects::{
     AirDrag, AttachmentGroup, Attachments, BodyContact, Gravity, PinMotion, Release, Shear, Stretch, Thickness,
@@ -117,30 +117,7 @@ fn attachments_follow_bodies_however_they_move() {
     }
 }
 
-const FILE: &str = r#"
-    time_step = "1 ms"
-    duration = 1
-    [cloth]
-    shape = "sheet"
-    sides = { first = [0.2, 0, 0], second = [0, 0, 0.2] }
-    cells = [6, 6]
-    density = 0.2
-    [effects.gravity]
-    [effects.stretch]
-    stiffness = 500
-    [effects.shear]
-    stiffness = 100
-    [effects.air_drag]
-    rate = 5
-    [[effects.attachments.group]]
-    part = "top-left"
-    limit = "500 mN"
-    give = "2 mm"
-    [[effects.attachments.group]]
-    part = "top-right"
-    limit = "0.1 N"
-    keyframes = [{ time = 0.1 }, { time = 0.5, translation = [0.2, 0, 0.1] }]
-"#;
+const FILE: &str = include_str!("scenes/attachments.toml");
 
 fn of_file() -> Scene {
     Scene::parse(FILE, Path::new("s.toml")).unwrap()
@@ -178,27 +155,8 @@ fn a_resumed_simulation_knows_what_has_let_go() {
 }
 
 #[test]
-fn wrong_attachments_are_named_with_their_unit_and_range() {
-    assert_messages(
-        FILE,
-        r#"
-        limit = "500 mN" =>
-            s.toml:16:5: [effects.attachments.group] needs `limit`, such as 0.5 (in N) or "5 mN"
-        "500 mN" => "500 N/m"
-            s.toml:18:13: `limit` must be a force, but 'N/m' is not a unit of it; choose from N, mN, kN
-        give = "2 mm" => give = 0
-            s.toml:19:12: `give` is 0 m, but must be from 1e-6 m to 1 m
-        part = "top-right" => part = "top"
-            s.toml:21:12: vertex 42 is attached twice
-        keyframes = [{ time = 0.1 }, { time = 0.5, translation = [0.2, 0, 0.1] }] => driven = true
-            s.toml:23:14: attachments follow keyframes or a body (`follow`), which may be driven; they cannot be driven themselves
-        keyframes = [{ time = 0.1 }, { time = 0.5, translation = [0.2, 0, 0.1] }] => follow = "arm"
-            s.toml:23:14: there is no body 'arm'; there are none
-    "#,
-    );
-    let none = hung(Vec::new()).check().unwrap_err().to_string();
-    assert_eq!(
-        none,
-        "attachments: attachments need at least one [[effects.attachments.group]]"
-    );
+fn attachments_of_nothing_are_an_error() {
+    assert_complaints! { hung(Vec::new());
+        |_| () => "attachments: attachments need at least one [[effects.attachments.group]]";
+    }
 }

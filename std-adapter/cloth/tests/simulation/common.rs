@@ -11,6 +11,11 @@ pub(crate) fn scene_file(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name)
 }
 
+/// Returns the folder of scenes that only tests use.
+pub(crate) fn test_scenes() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/simulation/scenes")
+}
+
 /// Sets up a scene of the folder `scenes`, with changes.
 pub(crate) fn load(name: &str, change: impl Fn(String) -> String, threads: usize) -> Simulation {
     let path = scene_file(name);
@@ -102,20 +107,6 @@ fn assert_alike(one: &Simulation, other: &Simulation) {
     );
     assert_eq!(one.energy(), other.energy());
     assert_eq!(one.contact_counts(), other.contact_counts());
-}
-
-/// Asserts the messages of mistakes in a scene file. A case has two lines: a passage of the file, `=>` and its replacement; then the
-/// message. `\n` stands for a line break.
-#[track_caller]
-pub(crate) fn assert_messages(file: &str, cases: &str) {
-    let mut lines = cases.lines().map(str::trim).filter(|line| !line.is_empty());
-    while let Some(case) = lines.next() {
-        let (passage, by) = case.split_once(" =>").unwrap();
-        let [passage, by] = [passage, by.trim_start()].map(|text| text.replace("\\n", "\n"));
-        assert_eq!(file.matches(&passage).count(), 1, "'{passage}' must be there once");
-        let error = Scene::parse(&file.replacen(&passage, &by, 1), Path::new("s.toml")).unwrap_err();
-        assert_message(&error.to_string(), lines.next().unwrap());
-    }
 }
 
 /// Asserts a message, or its beginning if `expected` ends with `…`.

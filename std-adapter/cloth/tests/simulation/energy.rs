@@ -6,67 +6,10 @@ use selvedge_cloth::effects::{Gravity, InternalPressure};
 use selvedge_cloth::{Body, Cloth, Energy, Scene, Simulation, StoredEnergy};
 
 /// A thrown sheet, held at one side, against a ball at rest, without gravity and air.
-const THROWN: &str = r#"
-time_step = "1 ms"
-duration = "2 s"
-[cloth]
-shape = "sheet"
-corner = [-0.2, -0.2, 0.2]
-sides = { first = [0.4, 0, 0], second = [0, 0.4, 0] }
-cells = [16, 16]
-density = "200 g/m2"
-velocity = [0.4, 0.3, -2]
-[[body]]
-name = "ball"
-shape = "ball"
-centre = [0, 0, 0]
-radius = "10 cm"
-[[effects.pins.group]]
-part = "left"
-[effects.stretch]
-stiffness = "300 N/m"
-[effects.shear]
-stiffness = "100 N/m"
-[effects.bend]
-stiffness = "10 uN m"
-[effects.body_contact]
-thickness = "3 mm"
-[effects.self_collision]
-thickness = "3 mm"
-[effects.friction]
-coefficient = 0.2
-"#;
+const THROWN: &str = include_str!("scenes/thrown.toml");
 
 /// A tube that is twisted by a whole turn in 0.3 s and then held, so that nothing does work any more.
-const TWISTED: &str = r#"
-time_step = "1 ms"
-duration = "2 s"
-[cloth]
-shape = "tube"
-from = [-0.15, 0, 0]
-to = [0.15, 0, 0]
-radius = "50 mm"
-cells = [16, 16]
-density = "200 g/m2"
-[[effects.pins.group]]
-part = "start"
-axis = [1, 0, 0]
-keyframes = [{ time = 0 }, { time = "0.3 s", angle = "-180 deg" }]
-[[effects.pins.group]]
-part = "end"
-axis = [1, 0, 0]
-keyframes = [{ time = 0 }, { time = "0.3 s", angle = "180 deg" }]
-[effects.stretch]
-stiffness = "300 N/m"
-[effects.shear]
-stiffness = "100 N/m"
-[effects.bend]
-stiffness = "10 uN m"
-[effects.self_collision]
-thickness = "3 mm"
-[effects.friction]
-coefficient = 0.2
-"#;
+const TWISTED: &str = include_str!("scenes/twisted.toml");
 
 /// Steps of a millisecond, and the kinetic energy of the cloth in each.
 struct Steps {

@@ -1,6 +1,6 @@
 //! Scenes from code, with bodies, pins and wind that the caller drives.
 
-use crate::common::{assert_complaints, assert_errors, bits, intersections, resting};
+use crate::common::{assert_complaints, assert_errors, bits, intersections, resting, set_up};
 use selvedge_cloth::effects::{
     AirDrag, Bend, BodyContact, Constraint, Effect, Force, Friction, Gravity, InternalPressure, PinGroup, PinMotion, Pins, Plan,
     SelfCollision, Shear, StrainLimit, Stretch, Thickness, TimeStep, Touches, Wind,
@@ -54,55 +54,6 @@ fn bar() -> Body {
 
 #[test]
 fn code_and_file_make_the_same_scene_to_the_last_bit() {
-    let text = r#"
-        time_step = "2 ms"
-        duration = "1 s"
-        on_blocked = "hold"
-        [cloth]
-        shape = "tube"
-        from = [-0.2, 0, 0]
-        to = [0.2, 0, 0]
-        radius = "10 cm"
-        cells = [16, 12]
-        density = "200 g/m2"
-        velocity = [0, 0.1, 0]
-        [[body]]
-        name = "arm"
-        shape = "capsule"
-        from = [-0.3, 0, 0]
-        to = [0.3, 0, 0]
-        radius = "5 cm"
-        pivot = [0, 0, 0.1]
-        axis = [0, 2, 0]
-        keyframes = [{ time = 0 }, { time = "0.2 s", angle = 0.3, translation = [0, 0, 0.02] }]
-        [effects.gravity]
-        [effects.wind]
-        velocity = [0, 3, 0]
-        gust = 0.5
-        [effects.air_drag]
-        rate = 0.2
-        [[effects.pins.group]]
-        part = "start"
-        follow = "arm"
-        [[effects.pins.group]]
-        vertices = [100]
-        [effects.stretch]
-        stiffness = 400
-        weft_stiffness = 300
-        [effects.shear]
-        stiffness = 50
-        [effects.bend]
-        stiffness = 1e-5
-        [effects.strain_limit]
-        limit = 1.1
-        [effects.body_contact]
-        thickness = "4 mm"
-        [effects.self_collision]
-        thickness = "4 mm"
-        separation = "1 mm"
-        [effects.friction]
-        coefficient = 0.3
-    "#;
     let ends = |x: f64| [-x * DVec3::X, x * DVec3::X];
     let mut cloth = Cloth::tube(ends(0.2), 0.1, [16, 12], 0.2).unwrap();
     cloth.velocity = 0.1 * DVec3::Y;
@@ -147,7 +98,7 @@ fn code_and_file_make_the_same_scene_to_the_last_bit() {
         ..Wind::default()
     });
 
-    let of_file = Scene::parse(text, Path::new("s.toml")).unwrap();
+    let of_file = Scene::parse(include_str!("scenes/arm-in-tube.toml"), Path::new("s.toml")).unwrap();
     assert_eq!(scene.effect_names(), of_file.effect_names());
     let [mut code, mut file] = [scene, of_file].map(|scene| Simulation::new(scene, 1).unwrap());
     for _ in 0..60 {
@@ -561,28 +512,7 @@ fn shapes_that_cannot_be_are_refused_where_they_are_made() {
 
 #[test]
 fn a_file_may_leave_bodies_and_pins_to_code() {
-    let text = r#"
-        time_step = 0.002
-        duration = 1
-        [cloth]
-        shape = "sheet"
-        sides = { first = [0.3, 0, 0], second = [0, 0.3, 0] }
-        cells = [4, 4]
-        density = 0.2
-        [[body]]
-        name = "ball"
-        shape = "ball"
-        centre = [0, 0, -1]
-        radius = 0.1
-        driven = true
-        [effects.body_contact]
-        thickness = 0.003
-        [[effects.pins.group]]
-        part = "left"
-        driven = true
-    "#;
-    let parsed = |text: &str| Scene::parse(text, Path::new("s.toml"));
-    let mut simulation = Simulation::new(parsed(text).unwrap(), 1).unwrap();
+    let mut simulation = set_up(include_str!("scenes/driven.toml"), "driven.toml", 1);
     assert_eq!(simulation.body_names(), ["ball"]);
     simulation.place_body(0, Placement::at(0.01 * DVec3::X)).unwrap();
     let goals: Vec<_> = (0..5).map(|k| DVec3::new(0.0, 0.075 * f64::from(k), 0.001)).collect();
@@ -590,16 +520,6 @@ fn a_file_may_leave_bodies_and_pins_to_code() {
     simulation.step().unwrap();
     assert_eq!(simulation.placement(0), Some(Placement::at(0.01 * DVec3::X)));
     assert_eq!(simulation.positions()[5], goals[1]);
-    let both = text.replace("radius = 0.1", "radius = 0.1\n axis = [1, 0, 0]");
-    let message = parsed(&both).unwrap_err().to_string();
-    assert!(message.ends_with("a driven motion has no `axis`"), "{message}");
-    let neither = text.replace("driven = true", "driven = 1");
-    assert!(
-        parsed(&neither)
-            .unwrap_err()
-            .to_string()
-            .contains("`driven` must be true or false")
-    );
 }
 
 #[test]

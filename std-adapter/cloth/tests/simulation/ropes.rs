@@ -1,7 +1,7 @@
 //! Ropes, laces and fringes: edges that belong to no triangle.
 
 use crate::air::Even;
-use crate::common::{assert_messages, assert_same_bits, intersections, resting, run, scene_file, set_up};
+use crate::common::{assert_same_bits, intersections, resting, run, scene_file, set_up};
 use selvedge_cloth::effects::{
     AirDrag, BodyContact, Force, Friction, Gravity, PinGroup, Pins, Plan, RopeBend, RopeShape, RopeStretch, Seam, Seams,
     SelfCollision, Shear, Stretch, Thickness, TimeStep, Wind, WindField,
@@ -324,27 +324,7 @@ fn the_lines_of_a_file_are_loose_edges_if_they_are_given_a_weight() {
     assert!(weightless.ends_with(expected), "{weightless}");
 }
 
-const ROPE: &str = r#"time_step = "2 ms"
-duration = "0.2 s"
-
-[cloth]
-shape = "rope"
-points = [[0, 0, 0], [1, 0, 0]]
-segments = 20
-linear_density = "50 g/m"
-
-[effects.gravity]
-
-[effects.rope_stretch]
-stiffness = "5 kN"
-
-[effects.rope_bend]
-stiffness = "100 uN m2"
-rest = "straight"
-
-[[effects.pins.group]]
-part = "start"
-"#;
+const ROPE: &str = include_str!("scenes/rope.toml");
 
 #[test]
 fn a_scene_file_says_what_code_does() {
@@ -369,41 +349,6 @@ fn a_scene_file_says_what_code_does() {
     assert_eq!(told("axial stiffness of loose edges"), Some("5 kN"));
     assert_eq!(told("bending stiffness of loose edges"), Some("0.1 mN m2"));
     assert_eq!(told("weight"), None);
-}
-
-#[test]
-fn what_cannot_be_of_a_rope_is_told_with_its_place_and_unit() {
-    assert_messages(
-        ROPE,
-        r#"
-        "50 g/m" => "50 g/m2"
-            s.toml:8:18: `linear_density` must be a mass per length, but 'g/m2' is not a unit of it; did you mean 'g/m'?…
-        "50 g/m" => 0
-            s.toml:8:18: `linear_density` is 0 kg/m, but must be from 1e-6 kg/m to 100 kg/m…
-        linear_density = "50 g/m" =>
-            s.toml:4:1: [cloth] needs `linear_density`, such as 0.5 (in kg/m) or "5 g/m"…
-        segments = 20 => segments = 0
-            s.toml:7:12: `segments` is 0, but must be from 1 to 100000…
-        segments = 20 =>
-            s.toml:4:1: [cloth] needs `segments`, such as 20…
-        [1, 0, 0]] => [0, 0, 0]]
-            s.toml:6:10: a rope needs at least two points, and successive points must differ…
-        [[0, 0, 0], [1, 0, 0]] => "far"
-            s.toml:6:10: `points` must be a list of points, such as [[0, 0, 0], [1, 0, 0]], but is the text 'far'…
-        segments = 20 => segments = 20\ndensity = 1
-            s.toml:8:1: [cloth] has no key 'density'…
-        [effects.gravity] => [effects.shear]\nstiffness = 1
-            s.toml:10:1: 'shear' has nothing to act on: no cloth has triangles; ropes use `rope_stretch` and `rope_bend`…
-        "5 kN" => "5 kN/m"
-            s.toml:13:13: `stiffness` must be a force, but 'kN/m' is not a unit of it…
-        "100 uN m2" => "100 uN m"
-            s.toml:16:13: `stiffness` must be a bending stiffness of a rope, but 'uN m' is not a unit of it…
-        "straight" => "bent"
-            s.toml:17:8: `rest` cannot be 'bent'…
-        part = "start" => part = "left"
-            s.toml:20:8: this cloth has no part 'left'…
-    "#,
-    );
 }
 
 #[test]

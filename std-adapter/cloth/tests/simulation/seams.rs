@@ -1,6 +1,6 @@
 //! Rows of vertices that are sewn together.
 
-use crate::common::{assert_complaints, assert_messages, assert_same_bits, resting, run};
+use crate::common::{assert_complaints, assert_same_bits, resting, run};
 use selvedge_cloth::effects::{Bend, Gravity, Seam, Seams, SelfCollision, Shear, StrainLimit, Stretch, Thickness};
 use selvedge_cloth::glam::DVec3;
 use selvedge_cloth::{CHECKPOINT_STEPS, Cloth, Scene, Simulation};
@@ -162,34 +162,7 @@ fn wrong_seams_from_code_get_errors_that_say_what_would_be_right() {
     }
 }
 
-const BAG: &str = r#"
-time_step = "2 ms"
-duration = "1 s"
-[[cloth]]
-name = "front"
-shape = "sheet"
-sides = { first = [0.2, 0, 0], second = [0, 0, 0.3] }
-cells = [10, 15]
-density = "150 g/m2"
-[[cloth]]
-name = "back"
-shape = "sheet"
-corner = [0.2, 0.06, 0.3]
-sides = { first = [-0.2, 0, 0], second = [0, 0, -0.3] }
-cells = [10, 15]
-density = "150 g/m2"
-[effects.gravity]
-[effects.stretch]
-stiffness = 300
-[[effects.seams.seam]]
-first = { cloth = "front", part = "left" }
-second = { cloth = "back", part = "right" }
-reversed = true
-gap = "4 mm"
-closing = "0.3 s"
-[effects.self_collision]
-thickness = "3 mm"
-"#;
+const BAG: &str = include_str!("scenes/bag.toml");
 
 #[test]
 fn a_file_names_rows_by_cloth_and_part_and_reversed_where_they_run_against_each_other() {
@@ -200,29 +173,4 @@ fn a_file_names_rows_by_cloth_and_part_and_reversed_where_they_run_against_each_
         let [a, b] = [front.start + 11 * row, back.end - 1 - 11 * row].map(|vertex| simulation.positions()[vertex]);
         assert!(a.distance(b) < 5e-3, "{row}: {}", a.distance(b));
     }
-}
-
-#[test]
-fn mistakes_with_seams_in_a_file_are_told_with_their_place() {
-    assert_messages(
-        BAG,
-        r#"
-        first = { cloth = "front", part = "left" }\n =>
-            s.toml:20:1: the scene has no [effects.seams.seam.first]
-        { cloth = "front", part = "left" } => { cloth = "front" }
-            s.toml:21:9: a row of a seam needs either `part` or `vertices`
-        part = "left" => part = "lefft"
-            s.toml:21:35: this cloth has no part 'lefft'; did you mean 'left'?
-        part = "left" => vertices = [3, 176]
-            s.toml:21:43: `vertices` is 176, but must be from 0 to 175
-        gap = "4 mm" => gap = "4 N"
-            s.toml:24:7: `gap` must be a length, but 'N' is not a unit of it; choose from m, mm, cm, um
-        reversed = true => reversed = 1
-            s.toml:23:12: `reversed` must be true or false, but is of type integer
-        closing => close
-            s.toml:25:1: [effects.seams.seam] has no key 'close'; did you mean 'closing'?
-        gap = "4 mm" => gap = "2 mm"
-            s.toml:20:11: `gap` is 0.002 m, but contact keeps 0.003 m between the rows: choose at least that, or leave `gap` out
-    "#,
-    );
 }

@@ -1,6 +1,6 @@
 //! Several cloths in a scene, each with its own properties.
 
-use crate::common::{assert_complaints, assert_messages, assert_same_bits, resting, run};
+use crate::common::{assert_complaints, assert_same_bits, resting, run};
 use selvedge::core::PairKind;
 use selvedge::core::separation::closest::ClosestPoints;
 use selvedge_cloth::effects::{
@@ -20,56 +20,7 @@ fn of_cloth(simulation: &Simulation, cloth: usize) -> &[DVec3] {
     &simulation.positions()[simulation.vertices_of_cloth(cloth).unwrap()]
 }
 
-const LAYERS: &str = r#"
-time_step = "2 ms"
-duration = "1 s"
-
-[[cloth]]
-name = "shell"
-shape = "sheet"
-corner = [-0.15, -0.15, 0.08]
-sides = { first = [0.3, 0, 0], second = [0, 0.3, 0] }
-cells = [12, 12]
-density = "200 g/m2"
-[cloth.self_collision]
-thickness = "5 mm"
-separation = "1 mm"
-
-[[cloth]]
-name = "lining"
-shape = "sheet"
-corner = [-0.15, -0.15, 0.076]
-sides = { first = [0.3, 0, 0], second = [0, 0.3, 0] }
-cells = [10, 10]
-density = "80 g/m2"
-velocity = [0, 0, -0.1]
-[cloth.stretch]
-stiffness = "80 N/m"
-[cloth.self_collision]
-thickness = "3 mm"
-
-[[body]]
-name = "ball"
-shape = "ball"
-centre = [0, 0, 0]
-radius = "6 cm"
-around = 16
-
-[effects.gravity]
-[effects.wind]
-velocity = [1, 0, 0]
-[effects.stretch]
-stiffness = "400 N/m"
-[effects.shear]
-stiffness = "40 N/m"
-[effects.body_contact]
-thickness = "4 mm"
-[effects.friction]
-coefficient = 0.3
-[[effects.pins.group]]
-cloth = "lining"
-part = "bottom-left"
-"#;
+const LAYERS: &str = include_str!("scenes/layers.toml");
 
 fn from_file() -> Scene {
     Scene::parse(LAYERS, Path::new("layers.toml")).unwrap()
@@ -249,31 +200,4 @@ fn what_is_wrong_with_several_cloths_is_told_with_their_names() {
         |s| _ = s.add(resting([290]))
             => "pins: the scene has no vertex 290 of cloth: it has 290, numbered from 0";
     }
-}
-
-#[test]
-fn mistakes_with_several_cloths_in_a_file_are_told_with_their_place() {
-    assert_messages(
-        LAYERS,
-        r#"
-        name = "lining" => name = "shell"
-            s.toml:17:8: there are two cloths named 'shell'
-        [cloth.stretch] => [cloth.strech]
-            s.toml:24:8: [cloth] has no key 'strech'; did you mean 'stretch'?
-        stiffness = "80 N/m" => stiffnes = 80
-            s.toml:25:1: [cloth.stretch] has no key 'stiffnes'; did you mean 'stiffness'?
-        "80 N/m" => "80 N"
-            s.toml:25:13: `stiffness` must be a stiffness of a membrane, but 'N' is not a unit of it; choose from N/m, kN/m
-        [cloth.stretch]\nstiffness = "80 N/m" => [cloth.gravity]
-            s.toml:24:1: 'gravity' acts on the whole scene, so no cloth may have its own: name it in [effects.gravity]
-        [cloth.self_collision]\nthickness = "3 mm" =>
-            s.toml:12:1: 'self_collision' acts between cloths: name it in [effects.self_collision] for all of them, or in every cloth
-        thickness = "3 mm" => thickness = "3 mm"\nseparation = "4 mm"
-            s.toml:28:14: `separation` is 0.004 m, but must be at most nine tenths of the thickness, 0.003 m
-        cloth = "lining" =>
-            s.toml:47:1: the scene has several cloths: choose one with `cloth`; choose from shell, lining
-        cloth = "lining" => cloth = "linings"
-            s.toml:48:9: there is no cloth 'linings'; did you mean 'lining'?
-    "#,
-    );
 }

@@ -1,13 +1,12 @@
 //! Cloth tears above its strength and nowhere else, conserves momentum, and has the same bits in every kind of run.
 
-use crate::common::{advance, assert_messages, assert_same_bits, folded, load, run, set_up};
+use crate::common::{advance, assert_complaints, assert_same_bits, folded, load, run, set_up};
 use selvedge_cloth::effects::{
     AttachmentGroup, Attachments, BodyContact, Effect, Force, InternalPressure, PinGroup, PinMotion, Pins, Plan, RopeStretch,
     SelfCollision, Shear, Stretch, Tearing, Thickness, TimeStep,
 };
 use selvedge_cloth::glam::DVec3;
 use selvedge_cloth::{Body, BodyMotion, CHECKPOINT_STEPS, CheckpointError, Cloth, Keyframe, KeyframeMotion, Scene, Simulation};
-use std::path::Path;
 
 /// Cells along and across a strip, of a centimetre each.
 const CELLS: [u32; 2] = [10, 5];
@@ -378,30 +377,7 @@ fn a_tear_that_waits_at_a_checkpoint_opens_in_the_same_step_when_resumed() {
 
 #[test]
 fn wind_that_the_caller_has_set_blows_on_through_a_tear() {
-    let text = |strength: &str| {
-        format!(
-            r#"
-            time_step = "1 ms"
-            duration = "1 s"
-            [cloth]
-            shape = "sheet"
-            sides = {{ first = [0.1, 0, 0], second = [0, 0.05, 0] }}
-            cells = [10, 5]
-            density = "20 g/m2"
-            [effects.wind]
-            velocity = [0, 0, 0]
-            [effects.stretch]
-            stiffness = 500
-            [effects.tearing]
-            strength = "{strength}"
-            [[effects.pins.group]]
-            part = "left"
-            [effects.self_collision]
-            thickness = "1 mm"
-            "#
-        )
-    };
-    let mut simulation = set_up(&text("1 N/m"), "sheet.toml", 1);
+    let mut simulation = set_up(include_str!("scenes/torn-by-wind.toml"), "torn-by-wind.toml", 1);
     simulation.set_wind(DVec3::new(0.0, 3.0, 25.0)).unwrap();
     advance(&mut simulation, 60);
     assert!(!simulation.torn_edges().is_empty());
@@ -412,58 +388,11 @@ fn wind_that_the_caller_has_set_blows_on_through_a_tear() {
     assert!(farther > free + 0.01, "{torn} torn, from {free} to {farther}");
 }
 
-const FILE: &str = r#"time_step = "1 ms"
-duration = "1 s"
-[cloth]
-shape = "sheet"
-sides = { first = [0.1, 0, 0], second = [0, 0.05, 0] }
-cells = [10, 5]
-density = "200 g/m2"
-[effects.stretch]
-stiffness = "1 kN/m"
-[effects.tearing]
-strength = "2 kN/m"
-[[effects.tearing.perforation]]
-vertices = [5, 16, 27]
-strength = "50 N/m"
-"#;
-
 #[test]
-fn wrong_ways_to_tear_are_told_with_place_and_unit() {
-    assert!(Scene::parse(FILE, Path::new("s.toml")).is_ok());
-    let no_perforation = &FILE[FILE.find("[[effects").unwrap()..];
-    assert_messages(
-        FILE,
-        r#"
-        strength = "2 kN/m" => strength = "2 N"
-            s.toml:11:12: `strength` must be a stiffness of a membrane, but 'N' is not a unit of it; choose from N/m, kN/m…
-        strength = "2 kN/m" => strength = 0
-            s.toml:11:12: `strength` is 0 N/m, but must be from 0.001 N/m to 1e9 N/m…
-        strength = "50 N/m"\n =>
-            s.toml:12:1: [effects.tearing.perforation] needs `strength`, such as 0.5 (in N/m) or "5 kN/m"…
-        vertices = [5, 16, 27] => vertices = [5, 27]
-            s.toml:13:12: no edge of the cloth has both its ends in this perforation…
-        vertices = [5, 16, 27] => vertices = [5, 16, 5]
-            s.toml:13:12: vertex 5 is in this perforation twice…
-        vertices = [5, 16, 27] => vertices = [5, 66]
-            s.toml:13:16: `vertices` is 66, but must be from 0 to 65…
-        vertices = [5, 16, 27] => part = "middle"
-            s.toml:13:8: this cloth has no part 'middle'; choose from…
-        [effects.stretch]\nstiffness = "1 kN/m"\n =>
-            s.toml:8:1: 'tearing' has nothing to act on: it needs [effects.stretch] in the scene…
-        strength = "2 kN/m" => force = "2 kN/m"
-            s.toml:11:1: [effects.tearing] has no key 'force'; choose from strength, perforation…
-    "#,
-    );
-    let none = FILE.replace("strength = \"2 kN/m\"\n", "").replace(no_perforation, "");
-    let error = Scene::parse(&none, Path::new("s.toml")).unwrap_err().to_string();
-    assert!(error.contains("tearing needs a `strength`"), "{error}");
-    let beyond = pulled(Tearing::perforated([400, 401], 50.0));
-    let error = Simulation::new(beyond, 1).unwrap_err().to_string();
-    assert_eq!(
-        error,
-        "tearing: the scene has no vertex 400 of cloth: it has 66, numbered from 0"
-    );
-    let error = Simulation::new(pulled(Tearing::above(f64::NAN)), 1).unwrap_err().to_string();
-    assert_eq!(error, "tearing: `strength` is NaN N/m, but must be from 0.001 N/m to 1e9 N/m");
+fn wrong_ways_to_tear_from_code_are_told() {
+    assert_complaints! { pulled(Tearing::perforated(column(5), 50.0));
+        |s| _ = s.add(Tearing::perforated([400, 401], 50.0))
+            => "tearing: the scene has no vertex 400 of cloth: it has 66, numbered from 0";
+        |s| _ = s.add(Tearing::above(f64::NAN)) => "tearing: `strength` is NaN N/m, but must be from 0.001 N/m to 1e9 N/m";
+    }
 }
