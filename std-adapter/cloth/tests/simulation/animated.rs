@@ -1,7 +1,7 @@
 //! Bodies that deform: frames of files and of code, skinned figures.
 
-use crate::common::{assert_same_bits, bits, intersections, load, run, scene_file};
-use selvedge_cloth::effects::{BodyContact, Gravity, PinGroup, PinMotion, Pins, SelfCollision, Stretch, Thickness};
+use crate::common::{assert_complaints, assert_errors, assert_same_bits, bits, intersections, load, pinned, run, scene_file};
+use selvedge_cloth::effects::{BodyContact, Gravity, PinMotion, SelfCollision, Stretch, Thickness};
 use selvedge_cloth::files::animation::{Choice, read};
 use selvedge_cloth::files::mesh;
 use selvedge_cloth::glam::DVec3;
@@ -212,64 +212,42 @@ fn pins_may_be_animated_as_well() {
     let at_rest: Vec<DVec3> = top.iter().map(|&vertex| cloth.mesh().positions[vertex as usize]).collect();
     let moved = at_rest.iter().map(|p| *p + DVec3::Z * 0.05).collect();
     let animation = Animation::from_frames(vec![at_rest, moved], 10.0).unwrap();
-    let pins = |vertices: Vec<u32>| {
-        let motion = PinMotion::Own(BodyMotion::Animated(animation.clone()));
-        Pins {
-            groups: vec![PinGroup { vertices, motion }],
-        }
-    };
+    let pins = |vertices: Vec<u32>| pinned(vertices, PinMotion::Own(BodyMotion::Animated(animation.clone())));
     let mut scene = scene_with(sheet(0.2), vec![Body::ball("ball", DVec3::ZERO, 0.06, 16).unwrap()]);
     scene.add(pins(top.clone()));
     let simulation = run(scene, 60);
     assert_eq!(simulation.positions()[top[3] as usize].z, 0.25);
-    let mut scene = scene_with(sheet(0.2), vec![Body::ball("ball", DVec3::ZERO, 0.06, 16).unwrap()]);
-    scene.add(pins(vec![0, 1]));
-    let message = Simulation::new(scene, 1).unwrap_err().to_string();
-    assert_eq!(message, "pins: the animation has 13 vertices, but it moves 2");
-    let mut scene = on_breathing_ball();
-    scene.add(Pins {
-        groups: vec![PinGroup {
-            vertices: vec![0],
-            motion: PinMotion::Body(0),
-        }],
-    });
-    let message = Simulation::new(scene, 1).unwrap_err().to_string();
-    assert_eq!(
-        message,
-        "pins: pins cannot follow 'ball', which deforms; give them a motion of their own"
-    );
+    assert_complaints! { on_breathing_ball();
+        |s| _ = s.add(pins(vec![0, 1])) => "pins: the animation has 13 vertices, but it moves 2";
+        |s| _ = s.add(pinned([0], PinMotion::Body(0)))
+            => "pins: pins cannot follow 'ball', which deforms; give them a motion of their own";
+    }
 }
 
 #[test]
 fn animations_that_cannot_be_are_refused_where_they_are_made() {
     let frame = |x: f64| vec![DVec3::ZERO, DVec3::X, DVec3::new(x, 1.0, 0.0)];
-    let message = |frames, rate| Animation::from_frames(frames, rate).unwrap_err().to_string();
-    assert_eq!(message(vec![], 24.0), "an animation needs at least one frame");
-    assert_eq!(
-        message(vec![frame(0.0), vec![]], 24.0),
-        "frame 1 has 0 vertices, but the first has 3"
-    );
-    assert!(message(vec![frame(0.0), frame(f64::NAN)], 24.0).starts_with("frame 1 has vertex 2 at [NaN, 1, 0]"));
-    assert!(message(vec![frame(1e4)], 24.0).contains("which is not within 1000 metres"));
+    let made = |frames, rate| Animation::from_frames(frames, rate);
+    assert_errors! {
+        made(vec![], 24.0) => "an animation needs at least one frame";
+        made(vec![frame(0.0), vec![]], 24.0) => "frame 1 has 0 vertices, but the first has 3";
+        made(vec![frame(0.0), frame(f64::NAN)], 24.0) => "frame 1 has vertex 2 at [NaN, 1, 0]…";
+    }
+    let far = made(vec![frame(1e4)], 24.0).unwrap_err().to_string();
+    assert!(far.contains("which is not within 1000 metres"), "{far}");
     for rate in [-24.0, 0.0, f64::NAN, f64::INFINITY] {
-        assert!(
-            message(vec![frame(0.0)], rate).starts_with("`frames_per_second` is "),
-            "{rate}"
-        );
+        assert_errors! { made(vec![frame(0.0)], rate) => "`frames_per_second` is …"; }
     }
     let scene = |animation: Animation| scene_with(sheet(0.5), vec![Body::animated("leaf", vec![[0, 1, 2]], animation)]);
-    let refusal = |animation| Simulation::new(scene(animation), 1).unwrap_err().to_string();
     // This is a cut: five metres from one frame to the next.
-    let cut = Animation::from_frames(vec![frame(0.0), frame(0.1), frame(5.1)], 24.0).unwrap();
-    assert_eq!(
-        refusal(cut),
-        "leaf: vertex 2 moves at 120 m/s from 0.042 s of the animation on, but must not be faster than 100 m/s; is there a cut in the animation? If the file is not in metres, add `unit = \"cm\"`."
-    );
-    let early = Animation::from_frames(vec![frame(0.0)], 24.0).unwrap().starting_at(-1.0);
-    assert!(refusal(early).starts_with("leaf: `start` is -1 s"));
-    let other = Animation::from_frames(vec![frame(0.0)], 24.0).unwrap();
-    let mut scene = scene(other);
-    scene.bodies[0].mesh.positions.push(DVec3::ONE);
-    let message = Simulation::new(scene, 1).unwrap_err().to_string();
-    assert_eq!(message, "leaf: the animation has 3 vertices, but it moves 4");
+    let cut = made(vec![frame(0.0), frame(0.1), frame(5.1)], 24.0).unwrap();
+    let early = made(vec![frame(0.0)], 24.0).unwrap().starting_at(-1.0);
+    let other = made(vec![frame(0.0)], 24.0).unwrap();
+    assert_complaints! { scene(cut);
+        |_| () => "leaf: vertex 2 moves at 120 m/s from 0.042 s of the animation on, but must not be faster than 100 m/s; is there a cut in the animation? If the file is not in metres, add `unit = \"cm\"`.";
+    }
+    assert_complaints! { scene(early); |_| () => "leaf: `start` is -1 s…"; }
+    assert_complaints! { scene(other);
+        |s| s.bodies[0].mesh.positions.push(DVec3::ONE) => "leaf: the animation has 3 vertices, but it moves 4";
+    }
 }

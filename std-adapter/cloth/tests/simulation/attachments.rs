@@ -1,13 +1,11 @@
 //! Attachments hold with a limited force, and report releases.
 
-use crate::common::{advance, assert_complaints, assert_same_bits, run};
+use crate::common::{advance, along, assert_complaints, assert_same_bits, run};
 use selvedge::glam::DVec3;
 use selvedge_cloth::effects::{
     AirDrag, AttachmentGroup, Attachments, BodyContact, Gravity, PinMotion, Release, Shear, Stretch, Thickness,
 };
-use selvedge_cloth::{
-    Animation, Body, BodyMotion, CHECKPOINT_STEPS, Cloth, Keyframe, KeyframeMotion, Placement, Scene, Simulation,
-};
+use selvedge_cloth::{Animation, Body, BodyMotion, CHECKPOINT_STEPS, Cloth, KeyframeMotion, Placement, Scene, Simulation};
 use std::path::Path;
 
 /// A sheet of 20 cm and 200 g/m², upright: it weighs 78.48 mN.
@@ -72,7 +70,7 @@ fn what_pulls_more_than_the_limit_comes_loose_and_falls() {
     assert!(both.velocities()[0].z < before, "it falls ever faster");
 }
 
-/// Attachments follow a body that rotates and rises, one that the caller drives, and one that deforms.
+/// Attachments follow a body that rises, one that the caller drives, and one that deforms.
 #[test]
 fn attachments_follow_bodies_however_they_move() {
     let rigid = |at: DVec3, motion: BodyMotion| {
@@ -81,17 +79,12 @@ fn attachments_follow_bodies_however_they_move() {
         body
     };
     let at = sheet().mesh().positions[CORNERS[0] as usize] - DVec3::X * 0.06;
-    let key = |time, height| Keyframe {
-        time,
-        angle: 0.0,
-        translation: DVec3::Z * height,
-    };
-    let keyed = KeyframeMotion::new(at, DVec3::Z, vec![key(0.0, 0.0), key(1.0, 0.1)]).unwrap();
+    let keyed = along([(0.0, DVec3::ZERO), (1.0, DVec3::Z * 0.1)]);
     let mesh = rigid(at, KeyframeMotion::resting().into()).mesh;
     let frame = |height: f64| mesh.positions.iter().map(|p| *p + DVec3::Z * height).collect::<Vec<_>>();
     let frames = Animation::from_frames(vec![frame(0.0), frame(0.1)], 1.0).unwrap();
     let bodies = [
-        rigid(at, keyed.into()),
+        rigid(at, keyed),
         rigid(at, BodyMotion::Driven(Placement::default())),
         Body::animated("ball", mesh.triangles.clone(), frames),
     ];
@@ -127,14 +120,8 @@ fn of_file() -> Scene {
 fn attachments_from_a_file_and_from_code_are_the_same_to_the_last_bit() {
     let mut resting = AttachmentGroup::resting([CORNERS[0]], 0.5);
     resting.give = 2e-3;
-    let key = |time, translation| Keyframe {
-        time,
-        angle: 0.0,
-        translation,
-    };
-    let keys = vec![key(0.1, DVec3::ZERO), key(0.5, DVec3::new(0.2, 0.0, 0.1))];
     let mut moved = AttachmentGroup::resting([CORNERS[1]], 0.1);
-    moved.motion = PinMotion::Own(KeyframeMotion::new(DVec3::ZERO, DVec3::Z, keys).unwrap().into());
+    moved.motion = PinMotion::Own(along([(0.1, DVec3::ZERO), (0.5, DVec3::new(0.2, 0.0, 0.1))]));
     let of_code = run(hung(vec![resting, moved]), 600);
     let of_file = run(of_file(), 600);
     assert_eq!(of_file.positions(), of_code.positions());

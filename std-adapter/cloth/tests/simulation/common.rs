@@ -1,9 +1,9 @@
 //! Set-up that tests share.
 
 use selvedge::{CollisionDetector, Intersection, Topology};
-use selvedge_cloth::effects::{PinGroup, Pins};
+use selvedge_cloth::effects::{PinGroup, PinMotion, Pins};
 use selvedge_cloth::glam::DVec3;
-use selvedge_cloth::{CHECKPOINT_STEPS, Mesh, Scene, Simulation};
+use selvedge_cloth::{BodyMotion, CHECKPOINT_STEPS, Cloth, Keyframe, KeyframeMotion, Mesh, Scene, Simulation};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -62,6 +62,54 @@ pub(crate) fn resting(vertices: impl Into<Vec<u32>>) -> Pins {
     Pins {
         groups: vec![PinGroup::resting(vertices)],
     }
+}
+
+pub(crate) fn pinned(vertices: impl Into<Vec<u32>>, motion: PinMotion) -> Pins {
+    let vertices = vertices.into();
+    Pins {
+        groups: vec![PinGroup { vertices, motion }],
+    }
+}
+
+/// Returns a motion along straight lines between the translations at these times.
+pub(crate) fn along<const N: usize>(keys: [(f64, DVec3); N]) -> BodyMotion {
+    let key = |(time, translation)| Keyframe {
+        time,
+        translation,
+        ..Keyframe::default()
+    };
+    KeyframeMotion::new(DVec3::ZERO, DVec3::Z, keys.map(key).to_vec())
+        .unwrap()
+        .into()
+}
+
+/// Makes a square of 1 m in two triangles. One group of vertices is held, the other moves by `way` until `time`.
+pub(crate) fn square([held, moved]: [&[u32]; 2], way: DVec3, time: f64, time_step: f64) -> Scene {
+    let cloth = Cloth::sheet(DVec3::ZERO, [DVec3::X, DVec3::Y], [1, 1], 0.2).unwrap();
+    let mut scene = Scene::new(cloth, time_step);
+    let mut pins = pinned(moved, PinMotion::Own(along([(0.0, DVec3::ZERO), (time, way)])));
+    pins.groups.push(PinGroup::resting(held));
+    scene.add(pins);
+    scene
+}
+
+/// Returns the number of triangles of the cloth at each of its vertices.
+pub(crate) fn shares(simulation: &Simulation) -> Vec<f64> {
+    let mut shares = vec![0.0; simulation.cloth_vertices()];
+    let cloth = &simulation.triangles()[..simulation.cloth_triangles()];
+    cloth.iter().flatten().for_each(|&vertex| shares[vertex as usize] += 1.0);
+    shares
+}
+
+/// Returns the mass of each vertex of a mesh with this density, in kg: a third of its triangles'.
+pub(crate) fn masses(mesh: &Mesh, density: f64) -> Vec<f64> {
+    let mut masses = vec![0.0; mesh.positions.len()];
+    for triangle in &mesh.triangles {
+        let [a, b, c] = triangle.map(|vertex| mesh.positions[vertex as usize]);
+        let third = density * (b - a).cross(c - a).length() / 6.0;
+        triangle.iter().for_each(|&vertex| masses[vertex as usize] += third);
+    }
+    masses
 }
 
 pub(crate) fn bits(simulation: &Simulation) -> Vec<[u64; 3]> {

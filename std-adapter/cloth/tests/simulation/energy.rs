@@ -1,8 +1,8 @@
 //! Energy does not grow where nothing does work.
 
-use crate::common::{advance, set_up};
+use crate::common::{advance, set_up, shares, square};
 use selvedge::glam::DVec3;
-use selvedge_cloth::effects::{Gravity, InternalPressure};
+use selvedge_cloth::effects::{Bend, Effect, Gravity, InternalPressure, Shear, Stretch};
 use selvedge_cloth::{Body, Cloth, Energy, Scene, Simulation, StoredEnergy};
 
 /// A thrown sheet, held at one side, against a ball at rest, without gravity and air.
@@ -21,11 +21,7 @@ struct Steps {
 impl Steps {
     fn of(scene: &str) -> Self {
         let simulation = set_up(scene, "scene.toml", 1);
-        let mut shares = vec![0.0; simulation.cloth_vertices()];
-        let cloth = &simulation.triangles()[..simulation.cloth_triangles()];
-        for &vertex in cloth.iter().flatten() {
-            shares[vertex as usize] += 1.0;
-        }
+        let shares = shares(&simulation);
         Self { simulation, shares }
     }
 
@@ -95,34 +91,18 @@ fn calms_down(scene: &str) {
     assert!(most(&later) < 0.5 * twisting, "{after:?} after {twisting}");
 }
 
-/// Deforms a square of 1 m in two triangles, and returns its energy. One group of vertices is held, the other moves by `way`
-/// within a second.
-fn drawn([rest, some]: [&str; 2], way: [f64; 3], effect: &str) -> Energy {
-    let scene = format!(
-        r#"
-        time_step = "10 ms"
-        duration = "1 s"
-        [cloth]
-        shape = "sheet"
-        sides = {{ first = [1, 0, 0], second = [0, 1, 0] }}
-        cells = [1, 1]
-        density = 0.2
-        [[effects.pins.group]]
-        {rest}
-        [[effects.pins.group]]
-        {some}
-        keyframes = [{{ time = 0 }}, {{ time = 1, translation = {way:?} }}]
-        {effect}
-        "#
-    );
-    let mut simulation = set_up(&scene, "square.toml", 1);
+/// Deforms a square of 1 m in two triangles within a second, and returns its energy.
+fn drawn(groups: [&[u32]; 2], way: DVec3, effect: impl Effect + 'static) -> Energy {
+    let mut scene = square(groups, way, 1.0, 1e-2);
+    scene.add(effect);
+    let mut simulation = Simulation::new(scene, 1).unwrap();
     let rest = simulation.energy();
     assert!(rest.elastic().unwrap() < 1e-20 && rest.gravitational().is_none(), "{rest:?}");
     advance(&mut simulation, 100);
     simulation.energy()
 }
 
-const SIDES: [&str; 2] = ["part = \"left\"", "part = \"right\""];
+const SIDES: [&[u32]; 2] = [&[0, 2], &[1, 3]];
 
 fn assert_near(found: f64, expected: f64, part: f64) {
     assert!((found - expected).abs() <= part * expected.abs(), "{found}, not {expected}");
@@ -130,7 +110,7 @@ fn assert_near(found: f64, expected: f64, part: f64) {
 
 #[test]
 fn a_stretched_square_holds_half_of_k_times_area_times_the_strain_squared() {
-    let energy = drawn(SIDES, [0.1, 0.0, 0.0], "[effects.stretch]\nstiffness = 300");
+    let energy = drawn(SIDES, DVec3::X * 0.1, Stretch::isotropic(300.0));
     assert_near(energy.elastic().unwrap(), 0.5 * 300.0 * 0.1 * 0.1, 1e-9);
     assert_eq!((energy.kinetic, energy.stored.len()), (0.0, 1));
     assert_eq!((energy.stored[0].0, energy.total()), ("stretch", energy.elastic().unwrap()));
@@ -139,7 +119,7 @@ fn a_stretched_square_holds_half_of_k_times_area_times_the_strain_squared() {
 #[test]
 fn a_sheared_square_holds_half_of_k_times_area_times_the_product_of_warp_and_weft_squared() {
     // The warp becomes (1, 0.1), the weft stays (0, 1).
-    let energy = drawn(SIDES, [0.0, 0.1, 0.0], "[effects.shear]\nstiffness = 80");
+    let energy = drawn(SIDES, DVec3::Y * 0.1, Shear::new(80.0));
     assert_near(energy.elastic().unwrap(), 0.5 * 80.0 * 0.1 * 0.1, 1e-9);
 }
 
@@ -147,11 +127,7 @@ fn a_sheared_square_holds_half_of_k_times_area_times_the_product_of_warp_and_wef
 /// stiffness.
 #[test]
 fn a_bent_square_holds_a_third_of_k_over_its_area_times_c_squared() {
-    let energy = drawn(
-        ["vertices = [0, 1, 2]", "vertices = [3]"],
-        [0.0, 0.0, 0.1],
-        "[effects.bend]\nstiffness = 1e-5",
-    );
+    let energy = drawn([&[0, 1, 2], &[3]], DVec3::Z * 0.1, Bend::isotropic(1e-5));
     assert_near(energy.elastic().unwrap(), 1e-5 / 3.0 * 0.2 * 0.2, 1e-9);
 }
 

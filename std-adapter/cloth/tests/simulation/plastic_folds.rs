@@ -1,6 +1,6 @@
 //! Permanent folds.
 
-use crate::common::{advance, assert_complaints, assert_same_bits, resting, run, set_up};
+use crate::common::{advance, assert_complaints, assert_same_bits, resting, run, set_up, shares, square};
 use selvedge::glam::DVec3;
 use selvedge_cloth::effects::{AirDrag, Bend, Effect, Force, Plan, PlasticFolds, Shear, Stretch, TimeStep};
 use selvedge_cloth::{CHECKPOINT_STEPS, Cloth, Scene, Simulation};
@@ -75,42 +75,27 @@ fn folds_that_never_yield_change_no_bit() {
 /// decays by e in each `creep`.
 #[test]
 fn what_is_held_bent_creeps_until_it_pulls_no_more_than_at_yielding() {
-    let scene = |folds: &str| {
-        format!(
-            r#"
-            time_step = "1 ms"
-            duration = "1 s"
-            [cloth]
-            shape = "sheet"
-            sides = {{ first = [1, 0, 0], second = [0, 1, 0] }}
-            cells = [1, 1]
-            density = 0.2
-            [[effects.pins.group]]
-            vertices = [0, 1, 2]
-            [[effects.pins.group]]
-            vertices = [3]
-            keyframes = [{{ time = 0 }}, {{ time = 0.1, translation = [0, 0, 0.3] }}]
-            [effects.bend]
-            stiffness = 1e-5
-            {folds}
-            "#
-        )
-    };
-    let held = |folds: &str, steps: u64| {
-        let mut simulation = set_up(&scene(folds), "square.toml", 1);
-        advance(&mut simulation, steps);
-        simulation.energy().elastic().unwrap()
+    let held = |folds: Option<PlasticFolds>, steps: u64| {
+        let mut scene = square([&[0, 1, 2], &[3]], DVec3::Z * 0.3, 0.1, 1e-3);
+        scene.add(Bend::isotropic(1e-5));
+        if let Some(folds) = folds {
+            scene.add(folds);
+        }
+        run(scene, steps).energy().elastic().unwrap()
     };
     let yielding = |curvature: f64, creep: f64, steps| {
-        let folds = format!("[effects.plastic_folds]\nyield_curvature = {curvature}\ncreep = {creep}");
-        held(&folds, steps)
+        let folds = PlasticFolds {
+            creep,
+            ..PlasticFolds::beyond(curvature)
+        };
+        held(Some(folds), steps)
     };
     // This part no fold can take: C is not quite along the normal, since the square is stretched.
     let least = yielding(1e-3, 0.0, 200);
     // The energy grows with the square of the elastic part.
     let pull = |energy: f64| (energy - least).sqrt();
     let at_once = pull(yielding(0.1, 0.0, 200));
-    assert!(at_once < 0.5 * pull(held("", 200)) && at_once > 0.0);
+    assert!(at_once < 0.5 * pull(held(None, 200)) && at_once > 0.0);
     let [sooner, later] = [200, 500].map(|steps| pull(yielding(0.1, 0.1, steps)) - at_once);
     assert!((sooner / later / 3.0_f64.exp() - 1.0).abs() < 1e-3, "{sooner} {later}");
 }
@@ -121,12 +106,7 @@ fn folds_push_nothing_as_a_whole() {
     let mut scene = strip(false, Some(PlasticFolds::beyond(2.0)));
     scene.add(AirDrag { rate: 0.0 });
     let mut free = run(scene, 600);
-    let masses: Vec<f64> = {
-        let cloth = &free.triangles()[..free.cloth_triangles()];
-        let mut shares = vec![0.0; free.cloth_vertices()];
-        cloth.iter().flatten().for_each(|&v| shares[v as usize] += 1.0);
-        shares
-    };
+    let masses = shares(&free);
     let momentum = |now: &Simulation| -> DVec3 { now.velocities().iter().zip(&masses).map(|(v, m)| *v * *m).sum() };
     let before = momentum(&free);
     advance(&mut free, 500);

@@ -1,13 +1,15 @@
 //! Ropes, laces and fringes: edges that belong to no triangle.
 
 use crate::air::Even;
-use crate::common::{assert_same_bits, intersections, resting, run, scene_file, set_up};
+use crate::common::{
+    assert_complaints, assert_errors, assert_same_bits, intersections, masses, pinned, resting, run, scene_file, set_up,
+};
 use selvedge_cloth::effects::{
-    AirDrag, BodyContact, Force, Friction, Gravity, PinGroup, Pins, Plan, RopeBend, RopeShape, RopeStretch, Seam, Seams,
+    AirDrag, BodyContact, Force, Friction, Gravity, PinMotion, Plan, RopeBend, RopeShape, RopeStretch, Seam, Seams,
     SelfCollision, Shear, Stretch, Thickness, TimeStep, Wind, WindField,
 };
 use selvedge_cloth::glam::DVec3;
-use selvedge_cloth::{Body, CHECKPOINT_STEPS, Cloth, Mesh, Scene, Simulation};
+use selvedge_cloth::{Body, BodyMotion, CHECKPOINT_STEPS, Cloth, Mesh, Scene, Simulation};
 
 const G: f64 = 9.81;
 
@@ -33,6 +35,14 @@ impl Force for Weight {
     fn apply(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3]) {
         let last = velocities.len() - 1;
         velocities[last] -= DVec3::Z * (self.0 * step.inverse_masses[last] * step.h);
+    }
+}
+
+fn wind(velocity: DVec3, rope_diameter: f64) -> Wind {
+    Wind {
+        velocity,
+        rope_diameter,
+        ..Wind::default()
     }
 }
 
@@ -119,12 +129,7 @@ fn a_taut_rope_that_is_plucked_comes_to_rest() {
     let rope = Cloth::rope(&[DVec3::ZERO, DVec3::X * 2.0], 200, 0.05).unwrap();
     let mut scene = Scene::new(rope, 1e-3);
     scene.add(RopeStretch::new(1e4)).add(AirDrag { rate: 3.0 });
-    scene.add(Pins {
-        groups: vec![PinGroup {
-            vertices: vec![0, 200],
-            motion: selvedge_cloth::effects::PinMotion::Own(selvedge_cloth::BodyMotion::Driven(Default::default())),
-        }],
-    });
+    scene.add(pinned([0, 200], PinMotion::Own(BodyMotion::Driven(Default::default()))));
     scene.cloths[0].velocity = DVec3::Z;
     let mut simulation = Simulation::new(scene, 1).unwrap();
     for _ in 0..3000 {
@@ -357,47 +362,32 @@ fn what_cannot_be_of_loose_edges_is_told_from_code() {
         positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z],
         triangles: vec![[0, 1, 2]],
     };
-    let made = |edges: &[[u32; 2]], densities| {
-        let made = Cloth::from_mesh_with_loose_edges(triangle(), edges, DVec3::X, densities);
-        made.map_err(|error| error.to_string())
-    };
+    let made = |edges: &[[u32; 2]], densities| Cloth::from_mesh_with_loose_edges(triangle(), edges, DVec3::X, densities);
     assert!(made(&[[0, 3]], [0.1, 0.1]).is_ok());
-    let no_vertex = "loose edge 0 names vertex 4, but there are 4 vertices, numbered from 0";
-    assert_eq!(made(&[[0, 4]], [0.1, 0.1]).unwrap_err(), no_vertex);
-    let twice = "joins two vertices that a triangle or another loose edge joins already";
-    assert_eq!(
-        made(&[[0, 3], [3, 0]], [0.1, 0.1]).unwrap_err(),
-        format!("loose edge 1 of the cloth {twice}")
-    );
-    assert_eq!(
-        made(&[[0, 3], [2, 1]], [0.1, 0.1]).unwrap_err(),
-        format!("loose edge 1 of the cloth {twice}")
-    );
-    let short = "loose edge 1 of the cloth is shorter than 1e-5 metres; are the units metres?";
-    assert_eq!(made(&[[0, 3], [1, 1]], [0.1, 0.1]).unwrap_err(), short);
-    let weightless = "`linear_density` is 0 kg/m, but must be from 1e-6 kg/m to 100 kg/m";
-    assert_eq!(made(&[[0, 3]], [0.1, 0.0]).unwrap_err(), weightless);
-    let mut scene = Scene::new(Cloth::rope(&[DVec3::ZERO, DVec3::X], 3, 0.1).unwrap().named("line"), 1e-3);
-    scene.add_to("line", Stretch::isotropic(1.0));
-    let none =
-        "stretch: 'stretch' has nothing to act on: the cloth 'line' has no triangles; ropes use `rope_stretch` and `rope_bend`";
-    assert_eq!(scene.check().unwrap_err().to_string(), none);
+    let twice = "loose edge 1 of the cloth joins two vertices that a triangle or another loose edge joins already";
+    assert_errors! {
+        made(&[[0, 4]], [0.1, 0.1]) => "loose edge 0 names vertex 4, but there are 4 vertices, numbered from 0";
+        made(&[[0, 3], [3, 0]], [0.1, 0.1]) => twice;
+        made(&[[0, 3], [2, 1]], [0.1, 0.1]) => twice;
+        made(&[[0, 3], [1, 1]], [0.1, 0.1]) => "loose edge 1 of the cloth is shorter than 1e-5 metres; are the units metres?";
+        made(&[[0, 3]], [0.1, 0.0]) => "`linear_density` is 0 kg/m, but must be from 1e-6 kg/m to 100 kg/m";
+    }
+    let line = Cloth::rope(&[DVec3::ZERO, DVec3::X], 3, 0.1).unwrap().named("line");
+    assert_complaints! { Scene::new(line, 1e-3);
+        |s| _ = s.add_to("line", Stretch::isotropic(1.0))
+            => "stretch: 'stretch' has nothing to act on: the cloth 'line' has no triangles; ropes use `rope_stretch` and `rope_bend`";
+    }
     let sheet = Cloth::sheet(DVec3::ZERO, [DVec3::X, DVec3::Y], [2, 2], 0.1).unwrap();
-    let mut scene = Scene::new(sheet, 1e-3);
-    scene.add(RopeStretch::new(1.0));
-    let none = "rope_stretch: 'rope_stretch' has nothing to act on: no cloth has loose edges";
-    assert!(scene.check().unwrap_err().to_string().starts_with(none));
+    assert_complaints! { Scene::new(sheet, 1e-3);
+        |s| _ = s.add(RopeStretch::new(1.0)) => "rope_stretch: 'rope_stretch' has nothing to act on: no cloth has loose edges…";
+    }
 }
 
 /// A rope of 8 mm and 50 g/m in a wind of 10 m/s hangs so that sin ϑ / cos² ϑ = ρ·d·U²/(2·μ·g), from drag and weight across it.
 #[test]
 fn a_rope_in_a_wind_leans_until_drag_and_weight_across_it_are_even() {
     let mut scene = hanging(40, 1e5, 1e-3);
-    scene.add(Wind {
-        velocity: DVec3::X * 10.0,
-        rope_diameter: 8e-3,
-        ..Wind::default()
-    });
+    scene.add(wind(DVec3::X * 10.0, 8e-3));
     let simulation = run(scene, 4000);
     let asked = 1.2 * 8e-3 * 100.0 / (2.0 * 0.05 * G);
     let sine = ((1.0 + 4.0 * asked * asked).sqrt() - 1.0) / (2.0 * asked);
@@ -412,11 +402,7 @@ fn a_wind_along_a_rope_does_nothing_to_it_and_one_across_never_makes_it_faster_t
     let rope = || Cloth::rope(&[DVec3::ZERO, DVec3::Z], 10, 1e-4).unwrap();
     let blown = |velocity| {
         let mut scene = Scene::new(rope(), 1e-2);
-        scene.add(Wind {
-            velocity,
-            rope_diameter: 0.05,
-            ..Wind::default()
-        });
+        scene.add(wind(velocity, 0.05));
         run(scene, 5).velocities().to_vec()
     };
     assert!(blown(DVec3::Z * 300.0).iter().all(|velocity| *velocity == DVec3::ZERO));
@@ -428,24 +414,14 @@ fn a_wind_along_a_rope_does_nothing_to_it_and_one_across_never_makes_it_faster_t
 /// A vertex of triangles and edges gets the momentum of both.
 #[test]
 fn air_gives_a_fringed_cloth_as_much_momentum_as_its_triangles_and_edges_stop() {
-    let (linear_density, diameter, wind, step) = (0.02, 3e-3, 5.0, 1e-3);
+    let (linear_density, diameter, speed, step) = (0.02, 3e-3, 5.0, 1e-3);
     for rope_diameter in [0.0, diameter] {
         let cloth = fringed(linear_density);
         let mut scene = Scene::new(cloth, step);
-        scene.add(Wind {
-            velocity: DVec3::Y * wind,
-            rope_diameter,
-            ..Wind::default()
-        });
+        scene.add(wind(DVec3::Y * speed, rope_diameter));
         let masses = {
-            let (mesh, topology) = (scene.cloths[0].mesh(), scene.cloths[0].topology());
-            let mut masses = vec![0.0; mesh.positions.len()];
-            for triangle in &mesh.triangles {
-                let [a, b, c] = triangle.map(|vertex| mesh.positions[vertex as usize]);
-                let third = 0.1 * 0.5 * (b - a).cross(c - a).length() / 3.0;
-                triangle.iter().for_each(|&vertex| masses[vertex as usize] += third);
-            }
-            for edge in topology.loose_edges() {
+            let mut masses = masses(scene.cloths[0].mesh(), 0.1);
+            for edge in scene.cloths[0].topology().loose_edges() {
                 edge.iter()
                     .for_each(|&vertex| masses[vertex as usize] += linear_density * 0.01 / 2.0);
             }
@@ -457,7 +433,7 @@ fn air_gives_a_fringed_cloth_as_much_momentum_as_its_triangles_and_edges_stop() 
             .zip(simulation.velocities())
             .map(|(mass, velocity)| *velocity * *mass)
             .sum();
-        let given = |mass: f64, slowing: f64| mass * wind * slowing * step * wind / (1.0 + slowing * step * wind);
+        let given = |mass: f64, slowing: f64| mass * speed * slowing * step * speed / (1.0 + slowing * step * speed);
         let of_triangles = given(0.1 * 0.04, 0.5 * 1.2 / 0.1);
         let of_edges = given(9.0 * 0.05 * linear_density, 0.5 * 1.2 * rope_diameter / linear_density);
         // Edges come after triangles, which have accelerated the common vertices.
@@ -470,17 +446,12 @@ fn air_gives_a_fringed_cloth_as_much_momentum_as_its_triangles_and_edges_stop() 
 fn a_field_blows_on_ropes_as_the_same_wind_does() {
     let velocity = DVec3::new(0.5, 6.0, 0.0);
     let rope_diameter = 8e-3;
-    let wind = Wind {
-        velocity,
-        rope_diameter,
-        ..Wind::default()
-    };
     let field = WindField {
         rope_diameter,
         ..WindField::new(Even(velocity))
     };
     let mut scenes = [hanging(20, 1e4, 1e-3), hanging(20, 1e4, 1e-3)];
-    scenes[0].add(wind);
+    scenes[0].add(wind(velocity, rope_diameter));
     scenes[1].add(field);
     let [of_wind, of_field] = scenes.map(|scene| run(scene, 100));
     assert_eq!(of_wind.positions(), of_field.positions());
@@ -490,21 +461,10 @@ fn a_field_blows_on_ropes_as_the_same_wind_does() {
 #[test]
 fn a_diameter_of_ropes_asks_for_a_rope() {
     let sheet = Cloth::sheet(DVec3::ZERO, [DVec3::X, DVec3::Y], [2, 2], 0.1).unwrap();
-    let mut scene = Scene::new(sheet, 1e-3);
-    scene.add(Wind {
-        rope_diameter: 1e-3,
-        ..Wind::default()
-    });
-    let error = Simulation::new(scene, 1).unwrap_err().to_string();
-    assert!(
-        error.starts_with("wind: `rope_diameter` is the diameter of loose edges"),
-        "{error}"
-    );
-    let mut scene = hanging(4, 1e4, 1e-3);
-    scene.add(Wind {
-        rope_diameter: 2.0,
-        ..Wind::default()
-    });
-    let error = Simulation::new(scene, 1).unwrap_err().to_string();
-    assert!(error.starts_with("wind: `rope_diameter` is 2 m"), "{error}");
+    assert_complaints! { Scene::new(sheet, 1e-3);
+        |s| _ = s.add(wind(DVec3::ZERO, 1e-3)) => "wind: `rope_diameter` is the diameter of loose edges…";
+    }
+    assert_complaints! { hanging(4, 1e4, 1e-3);
+        |s| _ = s.add(wind(DVec3::ZERO, 2.0)) => "wind: `rope_diameter` is 2 m…";
+    }
 }

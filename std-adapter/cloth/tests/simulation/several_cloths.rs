@@ -172,17 +172,6 @@ fn a_cloth_of_its_own_stiffness_is_stretched_as_that_says() {
 }
 
 #[test]
-fn a_wind_that_changes_blows_on_all_cloths() {
-    let mut scene = Scene::new(sheet("a", DVec3::ZERO, 4, 0.2), 2e-3);
-    scene.cloths.push(sheet("b", DVec3::X, 4, 0.2));
-    scene.add(Wind::default());
-    let mut simulation = Simulation::new(scene, 1).unwrap();
-    simulation.set_wind(5.0 * DVec3::Z).unwrap();
-    simulation.step().unwrap();
-    assert!(simulation.velocities().iter().all(|v| v.z > 0.0));
-}
-
-#[test]
 fn what_is_wrong_with_several_cloths_is_told_with_their_names() {
     assert_complaints! { from_code();
         |s| s.cloths.clear() => "the scene has no cloth, but needs one or more";

@@ -1,12 +1,12 @@
 //! Cloth tears above its strength and nowhere else, conserves momentum, and has the same bits in every kind of run.
 
-use crate::common::{advance, assert_complaints, assert_same_bits, folded, load, run, set_up};
+use crate::common::{self, advance, along, assert_complaints, assert_same_bits, folded, load, pinned, run, set_up};
 use selvedge_cloth::effects::{
     AttachmentGroup, Attachments, BodyContact, Effect, Force, InternalPressure, PinGroup, PinMotion, Pins, Plan, RopeStretch,
     SelfCollision, Shear, Stretch, Tearing, Thickness, TimeStep,
 };
 use selvedge_cloth::glam::DVec3;
-use selvedge_cloth::{Body, BodyMotion, CHECKPOINT_STEPS, CheckpointError, Cloth, Keyframe, KeyframeMotion, Scene, Simulation};
+use selvedge_cloth::{Body, CHECKPOINT_STEPS, CheckpointError, Cloth, Mesh, Scene, Simulation};
 
 /// Cells along and across a strip, of a centimetre each.
 const CELLS: [u32; 2] = [10, 5];
@@ -25,19 +25,12 @@ fn column(column: u32) -> Vec<u32> {
 /// 100 N pull on each metre of its width.
 fn pulled(tearing: Tearing) -> Scene {
     let mut scene = Scene::new(strip("cloth", DVec3::ZERO), 1e-3);
-    let keys = [(0.0, 0.0), (0.1, 0.01)].map(|(time, x)| Keyframe {
-        time,
-        translation: DVec3::X * x,
-        ..Keyframe::default()
-    });
-    let motion = KeyframeMotion::new(DVec3::ZERO, DVec3::Z, keys.to_vec()).unwrap();
-    let right = PinGroup {
-        vertices: column(CELLS[0]),
-        motion: PinMotion::Own(motion.into()),
-    };
-    scene.add(Pins {
-        groups: vec![PinGroup::resting(column(0)), right],
-    });
+    let mut pins = pinned(
+        column(CELLS[0]),
+        PinMotion::Own(along([(0.0, DVec3::ZERO), (0.1, DVec3::X * 0.01)])),
+    );
+    pins.groups.push(PinGroup::resting(column(0)));
+    scene.add(pins);
     scene.add(Stretch::isotropic(1000.0)).add(Shear::new(100.0));
     scene.add(SelfCollision(Thickness::new(1e-3))).add(tearing);
     scene
@@ -143,15 +136,10 @@ impl Force for Apart {
 
 /// Returns the mass of each vertex of the torn cloth: a third of its triangles'.
 fn masses(simulation: &Simulation) -> Vec<f64> {
-    let mut rest = strip("cloth", DVec3::ZERO).mesh().positions.clone();
-    { simulation.copied_vertices(0).iter() }.for_each(|&vertex| rest.push(rest[vertex as usize]));
-    let mut masses = vec![0.0; rest.len()];
-    for triangle in simulation.triangles() {
-        let [a, b, c] = triangle.map(|vertex| rest[vertex as usize]);
-        let mass = 0.2 * 0.5 * (b - a).cross(c - a).length();
-        triangle.iter().for_each(|&vertex| masses[vertex as usize] += mass / 3.0);
-    }
-    masses
+    let mut positions = strip("cloth", DVec3::ZERO).mesh().positions.clone();
+    { simulation.copied_vertices(0).iter() }.for_each(|&vertex| positions.push(positions[vertex as usize]));
+    let triangles = simulation.triangles().to_vec();
+    common::masses(&Mesh { positions, triangles }, 0.2)
 }
 
 fn sum(masses: &[f64], of: &[DVec3]) -> DVec3 {
@@ -292,7 +280,7 @@ fn a_balloon_that_has_torn_holds_no_pressure_any_more() {
         refined(refined((corners.to_vec(), faces.to_vec())))
     };
     let (positions, triangles) = tetrahedron;
-    let mesh = selvedge_cloth::Mesh { positions, triangles };
+    let mesh = Mesh { positions, triangles };
     let scene = |strength| {
         let mut scene = Scene::new(Cloth::from_mesh(mesh.clone(), DVec3::X, 0.2).unwrap(), 1e-3);
         scene.add(Stretch::isotropic(500.0)).add(SelfCollision(Thickness::new(1e-3)));
@@ -335,20 +323,12 @@ fn refined((mut positions, triangles): (Vec<DVec3>, Vec<[u32; 3]>)) -> (Vec<DVec
 fn in_a_groove() -> Scene {
     let cloth = Cloth::from_mesh(folded(2, 0..4, 0.0), DVec3::X, 0.2).unwrap();
     let mut scene = Scene::new(cloth, 1e-3);
-    let keys = |keys: [(f64, DVec3); 2]| {
-        let key = |(time, translation)| Keyframe {
-            time,
-            translation,
-            ..Keyframe::default()
-        };
-        KeyframeMotion::new(DVec3::ZERO, DVec3::Z, keys.map(key).to_vec()).unwrap()
-    };
-    let away = keys([(0.35, DVec3::ZERO), (0.4, DVec3::Z * -0.02)]);
+    let away = along([(0.35, DVec3::ZERO), (0.4, DVec3::Z * -0.02)]);
     let gap = 40e-6 * std::f64::consts::SQRT_2;
     let mut groove = Body::from_mesh("groove", folded(3, -1..5, -gap));
-    groove.motion = BodyMotion::Keyframes(away);
+    groove.motion = away;
     scene.bodies = vec![groove, Body::from_mesh("wedge", folded(3, -1..5, gap))];
-    let drawn = |side: f64| PinMotion::Own(keys([(0.0, DVec3::ZERO), (0.15, DVec3::new(side, 0.0, 1.0) * 0.002)]).into());
+    let drawn = |side: f64| PinMotion::Own(along([(0.0, DVec3::ZERO), (0.15, DVec3::new(side, 0.0, 1.0) * 0.002)]));
     let ends = [-1.0, 1.0].map(|side: f64| PinGroup {
         vertices: (0..4).map(|row| 5 * row + if side < 0.0 { 0 } else { 4 }).collect(),
         motion: drawn(side),
