@@ -35,8 +35,8 @@
 //! The length of an advance and the direction are heuristic, in plain floating point. Only the proofs count, and each covers its
 //! rounding: see their modules.
 //!
-//! Few pairs use up their rounds. For these, `f32` continues in `f64`, and `f64` in the exact verdict
-//! ([`contact`](super::contact())).
+//! Few pairs use up their rounds, or have coordinates beyond the range of the proofs. For these, `f32` continues in `f64`, and
+//! `f64` without a separation in the exact verdict ([`contact`](super::contact())).
 //!
 //! The proofs are written once, for any number of [`Lanes`](crate::lanes::Lanes). Here they serve one pair, which returns as soon
 //! as it is decided; [`round`](crate::kernels::advance::round) serves many side by side, for [`batch`](crate::batch).
@@ -58,7 +58,7 @@
 //! | [`WithinTolerance`](Reason::WithinTolerance) | at the time returned at most δ + s + 64u(δ + s + M_x + M_y + M_z) + τ |
 //! | [`WithinError`](Reason::WithinError) | at the time returned at most s + 192u(s + M_x + M_y + M_z) + τ |
 //! | [`LastResort`](Reason::LastResort) | zero at that time or later; with a separation, at some time at most V/4096 above the bound of `WithinError` |
-//! | [`OutOfRange`](Reason::OutOfRange) | unknown: differences are above 2²⁹, `f64` 2²⁵⁰ |
+//! | [`OutOfRange`](Reason::OutOfRange) | unknown, in `f64` with a separation: differences or the separation are above 2²⁵⁰ |
 //! | [`NotFinite`](Reason::NotFinite) | undefined: NaN, an infinity, or a separation that is negative |
 //!
 //! V is the longest way of a corner during the step. A round that ends neither within δ + s nor within rounding of s proves that
@@ -165,6 +165,11 @@ fn within<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>, span: [S; 2]) 
             time,
             reason: Reason::LastResort,
         } if !is_last => (last_resort(pair, &limits, [time, span[1]]), work),
+        // `f64` has the range of all `f32`, and whole numbers have any.
+        Impact::Possible {
+            reason: Reason::OutOfRange,
+            ..
+        } if !is_last => (last_resort(pair, &limits, span), work),
         _ => (impact, work),
     }
 }

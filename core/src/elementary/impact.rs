@@ -51,7 +51,7 @@ pub enum Reason {
     /// The allowed work is used up. Without a separation, the sets touch at the returned time or later, which whole numbers prove. With one,
     /// they come within a bound that the documentation of the function states.
     LastResort,
-    /// Coordinates differ too much, or the separation is too large, to be sure that products do not overflow.
+    /// With a separation, coordinates of `f64` differ too much, or it is too large, to be sure that products do not overflow.
     OutOfRange,
     /// A coordinate is NaN or infinite (or their sum is), or the separation is NaN or negative.
     NotFinite,

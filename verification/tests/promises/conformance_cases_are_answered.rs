@@ -51,14 +51,6 @@ fn reach<S: Format>(case: &Case) -> f64 {
     tolerance + 192.0 * unit * (tolerance + largest(0) + largest(1) + largest(2)) + tiny
 }
 
-/// Returns whether `f32` documents that it cannot exclude anything: coordinates differ by more than 2²⁹.
-fn is_out_of_range<S: Format>(case: &Case) -> bool {
-    let [start, end] = case.positions();
-    let coordinates = || start.iter().chain(&end).flatten();
-    let spread = coordinates().fold(f64::MIN, |a, &b| a.max(b)) - coordinates().fold(f64::MAX, |a, &b| a.min(b));
-    spread > if S::PRECISION == 53 { 2f64.powi(250) } else { 2f64.powi(29) }
-}
-
 /// Checks a time from which contact is not excluded, or `None`.
 fn is_right<S: Format>(case: &Case, time: Option<S>, how: &str) {
     let id = &case.id;
@@ -137,23 +129,11 @@ fn pairs_are_answered<S: Format>(question: Question, kind: PairKind) {
             Some(false) => ContactVerdict::Never,
         };
         assert_eq!(contact(&pair), verdict, "{}", case.id);
-        let impact = time_of_impact(&pair, &Limits::default());
-        if !matches!(
-            impact,
-            Impact::Possible {
-                reason: Reason::OutOfRange,
-                ..
-            }
-        ) || !is_out_of_range::<S>(case)
-        {
-            is_right(case, impact.time(), "alone");
-        }
+        is_right(case, time_of_impact(&pair, &Limits::default()).time(), "alone");
     }
     for (name, level) in available_levels() {
         for (case, impact) in cases.iter().zip(side_by_side(level, kind, &all)) {
-            if !is_out_of_range::<S>(case) {
-                is_right(case, impact.time(), name);
-            }
+            is_right(case, impact.time(), name);
         }
     }
 }

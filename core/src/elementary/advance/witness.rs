@@ -57,8 +57,9 @@ impl<S> Witness<S> {
 /// Returns the time from which the pair may be within the separation, and a proof that it is farther apart before.
 ///
 /// For [`Impact::Never`] the proof lasts to the end of the step, otherwise to the time returned. The answer is that of
-/// [`time_of_impact`](super::time_of_impact), except if that takes more than [`ROUNDS`] rounds. Then it is
-/// [`LastResort`](super::Reason::LastResort), with the time that this many rounds prove.
+/// [`time_of_impact`](super::time_of_impact), except in two cases, where that asks other arithmetic: if it takes more than
+/// [`ROUNDS`] rounds, this is [`LastResort`](super::Reason::LastResort) with the time that so many rounds prove; if coordinates
+/// differ too much, it is [`OutOfRange`](super::Reason::OutOfRange) at time zero.
 ///
 /// ```
 /// use selvedge_core::elementary::{Impact, Limits, advance::{Proof, witness}};
