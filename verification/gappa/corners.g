@@ -20,7 +20,7 @@
 threshold = 20; #! core/src/kernels/advance/corners.rs: roundoffs(w.x, 20) * w.abs().dot(self.extent) + w.x.splat(L::Scalar::UNDERFLOW)
 of_quotient = 32; #~ core/src/kernels/advance/directions.rs: let quotient = (at_start - bar) / (at_start - at_end) * less_roundoffs(bar, 32);
 of_length = 32; #! core/src/kernels/advance/directions.rs: bar = bar + separation * (length_above(w) * more_roundoffs(separation, 32));
-along_axis = 8; #! core/src/kernels/advance/directions.rs: let bar = separation * more_roundoffs(separation, 8) + separation.splat(L::Scalar::UNDERFLOW);
+along_axis = 8; #! core/src/kernels/advance/directions.rs: separation * more_roundoffs(separation, 8) + separation.splat(L::Scalar::UNDERFLOW)
 #~ core/src/kernels/advance/directions.rs: let is_safe = squared.greater(squared.splat(L::Scalar::SAFE_SQUARE));
 eta = 1b@eta@;
 lambda = 1b@lambda@;
