@@ -57,13 +57,14 @@
 //! |---|---|
 //! | [`WithinTolerance`](Reason::WithinTolerance) | at the time returned at most δ + s + 64u(δ + s + M_x + M_y + M_z) + τ |
 //! | [`WithinError`](Reason::WithinError) | at the time returned at most s + 192u(s + M_x + M_y + M_z) + τ |
-//! | [`LastResort`](Reason::LastResort) | zero at that time or later; with a separation, at some time at most V/4096 above the bound of `WithinError` |
+//! | [`LastResort`](Reason::LastResort) | zero at that time or later; with a separation, at some time at most V/4093 above the bound of `WithinError` |
 //! | [`OutOfRange`](Reason::OutOfRange) | unknown, in `f64` with a separation: differences or the separation are above 2²⁵⁰ |
 //! | [`NotFinite`](Reason::NotFinite) | undefined: NaN, an infinity, or a separation that is negative |
 //!
 //! V is the longest way of a corner during the step. A round that ends neither within δ + s nor within rounding of s proves that
-//! the pair is apart for some time. This is the time that the rest of the distance takes at speed V, apart from a few u. So 4096
-//! rounds that each prove more than a 4096th of the step pass its end.
+//! the pair is apart for some time. This is the time that the rest of the distance takes at speed V, apart from a few u. So 4093
+//! rounds that each prove more than a 4093rd of the step pass its end. The first three rounds are not counted. They look for the
+//! closest points in a cheaper way, which may be wrong for thin sets or where products of four lengths underflow.
 //!
 //! # Loose answers
 //! Where the sets' distance falls to the error of a product, about 20u times the size of the corners, nothing more can be proven.

@@ -431,7 +431,7 @@ impl Question for Times {
 fn times_of_impact() {
     assert_eq!(
         digests::<Times>(8000),
-        "b40704130b447b7a 0407cbbbf6e912b7 f412732370e243a1 e36551b38a074d54"
+        "bb3dfa084c7c6c82 d69769016e9a9250 448dff158c697630 d3f2207dd14b8bd0"
     );
 }
 
@@ -482,7 +482,7 @@ impl Question for Contacts {
 fn exact_verdicts() {
     assert_eq!(
         digests::<Contacts>(4000),
-        "8feac5cb5f535b64 1f0c4f61a4382b47 be9fcd38d4b147c5 6e96f2c4247a6ba7"
+        "8feac5cb5f535b64 104f7223f0812c85 69260860004b2907 395049f3243aa625"
     );
 }
 
@@ -546,6 +546,6 @@ impl Question for Thresholds {
 fn thresholds() {
     assert_eq!(
         digests::<Thresholds>(200),
-        "27ee97e3824389a5 a870719b4a17a017 adc81e539e5f1f0f 708c67f479a3d5cc"
+        "1809ff244f6d1025 2a431dbda1285717 adc81e539e5f1f0f f29f8582bb5d17cc"
     );
 }
