@@ -43,7 +43,7 @@ fn the_arm_sleeve_is_free_throughout_the_bend() {
     let mut simulation = load("arm-sleeve.toml", |text| text);
     run(&mut simulation, 1300, 100);
     let counts = simulation.contact_counts().expect("a scene with contact");
-    assert!(counts.violated > 0, "the pass had something to do");
+    assert!(counts.pushed > 1000, "the sleeve touches the arm and itself");
     assert_eq!(counts.cuts, 0);
     assert!(counts.held * 20 < 1300, "{} vertices held back", counts.held);
 }
