@@ -12,9 +12,9 @@
 //! ```
 //!
 //! So opposed contacts balance: a sheet between two pads is shifted to the middle, and stays there. Then pᵢ exceeds nᵢ·s by the
-//! pressure from the other side, and this *squeeze* carries friction. With n contacts in one direction, each comes apart by n/(n
-//! + 1) of the missing distance, which would bend a sheet that lies flat. So contacts that are not squeezed then stop yielding,
-//! and lack nothing.
+//! pressure from the other side, and this *squeeze* carries friction. With n contacts in one direction, each comes apart by
+//! n/(n + 1) of the missing distance, which would bend a sheet that lies flat. So contacts that are not squeezed then stop
+//! yielding, and lack nothing.
 //!
 //! Squeezes are found among contacts with kinematic sides. Layers of cloth that lie on each other can come apart at the open end.
 //!
