@@ -14,7 +14,9 @@ use bevy_mesh::{Indices, Mesh, Mesh3d, PrimitiveTopology};
 use bevy_time::{Fixed, Time};
 use bevy_transform::components::Transform;
 use selvedge::glam::{DMat3, DVec3};
-use selvedge_cloth::{Body, BodyMotion, Cloth, Frame, FrameError, Placement, Scene, Simulation, Tubes, ValueError, vertex_normals};
+use selvedge_cloth::{
+    Body, BodyMotion, Cloth, Frame, FrameError, Placement, Scene, Simulation, Tubes, ValueError, vertex_normals,
+};
 use std::collections::BTreeMap;
 
 /// A simulation of cloth that runs in each fixed step, from a [`Scene`] made in code or read from a file.

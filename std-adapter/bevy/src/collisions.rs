@@ -13,7 +13,8 @@ use bevy_ecs::system::{Query, Res, ResMut};
 use bevy_mesh::{Mesh, Mesh3d};
 use selvedge::glam::DVec3;
 use selvedge::{
-    Criterion, DEFAULT_MEMORY_LIMIT, Geometry, Groups, MeshHandle, MeshMotion, PairKind, Threads, World, WorldContact, WorldContactGeometry, WorldError,
+    Criterion, DEFAULT_MEMORY_LIMIT, Geometry, Groups, MeshHandle, MeshMotion, PairKind, Threads, World, WorldContact,
+    WorldContactGeometry, WorldError,
 };
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::{Arc, Weak};

@@ -99,7 +99,7 @@ pub fn run_method(name: &str, triangles: &[u32], start: &JsValue, end: &JsValue)
     let run = Run { topology, from, to };
     let (report, pairs) = run.whole(stages)?;
     let shown = Array::new();
-    let mut show = |name: &str, pairs: u64, seconds: f64, vertices: &[u32]| {
+    let show = |name: &str, pairs: u64, seconds: f64, vertices: &[u32]| {
         let stage = object([
             ("name", name.into()),
             ("pairs", (pairs as f64).into()),
