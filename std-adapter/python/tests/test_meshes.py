@@ -46,7 +46,7 @@ def nonsense():
             yield name, content.encode().decode("unicode_escape").encode("latin-1"), message
 
 
-@pytest.mark.parametrize(("name", "content", "message"), nonsense())
+@pytest.mark.parametrize(("name", "content", "message"), list(nonsense()))
 def test_nonsense_is_refused_with_the_place_and_what_was_found(tmp_path, name, content, message):
     path = tmp_path / name
     path.write_bytes(content)
