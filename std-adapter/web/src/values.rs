@@ -125,7 +125,7 @@ pub(crate) fn view(address: usize, rows: usize) -> Float64Array {
 pub(crate) fn take_positions(positions: &JsValue, name: &str, rows: &mut Vec<[f64; 3]>) -> Result<(), JsValue> {
     let length = get(positions, "length").and_then(|length| length.as_f64());
     let length = length.ok_or_else(|| input_error(&format!("{name}: positions must be an array of numbers")))? as usize;
-    if length % 3 != 0 {
+    if !length.is_multiple_of(3) {
         return Err(input_error(&format!(
             "{name}: {length} numbers are not three for each vertex"
         )));
