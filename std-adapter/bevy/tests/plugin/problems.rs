@@ -175,7 +175,8 @@ fn a_body_out_of_the_range_of_numbers_is_told_and_the_others_go_on() {
 
 #[test]
 fn a_step_beyond_a_limit_is_told_and_the_next_is_done() {
-    let limits: [(fn(&mut CollisionSettings), StepError); 2] = [
+    type Set = fn(&mut CollisionSettings);
+    let limits: [(Set, StepError); 2] = [
         (|settings| settings.pair_limit = Some(1), StepError::TooManyPairs { limit: 1 }),
         (
             |settings| settings.memory_limit = Some(1),
