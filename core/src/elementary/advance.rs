@@ -64,7 +64,7 @@
 //! V is the longest way of a corner during the step. A round that ends neither within δ + s nor within rounding of s proves that
 //! the pair is apart for some time. This is the time that the rest of the distance takes at speed V, apart from a few u. So 4093
 //! rounds that each prove more than a 4093rd of the step pass its end. The first three rounds are not counted. They look for the
-//! closest points in a cheaper way, which may be wrong for thin sets or where products of four lengths underflow.
+//! closest points in a cheaper way, which may be wrong for thin or tiny sets.
 //!
 //! # Loose answers
 //! Where the sets' distance falls to the error of a product, about 20u times the size of the corners, nothing more can be proven.

@@ -1,4 +1,4 @@
-//! Whether the proofs that come with a time of impact hold, of many pairs.
+//! Checks the proofs that come with the times of impact of many pairs.
 
 use super::Random;
 use super::alarms::{SOURCES, chosen};

@@ -112,7 +112,7 @@ fn is_true(claim: &Claim) -> bool {
     claim.until == 0.0 || first.is_none_or(|first| first.cmp_f64(claim.until).is_gt())
 }
 
-/// Returns the next number. For zero that is none so small that the oracle would take minutes.
+/// Returns the next number. After zero it returns a number that is not tiny, since the oracle would take minutes.
 fn next(number: f64) -> f64 {
     if number == 0.0 { 0.5_f64.powi(30) } else { number.next_up() }
 }
