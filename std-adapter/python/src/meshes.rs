@@ -12,7 +12,9 @@ use std::path::PathBuf;
 fn check_distance(name: &str, distance: f64) -> PyResult<f64> {
     match distance {
         _ if (0.0..f64::INFINITY).contains(&distance) => Ok(distance),
-        _ => Err(InputError::new_err(format!("{name} is {distance}, but must be a distance, 0 or more"))),
+        _ => Err(InputError::new_err(format!(
+            "{name} is {distance}, but must be a distance, 0 or more"
+        ))),
     }
 }
 
