@@ -42,7 +42,7 @@
 //! | feature | what it adds |
 //! |---|---|
 //! | `batch` | [`batch`], and boxes of a hierarchy ([`boxes::moving`]): the basis of `selvedge`. Instruction sets are named by types of `fearless_simd` |
-//! | `verification` | `batch`, and the kernels ([`coplanarity`], [`exact`], [`lanes`] and others) in a module of that name, for the project's laboratory and verification. These items may change in any release |
+//! | `kernels` | `batch`, and [`kernels`]: the parts that the tests are built from, for baselines, measurements and proofs |
 //!
 //! # Terms
 //! The paper behind this work is Lv, He, Mi: *Improved Method in Lower Tailoring of Self-collision Detection of Arm Cloth
@@ -52,7 +52,7 @@
 #![forbid(unsafe_code)]
 // Without the features, kernels that only they expose are unused, and links to them are broken.
 #![cfg_attr(
-    not(feature = "verification"),
+    not(feature = "kernels"),
     allow(
         dead_code,
         unreachable_pub,
@@ -65,6 +65,10 @@
 pub use glam;
 
 #[macro_use]
+#[cfg(feature = "kernels")]
+pub mod kernels;
+#[macro_use]
+#[cfg(not(feature = "kernels"))]
 mod kernels;
 
 #[cfg(feature = "batch")]
@@ -91,15 +95,6 @@ pub use scalar::{Position, Scalar};
 pub use verdict::Verdict;
 
 use kernels::{coplanarity, exact, lanes, points, vector};
-
-/// The kernels, for the project's laboratory and verification. They may change in any release.
-#[cfg(feature = "verification")]
-pub mod verification {
-    pub use crate::kernels::{advance, altered, coplanarity, exact, lanes, points, vector};
-    pub use crate::of_kind;
-}
-#[cfg(not(feature = "verification"))]
-use kernels as verification;
 
 /// Runs the readme's examples as tests.
 #[cfg(doctest)]

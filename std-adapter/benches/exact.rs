@@ -6,7 +6,7 @@ mod pairs;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use pairs::{COUNT, all_sizes, barely_above, cloth, nearly_coplanar};
 use selvedge_core::filter::certified::non_coplanarity;
-use selvedge_core::verification::exact::{UNKNOWN, control_value_signs, is_never_coplanar, is_never_within};
+use selvedge_core::kernels::exact::{UNKNOWN, control_value_signs, is_never_coplanar, is_never_within};
 use selvedge_core::{PrimitivePair, Scalar};
 use std::hint::black_box;
 

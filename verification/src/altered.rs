@@ -3,12 +3,12 @@
 use crate::generator::{Format, PairCase};
 use selvedge_core::elementary::{Impact, Limits};
 #[cfg(doc)]
-use selvedge_core::verification::coplanarity::MovingTetrahedron;
+use selvedge_core::kernels::coplanarity::MovingTetrahedron;
 #[cfg(doc)]
-use selvedge_core::verification::lanes::Rounding;
-use selvedge_core::verification::of_kind;
-use selvedge_core::verification::points::{PairPoints, PairShape};
-use selvedge_core::verification::{altered, altered::Constants};
+use selvedge_core::kernels::lanes::Rounding;
+use selvedge_core::kernels::of_kind;
+use selvedge_core::kernels::points::{PairPoints, PairShape};
+use selvedge_core::kernels::{altered, altered::Constants};
 use selvedge_core::{PairKind, Scalar};
 use std::marker::PhantomData;
 

@@ -3,7 +3,7 @@
 //! Core's kernels are generic over [`Lanes`]: the source that runs on `f32` and `f64` runs on this format unchanged.
 
 use crate::generator::power_of_two;
-use selvedge_core::verification::lanes::{Lanes, Rounding};
+use selvedge_core::kernels::lanes::{Lanes, Rounding};
 use std::fmt;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

@@ -18,13 +18,13 @@ use selvedge_core::boxes::{Aabb, relative, segment, swept_boxes};
 use selvedge_core::distribution::distribute;
 use selvedge_core::filter::{Filter, Tier};
 use selvedge_core::glam::DVec3;
+use selvedge_core::kernels::coplanarity::MovingTetrahedron;
+use selvedge_core::kernels::exact;
 use selvedge_core::separation::clearance::{Clearance, are_boxes_within, nearness};
 use selvedge_core::separation::closest::ClosestPoints;
 use selvedge_core::separation::gap::{GapError, SeparatingDirection, distance_from_below};
 use selvedge_core::separation::geometry::geometry;
 use selvedge_core::separation::{course, largest_coordinate};
-use selvedge_core::verification::coplanarity::MovingTetrahedron;
-use selvedge_core::verification::exact;
 use selvedge_core::{FeatureTriangle, Motion, PrimitivePair, Scalar, Verdict, elementary, filter};
 
 #[panic_handler]

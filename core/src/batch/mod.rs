@@ -12,7 +12,7 @@
 //! | [`largest_strays_from_rows`] | how far points may stray while the pair keeps its distance |
 //! | [`closest_points`] | where the pair is closest |
 //!
-//! The feature `verification` adds tests of boxes, and pairs that already lie side by side.
+//! The feature `kernels` adds tests of boxes, and pairs that already lie side by side.
 //!
 //! The caller names the instruction set by a [`Level`]; `selvedge` detects the best one at run time.
 //!
@@ -48,20 +48,20 @@ mod rows;
 mod simd;
 mod sixteen;
 mod strays;
-#[cfg(feature = "verification")]
+#[cfg(feature = "kernels")]
 mod tile;
 
 pub use advance::{Round, RoundQuestion, advance_from_rows};
 pub use closest::closest_points;
 pub use compared::{Compares, Loop, in_lanes};
 pub use culled::{BatchTest, culled_from_rows};
-#[cfg(feature = "verification")]
+#[cfg(feature = "kernels")]
 pub use culled::{culled, culled_from_tiles};
 pub use fearless_simd::Level;
-#[cfg(feature = "verification")]
+#[cfg(feature = "kernels")]
 pub use lane_test::{ByPoints, ByVolume, PointsTest, Test, VolumeTest};
 pub use mask::{LANES, Mask};
 pub use rows::VertexRow;
 pub use strays::largest_strays_from_rows;
-#[cfg(feature = "verification")]
+#[cfg(feature = "kernels")]
 pub use tile::Tile;

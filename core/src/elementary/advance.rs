@@ -127,15 +127,15 @@ fn impact_within<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>, span: [
 }
 
 /// Returns [`time_of_impact`] and its work.
-#[cfg(feature = "verification")]
+#[cfg(feature = "kernels")]
 #[inline]
 pub fn time_of_impact_and_work<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>) -> (Impact<S>, Work) {
     within(pair, limits, [S::ZERO, S::ONE])
 }
 
-/// Returns [`time_of_impact_and_work`] of four points in numbers of any format, verification's included, after at most `rounds`
+/// Returns [`time_of_impact_and_work`] of four points in numbers of any format, other crates' included, after at most `rounds`
 /// rounds. A separation must not be subnormal.
-#[cfg(feature = "verification")]
+#[cfg(feature = "kernels")]
 #[inline(always)]
 pub fn time_of_impact_of_points<P: PairShape, S: Number>(
     points: &PairPoints<S>,

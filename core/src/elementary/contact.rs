@@ -53,7 +53,7 @@ pub fn contact<S: Scalar>(pair: &PrimitivePair<S>) -> ContactVerdict {
 }
 
 /// Returns [`contact`] and the evidence for it.
-#[cfg(feature = "verification")]
+#[cfg(feature = "kernels")]
 #[inline]
 pub fn contact_and_evidence<S: Scalar>(pair: &PrimitivePair<S>) -> (ContactVerdict, Evidence) {
     answer(pair, &time_of_impact(pair, &exactly()))

@@ -108,7 +108,7 @@ pub trait Lanes:
     }
 }
 
-/// One lane alone, whose comparisons are a `bool` for early exits: `f32`, `f64`, and verification's number types.
+/// One lane alone, whose comparisons are a `bool` for early exits: `f32`, `f64`, and number types of other crates.
 pub trait Number: Lanes<Scalar = Self, Mask = bool> + Rounding + PartialOrd {}
 
 impl<T: Lanes<Scalar = T, Mask = bool> + Rounding + PartialOrd> Number for T {}

@@ -98,16 +98,16 @@ impl PairShape for EdgeEdge {
 /// Selects code by a kind that is known at run time: `of_kind!(kind, P => code)`, where `P` is the [`PairShape`] of the kind.
 ///
 /// This is the only way from a [`PairKind`] to code that is compiled for each kind.
-#[cfg_attr(feature = "verification", macro_export)]
+#[cfg_attr(feature = "kernels", macro_export)]
 macro_rules! of_kind {
     ($kind:expr, $pair:ident => $code:expr) => {
         match $kind {
             $crate::PairKind::VertexFace => {
-                type $pair = $crate::verification::points::VertexFace;
+                type $pair = $crate::kernels::points::VertexFace;
                 $code
             }
             $crate::PairKind::EdgeEdge => {
-                type $pair = $crate::verification::points::EdgeEdge;
+                type $pair = $crate::kernels::points::EdgeEdge;
                 // Both arms begin with the same loads. Without this, LLVM moves them ahead of the branch, where registers do not
                 // suffice.
                 ::core::hint::black_box(());

@@ -1,6 +1,6 @@
 use super::pair::{self, Numbers};
-use selvedge::core::verification::coplanarity::is_in_range;
-use selvedge::core::verification::exact::{UNKNOWN, certain_signs, control_value_signs, is_never_coplanar};
+use selvedge::core::kernels::coplanarity::is_in_range;
+use selvedge::core::kernels::exact::{UNKNOWN, certain_signs, control_value_signs, is_never_coplanar};
 use selvedge_verification::generator::{Format, PairCase};
 use selvedge_verification::oracle::InRationals;
 

@@ -1,7 +1,7 @@
 use super::pair::{self, Numbers};
 use selvedge::PairKind;
 use selvedge::core::elementary::{ContactVerdict, contact};
-use selvedge::core::verification::exact::touches;
+use selvedge::core::kernels::exact::touches;
 use selvedge_verification::generator::{Format, PairCase};
 use selvedge_verification::oracle::collides;
 

@@ -3,7 +3,7 @@
 #![allow(dead_code, reason = "each bench uses a part")]
 
 use selvedge_core::filter::certified::non_coplanarity;
-use selvedge_core::verification::exact::{UNKNOWN, is_never_coplanar};
+use selvedge_core::kernels::exact::{UNKNOWN, is_never_coplanar};
 use selvedge_core::{Motion, PairKind, PrimitivePair, Scalar};
 
 /// The number of pairs in a set: too many for the processor to learn their branches, few enough for the cache.

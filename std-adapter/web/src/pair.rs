@@ -3,7 +3,7 @@
 use crate::values::{floats, input_error, kind_of, object, take_positions};
 use selvedge_core::elementary::{ContactVerdict, Impact, Limits, Reason, advance, contact};
 use selvedge_core::filter::{Filter, Tier};
-use selvedge_core::verification::coplanarity::MovingTetrahedron;
+use selvedge_core::kernels::coplanarity::MovingTetrahedron;
 use selvedge_core::{Motion, PrimitivePair, boxes};
 use wasm_bindgen::{JsValue, prelude::wasm_bindgen};
 

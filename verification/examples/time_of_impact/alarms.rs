@@ -6,7 +6,7 @@ use selvedge_core::PairKind;
 use selvedge_core::elementary::advance::time_of_impact_and_work;
 use selvedge_core::elementary::{Impact, Limits, Reason};
 use selvedge_core::glam::DVec3;
-use selvedge_core::verification::exact::touches;
+use selvedge_core::kernels::exact::touches;
 use selvedge_verification::generator::{Choices, Format, PairCase};
 use selvedge_verification::oracle::{collides, within, within_at};
 

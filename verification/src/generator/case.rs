@@ -2,7 +2,7 @@
 
 use super::Format;
 use crate::oracle::{Pair, PairKind};
-use selvedge_core::verification::coplanarity::MovingTetrahedron;
+use selvedge_core::kernels::coplanarity::MovingTetrahedron;
 use selvedge_core::{Motion, PrimitivePair};
 use std::fmt;
 

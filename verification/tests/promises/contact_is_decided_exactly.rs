@@ -1,4 +1,4 @@
-//! `selvedge_core::elementary::contact` and `selvedge_core::verification::exact::touches` agree with the oracle for every finite
+//! `selvedge_core::elementary::contact` and `selvedge_core::kernels::exact::touches` agree with the oracle for every finite
 //! pair.
 
 use crate::support::environment::Environment;
@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use selvedge_core::PairKind;
 use selvedge_core::elementary::ContactVerdict;
 use selvedge_core::elementary::contact::contact_and_evidence;
-use selvedge_core::verification::exact::{self, Evidence};
+use selvedge_core::kernels::exact::{self, Evidence};
 use selvedge_verification::formats;
 use selvedge_verification::generator::{
     Choices, Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, from_choices, pairs, pairs_of_any_kind,

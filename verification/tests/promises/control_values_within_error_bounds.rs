@@ -4,8 +4,8 @@
 use proptest::prelude::*;
 use rug::{Float, Rational, ops::Pow};
 use selvedge_core::PairKind;
-use selvedge_core::verification::coplanarity::{MovingTetrahedron, error_bound_by_magnitudes, is_in_range};
-use selvedge_core::verification::vector::Vector;
+use selvedge_core::kernels::coplanarity::{MovingTetrahedron, error_bound_by_magnitudes, is_in_range};
+use selvedge_core::kernels::vector::Vector;
 use selvedge_verification::formats;
 use selvedge_verification::generator::{Choices, Format, PairCase, check, from_choices, pairs_of_any_kind};
 use selvedge_verification::oracle::rational;

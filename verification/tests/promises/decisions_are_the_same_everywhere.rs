@@ -18,11 +18,9 @@ use selvedge_core::elementary::contact::contact_and_evidence;
 use selvedge_core::elementary::{Impact, Limits};
 use selvedge_core::filter::{Filter, Tier};
 use selvedge_core::glam::DVec3;
+use selvedge_core::kernels::coplanarity::{MovingTetrahedron, error_bound_by_magnitudes, is_in_range};
+use selvedge_core::kernels::exact::{UNKNOWN, certain_signs, control_value_signs, is_never_coplanar, is_never_within, touches};
 use selvedge_core::separation::geometry::geometry;
-use selvedge_core::verification::coplanarity::{MovingTetrahedron, error_bound_by_magnitudes, is_in_range};
-use selvedge_core::verification::exact::{
-    UNKNOWN, certain_signs, control_value_signs, is_never_coplanar, is_never_within, touches,
-};
 use selvedge_core::{Motion, PrimitivePair, Verdict};
 use selvedge_verification::campaign::exact::{Source, sample};
 use selvedge_verification::culling;

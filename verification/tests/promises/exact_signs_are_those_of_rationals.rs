@@ -1,4 +1,4 @@
-//! `selvedge_core::verification::exact` agrees with rational arithmetic for every finite pair.
+//! `selvedge_core::kernels::exact` agrees with rational arithmetic for every finite pair.
 
 use crate::support::environment::Environment;
 use crate::support::rationals::separations;
@@ -6,8 +6,8 @@ use crate::support::widths::at_the_limit_of_a_width;
 use proptest::prelude::*;
 use rug::Rational;
 use selvedge_core::PairKind;
-use selvedge_core::verification::coplanarity::is_in_range;
-use selvedge_core::verification::exact::{
+use selvedge_core::kernels::coplanarity::is_in_range;
+use selvedge_core::kernels::exact::{
     KnownSigns, UNKNOWN, certain_signs, control_value_signs, is_never_coplanar, is_never_within,
 };
 use selvedge_verification::culling::CullingTest;

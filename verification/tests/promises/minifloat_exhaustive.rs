@@ -11,8 +11,8 @@
 //! that are a fraction of these.
 
 use rug::{Rational, ops::Pow};
-use selvedge_core::verification::coplanarity::MovingTetrahedron;
-use selvedge_core::verification::vector::Vector;
+use selvedge_core::kernels::coplanarity::MovingTetrahedron;
+use selvedge_core::kernels::vector::Vector;
 use selvedge_verification::minifloat::{DOWNWARD, FLUSHING, Minifloat, TO_NEAREST, TOWARDS_ZERO, UPWARD, every, numbers};
 
 /// A moving tetrahedron by the points a, b, c, p at times 0 and 1.

@@ -14,9 +14,9 @@ use selvedge_core::elementary::advance::{
 };
 use selvedge_core::elementary::{Impact, Limits, Reason};
 use selvedge_core::glam::DVec3;
-use selvedge_core::verification::advance::Work;
-use selvedge_core::verification::of_kind;
-use selvedge_core::verification::points::PairPoints;
+use selvedge_core::kernels::advance::Work;
+use selvedge_core::kernels::of_kind;
+use selvedge_core::kernels::points::PairPoints;
 use selvedge_core::{Motion, PrimitivePair, Scalar};
 use selvedge_verification::formats;
 use selvedge_verification::generator::{

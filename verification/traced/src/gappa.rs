@@ -5,8 +5,8 @@
 use crate::Text;
 use crate::symbols::{Step, Trace, Traced, trace};
 use selvedge_core::PairKind;
-use selvedge_core::verification::coplanarity::MovingTetrahedron;
-use selvedge_core::verification::vector::Vector;
+use selvedge_core::kernels::coplanarity::MovingTetrahedron;
+use selvedge_core::kernels::vector::Vector;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 

@@ -3,7 +3,7 @@
 //! The kernels are generic over [`Lanes`], so their source runs on [`Traced`] unchanged. The proofs in `verification/gappa` start
 //! from these traces, so they are about the code and not about a copy of it.
 
-use selvedge_core::verification::lanes::{Lanes, Rounding};
+use selvedge_core::kernels::lanes::{Lanes, Rounding};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};

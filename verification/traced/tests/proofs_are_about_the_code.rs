@@ -2,13 +2,13 @@
 //! of roundings in scripts are the code's. `gappa/check.sh` and `proofs/check.sh` check that the proofs hold.
 
 use selvedge_core::Scalar;
-use selvedge_core::verification::advance::confirm::{contains_origin, doubled_bounds};
-use selvedge_core::verification::advance::corners::Corners;
-use selvedge_core::verification::advance::directions::{are_apart_curving, are_apart_turning};
-use selvedge_core::verification::advance::volume::SignedVolume;
-use selvedge_core::verification::lanes::Rounding;
-use selvedge_core::verification::points::PairPoints;
-use selvedge_core::verification::vector::Vector;
+use selvedge_core::kernels::advance::confirm::{contains_origin, doubled_bounds};
+use selvedge_core::kernels::advance::corners::Corners;
+use selvedge_core::kernels::advance::directions::{are_apart_curving, are_apart_turning};
+use selvedge_core::kernels::advance::volume::SignedVolume;
+use selvedge_core::kernels::lanes::Rounding;
+use selvedge_core::kernels::points::PairPoints;
+use selvedge_core::kernels::vector::Vector;
 use selvedge_traced::gappa::tetrahedron;
 use selvedge_traced::symbols::{Mask, Paths, Trace, Traced, trace};
 use selvedge_traced::{Prover, accepted};

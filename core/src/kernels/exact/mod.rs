@@ -92,7 +92,7 @@ pub const UNKNOWN: KnownSigns = [None; 4];
 ///
 /// ```
 /// use selvedge_core::{glam::DVec3, Motion, PrimitivePair};
-/// use selvedge_core::verification::{coplanarity::MovingTetrahedron, exact};
+/// use selvedge_core::kernels::{coplanarity::MovingTetrahedron, exact};
 /// // A vertex that rests 2⁻⁶⁰ above the face at first: floating point sees only where it goes.
 /// let height = DVec3::new(0.0, 0.0, 1.0 / (1_u64 << 60) as f64);
 /// let pair = PrimitivePair::vertex_face(
@@ -127,7 +127,7 @@ pub fn certain_signs<S: Scalar>(values: &ControlValues<S>, bounds: [S; 4]) -> Kn
 /// ```
 /// use core::cmp::Ordering::{Equal, Greater, Less};
 /// use selvedge_core::{glam::DVec3, Motion, PrimitivePair};
-/// use selvedge_core::verification::exact;
+/// use selvedge_core::kernels::exact;
 /// // A vertex that starts 1e-300 above a triangle and falls by 1e300.
 /// let pair = PrimitivePair::vertex_face(
 ///     Motion::new(DVec3::new(0.2, 0.2, 1e-300), DVec3::new(0.2, 0.2, -1e300)),
@@ -184,7 +184,7 @@ pub fn is_never_coplanar<S: Scalar>(pair: &PrimitivePair<S>, known: KnownSigns) 
 ///
 /// ```
 /// use selvedge_core::{glam::DVec3, Motion, PrimitivePair};
-/// use selvedge_core::verification::exact;
+/// use selvedge_core::kernels::exact;
 /// let pair = PrimitivePair::vertex_face(
 ///     Motion::new(DVec3::new(0.2, 0.2, 2.0), DVec3::new(0.2, 0.2, 1.0)),
 ///     [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),

@@ -13,10 +13,10 @@
 //! This is written from the description. Each round computes positions from the time, instead of adding steps up.
 
 use selvedge_core::elementary::{Impact, Reason};
-use selvedge_core::verification::advance::closest::closest;
-use selvedge_core::verification::advance::corners::Corners;
-use selvedge_core::verification::points::PairPoints;
-use selvedge_core::verification::vector::Vector;
+use selvedge_core::kernels::advance::closest::closest;
+use selvedge_core::kernels::advance::corners::Corners;
+use selvedge_core::kernels::points::PairPoints;
+use selvedge_core::kernels::vector::Vector;
 use selvedge_core::{PairKind, PrimitivePair, Scalar};
 
 /// The largest number of rounds.

@@ -6,10 +6,10 @@
 
 use selvedge_core::batch::VolumeTest;
 use selvedge_core::filter::{Filter, Tier};
-use selvedge_core::verification::coplanarity::{Decision, MovingTetrahedron};
-use selvedge_core::verification::lanes::{Lanes, Rounding};
-use selvedge_core::verification::of_kind;
-use selvedge_core::verification::points::PairShape;
+use selvedge_core::kernels::coplanarity::{Decision, MovingTetrahedron};
+use selvedge_core::kernels::lanes::{Lanes, Rounding};
+use selvedge_core::kernels::of_kind;
+use selvedge_core::kernels::points::PairShape;
 use selvedge_core::{PrimitivePair, Scalar, Verdict};
 
 /// Culls pairs whose control values have one strict sign as computed, and exceed the separation if there is one. For batches, see

@@ -14,7 +14,7 @@
 //!
 //! In exact arithmetic this is a decision. The paper uses expansions if floating point is in doubt. Here rounding is ignored, to
 //! show the cost of the classification alone and how often it then errs. The reduction suffers most: if K is nearly of lower
-//! degree, c²·g and q·K nearly cancel. [`exact::touches`](selvedge_core::verification::exact::touches) decides exactly, by the
+//! degree, c²·g and q·K nearly cancel. [`exact::touches`](selvedge_core::kernels::exact::touches) decides exactly, by the
 //! same idea with quadratics in place of quartics.
 //!
 //! If K is zero throughout there is no root. The pair then counts as touching unless an inside function is negative throughout.
@@ -23,11 +23,11 @@
 
 use super::cubic::Cubic;
 use selvedge_core::PairKind;
+use selvedge_core::kernels::of_kind;
+use selvedge_core::kernels::points::{PairPoints, PairShape};
+use selvedge_core::kernels::vector::Vector;
 use selvedge_core::motion::PrimitivePair;
 use selvedge_core::scalar::Scalar;
-use selvedge_core::verification::of_kind;
-use selvedge_core::verification::points::{PairPoints, PairShape};
-use selvedge_core::verification::vector::Vector;
 
 /// Returns whether the pair touches at some time in [0, 1]. Rounding can make either answer wrong: see the module.
 ///

@@ -9,8 +9,8 @@
 //!
 //! `selvedge queries --method cubic` shows how often.
 
-use selvedge_core::verification::coplanarity::MovingTetrahedron;
-use selvedge_core::verification::vector::Vector;
+use selvedge_core::kernels::coplanarity::MovingTetrahedron;
+use selvedge_core::kernels::vector::Vector;
 use selvedge_core::{Motion, PairKind, PrimitivePair, Scalar};
 
 /// Returns the earliest time in [0, 1] at which the vertex is in the triangle, or the edges cross. It may be wrong: see the

@@ -18,9 +18,9 @@
 //! and of sums, and that flushes one side only.
 
 use selvedge_core::batch::PointsTest;
-use selvedge_core::verification::lanes::{Lanes, Rounding};
-use selvedge_core::verification::of_kind;
-use selvedge_core::verification::points::{PairPoints, PairShape};
+use selvedge_core::kernels::lanes::{Lanes, Rounding};
+use selvedge_core::kernels::of_kind;
+use selvedge_core::kernels::points::{PairPoints, PairShape};
 use selvedge_core::{Motion, PrimitivePair, Scalar, Verdict};
 
 /// Culls `pair` if one of nine directions keeps its two sets apart, in the same order, throughout the step.

@@ -6,10 +6,10 @@
 //! [`certified`](selvedge_core::filter::certified).
 
 use selvedge_core::batch::PointsTest;
-use selvedge_core::verification::coplanarity::ControlValues;
-use selvedge_core::verification::lanes::{Lanes, Rounding};
-use selvedge_core::verification::of_kind;
-use selvedge_core::verification::points::{PairPoints, PairShape};
+use selvedge_core::kernels::coplanarity::ControlValues;
+use selvedge_core::kernels::lanes::{Lanes, Rounding};
+use selvedge_core::kernels::of_kind;
+use selvedge_core::kernels::points::{PairPoints, PairShape};
 use selvedge_core::{PrimitivePair, Scalar, Verdict};
 
 /// Culls `pair` if A, B, 2C + F and 2D + E, as computed, all have the same strict sign.

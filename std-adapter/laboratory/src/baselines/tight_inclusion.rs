@@ -26,11 +26,11 @@
 use arrayvec::ArrayVec;
 use selvedge_core::PairKind;
 use selvedge_core::elementary::{Impact, Limits, Reason};
+use selvedge_core::kernels::of_kind;
+use selvedge_core::kernels::points::{PairPoints, PairShape};
+use selvedge_core::kernels::vector::Vector;
 use selvedge_core::motion::PrimitivePair;
 use selvedge_core::scalar::Scalar;
-use selvedge_core::verification::of_kind;
-use selvedge_core::verification::points::{PairPoints, PairShape};
-use selvedge_core::verification::vector::Vector;
 
 /// The largest number of boxes that a search tests.
 pub const CHECKS: u32 = 1_000_000;

@@ -6,7 +6,7 @@
 //! benefit; `selvedge accuracy` shows both.
 
 use selvedge_core::elementary::{Impact, Limits};
-use selvedge_core::verification::altered::{self, Constants};
+use selvedge_core::kernels::altered::{self, Constants};
 use selvedge_core::{PrimitivePair, Scalar};
 
 /// Returns the time from which the pair is within the separation, as computed. **It may be too late, or miss a contact.**

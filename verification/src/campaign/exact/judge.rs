@@ -4,7 +4,7 @@ use super::{Claim, ClaimCounts, SAMPLE};
 use crate::generator::{Format, PairCase};
 use crate::oracle;
 use selvedge_core::PrimitivePair;
-use selvedge_core::verification::exact::{control_value_signs, touches};
+use selvedge_core::kernels::exact::{control_value_signs, touches};
 use std::cmp::Ordering::{Greater, Less};
 
 /// One pair, and what is proven about it so far.

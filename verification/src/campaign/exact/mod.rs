@@ -4,9 +4,9 @@
 //!
 //! # Verdicts
 //! A cull by the volume's signs is right if the exact control values
-//! ([`control_value_signs`](selvedge_core::verification::exact::control_value_signs)) have one strict sign. A claim that two sets
+//! ([`control_value_signs`](selvedge_core::kernels::exact::control_value_signs)) have one strict sign. A claim that two sets
 //! stay apart is right in three cases. The signs prove it, one axis keeps the sets in the same order at both ends, or the integer
-//! test [`touches`](selvedge_core::verification::exact::touches) finds no contact. The [`oracle`](crate::oracle) decides all
+//! test [`touches`](selvedge_core::kernels::exact::touches) finds no contact. The [`oracle`](crate::oracle) decides all
 //! other claims. It also confirms every [`SAMPLE`]th claim that these prove.
 
 mod chunk;

@@ -1,4 +1,4 @@
-//! Pairs at the limits of the fixed widths that `selvedge_core::verification::exact` computes in.
+//! Pairs at the limits of the fixed widths that `selvedge_core::kernels::exact` computes in.
 
 use selvedge_core::PairKind;
 use selvedge_verification::generator::{Choices, Format, PairCase};

@@ -66,7 +66,7 @@ use moment::{Crossing, End, Moment, Root, sign_before_end};
 ///
 /// ```
 /// use selvedge_core::{glam::DVec3, Motion, PrimitivePair};
-/// use selvedge_core::verification::exact;
+/// use selvedge_core::kernels::exact;
 /// let falls_past = |x| PrimitivePair::vertex_face(
 ///     Motion::new(DVec3::new(x, 0.5, 1.0), DVec3::new(x, 0.5, -1.0)),
 ///     [DVec3::ZERO, DVec3::X, DVec3::ONE].map(Motion::resting),

@@ -5,7 +5,7 @@ use crate::methods::{MeasuredFilter, WithLanes, WithTest};
 use selvedge::simd::{Level, available_levels};
 use selvedge_core::PairKind;
 use selvedge_core::batch::{BatchTest, LANES, Mask, Tile, VertexRow, culled_from_rows, culled_from_tiles};
-use selvedge_core::verification::exact;
+use selvedge_core::kernels::exact;
 use selvedge_core::{PrimitivePair, Scalar};
 use std::hint::black_box;
 use std::time::Instant;

@@ -7,7 +7,7 @@
 //! format.
 //!
 //! # Truth
-//! Exact arithmetic ([`selvedge_core::verification::exact`]) culls a pair if the four control values have one strict sign, and
+//! Exact arithmetic ([`selvedge_core::kernels::exact`]) culls a pair if the four control values have one strict sign, and
 //! exceed the separation if there is one. Every filter computes that with some rounding, so a filter that culls another pair has
 //! no proof of it: a *false cull*.
 //!
