@@ -15,7 +15,7 @@ use bevy_time::{Fixed, Time};
 use bevy_transform::components::Transform;
 use selvedge::glam::{DMat3, DVec3};
 use selvedge_cloth::{
-    Body, BodyMotion, Cloth, Frame, FrameError, Placement, Scene, Simulation, Tubes, ValueError, vertex_normals,
+    Body, BodyMotion, Cloth, FrameError, FrameSteps, Placement, Scene, Simulation, Tubes, ValueError, vertex_normals,
 };
 use std::collections::BTreeMap;
 
@@ -304,7 +304,7 @@ impl ClothSimulation {
             }
         }
         let frame = match simulation.advance(fixed) {
-            Ok(Frame { steps, needed }) if steps < needed => Err(SelvedgeError::ShortOfSteps { steps, needed }),
+            Ok(FrameSteps { steps, needed }) if steps < needed => Err(SelvedgeError::ShortOfSteps { steps, needed }),
             Ok(_) => Ok(()),
             Err(FrameError::Seconds(error)) => Err(SelvedgeError::FixedStep(error)),
             Err(FrameError::Blocked(blocked)) => {

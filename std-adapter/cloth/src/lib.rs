@@ -57,7 +57,7 @@ pub use selvedge_core::glam;
 /// Readers of meshes, numbered frames and figures, from which [`Animation`]s are made.
 pub use selvedge_files as files;
 pub use simulate::{
-    Blocked, CHECKPOINT_STEPS, CheckpointError, DriveError, EdgeStretch, EffectTime, FASTEST, Frame, FrameError, SetupError,
+    Blocked, CHECKPOINT_STEPS, CheckpointError, DriveError, EdgeStretch, EffectTime, FASTEST, FrameError, FrameSteps, SetupError,
     Simulation, Tangled, Untangled, UntanglingEnd, UntanglingProgress,
 };
 pub use world::{Animation, Body, BodyMotion, Cloth, Keyframe, KeyframeMotion, Material, Placement, sleeve};

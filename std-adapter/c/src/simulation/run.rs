@@ -5,7 +5,7 @@ use crate::guard::guarded;
 use crate::handles;
 use crate::input::{Out, text};
 use crate::status::{Failure, Status};
-use selvedge_cloth::{Frame, FrameError, Scene, Simulation};
+use selvedge_cloth::{FrameError, FrameSteps, Scene, Simulation};
 use std::ffi::c_char;
 use std::path::Path;
 
@@ -123,7 +123,7 @@ pub unsafe extern "C" fn selvedge_simulation_advance(
             FrameError::Blocked(_) => Status::Blocked,
         };
         let made = it.simulation.advance_within(seconds, most);
-        let Frame { steps, needed } = made.map_err(|error| Failure::new(status(&error), error))?;
+        let FrameSteps { steps, needed } = made.map_err(|error| Failure::new(status(&error), error))?;
         if let Some(out) = out {
             out.set(FrameRow { steps, needed });
         }

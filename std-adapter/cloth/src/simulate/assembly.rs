@@ -86,29 +86,21 @@ impl Assembly {
             triangles,
         } = all;
         inverse_masses.resize(rest.len(), 0.0);
-        let remembers = |&index: &usize| constraints[index].action.memory().is_some();
-        let remembering = (0..constraints.len()).filter(remembers).collect();
-        let bounds = |&index: &usize| constraints[index].action.over_limit(&rest).is_some();
-        let bounding = (0..constraints.len()).filter(bounds).collect();
-        let acts = |&index: &usize| constraints[index].action.acts_among_contacts();
-        let among_contacts = (0..constraints.len()).filter(acts).collect();
         let loose_edges = scene.all_loose_edges();
-        let contact = match contact.asks_for_any() {
-            true => {
-                let topology = Topology::with_loose_features(rest.len(), triangles.clone(), &loose_edges, &[])?;
-                let bodies = scene.bodies.len();
-                Some(ContactSolver::new(
-                    contact,
-                    topology,
-                    &rest,
-                    &carriers,
-                    cloth_vertices,
-                    bodies,
-                    scene.time_step,
-                ))
-            }
-            false => None,
-        };
+        let contact = contact.asks_for_any().then(|| {
+            let topology = Topology::with_loose_features(rest.len(), triangles.clone(), &loose_edges, &[])?;
+            let bodies = scene.bodies.len();
+            let (rest, time_step) = (&rest, scene.time_step);
+            Ok::<_, SetupError>(ContactSolver::new(
+                contact,
+                topology,
+                rest,
+                &carriers,
+                cloth_vertices,
+                bodies,
+                time_step,
+            ))
+        });
         let joints = constraints.iter().flat_map(|entry| entry.action.joints());
         let edges = edges(&triangles[..cloth_triangles])
             .chain(loose_edges.iter().copied())
@@ -117,28 +109,28 @@ impl Assembly {
         let pieces = Pieces::new(&inverse_masses[..cloth_vertices], edges);
         Ok(Self {
             effects,
-            contact,
+            contact: contact.transpose()?,
             vertices_of_cloths,
             body_vertices,
             cloth_vertices,
             cloth_triangles,
             triangles,
             loose_edges,
-            rest,
             inverse_masses,
             carriers,
             motions,
             pins,
             forces,
+            remembering: those(&constraints, |action| action.memory().is_some()),
+            among_contacts: those(&constraints, |action| action.acts_among_contacts()),
+            bounding: those(&constraints, |action| action.over_limit(&rest).is_some()),
             constraints,
-            remembering,
-            among_contacts,
-            bounding,
             pushes,
             friction,
             tearable,
             pieces,
             mean_edge,
+            rest,
         })
     }
 
@@ -147,6 +139,13 @@ impl Assembly {
         let all = self.remembering.iter();
         all.filter_map(|&index| self.constraints[index].action.memory())
     }
+}
+
+/// Returns the indices of the constraints that fulfil a condition.
+fn those(constraints: &[Entry<dyn Constraint>], fulfils: impl Fn(&dyn Constraint) -> bool) -> Vec<usize> {
+    (0..constraints.len())
+        .filter(|&index| fulfils(&*constraints[index].action))
+        .collect()
 }
 
 /// Returns the edges of triangles: an inner edge twice.

@@ -25,9 +25,9 @@ const FARTHEST: f64 = 0.5;
 pub(super) const MOST_STEPS: u32 = 64;
 const SECONDS: Field = Field::new("seconds", TIME, 1e-6, 1.0);
 
-/// The steps of a frame.
+/// How many steps a frame took.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Frame {
+pub struct FrameSteps {
     /// The number of steps that were done.
     pub steps: u32,
     /// The number of steps that the cloth needs. If that is more than were allowed, edges may be longer than their limit, and contacts act late.
@@ -68,7 +68,7 @@ impl Simulation {
     ///
     /// # Errors
     /// Returns an error if the time is out of range, or a [step](Self::step) fails.
-    pub fn advance(&mut self, seconds: f64) -> Result<Frame, FrameError> {
+    pub fn advance(&mut self, seconds: f64) -> Result<FrameSteps, FrameError> {
         self.advance_within(seconds, MOST_STEPS)
     }
 
@@ -76,12 +76,12 @@ impl Simulation {
     ///
     /// # Errors
     /// Returns the errors of [`advance`](Self::advance).
-    pub fn advance_within(&mut self, seconds: f64, most: u32) -> Result<Frame, FrameError> {
+    pub fn advance_within(&mut self, seconds: f64, most: u32) -> Result<FrameSteps, FrameError> {
         SECONDS.check(seconds)?;
         let needed = self.steps_needed(seconds);
         let steps = needed.min(most).max(1);
         self.steps_of_frame(seconds, steps)?;
-        Ok(Frame { steps, needed })
+        Ok(FrameSteps { steps, needed })
     }
 
     /// Returns how many steps a frame of so many seconds needs: see the [module](self).

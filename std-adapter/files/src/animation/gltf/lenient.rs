@@ -27,6 +27,18 @@ const IGNORED: [&str; 17] = [
     "ADOBE_materials_",
 ];
 
+/// The parts of the root that no shape and no motion needs.
+const LOOKS: [&str; 8] = [
+    "extensionsRequired",
+    "extensionsUsed",
+    "extensions",
+    "materials",
+    "textures",
+    "images",
+    "samplers",
+    "cameras",
+];
+
 /// Returns whether an attribute is read. The others are normals, colours, texture coordinates, or belong to an application.
 fn is_read(attribute: &str) -> bool {
     attribute == "POSITION" || attribute.starts_with("JOINTS_") || attribute.starts_with("WEIGHTS_")
@@ -38,29 +50,15 @@ fn is_read(attribute: &str) -> bool {
 /// Returns an error if the file requires an extension without which its shapes or motion are not known.
 pub(super) fn reduce(root: &mut Value) -> Result<Vec<LeftOut>, AnimationProblem> {
     let required = root.get("extensionsRequired").and_then(Value::as_array);
-    for name in required.into_iter().flatten().filter_map(Value::as_str) {
-        if !IGNORED.iter().any(|ignored| name.starts_with(ignored)) {
-            return Err(AnimationProblem::Extension {
-                name: short(name),
-                remedy: remedy(name),
-            });
-        }
+    let mut names = required.into_iter().flatten().filter_map(Value::as_str);
+    if let Some(name) = names.find(|name| !IGNORED.iter().any(|ignored| name.starts_with(ignored))) {
+        let (name, remedy) = (short(name), remedy(name));
+        return Err(AnimationProblem::Extension { name, remedy });
     }
     let Some(root) = root.as_object_mut() else {
         return Ok(Vec::new());
     };
-    for key in [
-        "extensionsRequired",
-        "extensionsUsed",
-        "extensions",
-        "materials",
-        "textures",
-        "images",
-        "samplers",
-        "cameras",
-    ] {
-        root.remove(key);
-    }
+    root.retain(|key, _| !LOOKS.contains(&key.as_str()));
     let mut left_out = Vec::new();
     let mut leave_out = |part, name: &str, count: usize, may_have_area| {
         if count > 0 {
@@ -73,16 +71,29 @@ pub(super) fn reduce(root: &mut Value) -> Result<Vec<LeftOut>, AnimationProblem>
             });
         }
     };
-    let instances = objects(root, "nodes").filter(|node| {
-        node.get("extensions")
-            .and_then(|all| all.get("EXT_mesh_gpu_instancing"))
-            .is_some()
-    });
-    leave_out(FilePart::Node, "EXT_mesh_gpu_instancing", instances.count(), true);
+    let mut instances = 0;
     for node in objects(root, "nodes") {
         node.remove("camera");
-        node.remove("extensions");
+        let extensions = node.remove("extensions");
+        instances += usize::from(extensions.is_some_and(|all| all.get("EXT_mesh_gpu_instancing").is_some()));
     }
+    leave_out(FilePart::Node, "EXT_mesh_gpu_instancing", instances, true);
+    reduce_shapes(root);
+    let mut channels = 0;
+    for animation in objects(root, "animations") {
+        animation.remove("extensions");
+        if let Some(own) = animation.get_mut("channels").and_then(Value::as_array_mut) {
+            let before = own.len();
+            own.retain(moves_a_node);
+            channels += before - own.len();
+        }
+    }
+    leave_out(FilePart::Channel, "of something other than nodes", channels, false);
+    Ok(left_out)
+}
+
+/// Leaves positions, joints and weights of the primitives alone.
+fn reduce_shapes(root: &mut Map<String, Value>) {
     let mut shapes = Vec::new();
     for mesh in objects(root, "meshes") {
         mesh.remove("extensions");
@@ -113,17 +124,6 @@ pub(super) fn reduce(root: &mut Value) -> Result<Vec<LeftOut>, AnimationProblem>
             }
         }
     }
-    let mut channels = 0;
-    for animation in objects(root, "animations") {
-        animation.remove("extensions");
-        if let Some(own) = animation.get_mut("channels").and_then(Value::as_array_mut) {
-            let before = own.len();
-            own.retain(moves_a_node);
-            channels += before - own.len();
-        }
-    }
-    leave_out(FilePart::Channel, "of something other than nodes", channels, false);
-    Ok(left_out)
 }
 
 /// Returns false for a channel without a node, or for a pointer, since these move something else.
