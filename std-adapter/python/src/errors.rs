@@ -1,8 +1,10 @@
 //! Converts errors to exceptions of `selvedge.errors`, with the library's messages.
 
-use pyo3::PyErr;
+use crate::answers::{show_crossings, show_untangled};
 use pyo3::exceptions::PyMemoryError;
+use pyo3::prelude::*;
 use selvedge::{StepError, ThreadError, TopologyError};
+use selvedge_cloth::{DriveError, SetupError};
 
 macro_rules! exceptions {
     ($($name:ident),*) => { $(pyo3::import_exception!(selvedge.errors, $name);)* };
@@ -51,4 +53,26 @@ pub(crate) fn busy() -> PyErr {
 
 pub(crate) fn broken(words: &str) -> PyErr {
     BrokenError::new_err(format!("a bug in Selvedge, please report it: {words}"))
+}
+
+pub(crate) fn of_setup(py: Python<'_>, error: &SetupError) -> PyErr {
+    match error {
+        SetupError::Threads(error) => of_threads(error),
+        SetupError::Tangled(tangled) => {
+            let shown = show_crossings(py, &tangled.crossings).and_then(|crossings| {
+                let untangled = show_untangled(py, tangled.untangled.as_ref())?;
+                Ok((tangled.to_string(), crossings.unbind(), untangled.map(Bound::unbind)))
+            });
+            shown.map_or_else(|error| error, TangledError::new_err)
+        }
+        error => SceneError::new_err(error.to_string()),
+    }
+}
+
+pub(crate) fn of_scene(error: &selvedge_cloth::SceneError) -> PyErr {
+    SceneError::new_err(error.to_string())
+}
+
+pub(crate) fn of_driving(error: &DriveError) -> PyErr {
+    InputError::new_err(error.to_string())
 }

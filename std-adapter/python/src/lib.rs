@@ -9,6 +9,7 @@ mod answers;
 mod arrays;
 mod call;
 mod detector;
+mod driven;
 mod errors;
 mod finder;
 mod meshes;

@@ -1,15 +1,15 @@
 //! The class `Simulation`.
 
 use crate::answers::{rows, show_crossings, show_near_pairs, show_released, show_torn_edges, show_untangled};
-use crate::arrays::{Frames, with_frames};
 use crate::call::{Length, interruptible};
-use crate::errors::{self, BlockedError, BrokenError, CheckpointError, ForkedError, InputError, SceneError, TangledError};
+use crate::driven::{Body, copied};
+use crate::errors::{self, BlockedError, BrokenError, CheckpointError, ForkedError, InputError};
 use numpy::{PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyRuntimeWarning;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyBytes, PyDict, PySlice, PyType};
 use selvedge_cloth::glam::{DQuat, DVec3};
-use selvedge_cloth::{ContactCounts, ContactSeconds, DriveError, FrameError, Placement, Scene, SetupError, vertex_normals};
+use selvedge_cloth::{ContactCounts, ContactSeconds, FrameError, Placement, Scene, vertex_normals};
 use std::ffi::CString;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -61,20 +61,6 @@ struct OfScene {
     settings: Vec<(String, String)>,
 }
 
-fn setup_error(py: Python<'_>, error: &SetupError) -> PyErr {
-    match error {
-        SetupError::Threads(error) => errors::of_threads(error),
-        SetupError::Tangled(tangled) => {
-            let shown = show_crossings(py, &tangled.crossings).and_then(|crossings| {
-                let untangled = show_untangled(py, tangled.untangled.as_ref())?;
-                Ok((tangled.to_string(), crossings.unbind(), untangled.map(Bound::unbind)))
-            });
-            shown.map_or_else(|error| error, TangledError::new_err)
-        }
-        error => SceneError::new_err(error.to_string()),
-    }
-}
-
 impl Simulation {
     fn of(py: Python<'_>, scene: PyResult<Scene>, threads: usize) -> PyResult<Self> {
         let scene = scene?;
@@ -88,7 +74,7 @@ impl Simulation {
         let made = interruptible(py, Length::Long, || (), || selvedge_cloth::Simulation::new(scene, threads))?;
         let simulation = made
             .map_err(|words| errors::broken(&words))?
-            .map_err(|error| setup_error(py, &error))?;
+            .map_err(|error| errors::of_setup(py, &error))?;
         let shown = Shown::new(py, simulation.positions().len())?;
         let made = Self {
             simulation: Mutex::new(simulation),
@@ -170,49 +156,12 @@ impl Simulation {
     }
 }
 
-/// A body, by its name or by its index.
-#[derive(FromPyObject)]
-enum Body {
-    Name(String),
-    Index(usize),
-}
-
-impl Body {
-    fn index(&self, simulation: &selvedge_cloth::Simulation) -> PyResult<usize> {
-        let names = simulation.body_names();
-        let found = match self {
-            Self::Name(name) => names.iter().position(|known| known == name),
-            Self::Index(index) => (*index < names.len()).then_some(*index),
-        };
-        found.ok_or_else(|| match self {
-            Self::Name(name) => InputError::new_err(format!("there is no body '{name}'; the scene has {names:?}")),
-            Self::Index(index) => InputError::new_err(format!("there is no body {index}; the scene has {}", names.len())),
-        })
-    }
-}
-
-fn drive_error(error: &DriveError) -> PyErr {
-    InputError::new_err(error.to_string())
-}
-
-/// Converts positions of either format to those of the simulation.
-fn copied(positions: &Bound<'_, PyAny>) -> PyResult<Vec<DVec3>> {
-    with_frames!(Frames::of([("positions", positions)])?, [positions] => {
-        let rows = positions.rows()?.iter();
-        Ok(rows.map(|row| DVec3::from(row.map(f64::from))).collect())
-    })
-}
-
-fn scene_error(error: &selvedge_cloth::SceneError) -> PyErr {
-    SceneError::new_err(error.to_string())
-}
-
 #[pymethods]
 impl Simulation {
     #[new]
     #[pyo3(signature = (scene, threads=1))]
     fn new(py: Python<'_>, scene: PathBuf, threads: usize) -> PyResult<Self> {
-        Self::of(py, Scene::read(&scene).map_err(|error| scene_error(&error)), threads)
+        Self::of(py, Scene::read(&scene).map_err(|error| errors::of_scene(&error)), threads)
     }
 
     #[classmethod]
@@ -221,7 +170,7 @@ impl Simulation {
         let path = path.unwrap_or_else(|| SCENE.into());
         Self::of(
             class.py(),
-            Scene::parse(text, &path).map_err(|error| scene_error(&error)),
+            Scene::parse(text, &path).map_err(|error| errors::of_scene(&error)),
             threads,
         )
     }
@@ -236,7 +185,7 @@ impl Simulation {
     ) -> PyResult<Self> {
         let text = class.py().import("selvedge._scenes")?.call_method1("text_of", (scene,))?;
         let path = folder.unwrap_or_default().join(SCENE);
-        let scene = Scene::parse(text.extract()?, &path).map_err(|error| scene_error(&error));
+        let scene = Scene::parse(text.extract()?, &path).map_err(|error| errors::of_scene(&error));
         Self::of(class.py(), scene, threads)
     }
 
@@ -294,7 +243,9 @@ impl Simulation {
             rotation: DQuat::from_array(rotation),
             translation: translation.into(),
         };
-        simulation.place_body(body, placement).map_err(|error| drive_error(&error))
+        simulation
+            .place_body(body, placement)
+            .map_err(|error| errors::of_driving(&error))
     }
 
     fn placement(&self, body: Body) -> PyResult<Option<([f64; 3], [f64; 4])>> {
@@ -307,18 +258,20 @@ impl Simulation {
         let positions = copied(positions)?;
         let mut simulation = self.simulation()?;
         let body = body.index(&simulation)?;
-        simulation.move_body(body, &positions).map_err(|error| drive_error(&error))
+        simulation
+            .move_body(body, &positions)
+            .map_err(|error| errors::of_driving(&error))
     }
 
     fn move_pins(&self, group: usize, positions: &Bound<'_, PyAny>) -> PyResult<()> {
         let positions = copied(positions)?;
         let moved = self.simulation()?.move_pins(group, &positions);
-        moved.map_err(|error| drive_error(&error))
+        moved.map_err(|error| errors::of_driving(&error))
     }
 
     fn set_wind(&self, velocity: [f64; 3]) -> PyResult<()> {
         let set = self.simulation()?.set_wind(velocity.into());
-        set.map_err(|error| drive_error(&error))
+        set.map_err(|error| errors::of_driving(&error))
     }
 
     #[getter]
