@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds exact_campaign, screw_motions and merge into FOLDER, which all machines of a cluster see. The programs know the commit that
+# Builds exact_campaign and merge into FOLDER, which all machines of a cluster see. The programs know the commit that
 # they are built from, so `merge` can refuse shards of another commit.
 #
 #   verification/cluster/build.sh FOLDER
@@ -17,7 +17,7 @@ if [ -n "$(git status --porcelain --untracked-files=no)" ]; then
 fi
 SELVEDGE_COMMIT=$(git rev-parse HEAD)
 export SELVEDGE_COMMIT
-programs=(exact_campaign screw_motions merge)
+programs=(exact_campaign merge)
 cargo build --release -p selvedge-verification "${programs[@]/#/--example=}"
 for program in "${programs[@]}"; do
     # Replaces the file instead of overwriting it, since a campaign may be running.

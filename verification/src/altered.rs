@@ -14,11 +14,8 @@ use std::marker::PhantomData;
 
 /// The factors by which the constants of [`Rounding`] are multiplied.
 pub trait Factors {
-    /// The factor of the unit roundoff.
     const UNIT_ROUNDOFF: f64 = 1.0;
-    /// The factor of η.
     const UNDERFLOW: f64 = 1.0;
-    /// The factor of the largest edge.
     const LARGEST_EDGE: f64 = 1.0;
 }
 

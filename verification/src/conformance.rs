@@ -22,19 +22,14 @@ impl TryFrom<String> for Hexadecimal {
     }
 }
 
-/// The question of a case.
 #[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq)]
 #[serde(rename_all = "kebab-case")]
 pub enum Question {
-    /// A vertex and a face that move linearly.
     VertexFace,
-    /// Two edges that move linearly.
     EdgeEdge,
-    /// Two triangles at rest.
     Triangles,
     /// A triangle that translates, and one at rest before it.
     MovingTriangle,
-    /// Two meshes at rest.
     Meshes,
     /// A mesh whose vertices move linearly, and its pairs without a shared vertex.
     MovingMesh,
@@ -43,9 +38,7 @@ pub enum Question {
 /// A case as the suite's schema describes it.
 #[derive(Debug, Deserialize)]
 pub struct Case {
-    /// The name of the case.
     pub id: String,
-    /// The question.
     pub question: Question,
     /// `f32` or `f64`, the smallest format that holds all numbers.
     pub format: String,
@@ -53,7 +46,6 @@ pub struct Case {
     end: Option<Vec<[Hexadecimal; 3]>>,
     #[serde(rename = "move")]
     translation: Option<[Hexadecimal; 3]>,
-    /// The triangles of a mesh.
     #[serde(default)]
     pub faces: Vec<[u32; 3]>,
     /// The number of triangles of the first of two meshes.
@@ -87,7 +79,6 @@ impl Case {
     }
 
     /// Returns all positions at the start and at the end.
-    #[must_use]
     pub fn positions(&self) -> [Vec<[f64; 3]>; 2] {
         let numbers = |points: &[[Hexadecimal; 3]]| -> Vec<_> { points.iter().map(|point| point.map(|x| x.0)).collect() };
         let start = numbers(&self.start);
@@ -103,7 +94,6 @@ impl Case {
     }
 
     /// Returns the triangles. For two triangles, the second has the vertices 3 to 5.
-    #[must_use]
     pub fn triangles(&self) -> Vec<[u32; 3]> {
         match self.question {
             Question::Triangles | Question::MovingTriangle => vec![[0, 1, 2], [3, 4, 5]],
@@ -112,7 +102,6 @@ impl Case {
     }
 
     /// Returns the primitive pairs that the question is about, by the indices of their points.
-    #[must_use]
     pub fn pairs(&self) -> Vec<(PairKind, [u32; 4])> {
         let triangles = self.triangles();
         let (split, vertices) = match self.question {
@@ -144,7 +133,6 @@ impl Case {
     }
 
     /// Returns the pairs of [`pairs`](Self::pairs) as the oracle takes them.
-    #[must_use]
     pub fn questions(&self) -> Vec<Pair> {
         let [start, end] = self.positions();
         let pair = |(kind, points): (PairKind, [u32; 4])| Pair {

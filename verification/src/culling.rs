@@ -7,7 +7,6 @@ use selvedge_core::{Verdict, filter};
 /// A culling test. None of them culls a pair that touches, rounding included.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CullingTest {
-    /// Axis-aligned boxes that the two primitives sweep.
     SweptBoxes,
     /// Axis-aligned boxes that the two primitives sweep, merged from those of single points.
     StoredSweptBoxes,
@@ -20,7 +19,6 @@ pub enum CullingTest {
 }
 
 impl CullingTest {
-    /// Every culling test.
     pub const ALL: [Self; 5] = [
         Self::SweptBoxes,
         Self::StoredSweptBoxes,
@@ -35,7 +33,6 @@ pub fn certified() -> impl Iterator<Item = CullingTest> {
     CullingTest::ALL.into_iter()
 }
 
-/// Returns the verdict of `test` on `case`.
 pub fn verdict<S: Format>(test: CullingTest, case: &PairCase<S>) -> Verdict {
     let pair = &case.pair();
     match test {

@@ -9,11 +9,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Rounding to nearest, ties to even; subnormal numbers are kept.
 pub const TO_NEAREST: u32 = 0;
-/// Rounding towards negative infinity.
 pub const DOWNWARD: u32 = 1;
-/// Rounding towards positive infinity.
 pub const UPWARD: u32 = 2;
-/// Rounding towards zero.
 pub const TOWARDS_ZERO: u32 = 3;
 /// The flag that is added to a direction to flush subnormal numbers: such results become zero, and such operands count as zero.
 pub const FLUSHING: u32 = 4;
@@ -42,7 +39,6 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Minifloat<E, F, ENVIRON
 
     /// Returns the number nearest to `value`. Of two equally near ones, it is the one whose last bit is 0. It is infinite from
     /// half a step above the largest number.
-    #[must_use]
     pub fn nearest(value: f64) -> Self {
         let () = Self::FITS;
         if !value.is_finite() {
@@ -103,7 +99,6 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Minifloat<E, F, ENVIRON
     }
 
     /// Returns the same number, exactly.
-    #[must_use]
     pub const fn value(self) -> f64 {
         self.0
     }
@@ -112,14 +107,12 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Minifloat<E, F, ENVIRON
     ///
     /// # Panics
     /// Panics if it is NaN or infinite.
-    #[must_use]
     pub fn units(self) -> i64 {
         assert!(self.0.is_finite(), "{self:?} is no multiple of anything");
         (self.0 * power_of_two(-Self::MIN_EXPONENT)) as i64
     }
 
     /// Iterates over every finite number, in order, zero once.
-    #[must_use]
     pub fn all() -> Vec<Self> {
         let mut all = Vec::new();
         for exponent in Self::LOWEST_NORMAL..=Self::HIGHEST_NORMAL {
@@ -278,7 +271,6 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> fmt::Debug for Minifloa
 ///
 /// # Panics
 /// Panics if the format lacks one of them.
-#[must_use]
 pub fn numbers<const E: u32, const F: u32, const ENVIRONMENT: u32, const N: usize>(
     values: [f64; N],
 ) -> [Minifloat<E, F, ENVIRONMENT>; N] {

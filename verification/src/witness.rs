@@ -28,9 +28,7 @@ pub struct Claim {
     pub kind: PairKind,
     /// The positions of its points at the start and at the end of the step.
     pub points: [[[f64; 3]; 2]; 4],
-    /// The separation.
     pub separation: f64,
-    /// The time.
     pub until: f64,
     /// The proof: consecutive parts of the step.
     pub parts: Vec<Part>,
@@ -39,7 +37,6 @@ pub struct Claim {
 /// A part of the step, from the end of the part before.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
-    /// Its end.
     pub until: f64,
     /// The directions of its proof: none for the volume, one that is held, two of one that turns, three of one that curves.
     pub directions: Vec<[f64; 3]>,
@@ -47,7 +44,6 @@ pub struct Part {
 
 impl Claim {
     /// The claim of an answer to which core added `witness`.
-    #[must_use]
     pub fn new<S: Scalar>(pair: &PrimitivePair<S>, separation: S, impact: Impact<S>, witness: &Witness<S>) -> Self {
         let vector = |w: [S; 3]| w.map(S::to_f64);
         let parts = witness.parts().iter().map(|part| Part {
@@ -71,7 +67,6 @@ impl Claim {
     }
 
     /// Returns whether the parts prove the claim. Numbers that are not finite prove nothing.
-    #[must_use]
     pub fn is_proven(&self) -> bool {
         self.check().is_some()
     }

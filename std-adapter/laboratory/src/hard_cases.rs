@@ -44,7 +44,6 @@ pub enum ExactContact {
 ///
 /// # Panics
 /// Panics if the file, which is part of the program, is not well-formed. A test reads it.
-#[must_use]
 pub fn hard_cases() -> &'static [HardCase] {
     static CASES: OnceLock<Vec<HardCase>> = OnceLock::new();
     CASES.get_or_init(|| {

@@ -15,6 +15,8 @@
 //! | [`hard_cases`] | hard cases of the literature by name, with exact answers |
 //! | [`report`] | results of studies and simulations as tables, CSV, JSON, plots, pictures, pages and glTF |
 
+#![allow(clippy::must_use_candidate, reason = "what reports and studies return is all that they do")]
+
 pub mod baselines;
 pub mod broad_phase;
 pub mod hard_cases;

@@ -75,7 +75,6 @@ const ROWS: usize = 8;
 ///
 /// The file's folder decides if its name is `vertex-face` or `edge-edge`, as in the benchmark. Otherwise a file name decides that ends in
 /// `vf` or `ee` before its extension, if no letter comes before these (`227vf.csv`, but not `knee.csv`).
-#[must_use]
 pub fn kind_of_path(path: &Path) -> Option<PairKind> {
     // The path is made absolute so that `data.csv` inside `vertex-face` is recognised from there.
     let absolute = std::path::absolute(path);

@@ -13,7 +13,6 @@ pub struct Chunks {
 
 impl Chunks {
     /// Returns whether the set has that chunk.
-    #[must_use]
     pub fn contains(&self, chunk: u64) -> bool {
         let after = self.after(chunk);
         after > 0 && chunk < self.runs[after - 1][1]
@@ -39,20 +38,15 @@ impl Chunks {
         true
     }
 
-    /// Returns the number of chunks.
-    #[must_use]
     pub fn len(&self) -> u64 {
         self.runs.iter().map(|[first, end]| end - first).sum()
     }
 
-    /// Returns whether the set is empty.
-    #[must_use]
     pub const fn is_empty(&self) -> bool {
         self.runs.is_empty()
     }
 
     /// Returns the first chunk and the one past the last of each run, in order.
-    #[must_use]
     pub fn runs(&self) -> &[[u64; 2]] {
         &self.runs
     }

@@ -23,14 +23,12 @@ impl Digest {
     ///
     /// # Panics
     /// Panics if the findings cannot be written as JSON.
-    #[must_use]
     pub fn of_chunk(chunk: u64, found: &impl Serialize) -> Self {
         let bytes = serde_json::to_vec(&(chunk, found)).expect("findings are numbers, words and lists");
         Self::of_bytes([bytes])
     }
 
     /// Returns the digest of bytes, one piece after the other.
-    #[must_use]
     pub fn of_bytes(pieces: impl IntoIterator<Item = impl AsRef<[u8]>>) -> Self {
         let mut hash = Sha256::new();
         for piece in pieces {

@@ -7,23 +7,17 @@ use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// An error of a state file.
 #[derive(Debug, Error)]
 pub enum FileError {
-    /// The system refuses access.
     #[error("{file}: {error}", file = .file.display())]
     System {
-        /// The file.
         file: PathBuf,
-        /// The system's error.
         error: io::Error,
     },
     /// The file does not hold a state of this campaign.
     #[error("{file}: not a state of this campaign ({why}); delete it, or name another file", file = .file.display())]
     NotAState {
-        /// The file.
         file: PathBuf,
-        /// The reason.
         why: String,
     },
 }

@@ -7,56 +7,40 @@ use thiserror::Error;
 /// The reason why shards cannot be joined.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum Refusal {
-    /// There are no shards.
     #[error("no shards: name the state file of each")]
     NoShards,
     /// The program that wrote the state does not know its commit, so it may be any program.
     #[error("{file}: written by a program that does not know its commit; build it with verification/cluster/build.sh", file = .0.display())]
     UnknownCommit(PathBuf),
-    /// The shards belong to different runs.
     #[error("{first} and {other}: different runs, as {name} is {ours} in one and {theirs} in the other",
         first = .files[0].display(), other = .files[1].display())]
     Different {
-        /// The two files.
         files: [PathBuf; 2],
-        /// The setting that differs.
         name: String,
-        /// Its value in the first.
         ours: String,
-        /// Its value in the second.
         theirs: String,
     },
-    /// A shard is not finished.
     #[error("{file}: unfinished, {done} of {chunks} chunks; resume it: {command}", file = .file.display())]
     Unfinished {
-        /// Its file.
         file: PathBuf,
-        /// The number of finished chunks.
         done: u64,
-        /// The number of chunks of the shard.
         chunks: u64,
         /// The command that it was last started with.
         command: String,
     },
-    /// Two shards have the same chunks.
     #[error("{first} and {second}: chunks {begin} to {last} are in both", first = .files[0].display(), second = .files[1].display())]
     Overlap {
-        /// The two files.
         files: [PathBuf; 2],
         /// The first chunk of both.
         begin: u64,
         /// The last of the consecutive chunks that both have.
         last: u64,
     },
-    /// No shard has these chunks.
     #[error("chunks {begin} to {last} are in no shard: between {before} and {after}",
         before = name(.before.as_ref(), "the run's beginning"), after = name(.after.as_ref(), "its end"))]
     Gap {
-        /// The shard that ends before, if there is one.
         before: Option<PathBuf>,
-        /// The shard that begins after, if there is one.
         after: Option<PathBuf>,
-        /// The first missing chunk.
         begin: u64,
         /// The last of the consecutive missing chunks.
         last: u64,

@@ -4,7 +4,6 @@
 //! | module | contents |
 //! |---|---|
 //! | [`exact`] | a billion pairs, every cull and every "never" checked by exact arithmetic |
-//! | `screw_motions` | rotating bodies that meet, against enclosures of their arcs (feature `screw-motions`) |
 //!
 //! # Beyond one machine
 //! A run has its chunks in one order; a [`Shard`] is a range of them. Its [`Progress`] holds the [`Settings`] of the run, the shard's
@@ -18,8 +17,6 @@ pub mod exact;
 mod file;
 mod merge;
 mod progress;
-#[cfg(feature = "screw-motions")]
-pub mod screw_motions;
 mod shard;
 
 pub use chunks::Chunks;
@@ -47,7 +44,6 @@ pub trait Findings: Send + Serialize + DeserializeOwned {
     /// Adds the findings of other chunks of the same run. The sum does not depend on the order.
     fn join(&mut self, other: Self);
 
-    /// Returns the number of broken promises.
     fn wrong(&self) -> u64;
 }
 

@@ -13,7 +13,6 @@ pub struct Settings {
     pub campaign: String,
     /// The commit that the program was built from, if known.
     pub commit: Option<String>,
-    /// The seed of the random numbers.
     pub seed: u64,
     /// The number of chunks of all shards.
     pub chunks: u64,
@@ -25,7 +24,6 @@ pub struct Settings {
 
 impl Settings {
     /// Returns the first setting that differs: its name, its value here and in `other`.
-    #[must_use]
     pub fn difference(&self, other: &Self) -> Option<[String; 3]> {
         let (ours, theirs) = (self.by_name(), other.by_name());
         let value = |of: &BTreeMap<String, String>, name: &String| of.get(name).cloned().unwrap_or_default();
@@ -50,14 +48,10 @@ impl Settings {
 /// The reason why a run cannot be resumed from a state.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum AnotherRun {
-    /// A setting differs.
     #[error("the state of another run, whose {name} is {was}, not {is}")]
     Setting {
-        /// Its name.
         name: String,
-        /// Its value in the state.
         was: String,
-        /// Its value in the command line.
         is: String,
     },
     /// The state is of another shard of the same run.
@@ -73,24 +67,18 @@ pub enum AnotherRun {
 /// The state of a run, or of one shard of it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Progress<F> {
-    /// The settings of the run.
     #[serde(flatten)]
     pub settings: Settings,
     /// The command that it was last started with, for the reader. Nothing depends on it.
     pub command: String,
-    /// The chunks of this shard.
     pub range: Range<u64>,
-    /// The finished chunks.
     pub done: Chunks,
-    /// The digest of the findings.
     pub digest: Digest,
-    /// The findings.
     pub found: F,
 }
 
 impl<F: Findings> Progress<F> {
     /// Starts a run over whole chunks, of at least `cases` cases in all. Nothing is done or found yet.
-    #[must_use]
     pub fn with_nothing_done(seed: u64, cases: u64, cases_per_chunk: u64, depends_on: &[(&str, String)], nothing: F) -> Self {
         let chunks = cases.div_ceil(cases_per_chunk);
         let depends_on = depends_on.iter().map(|(name, value)| ((*name).to_owned(), value.clone()));
@@ -112,7 +100,6 @@ impl<F: Findings> Progress<F> {
     }
 
     /// Returns the same state of one shard, for a program that was built from that commit and started with that command.
-    #[must_use]
     pub fn of_shard(mut self, shard: Shard, commit: Option<&str>, command: &str) -> Self {
         self.range = shard.range(self.settings.chunks);
         self.settings.commit = commit.map(str::to_owned);
@@ -141,13 +128,11 @@ impl<F: Findings> Progress<F> {
     }
 
     /// Returns whether all chunks of the shard are done.
-    #[must_use]
     pub fn is_finished(&self) -> bool {
         self.done.len() == self.range.end - self.range.start
     }
 
     /// Returns the number of cases in finished chunks.
-    #[must_use]
     pub fn cases(&self) -> u64 {
         self.done.len() * self.settings.cases_per_chunk
     }

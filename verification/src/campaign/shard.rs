@@ -12,12 +12,10 @@ pub struct Shard {
 }
 
 impl Shard {
-    /// The whole run.
     pub const WHOLE: Self = Self { number: 1, of: 1 };
 
     /// Returns the shard's range of `chunks` chunks. Each chunk is in one of the shards, and their sizes differ by at most one.
     /// If there are more shards than chunks, some are empty.
-    #[must_use]
     pub fn range(self, chunks: u64) -> Range<u64> {
         // This is at most `chunks`, since `before` is at most `of`.
         let begin = |before: u64| (u128::from(before) * u128::from(chunks) / u128::from(self.of)) as u64;

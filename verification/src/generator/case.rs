@@ -11,14 +11,12 @@ use std::fmt;
 /// `{:?}` prints the [`PrimitivePair`] as Rust to paste into a regression test. The printed decimals read back as the same bits.
 #[derive(Clone, Copy, PartialEq)]
 pub struct PairCase<S> {
-    /// The kind of the pair, which says what the points are.
     pub kind: PairKind,
     /// The positions of each point at times 0 and 1.
     pub points: [[[S; 3]; 2]; 4],
 }
 
 /// Returns the set, 0 or 1, to which one of the four points belongs.
-#[must_use]
 pub const fn side_of(kind: PairKind, point: usize) -> usize {
     match kind {
         PairKind::VertexFace => (point > 0) as usize,
@@ -27,20 +25,16 @@ pub const fn side_of(kind: PairKind, point: usize) -> usize {
 }
 
 impl<S: Format> PairCase<S> {
-    /// Makes a pair from the two positions of each point.
-    #[must_use]
     pub const fn new(kind: PairKind, points: [[[S; 3]; 2]; 4]) -> Self {
         Self { kind, points }
     }
 
     /// Makes a pair from its coordinates, point by point, at the start and at the end.
-    #[must_use]
     pub fn from_coordinates(kind: PairKind, mut coordinate: impl FnMut() -> S) -> Self {
         Self::new(kind, [(); 4].map(|()| [(); 2].map(|()| [(); 3].map(|()| coordinate()))))
     }
 
     /// Returns the motions of the points, in their order.
-    #[must_use]
     pub fn motions(&self) -> [Motion<S>; 4] {
         self.points.map(|[start, end]| Motion {
             start: start.into(),
@@ -49,7 +43,6 @@ impl<S: Format> PairCase<S> {
     }
 
     /// Returns the pair in core's form.
-    #[must_use]
     pub fn pair(&self) -> PrimitivePair<S> {
         PrimitivePair {
             kind: self.kind,
@@ -58,7 +51,6 @@ impl<S: Format> PairCase<S> {
     }
 
     /// Returns the points of the first and of the second set.
-    #[must_use]
     pub fn sets(&self) -> [&[[[S; 3]; 2]]; 2] {
         let (first, second) = self.points.split_at(match self.kind {
             PairKind::VertexFace => 1,
@@ -68,13 +60,11 @@ impl<S: Format> PairCase<S> {
     }
 
     /// Returns the differences on which the coplanarity kernels work.
-    #[must_use]
     pub fn tetrahedron(&self) -> MovingTetrahedron<S> {
         (&self.pair()).into()
     }
 
     /// Returns the pair in the oracle's form.
-    #[must_use]
     pub fn question(&self) -> Pair {
         let at = |end: usize| self.points.map(|point| point[end].map(S::to_f64));
         Pair {
@@ -84,51 +74,42 @@ impl<S: Format> PairCase<S> {
         }
     }
 
-    /// Returns whether all 24 coordinates are finite.
-    #[must_use]
     pub fn is_finite(&self) -> bool {
         self.coordinates().all(S::is_finite)
     }
 
     /// Returns whether all 24 coordinates are below 1/32 of the largest number, so that no sum of them overflows. Tests that
     /// check a sum for finiteness keep all other pairs.
-    #[must_use]
     pub fn sums_are_finite(&self) -> bool {
         let limit = S::LARGEST * S::exact(1, -5);
         self.coordinates().all(|x| x.abs() < limit)
     }
 
-    /// Iterates over all 24 coordinates.
     pub fn coordinates(&self) -> impl Iterator<Item = S> {
         self.points.into_iter().flatten().flatten()
     }
 
     /// Returns the pair with its points in another order.
-    #[must_use]
     pub fn reordered(&self, order: [usize; 4]) -> Self {
         Self::new(self.kind, order.map(|point| self.points[point]))
     }
 
     /// Returns the pair with start and end exchanged.
-    #[must_use]
     pub fn reversed(&self) -> Self {
         Self::new(self.kind, self.points.map(|[start, end]| [end, start]))
     }
 
     /// Returns the pair with its coordinates in another order.
-    #[must_use]
     pub fn with_axes(&self, axes: [usize; 3]) -> Self {
         self.with_positions(|position| axes.map(|axis| position[axis]))
     }
 
     /// Returns the pair with each coordinate changed on its own.
-    #[must_use]
     pub fn map(&self, change: impl Fn(S) -> S) -> Self {
         self.with_positions(|position| position.map(&change))
     }
 
     /// Returns the pair with each of its eight positions changed on its own.
-    #[must_use]
     pub fn with_positions(&self, change: impl Fn([S; 3]) -> [S; 3]) -> Self {
         Self::new(self.kind, self.points.map(|ends| ends.map(&change)))
     }
@@ -136,7 +117,6 @@ impl<S: Format> PairCase<S> {
 
 impl PairCase<f32> {
     /// Returns the same numbers as `f64`.
-    #[must_use]
     pub fn widened(&self) -> PairCase<f64> {
         let points = self.points.map(|ends| ends.map(|position| position.map(f64::from)));
         PairCase::new(self.kind, points)

@@ -12,12 +12,10 @@ impl<'a> Choices<'a> {
     pub const ENOUGH: usize = 640;
 
     /// Makes decisions from `bytes`, in order.
-    #[must_use]
     pub const fn new(bytes: &'a [u8]) -> Self {
         Self { rest: bytes }
     }
 
-    /// Returns any byte.
     pub fn byte(&mut self) -> u8 {
         match self.rest.split_first() {
             Some((&first, rest)) => {
@@ -28,7 +26,6 @@ impl<'a> Choices<'a> {
         }
     }
 
-    /// Returns any 64 bits.
     pub fn word(&mut self) -> u64 {
         u64::from_le_bytes(std::array::from_fn(|_| self.byte()))
     }

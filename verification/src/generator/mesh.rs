@@ -22,7 +22,6 @@ pub type MeshPair = (PairKind, [u32; 2]);
 
 /// Returns every vertex–face and every edge–edge pair without a common vertex, by definition; the smaller edge is first. Vertices without a
 /// triangle are not part of the surface.
-#[must_use]
 pub fn all_pairs(topology: &Topology) -> [Vec<[u32; 2]>; 2] {
     let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
     for vertex in 0..topology.vertex_count() as u32 {
@@ -44,7 +43,6 @@ pub fn all_pairs(topology: &Topology) -> [Vec<[u32; 2]>; 2] {
 }
 
 /// Returns pairs of either kind as one list, vertex–face pairs first.
-#[must_use]
 pub fn with_kinds([vertex_face, edge_edge]: [Vec<[u32; 2]>; 2]) -> Vec<MeshPair> {
     let of_kind = |kind, pairs: Vec<[u32; 2]>| pairs.into_iter().map(move |pair| (kind, pair));
     of_kind(PairKind::VertexFace, vertex_face)
@@ -53,14 +51,10 @@ pub fn with_kinds([vertex_face, edge_edge]: [Vec<[u32; 2]>; 2]) -> Vec<MeshPair>
 }
 
 impl<S: Format> MeshCase<S> {
-    /// Makes a mesh from any bytes.
-    #[must_use]
     pub fn from_bytes(bytes: &[u8]) -> Self {
         Self::choose(&mut Choices::new(bytes))
     }
 
-    /// Chooses a mesh.
-    #[must_use]
     pub fn choose(choices: &mut Choices<'_>) -> Self {
         let vertices = 4 + choices.below(9);
         let positions = positions(vertices as usize, choices);
@@ -89,7 +83,6 @@ impl<S: Format> MeshCase<S> {
     ///
     /// # Panics
     /// It never panics: there is a triangle, and its vertices exist.
-    #[must_use]
     pub fn topology(&self) -> Topology {
         Topology::new(self.positions.len(), self.triangles.clone()).expect("indices are in range")
     }
@@ -98,27 +91,23 @@ impl<S: Format> MeshCase<S> {
     ///
     /// # Panics
     /// Panics if there is no primitive with one of these indices.
-    #[must_use]
     pub fn pair(&self, topology: &Topology, (kind, pair): MeshPair) -> PairCase<S> {
         let points = topology.vertices_of(kind, pair).map(|vertex| self.positions[vertex as usize]);
         PairCase::new(kind, points)
     }
 
     /// Returns the positions at time 0 (for `end` 0) or 1.
-    #[must_use]
     pub fn frame(&self, end: usize) -> Vec<S::Vector> {
         self.positions.iter().map(|ends| ends[end].into()).collect()
     }
 
     /// Returns the mesh moved by `offset`, with every sum rounded.
-    #[must_use]
     pub fn moved_by(&self, offset: [S; 3]) -> Self {
         let moved = |position: [S; 3]| std::array::from_fn(|axis| position[axis] + offset[axis]);
         self.with_positions(|_, ends| ends.map(moved))
     }
 
     /// Returns the mesh with other positions, each made from a vertex and its positions, perhaps in another format.
-    #[must_use]
     pub fn with_positions<T: Format>(&self, mut other: impl FnMut(usize, [[S; 3]; 2]) -> [[T; 3]; 2]) -> MeshCase<T> {
         MeshCase {
             triangles: self.triangles.clone(),

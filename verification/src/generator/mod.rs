@@ -67,7 +67,6 @@ pub fn grazes_of_a_box<S: Format>() -> impl Strategy<Value = PairCase<S>> + Clon
     from_choices(PairCase::choose_graze_of_a_box)
 }
 
-/// Generates small meshes in motion.
 pub fn meshes<S: Format>() -> impl Strategy<Value = MeshCase<S>> + Clone {
     from_choices(MeshCase::choose)
 }

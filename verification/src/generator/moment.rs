@@ -21,7 +21,6 @@ pub enum Meeting {
 /// integers, too. Scaled by a power of two, they are exact numbers of the format.
 #[derive(Clone, PartialEq)]
 pub struct Moment<S> {
-    /// The kind of the pair, which says what the points are.
     pub kind: PairKind,
     numerator: i64,
     bits: u32,
@@ -33,8 +32,6 @@ pub struct Moment<S> {
 }
 
 impl<S: Format> Moment<S> {
-    /// Chooses a pair and its time.
-    #[must_use]
     pub fn choose(kind: PairKind, meeting: Meeting, choices: &mut Choices<'_>) -> Self {
         // A target has 4 bits more than `reach`, and a velocity no more than a target. The time adds 3 bits, and the sum 1.
         let reach = S::PRECISION - 10;
@@ -62,13 +59,10 @@ impl<S: Format> Moment<S> {
     }
 
     /// Returns the time, in [0, 1].
-    #[must_use]
     pub fn time(&self) -> Rational {
         Rational::from(self.numerator) >> self.bits
     }
 
-    /// Returns the pair.
-    #[must_use]
     pub fn pair(&self) -> PairCase<S> {
         let points = self
             .whole_points()

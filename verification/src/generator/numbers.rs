@@ -11,25 +11,18 @@ pub trait Format: Scalar {
     const MIN_EXPONENT: i32;
     /// Two to this power is the first that overflows.
     const MAX_EXPONENT: i32;
-    /// The largest finite number.
     const LARGEST: Self;
-    /// The number is NaN.
     const NAN: Self;
 
     /// Returns the number with these bits (the low ones, for `f32`).
     fn from_word(bits: u64) -> Self;
-    /// Returns the next larger number.
-    #[must_use]
     fn up(self) -> Self;
-    /// Returns the next smaller number.
-    #[must_use]
     fn down(self) -> Self;
 
     /// Returns `mantissa` · 2^`exponent`, exactly.
     ///
     /// # Panics
     /// Panics if the format has no such number.
-    #[must_use]
     fn exact(mantissa: i64, exponent: i32) -> Self {
         assert!(
             mantissa.unsigned_abs() < 1 << Self::PRECISION
@@ -44,7 +37,6 @@ pub trait Format: Scalar {
     }
 
     /// Returns the number that is `steps` numbers further up, or down. Stops at the largest finite one.
-    #[must_use]
     fn nudged(self, steps: i64) -> Self {
         let mut number = self;
         for _ in 0..steps.abs() {
@@ -58,7 +50,6 @@ pub trait Format: Scalar {
     }
 
     /// Returns the number itself if it is finite, or the largest of its sign, or 0 for NaN.
-    #[must_use]
     fn made_finite(self) -> Self {
         if Scalar::is_finite(self) {
             self

@@ -7,19 +7,16 @@ use selvedge_core::PairKind;
 
 impl<S: Format> PairCase<S> {
     /// Makes a pair of finite coordinates from any bytes, for the fuzz targets. The property tests draw from the same pairs.
-    #[must_use]
     pub fn from_bytes(kind: PairKind, bytes: &[u8]) -> Self {
         Self::choose(kind, &mut Choices::new(bytes))
     }
 
     /// Makes a pair from any bytes. Some coordinates may be NaN, infinite, or so large that everything overflows.
-    #[must_use]
     pub fn any_from_bytes(kind: PairKind, bytes: &[u8]) -> Self {
         Self::choose_any(kind, &mut Choices::new(bytes))
     }
 
     /// Chooses a pair of finite coordinates.
-    #[must_use]
     pub fn choose(kind: PairKind, choices: &mut Choices<'_>) -> Self {
         let mut case = match choices.below(12) {
             0 => grid(kind, choices),
@@ -41,7 +38,6 @@ impl<S: Format> PairCase<S> {
     }
 
     /// Chooses a vertex whose path passes an edge of a resting face's box, within a few units in the last place on either side.
-    #[must_use]
     pub fn choose_graze_of_a_box(choices: &mut Choices<'_>) -> Self {
         // Start and end have different sizes, so that differences round.
         let start: [S; 3] = std::array::from_fn(|_| S::exact(1, -choices.pick(&[0, 1, 4, 7])) * fraction::<S>(choices));
@@ -72,7 +68,6 @@ impl<S: Format> PairCase<S> {
     }
 
     /// Chooses a pair with extraordinary coordinates.
-    #[must_use]
     pub fn choose_any(kind: PairKind, choices: &mut Choices<'_>) -> Self {
         let mut case = Self::choose(kind, choices);
         for _ in 0..=choices.below(4) {
@@ -199,7 +194,6 @@ fn order(choices: &mut Choices<'_>) -> [usize; 4] {
     order
 }
 
-/// Changes the pair once.
 fn disturbed<S: Format>(mut case: PairCase<S>, choices: &mut Choices<'_>) -> PairCase<S> {
     let (one, other) = (choices.below(4) as usize, choices.below(4) as usize);
     match choices.below(13) {

@@ -14,7 +14,6 @@ pub struct Screw {
     pub axis: DVec3,
     /// The angle, in radians.
     pub angle: f64,
-    /// The translation of the axis.
     pub translation: DVec3,
 }
 
@@ -30,13 +29,10 @@ pub fn vector(choices: &mut Choices<'_>) -> DVec3 {
 }
 
 impl Screw {
-    /// The angles from which the usual choice is made: at most this share of each, in either direction.
-    pub const ANGLES: [f64; 8] = [0.0, 1e-9, 0.01, 1.0, PI, TAU, 20.0, 1e6];
-
     /// Chooses a motion, near or far from the origin, with an axis of any length.
-    pub fn choose(angles: &[f64], choices: &mut Choices<'_>) -> Self {
+    pub fn choose(choices: &mut Choices<'_>) -> Self {
         let [centre, axis, translation] = [(); 3].map(|()| vector(choices));
-        let angle = unit(choices) * choices.pick(angles);
+        let angle = unit(choices) * choices.pick(&[0.0, 1e-9, 0.01, 1.0, PI, TAU, 20.0, 1e6]);
         let axis = choices.pick(&[axis, DVec3::Z, axis * 1e-12, axis * 1e200]);
         Self {
             centre: centre * choices.pick(&[0.0, 1.0, 1e3, 1e6]),
@@ -50,7 +46,6 @@ impl Screw {
     ///
     /// # Panics
     /// Panics if a number is not finite, or the angle is larger than a body may rotate.
-    #[must_use]
     pub fn motion(&self) -> RigidMotion {
         RigidMotion::new(self.centre, self.axis, self.angle, self.translation).expect("numbers in range")
     }

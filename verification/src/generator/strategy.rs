@@ -8,7 +8,6 @@ use std::fmt;
 
 /// A value that can be made simpler, in a fixed list of attempts.
 pub trait Simplify: Clone + fmt::Debug {
-    /// Returns the number of attempts.
     fn attempts(&self) -> usize;
 
     /// Returns the result of an attempt, by number, or `None` if it is not simpler.

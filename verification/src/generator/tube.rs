@@ -29,7 +29,6 @@ impl BendingTube {
     ///
     /// # Panics
     /// Panics if `refinement` is zero, or the tube has more vertices than `u32` counts.
-    #[must_use]
     pub fn new(refinement: u32) -> Self {
         let finer = f64::from(refinement).sqrt();
         let [rings, points] = [28.0, 24.0].map(|count| (count * finer).round() as u32);
@@ -58,14 +57,11 @@ impl BendingTube {
         Self { rest, topology }
     }
 
-    /// Returns the tube's topology.
-    #[must_use]
     pub fn topology(&self) -> &Topology {
         &self.topology
     }
 
     /// Returns the positions after `step` steps, from 0 to [`STEPS`](Self::STEPS).
-    #[must_use]
     pub fn frame(&self, step: usize) -> Vec<DVec3> {
         let time = step as f64 / Self::STEPS as f64;
         self.rest.iter().map(|&point| bent(wrinkled(point, time), time)).collect()

@@ -38,7 +38,6 @@ impl AlgebraicTime {
     ///
     /// # Panics
     /// Panics if it is not in [0, 1].
-    #[must_use]
     pub fn rational(time: Rational) -> Self {
         assert!((0..=1).contains(&time), "a time of the step lies in [0, 1], not at {time}");
         let coefficients = vec![Integer::from(-time.numer()), time.denom().clone()];
@@ -67,14 +66,12 @@ impl AlgebraicTime {
     }
 
     /// Returns a square-free polynomial that has this root.
-    #[must_use]
     pub fn polynomial(&self) -> &Polynomial {
         &self.polynomial
     }
 
     /// Returns the value if it is known to be rational. For the times that [`collides`](super::collides) returns it is known if
     /// it is rational.
-    #[must_use]
     pub fn as_rational(&self) -> Option<&Rational> {
         match &self.place {
             Place::Exact(value) => Some(value),
@@ -84,7 +81,6 @@ impl AlgebraicTime {
 
     /// Returns an interval that holds this root and no other root of [`polynomial`](Self::polynomial). Both ends are the root
     /// itself if it is known to be rational.
-    #[must_use]
     pub fn interval(&self) -> [Rational; 2] {
         match &self.place {
             Place::Exact(value) => [value.clone(), value.clone()],
@@ -165,8 +161,6 @@ impl AlgebraicTime {
         }
     }
 
-    /// Compares with a rational number.
-    #[must_use]
     pub fn cmp_rational(&self, other: &Rational) -> Ordering {
         match &self.place {
             Place::Exact(value) => value.cmp(other),
@@ -191,7 +185,6 @@ impl AlgebraicTime {
     ///
     /// # Panics
     /// Panics if `other` is NaN.
-    #[must_use]
     pub fn cmp_f64(&self, other: f64) -> Ordering {
         assert!(!other.is_nan(), "NaN has no place among the times");
         match Rational::from_f64(other) {
@@ -202,7 +195,6 @@ impl AlgebraicTime {
     }
 
     /// Returns the largest floating-point number that is not above the root.
-    #[must_use]
     pub fn to_f64_down(&self) -> f64 {
         // The representations of nonnegative floats are ordered as the floats are.
         let (mut below, mut above) = (0_f64.to_bits(), 1_f64.next_up().to_bits());
@@ -321,7 +313,6 @@ impl PartialEq for AlgebraicTime {
 
 impl Eq for AlgebraicTime {}
 
-/// Isolates the roots that a Sturm sequence counts.
 struct Isolation(SturmSequence);
 
 /// An end of an interval, with what the sequence shows there.

@@ -6,41 +6,29 @@ use selvedge_core::glam::DVec3;
 
 const BITS: u32 = 256;
 
-/// A point, or a vector.
 pub type Place = [Float; 3];
 
 /// Converts a number exactly.
-#[must_use]
 pub fn float(x: f64) -> Float {
     Float::with_val(BITS, x)
 }
 
-/// Converts a point exactly.
-#[must_use]
 pub fn place(point: DVec3) -> Place {
     point.to_array().map(float)
 }
 
-/// Returns a + b.
-#[must_use]
 pub fn plus(a: &Place, b: &Place) -> Place {
     [0, 1, 2].map(|k| Float::with_val(BITS, &a[k] + &b[k]))
 }
 
-/// Returns a − b.
-#[must_use]
 pub fn minus(a: &Place, b: &Place) -> Place {
     [0, 1, 2].map(|k| Float::with_val(BITS, &a[k] - &b[k]))
 }
 
-/// Returns the vector times a factor.
-#[must_use]
 pub fn times(a: &Place, factor: &Float) -> Place {
     a.each_ref().map(|x| Float::with_val(BITS, x * factor))
 }
 
-/// Returns a · b.
-#[must_use]
 pub fn dot(a: &Place, b: &Place) -> Float {
     let mut sum = float(0.0);
     for k in 0..3 {
@@ -56,8 +44,6 @@ fn cross(a: &Place, b: &Place) -> Place {
     })
 }
 
-/// Returns the distance of two points.
-#[must_use]
 pub fn distance(a: &Place, b: &Place) -> Float {
     let way = minus(a, b);
     dot(&way, &way).sqrt()
@@ -74,13 +60,10 @@ pub struct Pose {
     /// The place of the centre at that time.
     moved: Place,
     translation: Place,
-    /// The axis times the angle.
     spin: Place,
 }
 
 impl Pose {
-    /// Returns the pose of a body at a time.
-    #[must_use]
     pub fn at_time(screw: &Screw, time: f64) -> Self {
         let (angle, time) = (float(screw.angle), float(time));
         let axis = place(screw.axis);
@@ -111,19 +94,16 @@ impl Pose {
     }
 
     /// Returns the position of the point that started at `start`.
-    #[must_use]
     pub fn at(&self, start: DVec3) -> Place {
         plus(&self.moved, &self.turned_from(start))
     }
 
     /// Returns the velocity of the point that started at `start`.
-    #[must_use]
     pub fn velocity(&self, start: DVec3) -> Place {
         plus(&self.translation, &cross(&self.spin, &self.turned_from(start)))
     }
 
     /// Returns the start of a point that is `there`, rounded.
-    #[must_use]
     pub fn start_of(&self, there: &Place) -> DVec3 {
         let back = self.turned(&minus(there, &self.moved), &-self.sine.clone());
         DVec3::from_array(plus(&self.centre, &back).map(|x| x.to_f64()))

@@ -13,7 +13,6 @@ use rug::{Integer, Rational};
 ///
 /// # Panics
 /// Panics if a coordinate is NaN or infinite.
-#[must_use]
 pub fn coplanar(start: &[[f64; 3]; 4], end: &[[f64; 3]; 4]) -> bool {
     let [a, b, c, d] = Motion::new(start, end).trajectories();
     let volume = volume(&a, &b, &c, &d);
@@ -35,7 +34,6 @@ pub fn coplanar(start: &[[f64; 3]; 4], end: &[[f64; 3]; 4]) -> bool {
 ///
 /// # Panics
 /// Panics if a coordinate is NaN or infinite.
-#[must_use]
 pub fn collides(pair: &Pair) -> Option<AlgebraicTime> {
     let motion = Motion::new(&pair.start, &pair.end);
     if motion.apart_along_an_axis(pair.kind, &Integer::new()) {
@@ -75,7 +73,6 @@ pub fn collides(pair: &Pair) -> Option<AlgebraicTime> {
 ///
 /// # Panics
 /// Panics if a coordinate is NaN or infinite.
-#[must_use]
 pub fn touches_at(pair: &Pair, t: &Rational) -> bool {
     touches(pair.kind, &Motion::new(&pair.start, &pair.end), t)
 }

@@ -19,7 +19,6 @@ pub(crate) trait Signs<R> {
     fn sign(&mut self, value: &R) -> Ordering;
 }
 
-/// The signs of integers.
 pub(crate) struct AtRest;
 
 impl Signs<Integer> for AtRest {

@@ -31,7 +31,6 @@ type IntegerPoint = Point<Integer>;
 ///
 /// # Panics
 /// Panics if a coordinate is NaN or infinite, or shared corners differ in position.
-#[must_use]
 pub fn triangles_intersect(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3], shared: &[[usize; 2]]) -> bool {
     for &[i, j] in shared {
         assert!(a[i] == b[j], "corner {i} of a and corner {j} of b are not the same vertex");
@@ -48,7 +47,6 @@ pub fn triangles_intersect(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3], shared: &[[usiz
 ///
 /// # Panics
 /// Panics if a coordinate is NaN or infinite, or an index is out of range.
-#[must_use]
 pub fn mesh_self_intersections(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
     mesh_intersections(positions, triangles, triangles.len())
 }
@@ -57,7 +55,6 @@ pub fn mesh_self_intersections(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -
 ///
 /// # Panics
 /// Panics if a coordinate is NaN or infinite, or an index is out of range.
-#[must_use]
 pub fn mesh_intersections(positions: &[[f64; 3]], triangles: &[[u32; 3]], count: usize) -> Vec<[u32; 2]> {
     assert!(positions.iter().flatten().all(|x| x.is_finite()), "positions are numbers");
     let mut found = overlapping_boxes(positions, triangles);

@@ -9,11 +9,8 @@ pub use selvedge_core::PairKind;
 /// Four points that move linearly from their positions at time 0 to those at time 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair {
-    /// The kind of the pair, which says what the points are.
     pub kind: PairKind,
-    /// Positions at time 0.
     pub start: [[f64; 3]; 4],
-    /// Positions at time 1.
     pub end: [[f64; 3]; 4],
 }
 

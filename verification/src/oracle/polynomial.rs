@@ -12,7 +12,6 @@ pub struct Polynomial {
 
 impl Polynomial {
     /// Makes the polynomial with these coefficients, lowest power first.
-    #[must_use]
     pub fn new(mut coefficients: Vec<Integer>) -> Self {
         while coefficients.last().is_some_and(Integer::is_zero) {
             coefficients.pop();
@@ -21,7 +20,6 @@ impl Polynomial {
     }
 
     /// Returns the coefficients, lowest power first, without leading zeros.
-    #[must_use]
     pub fn coefficients(&self) -> &[Integer] {
         &self.coefficients
     }
@@ -37,20 +35,16 @@ impl Polynomial {
         Self::new(coefficients)
     }
 
-    /// Returns whether this is the zero polynomial.
-    #[must_use]
     pub fn is_zero(&self) -> bool {
         self.coefficients.is_empty()
     }
 
     /// Returns the highest power; 0 for constants, the zero polynomial included.
-    #[must_use]
     pub fn degree(&self) -> usize {
         self.coefficients.len().saturating_sub(1)
     }
 
     /// Returns the sign of the value at a rational number.
-    #[must_use]
     pub fn sign_at(&self, x: &Rational) -> Ordering {
         // Horner's rule on numerators computes denominator^degree · value, and the denominator is positive.
         let Some((last, lower)) = self.coefficients.split_last() else {
@@ -108,8 +102,6 @@ impl Polynomial {
         (low.cmp0() == high.cmp0()).then(|| low.cmp0())
     }
 
-    /// Returns the derivative.
-    #[must_use]
     pub fn derivative(&self) -> Self {
         let terms = self.coefficients.iter().zip(0u32..).skip(1);
         Self::new(terms.map(|(c, power)| Integer::from(c * power)).collect())

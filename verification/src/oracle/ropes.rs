@@ -18,7 +18,6 @@ use super::motion::{Pair, PairKind};
 ///
 /// # Panics
 /// Panics if a coordinate is NaN or infinite, or an index is out of range.
-#[must_use]
 pub fn intersections_with_loose_edges(
     positions: &[[f64; 3]],
     triangles: &[[u32; 3]],
@@ -37,7 +36,6 @@ pub fn intersections_with_loose_edges(
 ///
 /// # Panics
 /// Panics if a coordinate is NaN or infinite, or an index is out of range.
-#[must_use]
 pub fn edges_that_meet(start: &[[f64; 3]], end: &[[f64; 3]], edges: &[[u32; 2]]) -> Vec<[[u32; 2]; 2]> {
     let ranges = |edge: &[u32; 2]| {
         [0, 1, 2].map(|axis| {

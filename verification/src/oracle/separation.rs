@@ -12,7 +12,6 @@ use rug::{Integer, Rational};
 ///
 /// # Panics
 /// Panics if a coordinate or the separation is NaN or infinite, or the separation is negative.
-#[must_use]
 pub fn within(pair: &Pair, separation: f64) -> bool {
     let question = Question::new(pair, separation);
     question.cannot_be_ruled_out()
@@ -26,7 +25,6 @@ pub fn within(pair: &Pair, separation: f64) -> bool {
 ///
 /// # Panics
 /// Panics as [`within`] does.
-#[must_use]
 pub fn first_within(pair: &Pair, separation: f64) -> Option<AlgebraicTime> {
     let question = Question::new(pair, separation);
     if !question.cannot_be_ruled_out() {
@@ -51,7 +49,6 @@ pub fn first_within(pair: &Pair, separation: f64) -> Option<AlgebraicTime> {
 ///
 /// # Panics
 /// Panics as [`within`] does.
-#[must_use]
 pub fn within_at(pair: &Pair, t: &Rational, separation: f64) -> bool {
     Question::new(pair, separation).is_near_at(t)
 }
@@ -60,7 +57,6 @@ pub fn within_at(pair: &Pair, t: &Rational, separation: f64) -> bool {
 ///
 /// # Panics
 /// Panics if the separation is NaN, infinite or negative.
-#[must_use]
 pub fn within_at_rest(kind: PairKind, points: &[[Rational; 3]; 4], separation: f64) -> bool {
     assert!(separation >= 0.0, "the separation must not be negative, but is {separation}");
     let separation = Rational::from_f64(separation).expect("a finite separation");

@@ -23,7 +23,6 @@ const LARGEST: f64 = f64::from_bits((1023 + 300) << 52);
 
 /// Decides [`triangles_intersect`](super::triangles_intersect) by exact signs of volumes. Returns `None` if a zero among them, or
 /// the range of the numbers, leaves it open. Triangles with all three corners in common do not intersect.
-#[must_use]
 pub fn triangles_intersect_by_signs(a: &Triangle, b: &Triangle, shared: &[[usize; 2]]) -> Option<bool> {
     if !a.iter().chain(b).flatten().copied().all(is_in_range) {
         return None;

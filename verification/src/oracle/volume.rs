@@ -37,8 +37,6 @@ pub struct InRationals {
 }
 
 impl InRationals {
-    /// Computes them.
-    #[must_use]
     pub fn new<S: Format>(pair: &PairCase<S>) -> Self {
         let points = pair.points.map(|ends| ends.map(|x| x.map(rational)));
         let at = |numerator: i32, denominator: i32| -> [Point; 4] {
@@ -80,14 +78,11 @@ impl InRationals {
         }
     }
 
-    /// Returns their signs.
-    #[must_use]
     pub fn signs(&self) -> [Ordering; 4] {
         [0, 1, 2, 3].map(|i| self.values[i].cmp0())
     }
 
     /// Returns whether all four have the same strict sign.
-    #[must_use]
     pub fn have_one_sign(&self) -> bool {
         [[Greater; 4], [Less; 4]].contains(&self.signs())
     }
@@ -99,7 +94,6 @@ impl InRationals {
     }
 
     /// Returns whether each exceeds `separation` times its normal, with one sign.
-    #[must_use]
     pub fn are_beyond(&self, separation: &Rational) -> bool {
         self.have_one_sign() && (0..4).all(|i| self.is_beyond(i, separation))
     }
@@ -108,7 +102,6 @@ impl InRationals {
     ///
     /// # Panics
     /// Panics if all normals and all values are zero.
-    #[must_use]
     pub fn squared_separation(&self) -> Option<Rational> {
         // If the normal is zero, the value, which is not, exceeds it times any separation.
         let bounded = (0..4).filter(|&i| self.squared_normals[i].is_positive());

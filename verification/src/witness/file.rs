@@ -6,10 +6,8 @@ use std::io::{ErrorKind, Read};
 
 const MAGIC: &[u8; 8] = b"SLVWIT01";
 
-/// The answer for a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Answer {
-    /// It never touches.
     Never,
     /// Contact cannot be ruled out from a time on.
     Possible,
@@ -24,7 +22,6 @@ pub enum WitnessFileError {
     /// It has an invalid value.
     #[error("invalid {what}")]
     Invalid {
-        /// The name of the value.
         what: &'static str,
     },
 }
@@ -44,9 +41,7 @@ pub struct WitnessFile<R> {
 pub struct Record {
     /// The vertex and those of the face, or those of the first and of the second edge.
     pub vertices: [u32; 4],
-    /// The answer.
     pub answer: Answer,
-    /// The claim.
     pub claim: Claim,
 }
 
@@ -80,13 +75,10 @@ impl<R: Read> WitnessFile<R> {
     }
 
     /// The positions of the vertices at the start and at the end of the step.
-    #[must_use]
     pub const fn positions(&self) -> &[Vec<[f64; 3]>; 2] {
         &self.positions
     }
 
-    /// The triangles.
-    #[must_use]
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
     }

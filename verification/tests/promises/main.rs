@@ -31,7 +31,6 @@ mod oracle_coplanarity;
 mod oracle_hard_cases;
 mod oracle_mesh;
 mod paths_need_not_be_straight;
-mod screw_motions_are_not_missed;
 mod separations_are_never_overstated;
 mod simulation_is_free_of_intersections;
 mod tiers_keep_their_promises;

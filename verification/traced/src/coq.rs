@@ -43,7 +43,6 @@ From Selvedge Require Filter.
 ";
 
 /// The files that `verification/proofs` builds on.
-#[must_use]
 pub fn files() -> Vec<Text> {
     [("Filter.v", filter()), ("Boxes.v", boxes()), ("Advance.v", advance())]
         .map(|(name, text)| (name.to_owned(), text))

@@ -54,7 +54,6 @@ const CONTROL_VALUES: [Claim; 4] = [
 ];
 
 /// Returns all scripts.
-#[must_use]
 pub fn scripts() -> Vec<Text> {
     let (values, steps) = trace(|| tetrahedron().control_values().0);
     let mut scripts: Vec<Text> = CONTROL_VALUES
@@ -72,7 +71,6 @@ pub fn scripts() -> Vec<Text> {
 }
 
 /// Runs a kernel with 18 inputs: the differences of points, as computed.
-#[must_use]
 pub fn tetrahedron() -> MovingTetrahedron<Traced> {
     let edge =
         |name: &str| [0, 1].map(|end| Vector::from(["x", "y", "z"].map(|axis| Traced::input(format!("{name}{end}{axis}")))));

@@ -29,7 +29,6 @@ impl Prover {
     pub const ALL: [Self; 2] = [Self::Gappa, Self::Coq];
 
     /// Returns its name on the command line and in the list of accepted terms.
-    #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Gappa => "gappa",
@@ -38,7 +37,6 @@ impl Prover {
     }
 
     /// Returns the texts that the current code gives the prover.
-    #[must_use]
     pub fn texts(self) -> Vec<Text> {
         match self {
             Self::Gappa => gappa::scripts(),

@@ -141,7 +141,6 @@ pub fn if_any<T>(part: impl FnOnce() -> T) -> T {
 
 impl Mask {
     /// The mask that is always true.
-    #[must_use]
     pub fn always() -> Self {
         Self::record(MaskStep::Always)
     }
@@ -193,7 +192,6 @@ impl Not for Mask {
 
 impl Traced {
     /// Makes a number with this name.
-    #[must_use]
     pub fn input(name: impl Into<String>) -> Self {
         Self::record(Step::Input(name.into()))
     }
@@ -325,7 +323,6 @@ impl Trace {
     ///
     /// # Panics
     /// Panics if it is not a polynomial.
-    #[must_use]
     pub fn paths(&self, number: Traced) -> Paths {
         self.paths_with_last_step(number, 1)
     }
@@ -335,7 +332,6 @@ impl Trace {
     ///
     /// # Panics
     /// Panics if it is not a polynomial.
-    #[must_use]
     pub fn paths_but_last(&self, number: Traced) -> Paths {
         self.paths_with_last_step(number, 0)
     }

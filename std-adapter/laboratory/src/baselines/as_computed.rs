@@ -32,14 +32,12 @@ pub struct AsComputed<S> {
 
 impl<S: Scalar> AsComputed<S> {
     /// Makes a filter for pairs that never touch: the separation is zero.
-    #[must_use]
     pub const fn new() -> Self {
         Self { separation: S::ZERO }
     }
 
     /// Makes a filter for pairs that must stay farther apart than `separation`. It accepts the separations that
     /// [`Filter::with_separation`] accepts.
-    #[must_use]
     pub fn with_separation(self, separation: S) -> Option<Self> {
         let separation = Filter::new(Tier::Permanent).with_separation(separation)?.separation();
         Some(Self { separation })

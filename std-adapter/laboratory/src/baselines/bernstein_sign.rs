@@ -43,7 +43,6 @@ use selvedge_core::scalar::Scalar;
 /// assert!(bernstein_sign::touches(&falls_at(0.2)));
 /// assert!(!bernstein_sign::touches(&falls_at(0.9)));
 /// ```
-#[must_use]
 pub fn touches<S: Scalar>(pair: &PrimitivePair<S>) -> bool {
     of_kind!(pair.kind, P => touches_of::<S, P>(&pair.into()))
 }

@@ -26,7 +26,6 @@ use selvedge_core::{Motion, PairKind, PrimitivePair, Scalar};
 /// assert_eq!(cubic::time_of_impact(&pair), Some(0.25));
 /// ```
 #[inline]
-#[must_use]
 pub fn time_of_impact<S: Scalar>(pair: &PrimitivePair<S>) -> Option<S> {
     match pair.kind {
         PairKind::VertexFace => first_root(pair, is_in_triangle),

@@ -96,7 +96,6 @@ pub struct Dop18<S> {
 impl<S: Scalar> Dop18<S> {
     /// Returns the bounds of one moving point. They are unbounded if a coordinate is NaN or infinite.
     #[inline]
-    #[must_use]
     pub fn swept(motion: &Motion<S>) -> Self {
         let [start, end]: [[S; 3]; 2] = [motion.start.into(), motion.end.into()];
         if !start.iter().chain(&end).all(|coordinate| coordinate.is_finite()) {
@@ -119,7 +118,6 @@ impl<S: Scalar> Dop18<S> {
 
     /// Returns the bounds of both together.
     #[inline]
-    #[must_use]
     pub fn merged(&self, other: &Self) -> Self {
         let mut merged = *self;
         for direction in 0..9 {
@@ -131,7 +129,6 @@ impl<S: Scalar> Dop18<S> {
 
     /// Returns false only if the two sets are certainly apart throughout the step.
     #[inline]
-    #[must_use]
     pub fn overlaps(&self, other: &Self) -> bool {
         let gap = S::UNDERFLOW / S::UNIT_ROUNDOFF;
         let mut apart = false;

@@ -33,7 +33,6 @@ impl PointsTest for Plain {
 
 /// Makes the decision of [`non_coplanarity`] on any number of lanes.
 #[inline(always)]
-#[must_use]
 pub fn has_one_sign<P: PairShape, L: Lanes>(points: &PairPoints<L>) -> L::Mask {
     let [a0, b0, c0, p0] = P::volume_points(points.start);
     let [a1, b1, c1, p1] = P::volume_points(points.end);

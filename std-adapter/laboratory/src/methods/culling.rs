@@ -56,7 +56,6 @@ table! {
 
 impl Stage {
     /// Returns whether the stage compares boxes (the paper's first stage) rather than planes or directions (its second).
-    #[must_use]
     pub const fn is_box_test(self) -> bool {
         self.row()
     }
@@ -64,20 +63,17 @@ impl Stage {
 
 impl CullingTest {
     /// Returns the stage of this test.
-    #[must_use]
     pub const fn stage(self) -> Stage {
         self.row()
     }
 
     /// Returns whether it never culls a pair that touches, rounding included.
-    #[must_use]
     pub const fn is_certified(self) -> bool {
         !matches!(self, Self::PlainNonCoplanarity)
     }
 
     /// Returns whether the test culls the pair. Volumes that a pipeline stores are made from the pair.
     #[inline(always)]
-    #[must_use]
     pub fn culls<S: Scalar>(self, pair: &PrimitivePair<S>) -> bool {
         self.run(Ask(pair))
     }

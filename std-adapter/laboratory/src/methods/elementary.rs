@@ -32,7 +32,6 @@ pub enum ElementaryTest {
 
 impl ElementaryTest {
     /// Returns the name in reports, without the tolerance.
-    #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::TimeOfImpact => "time_of_impact",
@@ -47,7 +46,6 @@ impl ElementaryTest {
     }
 
     /// Returns the tolerance, in units of length; `None` for the format's default, and for tests without one.
-    #[must_use]
     pub const fn tolerance(self) -> Option<f64> {
         match self {
             Self::Certified(tolerance) | Self::Uncertified(tolerance) | Self::TightInclusion(tolerance) => Some(tolerance),
@@ -56,7 +54,6 @@ impl ElementaryTest {
     }
 
     /// Returns whether it never misses a contact and never returns a time that is too late, rounding included.
-    #[must_use]
     pub const fn is_certified(self) -> bool {
         match self {
             Self::TimeOfImpact | Self::Exact | Self::Certified(_) | Self::TightInclusion(_) => true,
@@ -66,7 +63,6 @@ impl ElementaryTest {
 
     /// Returns the time from which contact is not excluded, NaN if the test has no times, and `None` if there is no contact.
     #[inline(always)]
-    #[must_use]
     pub fn time<S: Scalar>(self, pair: &PrimitivePair<S>) -> Option<S> {
         self.run(Ask(pair))
     }

@@ -24,13 +24,11 @@ table! {
 
 impl MeasuredFilter {
     /// Returns the tier of the certified filter, if it is one.
-    #[must_use]
     pub const fn tier(self) -> Option<Tier> {
         self.row()
     }
 
     /// Returns whether a pair that it culls is proven to be free of contact.
-    #[must_use]
     pub const fn is_certified(self) -> bool {
         self.tier().is_some()
     }

@@ -46,7 +46,6 @@ impl Stages {
     }
 
     /// Returns whether the method misses nothing that touches, rounding included.
-    #[must_use]
     pub fn is_certified(&self) -> bool {
         self.tests.iter().all(|test| test.is_certified()) && self.elementary.is_certified()
     }
@@ -101,19 +100,16 @@ const fn ours(elementary: ElementaryTest) -> Stages {
 
 impl Preset {
     /// Returns the stages that the name stands for.
-    #[must_use]
     pub const fn stages(self) -> Stages {
         self.row()
     }
 
     /// Returns whether the original could not be read, so that the preset claims no reproduction of it.
-    #[must_use]
     pub const fn is_reconstructed(self) -> bool {
         matches!(self, Self::TangC2010 | Self::TangC2011)
     }
 
     /// Returns whether it is one of our own.
-    #[must_use]
     pub const fn is_ours(self) -> bool {
         matches!(self, Self::Selvedge | Self::SelvedgeExact)
     }

@@ -39,7 +39,6 @@ impl QueryMethod {
     const TIGHT_INCLUSION: f64 = 1e-6;
 
     /// Returns the name on the command line and in reports.
-    #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Selvedge => Preset::Selvedge.name(),
@@ -49,7 +48,6 @@ impl QueryMethod {
     }
 
     /// Returns whether it never denies a contact, rounding included.
-    #[must_use]
     pub fn is_certified(self) -> bool {
         match self {
             Self::Selvedge => SELVEDGE.is_certified(),
@@ -59,7 +57,6 @@ impl QueryMethod {
     }
 
     /// Returns false if the method culls the pair, or finds that it does not touch.
-    #[must_use]
     pub fn keeps<S: Scalar>(self, pair: PrimitivePair<S>) -> bool {
         self.run(Ask(&pair))
     }

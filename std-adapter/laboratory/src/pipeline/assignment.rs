@@ -26,7 +26,6 @@ impl FeatureAssignment {
     /// assert_eq!(assignment.triangles()[1].vertices[0], 3);
     /// # Ok::<(), selvedge::TopologyError>(())
     /// ```
-    #[must_use]
     pub fn representative(topology: &Topology) -> Self {
         let mut vertex_taken = vec![false; topology.vertex_count()];
         let mut edge_taken = vec![false; topology.edges().len()];
@@ -38,13 +37,11 @@ impl FeatureAssignment {
     }
 
     /// Lets every triangle represent all its vertices and edges, for methods that remove duplicates otherwise, or not at all.
-    #[must_use]
     pub fn every_feature(topology: &Topology) -> Self {
         Self::assign(topology, &mut |_| true)
     }
 
     /// Returns the triangles, in the mesh's order.
-    #[must_use]
     pub fn triangles(&self) -> &[FeatureTriangle<u32>] {
         &self.triangles
     }

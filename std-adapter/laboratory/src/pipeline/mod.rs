@@ -233,31 +233,26 @@ impl<S: Scalar> Pipeline<S> {
 
     /// Returns the contacts of the last step. They come batch by batch in the order of candidate triangle pairs. Without triangle
     /// pairs, vertex–face contacts come first, in the order of the hierarchies.
-    #[must_use]
     pub fn contacts(&self) -> &[Contact<S>] {
         &self.buffers.contacts
     }
 
     /// Returns the pairs of the last step that reached the elementary test, if they are [kept](Self::keep_candidates).
-    #[must_use]
     pub fn candidates(&self, kind: PairKind) -> &[[u32; 2]] {
         &self.buffers.candidates[kind as usize]
     }
 
     /// Returns the counts and times of the last step.
-    #[must_use]
     pub const fn report(&self) -> &StepReport {
         &self.report
     }
 
     /// Returns the mesh's vertices, edges and triangles.
-    #[must_use]
     pub fn topology(&self) -> &Topology {
         &self.topology
     }
 
     /// Returns the number of threads that a step uses.
-    #[must_use]
     pub fn threads(&self) -> usize {
         match &self.route {
             Route::MovingBoxes(detector) => detector.threads(),

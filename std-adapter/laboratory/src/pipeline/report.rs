@@ -44,7 +44,6 @@ pub struct StepReport {
 
 impl StepReport {
     /// Converts the counts of our own detector to the stages of a method.
-    #[must_use]
     pub fn from_detector(counts: &StepStatistics) -> Self {
         let stage = |stage, survivors, seconds| StageReport {
             stage,
@@ -65,7 +64,6 @@ impl StepReport {
     }
 
     /// Converts the counts for a caller's pairs, which a broad phase has found in this many seconds.
-    #[must_use]
     pub fn from_given_pairs(counts: &StepStatistics, broad_phase_seconds: f64) -> Self {
         let mut report = Self::from_detector(counts);
         let boxes = StageReport {
@@ -83,28 +81,24 @@ impl StepReport {
     }
 
     /// Returns the pairs that a stage passed on, if the method has that stage.
-    #[must_use]
     pub fn survivors(&self, stage: Stage) -> Option<PairCounts> {
         let report = self.stages.iter().find(|report| report.stage == stage)?;
         Some(report.survivors)
     }
 
     /// Returns the pairs that reach the elementary test.
-    #[must_use]
     pub fn candidates(&self) -> PairCounts {
         self.last_survivors(|stage| stage != Stage::Elementary)
     }
 
     /// Returns the pairs after the last box test. Without one, these are the pairs as distributed, or as the broad phase finds
     /// them.
-    #[must_use]
     pub fn after_boxes(&self) -> PairCounts {
         let survivors = self.last_survivors(|stage| stage == Stage::Distribution || stage.is_box_test());
         self.broad_phase_pairs.unwrap_or(survivors)
     }
 
     /// Returns the contacts.
-    #[must_use]
     pub fn contacts(&self) -> PairCounts {
         self.survivors(Stage::Elementary).unwrap_or_default()
     }

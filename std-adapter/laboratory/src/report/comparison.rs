@@ -48,7 +48,6 @@ fn cells(row: &ComparisonRow) -> (String, Vec<String>) {
 }
 
 /// Returns the table as a self-contained page. It highlights `selvedge` and shows a bar beside each rate.
-#[must_use]
 pub fn comparison_html(comparison: &Comparison) -> String {
     let rates = comparison.rows.iter().map(|row| row.frames_per_second);
     let fastest = rates.filter(|rate| rate.is_finite()).fold(0.0, f64::max);

@@ -20,7 +20,6 @@ use selvedge_cloth::{TangledStart, TornEdge};
 use serde_json::{Value, json};
 
 /// Returns one step, for `selvedge cull`.
-#[must_use]
 pub fn step(summary: &StepSummary) -> Value {
     let contacts = summary.report.contacts();
     // Fields that were not requested are null.
@@ -76,7 +75,6 @@ fn broad_phase(triangle_pairs: impl Into<Value>, seconds: f64) -> Value {
 }
 
 /// Returns every method on the same steps, for `selvedge compare`.
-#[must_use]
 pub fn comparison(comparison: &Comparison) -> Value {
     json!({
         "scene": comparison.name,
@@ -129,7 +127,6 @@ fn comparison_stages(row: &ComparisonRow) -> Vec<Value> {
 }
 
 /// Returns each method's answers to queries, for `selvedge queries`.
-#[must_use]
 pub fn queries(scalar: &str, results: &[QueryResult]) -> Value {
     let methods = results.iter().map(|result| {
         let time = result.nanoseconds;
@@ -154,7 +151,6 @@ pub fn queries(scalar: &str, results: &[QueryResult]) -> Value {
 }
 
 /// Returns the cost of a step with no effect, with the first one, with the first two, and so on.
-#[must_use]
 pub fn effects_one_by_one(costs: &[crate::study::EffectCost]) -> Value {
     let costs = costs
         .iter()
@@ -166,7 +162,6 @@ pub fn effects_one_by_one(costs: &[crate::study::EffectCost]) -> Value {
 ///
 /// Energies are in J; gravitational energy counts from the scene's origin. Stretch is relative to the length at rest. Both lists
 /// belong to the times in `seconds`.
-#[must_use]
 pub fn simulation(simulation: &selvedge_cloth::Simulation, recording: &Recording) -> Value {
     let seconds = recording.wall_seconds.unwrap_or(f64::NAN);
     let steps = simulation.steps_done();
@@ -255,7 +250,6 @@ fn energy(recording: &Recording) -> Value {
 }
 
 /// Returns cost against size, for `selvedge scaling`.
-#[must_use]
 pub fn scaling(preset: Preset, threads: usize, points: &[ScalingPoint]) -> Value {
     let ratios = n_log_n_ratios(points);
     let sizes = points.iter().zip(ratios).map(|(point, ratio)| {
@@ -282,7 +276,6 @@ pub fn scaling(preset: Preset, threads: usize, points: &[ScalingPoint]) -> Value
 }
 
 /// Returns filters and their times, for `selvedge accuracy`: one row for each set, format, filter and instruction set.
-#[must_use]
 pub fn accuracy(accuracy: &Accuracy) -> Value {
     let options = accuracy.options;
     let sets = accuracy.sets.iter().map(|set| {
@@ -343,7 +336,6 @@ fn accuracy_rows(set: &AccuracySet) -> Vec<Value> {
 }
 
 /// Returns elementary tests, their times and errors: a part of `selvedge accuracy`.
-#[must_use]
 pub fn elementary(accuracy: &ElementaryAccuracy) -> Value {
     let sets = accuracy.sets.iter().map(|set| {
         let more = [("touching", set.touching), ("with_time", set.with_time)];
@@ -378,7 +370,6 @@ pub fn elementary(accuracy: &ElementaryAccuracy) -> Value {
 }
 
 /// Returns every method's answers to the hard cases, for `selvedge hard-cases`.
-#[must_use]
 pub fn hard_cases(scalar: &str, results: &[HardResult]) -> Value {
     let cases = results.iter().map(|result| {
         let case = result.case;

@@ -20,7 +20,6 @@ pub struct PaperRow {
 ///
 /// The paper does not say which work of 2010 and 2011 by two authors named Tang its row *2011 Tang* stands for. Here it is beside
 /// [`Preset::Tang2010`], whose filter the paper builds on.
-#[must_use]
 pub const fn paper_row(preset: Preset) -> Option<PaperRow> {
     let (label, vertex_face, edge_edge, frames_per_second) = match preset {
         Preset::Basic => ("Basic", 1122, 2056, 12.70),

@@ -46,7 +46,6 @@ pub struct StepSummary {
 
 impl StepSummary {
     /// Summarises the last step of `pipeline`, which runs `preset`.
-    #[must_use]
     pub fn from_pipeline<S: Scalar>(preset: Preset, pipeline: &Pipeline<S>) -> Self {
         let topology: &Topology = pipeline.topology();
         let times = pipeline.contacts().iter().map(|contact| contact.time.to_f64());
@@ -60,7 +59,6 @@ impl StepSummary {
     }
 
     /// Summarises a step of `detector` with its counts and the time of its earliest contact.
-    #[must_use]
     pub fn from_detector<S: Scalar>(
         question: StepQuestion,
         detector: &CollisionDetector<S>,

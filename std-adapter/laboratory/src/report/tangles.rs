@@ -55,7 +55,6 @@ fn kind(intersection: &Intersection) -> usize {
 
 impl MeshCheck {
     /// Makes a check with these intersections, all of the mesh's.
-    #[must_use]
     pub fn from_intersections(name: String, topology: &Topology, intersections: &[Intersection], seconds: f64) -> Self {
         let with_corners = |own: &Intersection| (*own, corners(topology, own));
         Self {
@@ -65,7 +64,6 @@ impl MeshCheck {
     }
 
     /// Makes a check that shows only whether the mesh is free of intersections.
-    #[must_use]
     pub fn from_verdict(name: String, topology: &Topology, is_free: bool, seconds: f64) -> Self {
         // The topology counts loose edges and points as faces, after the triangles.
         let statistics = topology.statistics();
@@ -83,7 +81,6 @@ impl MeshCheck {
     }
 
     /// Adds the facts about the file. A mesh is not free if something with an area was not read.
-    #[must_use]
     pub fn with_file(self, file: FileReport) -> Self {
         Self {
             is_free: self.is_free && file.notes.is_complete(),
@@ -93,7 +90,6 @@ impl MeshCheck {
     }
 
     /// Returns whether the mesh has no intersection as far as its file was read, which is not all of it.
-    #[must_use]
     pub fn is_undecided(&self) -> bool {
         !self.is_free && !self.is_tangled
     }
@@ -120,7 +116,6 @@ fn corners(topology: &Topology, intersection: &Intersection) -> Vec<u32> {
 }
 
 /// Returns a table with a row for each mesh, and the verdict on all of them.
-#[must_use]
 pub fn mesh_checks(checks: &[MeshCheck]) -> String {
     let rows = checks.iter().map(|check| {
         let unknown = if check.is_tangled { "?" } else { "0" };
@@ -206,7 +201,6 @@ fn file_json(file: &FileReport) -> Value {
 }
 
 /// Returns the document of `selvedge check --json`. Counts are null if the check ended at the first intersection.
-#[must_use]
 pub fn mesh_checks_json(checks: &[MeshCheck]) -> Value {
     let meshes = checks.iter().map(|check| {
         let [edge_face, vertex_face, edge_edge] = check.counts();
@@ -249,7 +243,6 @@ pub fn intersections_csv(checks: &[MeshCheck], out: impl Write) -> io::Result<()
 }
 
 /// Returns every intersection of every mesh as one document.
-#[must_use]
 pub fn intersections_json(checks: &[MeshCheck]) -> Value {
     let of_mesh = |check: &MeshCheck| {
         let list = check.intersections.iter().flatten();
@@ -297,7 +290,6 @@ pub fn coloured_ply(positions: &[DVec3], triangles: &[[u32; 3]], red: &[bool], m
 }
 
 /// Returns for each triangle whether it, an edge or a vertex of it meets something.
-#[must_use]
 pub fn intersecting_triangles(topology: &Topology, intersections: &[Intersection]) -> Vec<bool> {
     let mut edges = vec![false; topology.edges().len()];
     let mut faces = vec![false; topology.triangles().len()];
@@ -324,7 +316,6 @@ pub fn intersecting_triangles(topology: &Topology, intersections: &[Intersection
 }
 
 /// Returns for each triangle of a scene's mesh whether an edge of it passes through a face at the start, or an edge through it.
-#[must_use]
 pub fn crossing_triangles(tangled: &Tangled) -> Vec<bool> {
     let sorted = |mut face: [u32; 3]| {
         face.sort_unstable();
@@ -343,7 +334,6 @@ pub fn crossing_triangles(tangled: &Tangled) -> Vec<bool> {
 
 /// Returns the document of `selvedge simulate --json` for a scene that starts tangled. Vertices count from 0, the cloth's first,
 /// then the bodies'.
-#[must_use]
 pub fn tangled_start_json(scene: &str, tangled: &Tangled) -> Value {
     let crossing = |crossing: &Crossing| {
         json!({
@@ -377,7 +367,6 @@ pub(super) fn untangled_json(untangled: &Untangled) -> Value {
 }
 
 /// Writes sentences about a tangled start: how it was untangled, and which tangles remain. There are none if the start was free.
-#[must_use]
 pub fn start_sentences(simulation: &Simulation) -> Vec<String> {
     let left = simulation.crossings().len();
     let left = (left > 0).then(|| format!("Edges still pass through faces at {}.", counted(left as u64, "place")));

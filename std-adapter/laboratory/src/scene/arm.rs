@@ -81,19 +81,16 @@ impl ArmScene {
     }
 
     /// Returns the sleeve before the arm bends.
-    #[must_use]
     pub fn mesh(&self) -> &Mesh {
         &self.rest
     }
 
     /// Returns the sleeve's topology.
-    #[must_use]
     pub fn topology(&self) -> &Topology {
         &self.topology
     }
 
     /// Returns the number of frames: [`STEPS`](Self::STEPS) + 1.
-    #[must_use]
     pub fn frame_count(&self) -> usize {
         Self::STEPS + 1
     }
@@ -102,7 +99,6 @@ impl ArmScene {
     ///
     /// # Panics
     /// Panics if there is no such frame.
-    #[must_use]
     pub fn frame(&self, frame: usize) -> Vec<DVec3> {
         assert!(frame <= Self::STEPS, "frame {frame} of {}", self.frame_count());
         self.positions(frame as f64 / Self::STEPS as f64)
@@ -112,7 +108,6 @@ impl ArmScene {
     ///
     /// # Panics
     /// Panics if `time` is not from 0 to 1.
-    #[must_use]
     pub fn positions(&self, time: f64) -> Vec<DVec3> {
         let mut positions = vec![DVec3::ZERO; self.rest.positions.len()];
         self.write_positions(time, &mut positions);

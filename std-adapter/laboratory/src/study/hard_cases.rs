@@ -29,7 +29,6 @@ pub struct HardResult {
 /// that is done.
 ///
 /// Cases whose coordinates `S` does not hold exactly are left out, since their answers would differ.
-#[must_use]
 pub fn ask_hard_cases<S: Scalar>(name: &str, progress: &mut dyn FnMut(f64)) -> Vec<HardResult> {
     let cases = hard_cases().iter().filter(|case| case.name.contains(name));
     let cases: Vec<_> = cases.collect();

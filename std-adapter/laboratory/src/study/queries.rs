@@ -55,7 +55,6 @@ pub struct Nanoseconds {
 }
 
 /// Runs `method` on each of `queries`, all of one kind. Calls `progress` after each with the number that is done.
-#[must_use]
 pub fn measure_queries<S: Scalar>(
     method: QueryMethod,
     kind: PairKind,

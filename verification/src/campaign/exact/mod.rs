@@ -45,7 +45,6 @@ pub enum Claim {
 }
 
 impl Claim {
-    /// The certified claims.
     pub const CERTIFIED: [Self; 6] = [
         Self::Filter,
         Self::Widened,
@@ -55,7 +54,6 @@ impl Claim {
         Self::TimeOfImpact,
     ];
 
-    /// Returns the tier of the certified filter.
     const fn tier(self) -> Option<Tier> {
         match self {
             Self::Filter => Some(Tier::Permanent),
@@ -80,20 +78,14 @@ impl Claim {
     }
 }
 
-/// Counts of one claim.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ClaimCounts {
-    /// The number of claims.
     pub claims: u64,
-    /// The number of claims that exact signs prove.
     pub by_signs: u64,
-    /// The number of claims that an axis proves.
     pub by_axis: u64,
-    /// The number of claims that integers prove.
     pub by_whole_numbers: u64,
     /// The number of claims that the oracle decided or confirmed.
     pub by_oracle: u64,
-    /// The number of wrong claims.
     pub wrong: u64,
     /// The first wrong claim: its chunk and the pair.
     pub example: Option<(u64, String)>,
@@ -114,7 +106,6 @@ impl ClaimCounts {
 /// The findings of a run, by claim.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ExactFindings {
-    /// The claims that are examined.
     pub claims: Vec<Claim>,
     /// Counts by format, source and claim.
     pub counts: [[Vec<ClaimCounts>; 3]; 2],
@@ -125,7 +116,6 @@ pub type Progress = super::Progress<ExactFindings>;
 
 impl Progress {
     /// Starts a run over at least `pairs` pairs.
-    #[must_use]
     pub fn new(seed: u64, pairs: u64, pairs_per_chunk: u64, scenes: &Scenes, claims: &[Claim]) -> Self {
         let nothing = || vec![ClaimCounts::default(); claims.len()];
         let of_format = || [nothing(), nothing(), nothing()];

@@ -8,7 +8,6 @@ use selvedge_core::PairKind;
 use selvedge_core::glam::DVec3;
 use std::fmt;
 
-/// A source of pairs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
     /// Random coordinates; half of the pairs are nearly coplanar.
@@ -23,15 +22,12 @@ impl Source {
     pub(super) const ALL: [Self; 3] = [Self::Random, Self::Adversarial, Self::Scene];
 }
 
-/// Four moving points.
 pub type Points = [[[f64; 3]; 2]; 4];
 
 /// Pairs from meshes in motion.
 #[derive(Clone, Debug, Default)]
 pub struct Scenes {
-    /// Vertex–face pairs.
     pub vertex_face: Vec<Points>,
-    /// Edge–edge pairs.
     pub edge_edge: Vec<Points>,
 }
 
@@ -125,7 +121,6 @@ impl<'a> Maker<'a> {
 
 /// Returns the first `count` pairs of `source`, which are the same on every machine. [`Source::Scene`] has no pairs here, and
 /// random ones are returned.
-#[must_use]
 pub fn sample<S: Format>(source: Source, kind: PairKind, seed: u64, count: usize) -> Vec<PairCase<S>> {
     let (scenes, mut cases) = (Scenes::default(), Vec::new());
     Maker::new(source, kind, &scenes, Random::new(seed, 0)).make(count, &mut cases);

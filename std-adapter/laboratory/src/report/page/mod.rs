@@ -29,7 +29,6 @@ const SCRIPTS: [(&str, &str); 6] = [
 /// Returns the whole page.
 ///
 /// A section without data is left out.
-#[must_use]
 pub fn html(recording: &Recording) -> String {
     let about = &recording.about;
     let has = |wanted: fn(SeriesKind) -> bool| recording.steps > 0 && recording.series_of(wanted).next().is_some();

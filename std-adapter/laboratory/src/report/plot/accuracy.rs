@@ -26,7 +26,6 @@ const LEGEND: [(Look, &str); 4] = [
 /// instruction set, unless the name says otherwise. The vertical axis is the share of pairs that the filter culls, among those
 /// that exact arithmetic culls. Each line is ten times closer to all. Filters without a proof have no place on that axis. They
 /// are in a strip of their own, with the number of pairs that they cull without proof.
-#[must_use]
 pub fn accuracy_svg(accuracy: &Accuracy) -> String {
     let measured: Vec<_> = accuracy.sets.iter().map(|set| (set, measured(set))).collect();
     let times = measured.iter().flat_map(|(_, rows)| rows).map(|row| row.nanoseconds);

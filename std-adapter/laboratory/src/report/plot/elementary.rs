@@ -42,7 +42,6 @@ fn look(method: ElementaryTest) -> Look {
 /// The horizontal axis is time per pair, logarithmic and the same in all panels. The vertical axis is the median error of a
 /// contact's time, ten times less from line to line. A line joins the tolerances of one test. Tests that may miss contacts, or
 /// find them too late, have no place on that axis. They are in a strip of their own, with their errors.
-#[must_use]
 pub fn elementary_svg(accuracy: &ElementaryAccuracy) -> String {
     let rows = accuracy.sets.iter().flat_map(|set| &set.rows);
     let axis = LogAxis::over(rows.map(|row| row.nanoseconds), WIDTH);

@@ -26,7 +26,6 @@ const STAGE_COLOURS: [(Stage, &str); 7] = [
 ///
 /// Lines show the whole step by the wall clock, each stage summed over threads, and n log n through the first point. Times of
 /// zero are left out, because a logarithmic axis has no place for them. If nothing remains, the picture says so.
-#[must_use]
 pub fn scaling_svg(points: &[ScalingPoint]) -> String {
     let lines = lines(points);
     let values = |coordinate: fn(&(f64, f64)) -> f64| lines.iter().flat_map(|line| &line.points).map(coordinate);

@@ -118,7 +118,6 @@ pub struct Knob {
 
 impl Knob {
     /// Makes a setting from its name and its value, with its unit.
-    #[must_use]
     pub fn new(name: impl Into<String>, value: impl Into<String>) -> Self {
         Self {
             name: name.into(),
@@ -150,7 +149,6 @@ impl Part {
     ///
     /// # Panics
     /// Panics if a triangle names a vertex that does not exist.
-    #[must_use]
     pub fn new(name: impl Into<String>, kind: PartKind, vertex_count: usize, triangles: Vec<[u32; 3]>) -> Self {
         let is_there = |&vertex: &u32| (vertex as usize) < vertex_count;
         assert!(
@@ -166,25 +164,21 @@ impl Part {
     }
 
     /// Returns the name.
-    #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
     /// Returns the kind.
-    #[must_use]
     pub fn kind(&self) -> PartKind {
         self.kind
     }
 
     /// Returns the number of vertices.
-    #[must_use]
     pub fn vertex_count(&self) -> usize {
         self.vertex_count
     }
 
     /// Returns the triangles; vertices count from 0 in each part.
-    #[must_use]
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
     }
@@ -270,13 +264,11 @@ pub struct Measure {
 
 impl Recording {
     /// Returns the number of vertices of cloths and bodies.
-    #[must_use]
     pub fn vertex_count(&self) -> usize {
         self.parts.iter().map(Part::vertex_count).sum()
     }
 
     /// Returns the time of a frame, in seconds.
-    #[must_use]
     pub fn time(&self, frame: &RecordedFrame) -> f64 {
         self.end_of(frame.step)
     }
@@ -285,7 +277,6 @@ impl Recording {
     ///
     /// # Panics
     /// Panics if the recording has no frames. A [`Recorder`] never makes such a recording.
-    #[must_use]
     pub fn frame_at(&self, seconds: f64) -> usize {
         let away = |&frame: &usize| (self.time(&self.frames[frame]) - seconds).abs();
         let frames = 0..self.frames.len();
@@ -295,7 +286,6 @@ impl Recording {
     }
 
     /// Returns the simulated duration of the recorded steps, in seconds.
-    #[must_use]
     pub fn duration(&self) -> f64 {
         self.steps as f64 * self.about.time_step
     }
@@ -314,7 +304,6 @@ impl Recording {
     ///
     /// # Panics
     /// Panics if there is no such frame.
-    #[must_use]
     pub fn mesh(&self, frame: usize) -> Mesh {
         let positions = self.frames[frame].positions.iter();
         let triangles = self.placed_parts().flat_map(|(first, part)| {

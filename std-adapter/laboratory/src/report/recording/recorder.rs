@@ -46,7 +46,6 @@ impl Recorder {
     ///
     /// # Panics
     /// Panics if there are not as many readings as series.
-    #[must_use]
     pub fn new(about: About, parts: Vec<Part>, series: &[(&str, SeriesKind)], readings: &[f64]) -> Self {
         assert_eq!(series.len(), readings.len(), "one reading for each series");
         let named = series.iter().map(|&(name, kind)| Series {
@@ -83,7 +82,6 @@ impl Recorder {
     }
 
     /// Adds quantities of the state that are measured at frames: see [`measure`](Self::measure).
-    #[must_use]
     pub fn with_measures(mut self, measures: &[(&str, MeasureKind)]) -> Self {
         let named = measures.iter().map(|&(name, kind)| Measure {
             name: name.to_owned(),
@@ -98,7 +96,6 @@ impl Recorder {
 
     /// Keeps as many frames as fit into `bytes` of positions, 12 for each vertex, but never fewer than two. The default is 64
     /// MiB.
-    #[must_use]
     pub fn with_budget(mut self, bytes: usize) -> Self {
         let frame = size_of::<[f32; 3]>() * self.recording.vertex_count().max(1);
         self.frames.set_most((bytes / frame).max(2));
@@ -202,7 +199,6 @@ impl Recorder {
 
     /// Returns the recording so far as bytes, to continue after an interruption: see [`restore`](Self::restore). `seconds` is the
     /// wall-clock time so far.
-    #[must_use]
     pub fn save(&self, seconds: f64) -> Vec<u8> {
         let recording = &self.recording;
         let mut bytes = Vec::new();
@@ -244,7 +240,6 @@ impl Recorder {
     /// Continues a recording that another recorder of the same parts and series has [saved](Self::save), and returns its seconds.
     /// Counters must have the readings of that time. Returns `None`, and changes nothing, if the bytes are damaged or belong to
     /// other parts or series.
-    #[must_use]
     pub fn restore(&mut self, bytes: &[u8]) -> Option<f64> {
         let mut restored = self.clone();
         let seconds = restored.read(&mut Reader(bytes))?;
@@ -302,7 +297,6 @@ impl Recorder {
     ///
     /// # Panics
     /// Panics if there was no frame.
-    #[must_use]
     pub fn finish(self, wall_seconds: Option<f64>) -> Recording {
         let mut recording = self.recording;
         let frames = self.frames.finish().into_iter();

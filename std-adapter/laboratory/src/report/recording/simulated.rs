@@ -19,7 +19,6 @@ pub struct Subject {
 }
 
 /// Names the measured costs of effects for a [`Recording`]'s `added`.
-#[must_use]
 pub fn costs_of_added_effects(costs: &[EffectCost]) -> Vec<Added> {
     let named = |cost: &EffectCost| Added {
         name: label(cost.added.unwrap_or("no effect")),
@@ -30,7 +29,6 @@ pub fn costs_of_added_effects(costs: &[EffectCost]) -> Vec<Added> {
 
 impl Subject {
     /// Takes the scene's text, its up direction, its cloths and its bodies, each as a part of its own.
-    #[must_use]
     pub fn new(scene: &Scene) -> Self {
         let about = About {
             name: scene.name.clone(),
@@ -166,7 +164,6 @@ impl SimulationRecorder {
     }
 
     /// Returns the recording so far as bytes. `seconds` is the wall-clock time so far.
-    #[must_use]
     pub fn save(&self, seconds: f64) -> Vec<u8> {
         self.recorder.save(seconds)
     }
@@ -174,7 +171,6 @@ impl SimulationRecorder {
     /// Continues a recording that another recorder of the same simulation has [saved](Self::save), and returns its seconds.
     /// `simulation` must have resumed from a checkpoint of the same step. Returns `None`, and changes nothing, if the bytes are
     /// damaged, or belong to other series or another number of vertices.
-    #[must_use]
     pub fn restore(&mut self, bytes: &[u8], simulation: &Simulation) -> Option<f64> {
         let mut restored = self.clone();
         restored.follow_tears(simulation);
@@ -189,7 +185,6 @@ impl SimulationRecorder {
     }
 
     /// Ends the recording. `seconds` is the wall-clock time of the steps.
-    #[must_use]
     pub fn finish(self, seconds: f64) -> Recording {
         let mut recording = self.recorder.finish(Some(seconds));
         let lost = lost(&recording);

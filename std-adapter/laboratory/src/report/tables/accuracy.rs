@@ -3,7 +3,6 @@ use crate::report::number::{counted, few, finite, grouped, percent};
 use crate::study::{Accuracy, AccuracyRow, AccuracySet};
 
 /// Returns a table of filters and their times for each set of pairs and format.
-#[must_use]
 pub fn accuracy(accuracy: &Accuracy) -> String {
     let options = accuracy.options;
     let separation = match options.separation {

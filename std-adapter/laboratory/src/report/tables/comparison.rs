@@ -6,7 +6,6 @@ use crate::report::{distributed, mesh_size};
 use crate::study::{Comparison, ComparisonRow, MeanCounts};
 
 /// Returns tables of every method on the same steps: the paper's Table 1 beside its own numbers, and each stage's survivors and time.
-#[must_use]
 pub fn comparison(comparison: &Comparison) -> String {
     let mut text = format!(
         "{}\n{}\n{}, {}, the fastest of {}; f64\n",

@@ -3,7 +3,6 @@ use crate::report::number::{ABSENT, grouped, magnitude, time};
 use crate::study::elementary::{ElementaryAccuracy, ElementaryRow, ElementarySet};
 
 /// Returns a table of elementary tests, their times and errors for each set of pairs and format.
-#[must_use]
 pub fn elementary(accuracy: &ElementaryAccuracy) -> String {
     let mut text = format!(
         "What an accurate elementary test costs in time: one pair at a time, seed {}\n\n",

@@ -4,7 +4,6 @@ use crate::study::{HardAnswer, HardResult};
 use std::fmt::Write;
 
 /// Returns a table of cases and methods beside the exact answers, with wrong answers marked and counted.
-#[must_use]
 pub fn hard_cases(scalar: &str, results: &[HardResult]) -> String {
     let letters: Vec<char> = ('A'..).take(QueryMethod::ALL.len()).collect();
     let mut text = format!("{} cases, {scalar}\n\n", results.len());

@@ -4,7 +4,6 @@ use crate::study::QueryResult;
 use selvedge::PairKind;
 
 /// Returns each method's answers to queries, one table for each kind of pair.
-#[must_use]
 pub fn queries(scalar: &str, results: &[QueryResult]) -> String {
     let mut text = String::new();
     for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {

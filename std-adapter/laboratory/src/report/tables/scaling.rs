@@ -5,7 +5,6 @@ use crate::report::number::{counted, grouped, time};
 use crate::study::ScalingPoint;
 
 /// Returns a table of cost against size.
-#[must_use]
 pub fn scaling(preset: Preset, threads: usize, points: &[ScalingPoint]) -> String {
     let header = [
         "triangles",

@@ -6,7 +6,6 @@ use crate::study::EffectCost;
 use selvedge_cloth::Simulation;
 
 /// Returns the cost of a step with no effect, with the first one, with the first two, and so on.
-#[must_use]
 pub fn effects_one_by_one(costs: &[EffectCost]) -> String {
     let mut before = None;
     let rows = costs.iter().map(|cost| {
@@ -22,7 +21,6 @@ pub fn effects_one_by_one(costs: &[EffectCost]) -> String {
 }
 
 /// Returns a summary of a simulation and its recording.
-#[must_use]
 pub fn simulation(simulation: &Simulation, recording: &Recording) -> String {
     let seconds = recording.wall_seconds.unwrap_or(f64::NAN);
     let steps = simulation.steps_done();

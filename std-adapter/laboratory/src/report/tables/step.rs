@@ -4,7 +4,6 @@ use crate::report::number::{counted, grouped, time};
 use crate::report::{StepQuestion, StepSummary, mesh_size};
 
 /// Returns the pairs after each stage of one step, and the times.
-#[must_use]
 pub fn step(summary: &StepSummary) -> String {
     let report = &summary.report;
     let pairs = report.broad_phase_pairs;

@@ -114,19 +114,16 @@ impl BackendTime {
 
 impl AccuracySet {
     /// Returns the number of pairs.
-    #[must_use]
     pub const fn pairs(&self) -> usize {
         self.vertex_face + self.edge_edge
     }
 
     /// Returns the row of a filter, if it was measured.
-    #[must_use]
     pub fn row(&self, filter: MeasuredFilter) -> Option<&AccuracyRow> {
         self.rows.iter().find(|row| row.filter == filter)
     }
 
     /// Returns a row's time on a backend relative to that of [`MeasuredFilter::Uncertified`] on the same backend.
-    #[must_use]
     pub fn over_uncertified(&self, time: BackendTime) -> Option<f64> {
         let uncertified = self.row(MeasuredFilter::Uncertified)?;
         Some(time.nanoseconds / uncertified.time(time.backend)?)
@@ -135,13 +132,11 @@ impl AccuracySet {
 
 impl AccuracyRow {
     /// Returns the best instruction set's time.
-    #[must_use]
     pub fn best_time(&self) -> Option<BackendTime> {
         self.times.last().copied()
     }
 
     /// Returns the nanoseconds per pair on a backend.
-    #[must_use]
     pub fn time(&self, backend: &str) -> Option<f64> {
         let mut times = self.times.iter();
         Some(times.find(|time| time.backend == backend)?.nanoseconds)

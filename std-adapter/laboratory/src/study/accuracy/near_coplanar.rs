@@ -20,7 +20,6 @@ const LARGEST_EXPONENT: i32 = 10;
 
 impl PairSet {
     /// Makes nearly coplanar pairs in the format `S`, half of them vertex–face. The same seed gives the same pairs.
-    #[must_use]
     pub fn near_coplanar<S: Scalar>(seed: u64, pairs: usize) -> Self {
         let mut random = Rng::with_seed(seed);
         let mut set = Self::new("Nearly coplanar pairs".to_owned());

@@ -90,7 +90,6 @@ impl PairSet {
     }
 
     /// Returns the points in the format `S`, rounded where necessary.
-    #[must_use]
     pub fn rows<S: Scalar>(&self) -> Vec<VertexRow<S>> {
         let rounded = |point: DVec3| S::Vector::from(point.to_array().map(S::from_f64));
         let motions = self.points.iter().map(|&[start, end]| Motion {
@@ -101,7 +100,6 @@ impl PairSet {
     }
 
     /// Returns the number of pairs.
-    #[must_use]
     pub fn pairs(&self) -> usize {
         self.vertex_face.len() + self.edge_edge.len()
     }

@@ -112,7 +112,6 @@ pub struct ElementaryRow {
 
 impl ElementaryRow {
     /// Returns whether an answer would let a step pass through a contact.
-    #[must_use]
     pub const fn is_wrong(&self) -> bool {
         self.missed > 0 || self.late > 0
     }

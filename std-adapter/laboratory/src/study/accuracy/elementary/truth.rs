@@ -21,7 +21,6 @@ pub enum ExactAnswer {
 /// Returns the exact answer and an enclosure of the first time.
 ///
 /// A pair that is not finite counts as touching at an unknown time.
-#[must_use]
 pub fn exact_answer<S: Scalar>(pair: &PrimitivePair<S>) -> ExactAnswer {
     let pair = pair.widened();
     match contact(&pair) {
