@@ -12,7 +12,11 @@
 //! | [`witness`] | a checker of the proofs that come with a time of impact |
 //! | [`plain`] | the paper's filter as printed, which is not certified |
 
-#![allow(missing_docs, clippy::must_use_candidate, reason = "only this workspace calls it, and many names say all")]
+#![allow(
+    missing_docs,
+    clippy::must_use_candidate,
+    reason = "only this workspace calls it, and many names say all"
+)]
 
 pub mod altered;
 pub mod campaign;

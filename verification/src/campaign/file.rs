@@ -10,16 +10,10 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum FileError {
     #[error("{file}: {error}", file = .file.display())]
-    System {
-        file: PathBuf,
-        error: io::Error,
-    },
+    System { file: PathBuf, error: io::Error },
     /// The file does not hold a state of this campaign.
     #[error("{file}: not a state of this campaign ({why}); delete it, or name another file", file = .file.display())]
-    NotAState {
-        file: PathBuf,
-        why: String,
-    },
+    NotAState { file: PathBuf, why: String },
 }
 
 /// Reads the state in a file, if there is such a file.

@@ -49,11 +49,7 @@ impl Settings {
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum AnotherRun {
     #[error("the state of another run, whose {name} is {was}, not {is}")]
-    Setting {
-        name: String,
-        was: String,
-        is: String,
-    },
+    Setting { name: String, was: String, is: String },
     /// The state is of another shard of the same run.
     #[error("the state of another shard, of chunks {} to {}, not {} to {}", .was.start, .was.end, .is.start, .is.end)]
     Shard {

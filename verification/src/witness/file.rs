@@ -21,9 +21,7 @@ pub enum WitnessFileError {
     Io(#[from] std::io::Error),
     /// It has an invalid value.
     #[error("invalid {what}")]
-    Invalid {
-        what: &'static str,
-    },
+    Invalid { what: &'static str },
 }
 
 /// An open file of witnesses.

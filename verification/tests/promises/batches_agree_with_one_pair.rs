@@ -1,19 +1,11 @@
 //! Sixteen pairs at a time get the same verdicts, bit for bit, as one pair at a time, on every instruction set of this machine.
 
-use proptest::prelude::*;
-use selvedge::simd::available_levels;
-use selvedge_core::PairKind;
-use selvedge_core::Verdict;
+use crate::support::prelude::*;
 use selvedge_core::batch::{
-    BatchTest, LANES, Mask, Test, Tile, VertexRow, closest_points, culled, culled_from_rows, culled_from_tiles,
-    largest_strays_from_rows,
+    BatchTest, Mask, Test, Tile, closest_points, culled, culled_from_rows, culled_from_tiles, largest_strays_from_rows,
 };
-use selvedge_core::filter::{Filter, Tier};
-use selvedge_core::glam::{DVec3, Vec3A};
+use selvedge_core::glam::Vec3A;
 use selvedge_core::separation::clearance::Clearance;
-use selvedge_core::separation::closest::ClosestPoints;
-use selvedge_verification::culling::{CullingTest, verdict};
-use selvedge_verification::generator::{Choices, Format, PairCase, from_choices};
 
 const TESTS: [(Test, CullingTest); 3] = [
     (Test::SweptBoxes, CullingTest::SweptBoxes),

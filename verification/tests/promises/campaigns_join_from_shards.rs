@@ -1,14 +1,12 @@
 //! Shards of a campaign, joined, are the single run, however often they were killed. Everything that is not one run is refused.
 
+use crate::support::prelude::*;
 use proptest::collection::vec;
-use proptest::prelude::*;
-use selvedge::simd::best_level;
 use selvedge_verification::campaign::exact::{self, Claim, Scenes};
 use selvedge_verification::campaign::{
     AnotherRun, Chunks, Digest, FileError, Findings, Progress, Refusal, Shard, StateFile, merge, read, run,
 };
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus};

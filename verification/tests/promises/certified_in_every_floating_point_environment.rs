@@ -1,18 +1,9 @@
 //! No certified test culls a pair that touches (or is coplanar), in any rounding direction, with subnormal numbers kept or
 //! flushed. The compiled code runs with the control register set accordingly.
 
-use crate::support::environment::Environment;
-use proptest::prelude::*;
-use selvedge::simd::available_levels;
-use selvedge_core::PairKind;
-use selvedge_core::batch::{BatchTest, Level, Test, Tile, culled_from_tiles};
-use selvedge_core::filter::{Filter, Tier};
+use crate::support::prelude::*;
+use selvedge_core::batch::{BatchTest, Test, Tile, culled_from_tiles};
 use selvedge_verification::culling;
-use selvedge_verification::formats;
-use selvedge_verification::generator::{
-    Choices, Format, Meeting, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, from_choices, touching_pairs,
-};
-use selvedge_verification::oracle::collides;
 use std::hint::black_box;
 
 const BOX_TESTS: [Test; 3] = [Test::SweptBoxes, Test::SegmentBox, Test::RelativeBoxes];

@@ -1,9 +1,6 @@
 //! The closest points of a pair at rest agree with a grid of points of both.
 
-use proptest::prelude::*;
-use selvedge_core::PairKind;
-use selvedge_core::glam::DVec3;
-use selvedge_core::separation::closest::ClosestPoints;
+use crate::support::prelude::*;
 
 fn point() -> impl Strategy<Value = DVec3> {
     prop::array::uniform3(-1.0..1.0_f64).prop_map(DVec3::from)

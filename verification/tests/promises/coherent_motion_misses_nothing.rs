@@ -1,17 +1,7 @@
 //! A detector that follows pairs from step to step gives the results of one that has not seen earlier steps.
 
 use crate::support;
-use proptest::prelude::*;
-use selvedge::PairKind;
-use selvedge::glam::DVec3;
-use selvedge::simd::available_levels;
-use selvedge::{CollisionDetector, Contact, Criterion, Threads, Topology};
-use selvedge_core::Scalar;
-use selvedge_core::elementary::Limits;
-use selvedge_verification::generator::{BendingTube, Format, MeshCase, all_pairs, check, meshes, with_kinds};
-use selvedge_verification::oracle::{collides, within};
-use std::cell::Cell;
-use std::collections::BTreeMap;
+use crate::support::prelude::*;
 use std::sync::Arc;
 
 type Contacts = BTreeMap<(PairKind, [u32; 2]), u64>;

@@ -1,19 +1,9 @@
 //! The detector's results agree, step by step, with the exact oracle and with each other.
 
 use crate::support;
-use proptest::prelude::*;
+use crate::support::prelude::*;
 use selvedge::PairKind::{EdgeEdge, VertexFace};
-use selvedge::Topology;
-use selvedge::glam::DVec3;
-use selvedge::simd::available_levels;
-use selvedge::{CandidateBoxes, CollisionDetector, Contact, Criterion, Frame, Position, StepError, Threads};
-use selvedge_core::Scalar;
-use selvedge_core::elementary::Limits;
-use selvedge_verification::formats;
-use selvedge_verification::generator::{BendingTube, Format, MeshCase, MeshPair, all_pairs, check, meshes, with_kinds};
-use selvedge_verification::oracle::{collides, within};
-use std::cell::Cell;
-use std::collections::BTreeMap;
+use selvedge::{CandidateBoxes, Frame};
 
 fn detector<S: Format>(mesh: &MeshCase<S>) -> CollisionDetector<S> {
     CollisionDetector::new(mesh.topology())

@@ -1,9 +1,7 @@
 //! With a collision filter, allowed pairs are found with the same times, and excluded ones never are.
 
-use proptest::prelude::*;
-use selvedge::{CandidateBoxes, CollisionDetector, CollisionFilter, Contact, Groups, PairKind, StepError, Topology};
-use selvedge_verification::generator::{BendingTube, MeshCase, check, meshes};
-use std::cell::Cell;
+use crate::support::prelude::*;
+use selvedge::{CandidateBoxes, CollisionFilter, Groups};
 use std::sync::Arc;
 
 /// Returns filters of every kind, alone and combined, for any number of vertices.

@@ -2,15 +2,11 @@
 //! stays farther apart than documented. This holds in `f64` and `f32`, for one pair alone, side by side on every instruction set,
 //! and by a detector.
 
-use rug::Rational;
-use selvedge::simd::available_levels;
-use selvedge::{CollisionDetector, Criterion, Position, Topology};
-use selvedge_core::PairKind;
-use selvedge_core::batch::{LANES, Level, Round, RoundQuestion, VertexRow, advance_from_rows};
-use selvedge_core::elementary::advance::{time_of_impact, time_of_impact_within};
-use selvedge_core::elementary::{ContactVerdict, Impact, Limits, Reason, contact};
+use crate::support::prelude::*;
+use selvedge_core::batch::{Round, RoundQuestion, advance_from_rows};
+use selvedge_core::elementary::advance::time_of_impact;
+use selvedge_core::elementary::{ContactVerdict, contact};
 use selvedge_verification::conformance::{Case, Question};
-use selvedge_verification::generator::{Format, PairCase};
 
 /// The cases of a question that a format holds exactly.
 fn cases<S: Format>(question: Question) -> Vec<Case> {

@@ -1,20 +1,9 @@
 //! Points, weights, distance and normal of a contact agree with rational numbers.
 
 use crate::support::at;
-use crate::support::environment::Environment;
 use crate::support::geometry::Truth;
-use proptest::prelude::*;
-use rug::Rational;
-use selvedge::{CollisionDetector, PairKind, StepError, Topology};
-use selvedge_core::Motion;
-use selvedge_core::glam::DVec3;
+use crate::support::prelude::*;
 use selvedge_core::separation::geometry::{Geometry, geometry};
-use selvedge_core::separation::largest_coordinate;
-use selvedge_verification::generator::{
-    BendingTube, Moment, PairCase, all_pairs, check, extraordinary_pairs, pairs_of_any_kind, touching_pairs, with_kinds,
-};
-use selvedge_verification::oracle::{rational, within_at};
-use std::cell::Cell;
 
 /// Checks everything that is promised, at one time. Returns whether there is a normal.
 fn keeps_promises(case: &PairCase<f64>, time: f64) -> Result<bool, TestCaseError> {

@@ -1,20 +1,11 @@
 //! `selvedge_core::elementary::contact` and `selvedge_core::kernels::exact::touches` agree with the oracle for every finite
 //! pair.
 
-use crate::support::environment::Environment;
+use crate::support::prelude::*;
 use crate::support::widths::at_the_limit_of_a_width;
-use proptest::prelude::*;
-use selvedge_core::PairKind;
 use selvedge_core::elementary::ContactVerdict;
 use selvedge_core::elementary::contact::contact_and_evidence;
 use selvedge_core::kernels::exact::{self, Evidence};
-use selvedge_verification::formats;
-use selvedge_verification::generator::{
-    Choices, Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, from_choices, pairs, pairs_of_any_kind,
-    touching_pairs,
-};
-use selvedge_verification::oracle::collides;
-use std::cell::Cell;
 
 const KINDS: [PairKind; 2] = [PairKind::VertexFace, PairKind::EdgeEdge];
 

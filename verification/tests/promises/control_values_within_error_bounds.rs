@@ -1,14 +1,10 @@
 //! The control values of the coplanarity cubic are those of the right polynomial, and rounding errors stay within the proven
 //! bounds.
 
-use proptest::prelude::*;
-use rug::{Float, Rational, ops::Pow};
-use selvedge_core::PairKind;
-use selvedge_core::kernels::coplanarity::{MovingTetrahedron, error_bound_by_magnitudes, is_in_range};
-use selvedge_core::kernels::vector::Vector;
-use selvedge_verification::formats;
-use selvedge_verification::generator::{Choices, Format, PairCase, check, from_choices, pairs_of_any_kind};
-use selvedge_verification::oracle::rational;
+use crate::support::prelude::*;
+use rug::Float;
+use rug::ops::Pow;
+use selvedge_core::kernels::coplanarity::error_bound_by_magnitudes;
 use selvedge_verification::plain;
 
 /// Four points a, b, c, p, each at times 0 and 1.

@@ -5,27 +5,20 @@
 //! here it fails. An intended change changes a digest, and the failure prints the new ones. Replace the old ones, and explain in
 //! the commit which results became sharper or less sharp, and why.
 
+use crate::support::prelude::*;
 use fnv::FnvHasher;
-use selvedge::simd::available_levels;
-use selvedge_core::PairKind;
-use selvedge_core::batch::{Compares, LANES, Loop, Mask, in_lanes};
+use selvedge_core::batch::{Compares, Loop, Mask, in_lanes};
 use selvedge_core::boxes::block::BoxBlock;
 use selvedge_core::boxes::moving::{MovingBlock, MovingBox};
-use selvedge_core::boxes::{Aabb, segment, swept_boxes};
+use selvedge_core::boxes::{segment, swept_boxes};
 use selvedge_core::elementary::advance::certain_contact;
-use selvedge_core::elementary::advance::{time_of_impact_and_work, time_of_impact_within};
+use selvedge_core::elementary::advance::time_of_impact_and_work;
 use selvedge_core::elementary::contact::contact_and_evidence;
-use selvedge_core::elementary::{Impact, Limits};
-use selvedge_core::filter::{Filter, Tier};
-use selvedge_core::glam::DVec3;
-use selvedge_core::kernels::coplanarity::{MovingTetrahedron, error_bound_by_magnitudes, is_in_range};
+use selvedge_core::kernels::coplanarity::error_bound_by_magnitudes;
 use selvedge_core::kernels::exact::{UNKNOWN, certain_signs, control_value_signs, is_never_coplanar, is_never_within, touches};
 use selvedge_core::separation::geometry::geometry;
-use selvedge_core::{Motion, PrimitivePair, Verdict};
 use selvedge_verification::campaign::exact::{Source, sample};
 use selvedge_verification::culling;
-use selvedge_verification::culling::CullingTest;
-use selvedge_verification::generator::{Format, PairCase};
 use std::hash::Hasher;
 
 /// The hash FNV-1a.

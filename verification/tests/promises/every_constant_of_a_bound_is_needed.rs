@@ -5,13 +5,10 @@
 //! four points. The pairs were simplified after the search.
 
 use crate::certified_in_every_floating_point_environment::nothing_culls;
-use crate::support::environment::Environment;
-use proptest::prelude::*;
+use crate::support::prelude::*;
 use selvedge_verification::altered::{Factors, Kernel};
 use selvedge_verification::culling::CullingTest::{CertifiedNonCoplanarity, SegmentBox};
-use selvedge_verification::culling::verdict;
-use selvedge_verification::generator::{Format, PairCase, check, pairs_of_any_kind};
-use selvedge_verification::oracle::{collides, rational, segment_meets_box};
+use selvedge_verification::oracle::segment_meets_box;
 use selvedge_verification::plain;
 
 /// Defines factors that differ from one in some constants.

@@ -1,7 +1,7 @@
 //! In a small billion-pair campaign no certified claim is wrong, and the false culls of an unsafe filter are found. The findings
 //! depend on neither threads nor interruptions.
 
-use selvedge::simd::best_level;
+use crate::support::prelude::*;
 use selvedge_verification::campaign::Findings;
 use selvedge_verification::campaign::exact::{Claim, ClaimCounts, Progress, Scenes, run};
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -1,20 +1,12 @@
 //! `selvedge_core::kernels::exact` agrees with rational arithmetic for every finite pair.
 
-use crate::support::environment::Environment;
+use crate::support::prelude::*;
 use crate::support::rationals::separations;
 use crate::support::widths::at_the_limit_of_a_width;
-use proptest::prelude::*;
-use rug::Rational;
-use selvedge_core::PairKind;
-use selvedge_core::kernels::coplanarity::is_in_range;
 use selvedge_core::kernels::exact::{
     KnownSigns, UNKNOWN, certain_signs, control_value_signs, is_never_coplanar, is_never_within,
 };
-use selvedge_verification::culling::CullingTest;
-use selvedge_verification::culling::verdict;
-use selvedge_verification::formats;
-use selvedge_verification::generator::{Format, PairCase, check, extraordinary_pairs, from_choices, pairs_of_any_kind};
-use selvedge_verification::oracle::{InRationals, rational, within};
+use selvedge_verification::oracle::InRationals;
 use std::cmp::Ordering::{self, Equal, Greater, Less};
 
 fn signs<S: Format>(pair: &PairCase<S>) -> Option<[Ordering; 4]> {

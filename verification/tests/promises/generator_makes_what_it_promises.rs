@@ -1,16 +1,8 @@
 //! The generator of the tests' inputs is exact as promised, and varied.
 
-use proptest::prelude::*;
-use selvedge_core::PairKind;
+use crate::support::prelude::*;
 use selvedge_verification::culling::CullingTest::CertifiedNonCoplanarity;
-use selvedge_verification::culling::verdict;
-use selvedge_verification::formats;
-use selvedge_verification::generator::{
-    Choices, Format, Meeting, MeshCase, Moment, PairCase, Simplify, check, coplanar_pairs, from_choices, meshes,
-    pairs_of_any_kind, touching_pairs,
-};
-use selvedge_verification::oracle::{collides, coplanar, touches_at};
-use std::cell::Cell;
+use selvedge_verification::oracle::touches_at;
 
 fn touches_when_it_says<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
     prop_assert!(touches_at(&moment.pair().question(), &moment.time()));

@@ -1,14 +1,9 @@
 //! The intersections of a mesh at rest are those of exact triangles, pair by pair and all together.
 
-use proptest::prelude::*;
-use selvedge::glam::{DVec3, Vec3};
-use selvedge::simd::available_levels;
-use selvedge::{CollisionDetector, Intersection, Position, Threads, Topology};
-use selvedge_core::Scalar;
-use selvedge_verification::formats;
-use selvedge_verification::generator::{Format, MeshCase, meshes};
+use crate::support::prelude::*;
+use selvedge::Intersection;
+use selvedge::glam::Vec3;
 use selvedge_verification::oracle::{mesh_self_intersections, triangles_intersect};
-use std::collections::BTreeSet;
 
 type Point = [f64; 3];
 

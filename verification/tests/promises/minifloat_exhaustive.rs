@@ -10,9 +10,8 @@
 //! No input may have a wrong sign. The tests also assert how close the grids come to the bounds, so they would detect constants
 //! that are a fraction of these.
 
-use rug::{Rational, ops::Pow};
-use selvedge_core::kernels::coplanarity::MovingTetrahedron;
-use selvedge_core::kernels::vector::Vector;
+use crate::support::prelude::*;
+use rug::ops::Pow;
 use selvedge_verification::minifloat::{DOWNWARD, FLUSHING, Minifloat, TO_NEAREST, TOWARDS_ZERO, UPWARD, every, numbers};
 
 /// A moving tetrahedron by the points a, b, c, p at times 0 and 1.

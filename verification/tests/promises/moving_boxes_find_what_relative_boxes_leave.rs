@@ -1,17 +1,7 @@
 //! The broad phase of moving boxes agrees with its definition, on small degenerate meshes and on a late step of a bending tube.
 
-use proptest::prelude::*;
-use selvedge::StepError;
-use selvedge::Topology;
+use crate::support::prelude::*;
 use selvedge::broad_phase::MovingBroadPhase;
-use selvedge::glam::DVec3;
-use selvedge::simd::available_levels;
-use selvedge_core::Scalar;
-use selvedge_verification::formats;
-use selvedge_verification::generator::{BendingTube, Format, MeshCase, MeshPair, PairCase, all_pairs, check, meshes, with_kinds};
-use selvedge_verification::oracle::within;
-use std::cell::Cell;
-use std::collections::BTreeSet;
 
 fn candidates(broad_phase: &mut MovingBroadPhase) -> Vec<MeshPair> {
     let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());

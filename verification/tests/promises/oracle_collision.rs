@@ -1,11 +1,9 @@
 //! The oracle's contacts and separations of primitive pairs in motion agree with clipping and with stepping.
 
 use crate::support::distance::{SLACK, advance, distance};
+use crate::support::prelude::*;
 use crate::support::{at, common_part};
-use proptest::prelude::*;
-use rug::Rational;
-use selvedge_core::PairKind;
-use selvedge_verification::oracle::{Pair, collides, first_within, touches_at, within, within_at};
+use selvedge_verification::oracle::touches_at;
 
 fn kind() -> impl Strategy<Value = PairKind> {
     prop_oneof![Just(PairKind::VertexFace), Just(PairKind::EdgeEdge)]

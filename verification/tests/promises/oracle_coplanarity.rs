@@ -1,8 +1,7 @@
 //! The coplanarity of four moving points agrees with the extremes of the volume.
 
-use proptest::prelude::*;
+use crate::support::prelude::*;
 use rug::Integer;
-use selvedge_verification::oracle::coplanar;
 use std::cmp::Ordering;
 
 type Positions = [[f64; 3]; 4];

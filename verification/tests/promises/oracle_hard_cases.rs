@@ -1,8 +1,7 @@
 //! Named hard cases with their exact answers.
 
-use rug::Rational;
-use selvedge_core::PairKind;
-use selvedge_verification::oracle::{AlgebraicTime, Pair, collides, within};
+use crate::support::prelude::*;
+use selvedge_verification::oracle::AlgebraicTime;
 use std::cmp::Ordering;
 use std::f64::consts::FRAC_1_SQRT_2;
 

@@ -1,7 +1,7 @@
 //! The oracle's triangle intersections at rest agree with clipping.
 
+use crate::support::prelude::*;
 use crate::support::{common_part, contains, point};
-use proptest::prelude::*;
 use selvedge_verification::oracle::{
     mesh_intersections, mesh_self_intersections, triangles_intersect, triangles_intersect_by_signs,
 };

@@ -1,17 +1,11 @@
 //! Positions, deviations and times of impact on arcs and polylines agree with numbers of 256 bits, which stand for exact ones.
 
-use crate::support::environment::Environment;
 use crate::support::geometry::Truth;
-use proptest::prelude::*;
-use rug::{Float, Rational};
-use selvedge_core::elementary::{Impact, Limits, Reason};
-use selvedge_core::glam::DVec3;
+use crate::support::prelude::*;
+use rug::Float;
 use selvedge_core::paths::{Arc, Moment, Path, Piece, Polyline, RigidMotion, geometry, time_of_impact};
-use selvedge_core::{Motion, PairKind};
-use selvedge_verification::generator::{Choices, PairCase, Screw, Simplify, check, from_choices, side_of, sliding_pairs, vector};
 use selvedge_verification::oracle::arcs::{Place, Pose, distance, float, minus, place, plus, times};
-use selvedge_verification::oracle::{within, within_at_rest};
-use std::cell::Cell;
+use selvedge_verification::oracle::within_at_rest;
 use std::f64::consts::{PI, TAU};
 
 /// Two motions, and points of the bodies.

@@ -2,26 +2,15 @@
 //! a pair keeps although its points stray, and their stray. Others are boxes with a separation, lengths and times in fewer
 //! digits, and how wide neighbours are open. This holds in every floating-point environment.
 
-use crate::support::environment::Environment;
 use crate::support::point;
-use proptest::prelude::*;
-use rug::Rational;
-use selvedge_core::PairKind;
-use selvedge_core::boxes::Aabb;
+use crate::support::prelude::*;
 use selvedge_core::boxes::mapping::{Inset, Mapping};
 use selvedge_core::boxes::moving::MovingBox;
-use selvedge_core::glam::DVec3;
 use selvedge_core::narrowing::{rounded_down, rounded_up};
 use selvedge_core::separation::clearance::Clearance;
 use selvedge_core::separation::course;
 use selvedge_core::separation::gap::{GapError, SeparatingDirection, distance_from_below};
 use selvedge_core::separation::hinge::is_wide_open;
-use selvedge_core::separation::largest_coordinate;
-use selvedge_verification::formats;
-use selvedge_verification::generator::{
-    Choices, Format, Moment, PairCase, Simplify, check, extraordinary_pairs, from_choices, pairs_of_any_kind, touching_pairs,
-};
-use selvedge_verification::oracle::{Pair, rational, within, within_at};
 
 /// A pair, and some decisions as well.
 #[derive(Clone, Debug)]

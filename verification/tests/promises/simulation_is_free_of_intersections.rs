@@ -1,6 +1,6 @@
 //! Every state that a simulation accepts is exactly free of intersections of cloth with itself and with bodies, ropes included.
 
-use proptest::prelude::*;
+use crate::support::prelude::*;
 use selvedge_cloth::effects::{BodyContact, Friction, RopeBend, RopeStretch, SelfCollision, Stretch, Thickness};
 use selvedge_cloth::glam::DVec3;
 use selvedge_cloth::{Body, Cloth, Scene, SetupError, Simulation};

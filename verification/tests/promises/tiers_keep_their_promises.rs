@@ -2,16 +2,10 @@
 //! arrangement of their points, and which of two tiers culls more.
 
 use crate::support::distance::distance;
+use crate::support::prelude::*;
 use crate::support::rationals::separations;
-use proptest::prelude::*;
-use selvedge_core::filter::{Filter, Tier};
 use selvedge_verification::culling::CullingTest::CertifiedNonCoplanarity;
-use selvedge_verification::culling::verdict;
-use selvedge_verification::formats;
-use selvedge_verification::generator::{
-    Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, grazes_of_a_box, pairs_of_any_kind, touching_pairs,
-};
-use selvedge_verification::oracle::{InRationals, coplanar, rational, within};
+use selvedge_verification::oracle::InRationals;
 
 fn filter_culls<S: Format>(filter: Filter<S>, pair: &PairCase<S>) -> bool {
     filter.verdict(&pair.pair()).is_culled()

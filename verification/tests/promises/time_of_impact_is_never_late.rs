@@ -1,30 +1,15 @@
 //! The certified time of impact never misses, and is never later than the exact time, in every floating-point environment. It is
 //! as tight as documented, and does no more work.
 
-use crate::support::environment::Environment;
-use proptest::prelude::*;
-use rug::Rational;
-use selvedge::simd::{available_levels, best_level};
-use selvedge_core::PairKind;
-use selvedge_core::batch::{Level, Round, RoundQuestion, VertexRow, advance_from_rows};
+use crate::support::prelude::*;
+use selvedge_core::batch::{Round, RoundQuestion, advance_from_rows};
 use selvedge_core::elementary::advance::certain_contact;
 use selvedge_core::elementary::advance::{
     ROUNDS, ROUNDS_WITH_SEPARATION, TURNS, time_of_impact, time_of_impact_and_work, time_of_impact_of_points,
-    time_of_impact_within,
 };
-use selvedge_core::elementary::{Impact, Limits, Reason};
-use selvedge_core::glam::DVec3;
 use selvedge_core::kernels::advance::Work;
 use selvedge_core::kernels::of_kind;
 use selvedge_core::kernels::points::PairPoints;
-use selvedge_core::{Motion, PrimitivePair, Scalar};
-use selvedge_verification::formats;
-use selvedge_verification::generator::{
-    Choices, Format, Moment, PairCase, Simplify, check, coplanar_pairs, extraordinary_pairs, from_choices, pairs_of_any_kind,
-    touching_pairs,
-};
-use selvedge_verification::oracle::{collides, first_within, within, within_at};
-use std::cell::Cell;
 
 /// A pair, and lengths on its own scale.
 #[derive(Clone, Debug)]

@@ -4,21 +4,17 @@
 //! Rounding errors are a large part of such numbers, so grids of a few values come close to every bound. The tests assert how
 //! close, and that something is proven at all.
 
+use crate::support::prelude::*;
 use rug::Integer;
-use selvedge_core::PairKind;
 use selvedge_core::elementary::advance::{ROUNDS, time_of_impact_of_points};
-use selvedge_core::elementary::{Impact, Limits};
 use selvedge_core::kernels::advance::corners::Corners;
 use selvedge_core::kernels::advance::directions::{are_apart_curving, are_apart_turning};
 use selvedge_core::kernels::advance::round::{RoundInput, round};
 use selvedge_core::kernels::advance::volume::SignedVolume;
 use selvedge_core::kernels::lanes::Rounding;
 use selvedge_core::kernels::points::{EdgeEdge, PairPoints, PairShape, VertexFace};
-use selvedge_core::kernels::vector::Vector;
 use selvedge_verification::altered::{self, Factors};
-use selvedge_verification::generator::{Choices, Format, Meeting, Moment, PairCase};
 use selvedge_verification::minifloat::{DOWNWARD, FLUSHING, Minifloat, TO_NEAREST, TOWARDS_ZERO, UPWARD, every, numbers};
-use selvedge_verification::oracle::collides;
 
 /// Pseudo-random numbers by `SplitMix64`.
 struct Random(u64);

@@ -1,18 +1,11 @@
 //! A truncated step is free of contact by exact arithmetic, for any wanted step, and points are held back only if needed.
 
-use proptest::prelude::*;
+use crate::support::prelude::*;
 use proptest::test_runner::TestRunner;
-use selvedge::{CollisionDetector, Criterion, Threads};
-use selvedge_core::elementary::Limits;
-use selvedge_core::glam::{DQuat, DVec3};
+use selvedge_core::glam::DQuat;
 use selvedge_core::separation::carried::{LARGEST_TURN, is_too_near, kept_when_carried};
 use selvedge_core::separation::gap::{GapError, SeparatingDirection, distance_from_below};
-use selvedge_core::separation::largest_coordinate;
 use selvedge_core::separation::truncation::shares;
-use selvedge_core::{Motion, PairKind};
-use selvedge_verification::generator::{Format, MeshCase, PairCase, all_pairs, check, meshes, with_kinds};
-use selvedge_verification::oracle::{Pair, collides, within};
-use std::cell::Cell;
 
 /// Counts whole and truncated steps, and truncated ones with a pair in contact at the start.
 type Met = Cell<[usize; 3]>;

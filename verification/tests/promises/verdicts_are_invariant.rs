@@ -24,13 +24,8 @@
 //!
 //! The *plain* filter is not symmetric in time, since it computes from velocities. Nothing is promised for it.
 
-use proptest::prelude::*;
-use selvedge_core::PairKind;
-use selvedge_core::Verdict;
+use crate::support::prelude::*;
 use selvedge_verification::culling::CullingTest::{self, CertifiedNonCoplanarity, RelativeBoxes, SegmentBox, SweptBoxes};
-use selvedge_verification::culling::verdict;
-use selvedge_verification::formats;
-use selvedge_verification::generator::{Choices, Format, PairCase, from_choices, pairs, pairs_of_any_kind};
 
 const EXACT_BOXES: [CullingTest; 2] = [SweptBoxes, RelativeBoxes];
 

@@ -1,14 +1,8 @@
 //! The time of impact comes with a proof that holds in exact numbers, and the checker of proofs accepts no false claim.
 
-use proptest::prelude::*;
-use selvedge_core::PairKind;
+use crate::support::prelude::*;
 use selvedge_core::elementary::advance::{WITNESS_PARTS, time_of_impact, witness};
-use selvedge_core::elementary::{Impact, Limits, Reason};
-use selvedge_verification::formats;
-use selvedge_verification::generator::{Choices, Format, PairCase, Simplify, check, from_choices};
-use selvedge_verification::oracle::{Pair, collides, first_within};
 use selvedge_verification::witness::Claim;
-use std::cell::Cell;
 
 /// A pair, its separation, and choices for an alteration.
 #[derive(Clone, Debug)]

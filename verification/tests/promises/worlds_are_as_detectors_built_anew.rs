@@ -1,16 +1,9 @@
 //! A world of meshes that are added and removed reports the contacts of a new detector for the same triangles.
 
 use crate::support;
-use proptest::prelude::*;
-use selvedge::core::elementary::Limits;
-use selvedge::glam::{DQuat, DVec3};
-use selvedge::{
-    CollisionDetector, CollisionFilter, Criterion, Geometry, Groups, MeshHandle, MeshMotion, PairKind, Position, Scalar,
-    StepError, Threads, Topology, World, WorldContact, WorldError,
-};
-use selvedge_core::separation::closest::ClosestPoints;
-use selvedge_verification::generator::side_of;
-use std::cell::Cell;
+use crate::support::prelude::*;
+use selvedge::glam::DQuat;
+use selvedge::{CollisionFilter, Geometry, Groups, MeshHandle, MeshMotion, World, WorldContact, WorldError};
 use std::f64::consts::PI;
 
 /// Pseudo-random numbers from a seed (SplitMix64).

@@ -6,6 +6,7 @@
 pub(crate) mod distance;
 pub(crate) mod environment;
 pub(crate) mod geometry;
+pub(crate) mod prelude;
 pub(crate) mod rationals;
 pub(crate) mod widths;
 
