@@ -1,12 +1,7 @@
 //! Moving air: inflation by a prescribed pressure, and wind from a field.
 
-use crate::common::{self, assert_complaints};
-use selvedge::glam::DVec3;
-use selvedge_cloth::effects::{
-    Air, AirDrag, AirSource, Effect, Fan, Inflation, PressureKey, SelfCollision, Stretch, Thickness, Vortex, Wind, WindField,
-};
-use selvedge_cloth::{Body, Cloth, Scene, Simulation};
-use std::path::Path;
+use crate::common;
+use crate::common::*;
 
 const RADIUS: f64 = 0.1;
 

@@ -1,11 +1,8 @@
 //! Bodies that deform: frames of files and of code, skinned figures.
 
-use crate::common::{assert_complaints, assert_errors, assert_same_bits, bits, intersections, load, pinned, run, scene_file};
-use selvedge_cloth::effects::{BodyContact, Gravity, PinMotion, SelfCollision, Stretch, Thickness};
+use crate::common::*;
 use selvedge_cloth::files::animation::{Choice, read};
 use selvedge_cloth::files::mesh;
-use selvedge_cloth::glam::DVec3;
-use selvedge_cloth::{Animation, Body, BodyMotion, CHECKPOINT_STEPS, CheckpointError, Cloth, Mesh, OnBlocked, Scene, Simulation};
 
 /// Counts the intersections of the cloth by the exact test, which is independent of the certificate.
 fn crossings(simulation: &Simulation) -> usize {

@@ -1,12 +1,6 @@
 //! Attachments hold with a limited force, and report releases.
 
-use crate::common::{advance, along, assert_complaints, assert_same_bits, run};
-use selvedge::glam::DVec3;
-use selvedge_cloth::effects::{
-    AirDrag, AttachmentGroup, Attachments, BodyContact, Gravity, PinMotion, Release, Shear, Stretch, Thickness,
-};
-use selvedge_cloth::{Animation, Body, BodyMotion, CHECKPOINT_STEPS, Cloth, KeyframeMotion, Placement, Scene, Simulation};
-use std::path::Path;
+use crate::common::*;
 
 /// A sheet of 20 cm and 200 g/m², upright: it weighs 78.48 mN.
 fn sheet() -> Cloth {

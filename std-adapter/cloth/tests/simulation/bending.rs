@@ -1,11 +1,8 @@
 //! A strip bends under its weight according to its flexural rigidity, on any mesh.
 
-use crate::common::{advance, resting, run};
+use crate::common::*;
 use crate::irregular;
-use selvedge::Mesh;
-use selvedge::glam::{DQuat, DVec3};
-use selvedge_cloth::effects::{AirDrag, Bend, Gravity, Shear, Stretch};
-use selvedge_cloth::{Cloth, Scene, Simulation};
+use selvedge::glam::DQuat;
 
 /// The rigidity in N·m; the density below is in kg/m².
 const RIGIDITY: f64 = 1e-5;

@@ -1,11 +1,14 @@
 //! Set-up that tests share.
 
-use selvedge::{CollisionDetector, Intersection, Topology};
-use selvedge_cloth::effects::{PinGroup, PinMotion, Pins};
-use selvedge_cloth::glam::DVec3;
-use selvedge_cloth::{BodyMotion, CHECKPOINT_STEPS, Cloth, Keyframe, KeyframeMotion, Mesh, Scene, Simulation};
+pub(crate) use selvedge::{CollisionDetector, Intersection, Topology};
+pub(crate) use selvedge_cloth::effects::*;
+pub(crate) use selvedge_cloth::glam::DVec3;
+pub(crate) use selvedge_cloth::*;
+pub(crate) use std::f64::consts::{PI, TAU};
+pub(crate) use std::path::Path;
+
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 pub(crate) fn scene_file(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name)

@@ -1,7 +1,6 @@
 //! Simulations have the same bits, however they are run.
 
-use crate::common::{advance, load};
-use selvedge_cloth::{CHECKPOINT_STEPS, CheckpointError, Simulation};
+use crate::common::*;
 
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {

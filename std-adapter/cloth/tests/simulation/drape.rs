@@ -1,10 +1,7 @@
 //! Cusick's drape test measures one number of a fabric that laboratories publish.
 
-use crate::common::scene_file;
-use selvedge_cloth::{Scene, Simulation};
-use std::f64::consts::{PI, TAU};
+use crate::common::*;
 use std::fmt::Write;
-use std::path::Path;
 
 const SPECIMEN: f64 = 0.15;
 const DISC: f64 = 0.09;

@@ -1,9 +1,6 @@
 //! Energy does not grow where nothing does work.
 
-use crate::common::{advance, set_up, shares, square};
-use selvedge::glam::DVec3;
-use selvedge_cloth::effects::{Bend, Effect, Gravity, InternalPressure, Shear, Stretch};
-use selvedge_cloth::{Body, Cloth, Energy, Scene, Simulation, StoredEnergy};
+use crate::common::*;
 
 /// A thrown sheet, held at one side, against a ball at rest, without gravity and air.
 const THROWN: &str = include_str!("scenes/thrown.toml");

@@ -3,11 +3,9 @@
 #[path = "../../../files/tests/nonsense/mod.rs"]
 mod nonsense;
 
+use crate::common::*;
 use nonsense::nonsense;
-use selvedge_cloth::glam::DVec3;
-use selvedge_cloth::{BodyMotion, Scene, Simulation};
 use std::fs;
-use std::path::Path;
 use tempfile::TempDir;
 
 /// Two triangles of a square in centimetres with a split seam, each a group, and a small one apart from them.

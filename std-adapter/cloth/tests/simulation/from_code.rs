@@ -1,16 +1,7 @@
 //! Scenes from code, with bodies, pins and wind that the caller drives.
 
-use crate::common::{assert_complaints, assert_errors, bits, complaint, intersections, pinned, resting, set_up};
-use selvedge_cloth::effects::{
-    AirDrag, Bend, BodyContact, Constraint, Effect, Force, Friction, Gravity, InternalPressure, PinGroup, PinMotion, Pins, Plan,
-    SelfCollision, Shear, StrainLimit, Stretch, Thickness, TimeStep, Touches, Wind,
-};
-use selvedge_cloth::glam::{DQuat, DVec3};
-use selvedge_cloth::{
-    Body, BodyMotion, CHECKPOINT_STEPS, Cloth, DriveError, Keyframe, KeyframeMotion, OnBlocked, Placement, Scene, Simulation,
-};
-use std::f64::consts::PI;
-use std::path::Path;
+use crate::common::*;
+use selvedge_cloth::glam::DQuat;
 
 const CELLS: u32 = 12;
 

@@ -1,9 +1,7 @@
 //! Garments from code that intersect themselves or bodies, each at several depths.
 
-use selvedge_cloth::effects::{Bend, BodyContact, SelfCollision, Shear, Stretch, Thickness};
-use selvedge_cloth::glam::{DMat3, DVec2, DVec3};
-use selvedge_cloth::{Body, Cloth, Mesh, Scene};
-use std::f64::consts::{PI, TAU};
+use crate::common::*;
+use selvedge_cloth::glam::{DMat3, DVec2};
 
 pub(crate) const NAMES: [&str; 14] = [
     "fold through itself",

@@ -1,11 +1,7 @@
 //! Materials by name: published properties, and their use in scenes.
 
-use crate::common::{resting, run};
+use crate::common::*;
 use crate::drape::{drape, of_material};
-use selvedge::glam::DVec3;
-use selvedge_cloth::effects::{AirDrag, Bend, Gravity, Shear, Stretch};
-use selvedge_cloth::{Cloth, Material, Scene, SceneError};
-use std::path::Path;
 
 /// Returns a drape coefficient in percent by Cusick's regression over 130 fabrics (1965; quoted from memory). It takes the
 /// bending length in cm and the angle in degrees by which a small force shears the fabric.

@@ -1,7 +1,6 @@
 //! An effect that a scene does not name costs nothing.
 
-use crate::common::{load, set_up};
-use selvedge_cloth::{Simulation, effect_names};
+use crate::common::*;
 
 const HEAD: &str = r#"
 time_step = "1 ms"

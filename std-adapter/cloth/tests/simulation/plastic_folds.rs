@@ -1,9 +1,6 @@
 //! Permanent folds.
 
-use crate::common::{advance, assert_complaints, assert_same_bits, resting, run, set_up, shares, square};
-use selvedge::glam::DVec3;
-use selvedge_cloth::effects::{AirDrag, Bend, Effect, Force, Plan, PlasticFolds, Shear, Stretch, TimeStep};
-use selvedge_cloth::{CHECKPOINT_STEPS, Cloth, Scene, Simulation};
+use crate::common::*;
 
 /// Lifts the right half for half a second.
 #[derive(Clone, Copy, Debug)]

@@ -1,15 +1,7 @@
 //! Ropes, laces and fringes: edges that belong to no triangle.
 
 use crate::air::Even;
-use crate::common::{
-    assert_complaints, assert_errors, assert_same_bits, intersections, masses, pinned, resting, run, scene_file, set_up,
-};
-use selvedge_cloth::effects::{
-    AirDrag, BodyContact, Force, Friction, Gravity, PinMotion, Plan, RopeBend, RopeShape, RopeStretch, Seam, Seams,
-    SelfCollision, Shear, Stretch, Thickness, TimeStep, Wind, WindField,
-};
-use selvedge_cloth::glam::DVec3;
-use selvedge_cloth::{Body, BodyMotion, CHECKPOINT_STEPS, Cloth, Mesh, Scene, Simulation};
+use crate::common::*;
 
 const G: f64 = 9.81;
 

@@ -1,10 +1,6 @@
 //! Rows of vertices that are sewn together.
 
-use crate::common::{assert_complaints, assert_same_bits, resting, run};
-use selvedge_cloth::effects::{Bend, Gravity, Seam, Seams, SelfCollision, Shear, StrainLimit, Stretch, Thickness};
-use selvedge_cloth::glam::DVec3;
-use selvedge_cloth::{CHECKPOINT_STEPS, Cloth, Scene, Simulation};
-use std::path::Path;
+use crate::common::*;
 
 /// An upright panel, 0.2 m wide and 0.3 m high.
 fn panel(name: &str, corner: DVec3, cells: [u32; 2]) -> Cloth {

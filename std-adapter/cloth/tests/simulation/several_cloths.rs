@@ -1,14 +1,8 @@
 //! Several cloths in a scene, each with its own properties.
 
-use crate::common::{assert_complaints, assert_same_bits, resting, run};
+use crate::common::*;
 use selvedge::core::PairKind;
 use selvedge::core::separation::closest::ClosestPoints;
-use selvedge_cloth::effects::{
-    AirDrag, BodyContact, Friction, Gravity, InternalPressure, SelfCollision, Shear, Stretch, Thickness, Wind,
-};
-use selvedge_cloth::glam::DVec3;
-use selvedge_cloth::{Body, CHECKPOINT_STEPS, Cloth, Scene, Simulation};
-use std::path::Path;
 
 /// A horizontal sheet of 0.3 m with this lower left corner.
 fn sheet(name: &str, corner: DVec3, cells: u32, density: f64) -> Cloth {

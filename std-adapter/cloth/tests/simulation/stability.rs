@@ -1,9 +1,6 @@
 //! No setting makes a position non-finite or lets it escape.
 
-use crate::common::{folded, load, resting};
-use selvedge_cloth::effects::{BodyContact, Stretch, Thickness};
-use selvedge_cloth::glam::DVec3;
-use selvedge_cloth::{Body, Cloth, Scene, Simulation};
+use crate::common::*;
 
 fn stays_finite(name: &str, steps: usize, change: impl Fn(String) -> String, what: &str) {
     let mut simulation = load(name, change, 1);

@@ -1,11 +1,7 @@
 //! Cloth is as stiff as its fabric, on any mesh.
 
-use crate::common::{advance, resting};
+use crate::common::*;
 use crate::irregular;
-use selvedge::Mesh;
-use selvedge::glam::DVec3;
-use selvedge_cloth::effects::{AirDrag, Bend, BodyContact, Friction, Gravity, Shear, StrainLimit, Stretch, Thickness};
-use selvedge_cloth::{Body, Cloth, Scene, Simulation};
 
 /// Makes 0.8 m × 0.8 m of a fabric of 400 and 80 N/m with a mesh one metre wide.
 fn fabric(mut mesh: Mesh) -> Scene {

@@ -1,10 +1,7 @@
 //! Scenes that start with intersections are refused with a list, tolerated, or untangled.
 
-use crate::common::{assert_same_bits, intersections, scene_file, set_up};
+use crate::common::*;
 use crate::garments::{NAMES, garment};
-use selvedge::{CollisionDetector, Intersection, Topology};
-use selvedge_cloth::effects::Gravity;
-use selvedge_cloth::{CHECKPOINT_STEPS, Scene, SetupError, Simulation, Tangled, TangledStart, UntanglingProgress};
 
 /// Makes a garment with this response to its intersections.
 fn starting(name: &str, cells: u32, depth: f64, start: TangledStart) -> Scene {

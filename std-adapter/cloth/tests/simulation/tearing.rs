@@ -1,12 +1,7 @@
 //! Cloth tears above its strength and nowhere else, conserves momentum, and has the same bits in every kind of run.
 
-use crate::common::{self, advance, along, assert_complaints, assert_same_bits, folded, load, pinned, run, set_up};
-use selvedge_cloth::effects::{
-    AttachmentGroup, Attachments, BodyContact, Effect, Force, InternalPressure, PinGroup, PinMotion, Pins, Plan, RopeStretch,
-    SelfCollision, Shear, Stretch, Tearing, Thickness, TimeStep,
-};
-use selvedge_cloth::glam::DVec3;
-use selvedge_cloth::{Body, CHECKPOINT_STEPS, CheckpointError, Cloth, Mesh, Scene, Simulation};
+use crate::common;
+use crate::common::*;
 
 /// Cells along and across a strip, of a centimetre each.
 const CELLS: [u32; 2] = [10, 5];

@@ -1,9 +1,7 @@
 //! Mistakes in scene files, and their messages.
 
-use crate::common::{assert_message, test_scenes};
-use selvedge_cloth::Scene;
+use crate::common::*;
 use std::fs::read_to_string;
-use std::path::Path;
 
 /// A table has the name of the scene that its mistakes are made in. A mistake has two lines: a passage of the scene, `=>` and its
 /// replacement; then the place and the message, or its beginning. `\\n` stands for a line break, and F for the folder.
