@@ -75,7 +75,6 @@ fn levels() -> Vec<(&'static str, Level)> {
     levels
 }
 
-/// The source of the pairs.
 #[derive(Clone, Copy, PartialEq)]
 enum Place {
     /// Tiles, or a list of pairs, that stay in the first cache.

@@ -172,7 +172,6 @@ impl Inset {
     }
 }
 
-/// The smallest inset, 2⁻⁶⁰.
 const SHORTEST: f64 = 1.0 / (1_u64 << 60) as f64;
 /// The relative widening of bounds, 2⁻²².
 const WIDENING: f64 = 1.0 / 4_194_304.0;

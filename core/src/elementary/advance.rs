@@ -154,7 +154,6 @@ fn normal<S: Scalar>(limits: &Limits<S>) -> Limits<S> {
     }
 }
 
-/// Advances within a span of time.
 #[inline(always)]
 fn within<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>, span: [S; 2]) -> (Impact<S>, Work) {
     let limits = normal(limits);
@@ -200,7 +199,6 @@ fn last_resort<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>, [from, un
     }
 }
 
-/// Advances from the first time of `span` to the second.
 #[inline(always)]
 fn advanced<P: PairShape, S: Number, R: Record<S>>(
     points: &PairPoints<S>,

@@ -60,7 +60,6 @@ pub trait Rounding: Copy {
 pub trait Lanes:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
-    /// The number format of each lane.
     type Scalar: Rounding;
     /// One truth value per lane: `bool`, or a mask.
     type Mask: Copy
@@ -73,13 +72,11 @@ pub trait Lanes:
     /// the machine has its instructions.
     #[must_use]
     fn splat(self, value: Self::Scalar) -> Self;
-    /// Returns whether any lane of a mask is true.
     #[must_use]
     fn any(mask: Self::Mask) -> bool;
     /// Returns the square root of each lane, rounded once.
     #[must_use]
     fn sqrt(self) -> Self;
-    /// Returns the magnitude of each lane.
     #[must_use]
     fn abs(self) -> Self;
     /// Returns the larger of two, lane by lane. If one is NaN, the result may be either. Use it only for magnitudes whose NaN is
@@ -95,7 +92,6 @@ pub trait Lanes:
     /// Returns `self <= other`, lane by lane; false where either is NaN.
     #[must_use]
     fn at_most(self, other: Self) -> Self::Mask;
-    /// Selects one or the other, lane by lane.
     #[must_use]
     fn select(mask: Self::Mask, if_true: Self, if_false: Self) -> Self;
     /// Returns true if no lane is `open`, so that the rest of a computation can be left out. With several lanes it always returns

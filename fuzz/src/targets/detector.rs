@@ -58,7 +58,6 @@ fn in_order((kind, mut pair): MeshPair) -> MeshPair {
     (kind, pair)
 }
 
-/// The detector's results for a step.
 #[derive(Debug, PartialEq)]
 struct Step<S: Scalar> {
     candidates: Vec<MeshPair>,

@@ -4,7 +4,6 @@
 use selvedge::PairKind;
 use selvedge_verification::generator::PairCase;
 
-/// A pair in one of the two number formats.
 pub(super) enum Numbers {
     Single(PairCase<f32>),
     Double(PairCase<f64>),

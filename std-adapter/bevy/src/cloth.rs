@@ -265,7 +265,6 @@ pub(crate) fn step_cloths(
 type Met = BTreeMap<Part, Result<(), SelvedgeError>>;
 
 impl ClothSimulation {
-    /// Returns the goals of the bodies.
     fn leading(&self, places: &Places<'_, '_>, met: &mut Met) -> BTreeMap<usize, Placement> {
         let mut leading = BTreeMap::new();
         for (&body, &leader) in &self.leaders {

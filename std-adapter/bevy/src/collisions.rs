@@ -92,7 +92,6 @@ struct Body {
     is_new: bool,
 }
 
-/// The source of a body's shape.
 #[derive(Clone, Copy)]
 struct Source {
     kind: CollisionBody,
@@ -100,9 +99,7 @@ struct Source {
     groups: Groups,
 }
 
-/// The motion of a body in a step.
 enum Way {
-    /// A rigid motion to this place.
     Rigid(Place),
     /// A straight motion of each point, while the body moves to a place and its mesh's vertices to positions.
     Straight {
@@ -112,7 +109,6 @@ enum Way {
     },
 }
 
-/// The components of a body.
 type Wanted<'a> = (
     Entity,
     &'a CollisionBody,

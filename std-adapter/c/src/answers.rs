@@ -76,7 +76,6 @@ impl ContactRow {
         }
     }
 
-    /// Returns the primitives.
     pub(crate) fn kind(&self) -> Result<PairKind, Failure> {
         match self.kind {
             number if number == Kind::VertexFace as u32 => Ok(PairKind::VertexFace),
@@ -227,7 +226,6 @@ pub(crate) struct Answers {
 }
 
 impl Answers {
-    /// Copies the contacts that the detector found.
     pub(crate) fn show_contacts<S: Scalar>(&mut self, finder: &Finder<S>) -> &[ContactRow] {
         let topology = finder.detector.topology();
         self.contacts.clear();
@@ -236,23 +234,19 @@ impl Answers {
         &self.contacts
     }
 
-    /// Shows the candidates that the detector found.
     pub(crate) fn show_candidates(&mut self) -> &CandidatePairs {
         std::mem::swap(&mut self.candidates, &mut self.found_candidates);
         &self.candidates
     }
 
-    /// Copies the geometries of contacts that the detector found.
     pub(crate) fn show_contact_geometries(&mut self) -> &[GeometryRow] {
         show_geometries(&self.found_geometries, &mut self.contact_geometries)
     }
 
-    /// Copies the near pairs that the detector found.
     pub(crate) fn show_near(&mut self) -> &[GeometryRow] {
         show_geometries(&self.found_geometries, &mut self.near)
     }
 
-    /// Copies the intersections that the detector found.
     pub(crate) fn show_intersections(&mut self) -> &[IntersectionRow] {
         self.intersections.clear();
         self.intersections

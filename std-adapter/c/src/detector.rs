@@ -56,7 +56,6 @@ macro_rules! with_either {
 }
 pub(crate) use with_either;
 
-/// A format of positions.
 pub(crate) trait Format: Scalar + Plain {
     fn of(any: &mut AnyFinder) -> Option<&mut Finder<Self>>;
 }
@@ -79,7 +78,6 @@ impl Format for f64 {
     }
 }
 
-/// A detector and the lists that C reads.
 pub(crate) struct Detector {
     pub(crate) finder: AnyFinder,
     pub(crate) answers: Answers,
@@ -106,7 +104,6 @@ impl Handled for Detector {
     }
 }
 
-/// Runs `action` on a detector.
 pub(crate) fn on(handle: *const Handle, action: impl FnOnce(&mut Detector) -> Result<(), Failure>) -> Status {
     handles::on(handle, |_, detector| action(detector))
 }

@@ -19,7 +19,6 @@ pub(crate) trait Handled: Send + Sized + 'static {
     type Handle;
     /// The name of the type in messages.
     const NAME: &'static str;
-    /// The status for an unknown handle.
     const NO_SUCH: Status;
 
     fn living() -> &'static Living<Self>;
@@ -71,7 +70,6 @@ impl<T> Kept<T> {
 /// The next handle, for all types. Zero is NULL.
 static NEXT: AtomicUsize = AtomicUsize::new(1);
 
-/// Registers an item and returns its handle.
 pub(crate) fn keep<T: Handled>(item: T) -> Result<*mut T::Handle, Failure> {
     let one_more = |number: usize| number.checked_add(1);
     let number = NEXT.fetch_update(Ordering::Relaxed, Ordering::Relaxed, one_more);
@@ -104,7 +102,6 @@ fn find<T: Handled>(handle: *const T::Handle) -> Result<Arc<Kept<T>>, Failure> {
     living.get(&handle.addr()).cloned().ok_or_else(|| no_such::<T>(handle))
 }
 
-/// Runs `action` on the item of a handle and on its record.
 pub(crate) fn on<T: Handled>(handle: *const T::Handle, action: impl FnOnce(&Kept<T>, &mut T) -> Result<(), Failure>) -> Status {
     guarded(|| {
         let kept = find::<T>(handle)?;
@@ -124,7 +121,6 @@ pub(crate) fn on<T: Handled>(handle: *const T::Handle, action: impl FnOnce(&Kept
     })
 }
 
-/// Sets or ends the cancellation of the calls on an item.
 pub(crate) fn set_cancelled<T: Handled>(handle: *const T::Handle, cancelled: i32) -> Status {
     guarded(|| {
         let cancellation = &find::<T>(handle)?.cancellation;

@@ -64,7 +64,6 @@ impl<T> Out<T> {
             .ok_or_else(|| Failure::new(Status::NullPointer, format!("{name} is NULL")))
     }
 
-    /// Writes the answer.
     pub(crate) fn set(self, answer: T) {
         // SAFETY: the pointer is aligned, and the caller of `new` promised that it may be written to. The old value is plain and
         // is not dropped.
@@ -131,7 +130,6 @@ impl<T> OutList<T> {
 }
 
 impl OutList<Pair> {
-    /// Writes the address and the number of pairs.
     pub(crate) fn set_pairs(self, pairs: &[[u32; 2]]) {
         // Two numbers have the same layout as fields and as an array.
         let start = if pairs.is_empty() {

@@ -11,7 +11,6 @@ use selvedge_cloth::glam::DVec3;
 use selvedge_cloth::{Cloth, Scene, Simulation, ValueError};
 use std::error::Error;
 
-/// The settings of the effect.
 #[derive(Clone, Copy, Debug)]
 struct Magnet {
     /// The position, in metres.

@@ -22,7 +22,6 @@ const EASY_ROUNDS: u32 = 3;
 /// The largest number of times that the volume is clipped in one round.
 const CLIPS: u32 = 8;
 
-/// One pair that advances.
 pub(super) struct Advance<'a, S, R, const N: usize> {
     pub(super) corners: &'a Corners<S, N>,
     pub(super) volume: &'a SignedVolume<S>,
@@ -31,7 +30,6 @@ pub(super) struct Advance<'a, S, R, const N: usize> {
     pub(super) separation: Option<S>,
     /// The time up to which it is proven to be apart, and the end of the requested time.
     pub(super) span: [S; 2],
-    /// The number of allowed rounds.
     pub(super) rounds: u32,
     pub(super) work: &'a mut Work,
     pub(super) record: &'a mut R,

@@ -97,7 +97,6 @@ pub(super) trait Record<S> {
     fn add_axis<I: Iterator<Item = Vector<S>>>(&mut self, corners: impl Fn() -> I, bar: S) -> bool;
 }
 
-/// Ignores all proofs.
 pub(super) struct Unrecorded;
 
 impl<S> Record<S> for Unrecorded {

@@ -206,7 +206,6 @@ impl<L: Lanes> Part<L> {
         Self { rest, part }
     }
 
-    /// Interpolates between `a` and `b`.
     #[inline(always)]
     fn of(self, a: L, b: L) -> L {
         self.rest * a + self.part * b

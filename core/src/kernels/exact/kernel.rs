@@ -59,7 +59,6 @@ pub(super) trait Arithmetic {
     fn dot(&mut self, a: &[Self::One; 3], b: &[Self::Two; 3]) -> Self::Three;
     fn sum_of_three(&mut self, a: &Self::Three, b: &Self::Three) -> Self::Three;
 
-    /// Returns a pair's coordinates along each axis.
     #[inline(always)]
     fn coordinates(&mut self, pair: &AlignedPair) -> [[Self::One; 8]; 3] {
         pair.coordinates(|significand, shift| self.shifted(significand, shift))
@@ -173,7 +172,6 @@ struct Edges<T> {
     p: [T; 3],
 }
 
-/// Returns the edges at the start and at the end.
 #[inline(always)]
 fn edges<A: Arithmetic>(kind: PairKind, [x, y, z]: &[[A::One; 8]; 3], arithmetic: &mut A) -> [Edges<A::One>; 2] {
     let mut ends = |&[a, b, c, d, e, f, g, h]: &[A::One; 8]| {

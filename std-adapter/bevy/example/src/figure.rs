@@ -60,7 +60,6 @@ pub(crate) fn walk(time: Res<'_, Time<Fixed>>, mut limbs: Query<'_, '_, (&Keyfra
 
 #[derive(Clone, Debug)]
 pub(crate) struct Figure {
-    /// Torso, shoulders, head, legs and arms.
     pub(crate) parts: Vec<Entity>,
     pub(crate) cape: Entity,
 }

@@ -14,7 +14,6 @@ pub(super) struct Asked<S, const N: usize> {
     vertex_count: usize,
 }
 
-/// A question about a step.
 pub(super) type AskedStep<S> = Asked<S, 2>;
 
 impl<S> AskedStep<S> {
@@ -31,7 +30,6 @@ impl<S> AskedStep<S> {
     }
 }
 
-/// A question about a mesh at rest.
 pub(super) type AskedState<S> = Asked<S, 1>;
 
 impl<S> AskedState<S> {

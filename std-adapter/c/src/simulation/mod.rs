@@ -69,7 +69,6 @@ impl From<SetupError> for Failure {
     }
 }
 
-/// Runs `action` on a simulation.
 fn on(handle: *const SimulationHandle, action: impl FnOnce(&mut HandledSimulation) -> Result<(), Failure>) -> Status {
     handles::on(handle, |_, simulation| action(simulation))
 }

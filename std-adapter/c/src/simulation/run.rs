@@ -16,7 +16,6 @@ pub struct SimulationHandle {
     _nothing: [u8; 0],
 }
 
-/// Creates the simulation of a scene and registers it.
 fn keep(scene: Scene, threads: usize, out: Out<*mut SimulationHandle>) -> Result<(), Failure> {
     let of_scene = OfScene {
         time_step: scene.time_step,

@@ -57,7 +57,6 @@ fn new(format: ScalarFormat) -> *mut Handle {
     handle
 }
 
-/// Returns a list that the library shows.
 pub(crate) fn list<T: Copy>(call: impl FnOnce(*mut *const T, *mut usize) -> Status) -> Vec<T> {
     let (mut start, mut count) = (ptr::null(), usize::MAX);
     let status = call(&raw mut start, &raw mut count);

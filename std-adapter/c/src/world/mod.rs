@@ -64,7 +64,6 @@ macro_rules! with_either {
 }
 use with_either;
 
-/// A format of positions.
 pub(crate) trait Format: Scalar + Plain {
     fn of(any: &mut AnyFinder) -> Option<&mut Finder<Self>>;
 }
@@ -87,7 +86,6 @@ impl Format for f64 {
     }
 }
 
-/// A world and the lists that C reads.
 pub(crate) struct HandledWorld {
     finder: AnyFinder,
     answers: Answers,
@@ -117,12 +115,10 @@ impl Handled for HandledWorld {
     }
 }
 
-/// Runs `action` on a world.
 fn on(handle: *const WorldHandle, action: impl FnOnce(&mut HandledWorld) -> Result<(), Failure>) -> Status {
     handles::on(handle, |_, world| action(world))
 }
 
-/// Runs `action` on a world for positions of this format.
 fn on_format<S: Format>(
     handle: *const WorldHandle,
     action: impl FnOnce(&mut Finder<S>, &mut Answers) -> Result<(), Failure>,
@@ -234,7 +230,6 @@ pub extern "C" fn selvedge_world_set_memory_limit(world: *mut WorldHandle, limit
     })
 }
 
-/// The arguments of an insertion.
 struct Inserted<S> {
     vertex_count: usize,
     triangles: (*const u32, usize),

@@ -115,7 +115,6 @@ impl From<&WorldContactGeometry> for WorldGeometryRow {
     }
 }
 
-/// The motions of a step, as C passes them.
 pub(super) struct Asked<S> {
     world: *mut WorldHandle,
     deforming: (*const Deforming<S>, usize),

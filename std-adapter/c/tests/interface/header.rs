@@ -22,7 +22,6 @@ const SINGLE: [&str; 2] = [
     concat!(env!("OUT_DIR"), "/world.rs"),
 ];
 
-/// The sources of `selvedge_cloth.h`.
 const CLOTH_SOURCES: [&str; 5] = ["run", "counts", "state", "lead", "checkpoint"];
 
 const CLOTH_HEAD: &str = "

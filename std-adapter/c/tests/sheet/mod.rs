@@ -1,6 +1,5 @@
 //! A sheet that is folded until its halves pass through each other.
 
-/// The number of vertices along each side.
 const SIDE: u32 = 15;
 
 pub(crate) fn triangles() -> Vec<[u32; 3]> {

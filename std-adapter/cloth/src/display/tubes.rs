@@ -6,7 +6,6 @@ use selvedge_core::glam::DVec3;
 use std::array;
 use std::f64::consts::TAU;
 
-/// The number of vertices around a tube.
 const SIDES: u32 = 8;
 /// The radius in edge lengths, for ropes without contact.
 const THIN: f64 = 0.15;

@@ -142,7 +142,6 @@ impl Effect for Attachments {
     }
 }
 
-/// A vertex and its anchor.
 #[derive(Debug)]
 struct Attachment {
     group: usize,

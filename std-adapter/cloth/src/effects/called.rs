@@ -58,7 +58,6 @@ fn of_material(material: &Material) -> [Arc<dyn Effect>; 3] {
 pub(crate) struct Called<'a> {
     by_scene: &'a Effects,
     cloths: &'a [Cloth],
-    /// The effects of single cloths, by cloth.
     own: Vec<Effects>,
 }
 
@@ -128,7 +127,6 @@ impl<'a> Called<'a> {
         fabrics
     }
 
-    /// Checks all effects, each alone and together.
     pub(crate) fn check(&self, world: &SceneParts<'_>) -> Result<(), Wrong> {
         let names = self.names();
         let fabrics = self.fabrics();

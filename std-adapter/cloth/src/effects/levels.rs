@@ -48,7 +48,6 @@ pub(super) struct OnLevels<C> {
 struct OnLevel {
     level: Arc<Level>,
     triangles: Schedule<Tension, 3>,
-    /// Positions of the seeds before the sweep.
     before: Vec<DVec3>,
     after: Vec<DVec3>,
     /// The inverse masses of the seeds, if something holds vertices.

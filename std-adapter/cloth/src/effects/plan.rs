@@ -18,7 +18,6 @@ use selvedge_core::glam::DVec3;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// An entry of a phase, and its effect.
 #[derive(Debug)]
 pub(crate) struct Entry<T: ?Sized> {
     /// Index into the scene's effects.
@@ -46,7 +45,6 @@ pub struct Plan<'a> {
     pub(crate) effect: usize,
     /// The cloth on which it acts; `None` for the whole scene.
     cloth: Option<usize>,
-    /// The announced properties, by cloth.
     pub(crate) fabrics: Vec<Fabric>,
     /// The range of each cloth's vertices among the scene's.
     vertices: Vec<Range<usize>>,
@@ -185,7 +183,6 @@ impl<'a> Plan<'a> {
         self.friction.push(self.entry(Box::new(friction)));
     }
 
-    /// Makes the cloth tear.
     pub(crate) fn add_tearable(&mut self, tearable: Tearable) {
         self.tearable.push(tearable.placed(self.effect, self.cloth()));
     }

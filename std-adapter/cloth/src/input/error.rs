@@ -42,7 +42,6 @@ impl SceneError {
         }
     }
 
-    /// Returns an error about the file as a whole.
     pub(crate) fn whole(path: &Path, message: String) -> Self {
         Self {
             path: path.to_owned(),

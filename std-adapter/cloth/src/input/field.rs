@@ -81,7 +81,6 @@ impl Field {
     }
 }
 
-/// A whole number with a name and a range.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Count {
     pub(crate) name: &'static str,

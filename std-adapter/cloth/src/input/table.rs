@@ -243,7 +243,6 @@ impl<'a> Table<'a> {
         self.complain(span, message)
     }
 
-    /// Adds the place to an error about a value.
     pub(crate) fn placed(&self, error: &ValueError) -> SceneError {
         self.error(error.field, error.message.clone())
     }

@@ -85,7 +85,6 @@ fn shares(row: &[u32], rest: &[DVec3]) -> Vec<f64> {
     ways.into_iter().map(|way| way / all).collect()
 }
 
-/// A seam in motion.
 #[derive(Debug)]
 pub(crate) struct Sewing {
     /// The stitches, each with the initial distance of its points, in metres.

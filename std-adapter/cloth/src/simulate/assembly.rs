@@ -17,13 +17,11 @@ use std::ops::Range;
 pub(super) struct Assembly {
     /// The names of the effects, in the order in which they run.
     pub(super) effects: Vec<&'static str>,
-    /// The vertices of each cloth.
     pub(super) vertices_of_cloths: Vec<Range<usize>>,
     pub(super) body_vertices: Vec<Range<usize>>,
     pub(super) cloth_vertices: usize,
     pub(super) cloth_triangles: usize,
     pub(super) triangles: Vec<[u32; 3]>,
-    /// The loose edges of the cloths.
     pub(super) loose_edges: Vec<[u32; 2]>,
     /// The positions of all vertices at rest: the cloth's in the scene, bodies' as in their meshes.
     pub(super) rest: Vec<DVec3>,

@@ -28,7 +28,6 @@ pub enum CheckpointError {
     Damaged,
 }
 
-/// A cloth that may have torn.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct TornCloth {
     /// The vertex that each of the last vertices is a copy of.
@@ -121,7 +120,6 @@ pub(super) struct Checkpoint {
     pub(super) effects: Vec<f64>,
     /// The placement of each body and group of pins that the caller moves, unless it was moved point by point.
     pub(super) placements: Vec<Option<Placement>>,
-    /// The memories of all constraints.
     pub(super) memories: Vec<f64>,
     /// The counts of contact; all zero without contact.
     pub(super) counts: ContactCounts,

@@ -54,7 +54,6 @@ pub struct Simulation {
     pub(super) fingerprint: u64,
     pub(super) cloth_names: Vec<String>,
     pub(super) numbering: FileNumbering,
-    /// The data from meshes and effects.
     pub(super) made: Assembly,
     /// The points that carriers move, for kinematic vertices.
     pub(super) carried: Vec<DVec3>,
@@ -65,7 +64,6 @@ pub struct Simulation {
     pub(super) threads: Workers,
     pub(super) state: State,
     pub(super) work: Work,
-    /// The result of untangling before the first step.
     pub(super) untangled: Option<Untangled>,
     /// The state of tears, if cloths may tear.
     pub(super) tearing: Option<Box<Tearing>>,

@@ -9,7 +9,6 @@ pub const FASTEST: f64 = 1000.0;
 /// The state that the rest of a simulation depends on, besides the scene and the bodies that are let pass.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct State {
-    /// The number of steps done.
     pub(crate) step: u64,
     /// The number of steps in which bodies or pins had to wait, or to be let pass.
     pub(crate) blocked_steps: u64,

@@ -215,7 +215,6 @@ impl<'a> Substep<'a> {
         }
     }
 
-    /// Lets one constraint correct the positions.
     fn correct(&mut self, index: usize) {
         let Entry { effect, action } = &mut self.constraints[index];
         timed(self.effects, *effect, || {
@@ -251,7 +250,6 @@ impl<'a> Substep<'a> {
         }
     }
 
-    /// Pushes cloth off smooth bodies.
     fn push_off_smooth_bodies(&mut self) {
         for Entry { effect, action } in &mut *self.pushes {
             timed(self.effects, *effect, || {

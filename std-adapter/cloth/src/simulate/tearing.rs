@@ -12,7 +12,6 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(super) struct Tearing {
     /// The original scene, except for the meshes of its cloths.
     pub(super) scene: Scene,
-    /// The edges that have torn so far.
     pub(super) torn: Vec<TornEdge>,
     /// The cloths and the vertices that would be split by tears that had no room to open. They stay whole until the next step
     /// that tries again.
@@ -60,7 +59,6 @@ impl Tearing {
         self.waiting.extend(splits);
     }
 
-    /// Makes the torn meshes.
     pub(super) fn cut(&self, tears: &[Tear], numbered: &Numbering) -> Option<(Meshes, Copies)> {
         let mut cloths = self.scene.cloths.clone();
         let (mut copies, mut of_copies) = (Copies::new(), vec![Vec::new(); cloths.len()]);

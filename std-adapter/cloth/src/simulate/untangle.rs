@@ -33,7 +33,6 @@ const PATIENCE: u32 = 20;
 const RELAXING: f64 = 0.01;
 
 impl Simulation {
-    /// Returns whether nothing is tangled.
     pub(super) fn is_apart(&self) -> bool {
         self.made.contact.as_ref().is_none_or(|contact| contact.exempt().is_empty())
     }

@@ -8,7 +8,6 @@ use super::motion::{BodyMotion, KeyframeMotion, Pose};
 use super::placement::Placement;
 use selvedge_core::glam::DVec3;
 
-/// The motion of kinematic vertices.
 #[derive(Debug)]
 pub(crate) enum Kinematic {
     Keyframes(KeyframeMotion),
@@ -36,15 +35,12 @@ pub(crate) struct Driven {
     clock: [f64; 2],
 }
 
-/// The goal of the next step.
 #[derive(Debug)]
 enum Goal {
     Placement(Placement),
-    /// A position for each vertex.
     Points(Vec<DVec3>),
 }
 
-/// The motion in this step.
 #[derive(Debug)]
 enum Leg {
     Rigid {

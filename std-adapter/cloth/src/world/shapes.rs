@@ -129,7 +129,6 @@ pub(crate) fn of_file(table: &Table<'_>) -> Result<Mesh, SceneError> {
     Ok(mesh)
 }
 
-/// A cloth's mesh from a file.
 pub(crate) struct ClothMesh {
     pub(crate) mesh: Mesh,
     pub(crate) loose_edges: Vec<[u32; 2]>,

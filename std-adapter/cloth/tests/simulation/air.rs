@@ -114,7 +114,6 @@ fn a_field_that_is_the_same_everywhere_is_wind_to_the_last_bit() {
     assert!(even.velocities()[0].y > 0.01);
 }
 
-/// A wind that starts at a time, on one side of a place.
 #[derive(Debug)]
 struct Gust;
 

@@ -14,7 +14,6 @@ pub(crate) fn scene_file(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name)
 }
 
-/// Returns the folder of scenes that only tests use.
 pub(crate) fn test_scenes() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/simulation/scenes")
 }
@@ -169,7 +168,6 @@ pub(crate) fn assert_message(found: &str, expected: &str) {
     }
 }
 
-/// Returns the message about a scene after a change.
 #[track_caller]
 pub(crate) fn complaint(mut scene: Scene, change: impl FnOnce(&mut Scene)) -> String {
     change(&mut scene);

@@ -53,7 +53,6 @@ fn specimen(rings: u32) -> String {
     text
 }
 
-/// The shipped scene of the test.
 fn cotton() -> String {
     std::fs::read_to_string(scene_file("drape-cotton.toml")).unwrap()
 }

@@ -42,7 +42,6 @@ fn strip(is_clamped: bool, folds: Option<PlasticFolds>) -> Scene {
     scene
 }
 
-/// The height of the right end.
 fn height(simulation: &Simulation) -> f64 {
     simulation.positions()[20].z
 }

@@ -20,7 +20,6 @@ fn panels() -> Scene {
 }
 
 const THICKNESS: f64 = 3e-3;
-/// Three sides of the bag.
 const SIDES: [&str; 3] = ["left", "bottom", "right"];
 
 fn rows(scene: &Scene, side: &str) -> [Vec<u32>; 2] {

@@ -31,7 +31,6 @@ fn momenta(simulation: &Simulation, masses: &[f64], about: DVec3) -> [DVec3; 2] 
     })
 }
 
-/// Adds the elastic effects of a fabric with these stiffnesses, in N/m and N·m.
 fn elastic(scene: &mut Scene, stiffness: f64, bending: f64) {
     scene
         .add(Stretch::isotropic(stiffness))

@@ -65,7 +65,6 @@ pub(crate) struct Accuracy {
     elementary_svg: Option<PathBuf>,
 }
 
-/// A part of the measurement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Part {
     Filters,
@@ -82,7 +81,6 @@ fn separation(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Parses a duration.
 fn budget(text: &str) -> Result<Duration, String> {
     let seconds: f64 = text.parse().map_err(|_| "it is not a number")?;
     Duration::try_from_secs_f64(seconds).map_err(|_| "it must be a number of seconds, zero or more".to_owned())

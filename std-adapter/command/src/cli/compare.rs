@@ -14,7 +14,6 @@ use selvedge_laboratory::scene::ArmScene;
 use selvedge_laboratory::study::{self, ArmFrames, Comparison, Frames, SimulatedSteps, TwoFrames, busiest_step, step_candidates};
 use std::path::{Path, PathBuf};
 
-/// The options for running and printing the comparison.
 #[derive(Debug, clap::Args)]
 pub(super) struct Run {
     #[command(flatten)]

@@ -11,7 +11,6 @@ const MAX_THREADS: i64 = 1024;
 /// The largest refinement: a sleeve of 13 million triangles, which fits into a large machine's memory.
 const MAX_REFINEMENT: i64 = 10_000;
 
-/// The format of positions in the computation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum ScalarChoice {
     /// 32-bit floating point; positions are rounded.
@@ -20,7 +19,6 @@ pub(crate) enum ScalarChoice {
     F64,
 }
 
-/// The option `--simd`.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct Simd {
     /// Compute with this instruction set instead of the machine's widest. Only the time changes
@@ -39,7 +37,6 @@ impl Simd {
     }
 }
 
-/// The option `--threads`.
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub(crate) struct Threads {
     /// Use this many threads; 0 means one for each core
@@ -53,7 +50,6 @@ pub(crate) struct Threads {
 }
 
 impl Threads {
-    /// Returns the number of threads, at least one.
     pub(crate) fn get(self) -> usize {
         match self.threads {
             0 => std::thread::available_parallelism().map_or(1, usize::from),

@@ -19,12 +19,10 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Prints a JSON document.
 pub(crate) fn print_json(value: &serde_json::Value) -> Result<(), Failure> {
     print(&format!("{value:#}\n"))
 }
 
-/// Prints a result as JSON or as text.
 pub(crate) fn answer(
     as_json: bool,
     json: impl FnOnce() -> serde_json::Value,
@@ -131,12 +129,10 @@ impl OutputFiles {
         self.add(path, |out| out.write_all(bytes))
     }
 
-    /// Gives all files their names, replaces older ones, and reports each.
     pub(crate) fn publish(self) -> Result<(), Failure> {
         self.publish_and(|path| say(format_args!("wrote {}", path.display())))
     }
 
-    /// Gives all files their names, and replaces older ones.
     pub(crate) fn publish_quietly(self) -> Result<(), Failure> {
         self.publish_and(|_| {})
     }

@@ -119,7 +119,6 @@ pub(super) fn effect_costs(
     effects_one_by_one(read, steps, threads, &mut |share| progress.set(share))
 }
 
-/// A run of a scene, complete or up to an error.
 struct Run {
     /// The number of steps in the scene.
     steps: u64,
@@ -301,7 +300,6 @@ impl Simulate {
         result.and(printed)
     }
 
-    /// One file holds both parts, so that they belong to the same step.
     fn write_checkpoint(&self, state: &[u8], recorded: &[u8]) -> Result<(), Failure> {
         let mut files = OutputFiles::default();
         files.add(self.file("checkpoint"), |out| {

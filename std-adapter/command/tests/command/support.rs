@@ -144,7 +144,6 @@ impl Workplace {
         text[text.find("error: ").expect("no error message")..].to_owned()
     }
 
-    /// Returns the document that a run with `--json` prints.
     #[track_caller]
     pub(crate) fn json(&self, arguments: &[&str]) -> Value {
         serde_json::from_str(&self.stdout(arguments)).unwrap()

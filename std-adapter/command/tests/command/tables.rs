@@ -54,7 +54,6 @@ fn fits(expected: &Value, found: &Value) -> bool {
     }
 }
 
-/// The words of a command line.
 fn words(line: &str) -> Vec<&str> {
     let parts = line.split('\'').enumerate();
     parts

@@ -29,7 +29,6 @@ pub struct MovingBroadPhase {
     collectors: Vec<Collector>,
 }
 
-/// One share of a traversal, and what it finds.
 #[derive(Debug)]
 struct Collector {
     scratch: Scratch,
@@ -94,7 +93,6 @@ impl MovingBroadPhase {
         self.fit.of_neighbours = separation;
     }
 
-    /// Finds only pairs that the filter allows from the next update on; `None` finds all.
     pub(crate) fn set_filter(&mut self, filter: Option<Arc<CollisionFilter>>) {
         self.hierarchies.set_filter(filter);
     }
@@ -123,7 +121,6 @@ impl MovingBroadPhase {
         Ok(())
     }
 
-    /// Takes the positions of a step.
     pub(crate) fn fit_boxes(&mut self, motions: &dyn Motions, fit: &Fit) {
         self.hierarchies.fit_boxes(motions, fit);
     }

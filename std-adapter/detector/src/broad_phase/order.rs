@@ -8,7 +8,6 @@ pub(super) const LEAF: usize = 16;
 /// The length below which slices are not split between threads.
 const SEQUENTIAL: usize = 4096;
 
-/// An item and its position.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Centre {
     /// The position, which is finite.

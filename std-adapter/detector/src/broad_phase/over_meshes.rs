@@ -9,7 +9,6 @@ use crate::simd::best_level;
 use crate::step::{Groups, Members};
 use selvedge_core::boxes::moving::MovingBox;
 
-/// The boxes of meshes, in blocks of sixteen like those of primitives.
 #[derive(Debug)]
 pub(crate) struct MeshHierarchy {
     tree: Tree<1>,

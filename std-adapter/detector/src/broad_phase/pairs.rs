@@ -8,7 +8,6 @@ pub(crate) trait Sink {
     fn take(&mut self, pairs: &[[u32; 2]]) -> bool;
 }
 
-/// The pairs that the sink has not taken yet.
 #[derive(Debug)]
 pub(super) struct PairBuffer {
     pairs: Vec<[u32; 2]>,

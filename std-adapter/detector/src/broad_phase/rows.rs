@@ -16,7 +16,6 @@ pub(crate) struct Rows {
     has_single: bool,
 }
 
-/// The rows to read: those of all vertices, and the same in `f32` if that is exact.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RowSlices<'a> {
     pub(crate) double: &'a [VertexRow<f64>],
@@ -62,13 +61,11 @@ impl Rows {
         }
     }
 
-    /// Removes all rows.
     pub(crate) fn clear(&mut self) {
         self.double.clear();
         self.has_single = false;
     }
 
-    /// Makes room for this number of vertices and returns the rows to fill. New ones are at the origin.
     pub(crate) fn resize(&mut self, vertices: usize) -> &mut [VertexRow<f64>] {
         let unknown = Motion::resting(Default::default());
         self.double.resize(vertices, VertexRow::new(unknown));
@@ -76,7 +73,6 @@ impl Rows {
         &mut self.double
     }
 
-    /// Replaces all rows.
     pub(crate) fn set(&mut self, motions: &dyn Motions) {
         self.clear();
         self.double

@@ -16,7 +16,6 @@ use selvedge_core::boxes::mapping::Inset;
 use selvedge_core::boxes::moving::MovingBlock;
 use std::array;
 
-/// Two blocks that are near each other, by level and number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct BlockPair {
     levels: [u8; 2],
@@ -26,11 +25,8 @@ pub(crate) struct BlockPair {
 /// The primitives that two trees share.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Common {
-    /// All. It is one tree, and each pair comes once.
     Tree,
-    /// The vertices of one mesh. Primitives that share a vertex are no pair.
     Mesh,
-    /// Nothing.
     Nothing,
 }
 
@@ -45,7 +41,6 @@ pub(super) struct Trees<'a, const N: usize, const M: usize> {
     pub(super) of_neighbours: Option<Inset>,
 }
 
-/// The buffers of a traversal.
 #[derive(Debug)]
 pub(crate) struct Scratch {
     stack: Vec<BlockPair>,
@@ -271,7 +266,6 @@ impl<const N: usize, const M: usize> Loop for DownTo<'_, N, M> {
     }
 }
 
-/// Finds the pairs of primitives of some pairs of blocks.
 struct AllPairs<'a, const N: usize, const M: usize> {
     trees: &'a Trees<'a, N, M>,
     tasks: &'a [BlockPair],

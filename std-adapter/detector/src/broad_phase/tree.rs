@@ -37,7 +37,6 @@ pub(super) struct Node {
     pub(super) hub: u32,
 }
 
-/// A tree over primitives of N vertices each. It is empty until it is built.
 #[derive(Debug, Default)]
 pub(super) struct Tree<const N: usize> {
     /// The primitive at each position.

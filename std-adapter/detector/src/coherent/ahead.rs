@@ -60,7 +60,6 @@ impl Ahead {
         self.work += work;
     }
 
-    /// Makes the next choice, after the pairs have lasted for this number of steps.
     pub(super) fn choose(&mut self, lasted: f64) {
         let cost = std::mem::take(&mut self.work) / lasted.max(1.0);
         if 2.0 * lasted < f64::from(self.steps) {

@@ -41,7 +41,6 @@ impl Horizon {
         }
     }
 
-    /// Forgets the motion and the past, and looks half as far ahead as allowed.
     pub(super) fn forget(&mut self) {
         self.span = 0.0;
         self.ahead.forget();

@@ -13,7 +13,6 @@ use selvedge_core::glam::DVec3;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Finds near pairs, with buffers that last.
 #[derive(Debug)]
 pub(super) struct Search<I> {
     topology: Arc<Topology>,

@@ -44,7 +44,6 @@ const SWEEPS: usize = 16;
 /// and 12 take a tenth more.
 const SINGLE_SWEEPS: usize = 4;
 
-/// The input of all chunks of a source.
 #[derive(Clone, Copy)]
 pub(super) struct StepInput<'a> {
     pub(super) level: Level,
@@ -75,7 +74,6 @@ impl<'a> StepInput<'a> {
         }
     }
 
-    /// Returns the pair of four vertices.
     #[inline(always)]
     fn primitives(&self, kind: PairKind, rows: [u32; 4]) -> PrimitivePair<f64> {
         PrimitivePair {

@@ -194,7 +194,6 @@ impl<'a> Polygon<'a> {
         }
     }
 
-    /// Returns all corners along each axis.
     fn coordinates(&self) -> impl Iterator<Item = &[Linear<'a>]> {
         self.corners.iter().map(|axis| axis.get(..self.count).unwrap_or_default())
     }

@@ -70,7 +70,6 @@ fn first_of_signs<'a>(mut coefficients: impl Iterator<Item = &'a Words<'a>>) -> 
         .map_or(Ordering::Equal, |coefficient| Words::sign(*coefficient))
 }
 
-/// The start or the end of the step.
 pub(super) enum End {
     Start,
     End,
@@ -102,7 +101,6 @@ impl Moment for End {
     }
 }
 
-/// The lower or the upper root of a quadratic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Side {
     Lower,
@@ -152,7 +150,6 @@ impl<'a> Root<'a> {
     }
 }
 
-/// Returns the sign of b² − 4ac.
 fn discriminant_sign([a, b, c]: [Words<'_>; 3], space: &mut Space<'_>) -> Ordering {
     let mut space = space.scratch();
     let (squared, product) = (space.times(b, b), space.times(a, c));
@@ -191,7 +188,6 @@ impl Moment for Root<'_> {
 }
 
 impl Root<'_> {
-    /// Returns whether it is the root of a linear polynomial.
     fn is_of_linear(&self) -> bool {
         let [_, _, c] = self.quadratic;
         c.is_zero()

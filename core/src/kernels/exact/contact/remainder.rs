@@ -86,7 +86,6 @@ mod tests {
     use crate::exact::contact::rounded::{FixedPoint, Rounded, Scale};
     use crate::exact::integer::{Integer, Whole};
 
-    /// The arithmetic of `i128`.
     struct BuiltIn;
 
     impl Ring for BuiltIn {

@@ -65,7 +65,6 @@ impl Scale {
     }
 }
 
-/// The arithmetic of rounded numbers.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FixedPoint;
 

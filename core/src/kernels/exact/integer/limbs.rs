@@ -1,6 +1,5 @@
 //! Arithmetic on words: 64 bits each, the lowest first.
 
-/// Writes `significand` · 2^`shift`.
 #[inline(always)]
 pub(super) fn write_shifted(words: &mut [u64], significand: i64, shift: u32) {
     let (first, within) = ((shift / 64) as usize, shift % 64);

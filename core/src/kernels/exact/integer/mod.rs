@@ -22,7 +22,6 @@ use limbs::{add_with_carry, multiply, multiply_significant_words, sign_word, sub
 pub(super) struct Integer<const N: usize>([u64; N]);
 
 impl<const N: usize> Integer<N> {
-    /// Returns `significand` · 2^`shift`.
     #[inline(always)]
     pub(super) fn shifted(significand: i64, shift: u32) -> Self {
         if N == 1 {

@@ -42,7 +42,6 @@ impl<'a> Space<'a> {
         Words::new(words)
     }
 
-    /// Stores a number of two words.
     #[inline(always)]
     fn double(&mut self, number: i128) -> Words<'a> {
         let words = self.take(2);

@@ -31,7 +31,6 @@ impl<'a> Words<'a> {
         Self(without_repeated_sign(words))
     }
 
-    /// Compares the number with zero.
     #[inline(always)]
     pub(in crate::kernels::exact) fn sign(self) -> Ordering {
         match self.0.last() {

@@ -12,7 +12,6 @@ use crate::world::Incidence;
 use selvedge::parallel;
 use selvedge_core::glam::DVec3;
 
-/// The loose edges of a cloth in moving air.
 #[derive(Debug)]
 pub(super) struct Cords {
     /// The factor k = ½ρcd/λ of the deceleration.
@@ -20,7 +19,6 @@ pub(super) struct Cords {
     edges: Vec<[u32; 2]>,
     /// The edges of each vertex, and the share of each in its mass.
     incidence: Incidence<(u32, f64)>,
-    /// The change of each edge's velocity.
     changes: Vec<DVec3>,
 }
 

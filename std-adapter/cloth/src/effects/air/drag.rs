@@ -10,7 +10,6 @@ const DENSITY: Field = Field::new("air_density", AIR_DENSITY, 0.0, 1e3);
 const DRAG: Field = Field::new("drag", RATIO, 0.0, 100.0);
 const ROPE_DIAMETER: Field = Field::new("rope_diameter", LENGTH, 0.0, 1.0);
 
-/// The properties of air and of the cloth's drag.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Drag {
     /// The density of the air, in kg/m³.

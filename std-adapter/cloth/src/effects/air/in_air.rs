@@ -7,7 +7,6 @@ use crate::model::step::TimeStep;
 use crate::world::Cloth;
 use selvedge_core::glam::DVec3;
 
-/// The parts of a cloth that the air pushes.
 #[derive(Debug)]
 pub(super) struct InAir {
     panels: Option<Panels>,

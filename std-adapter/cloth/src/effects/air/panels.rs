@@ -13,14 +13,12 @@ use crate::world::Incidence;
 use selvedge::parallel;
 use selvedge_core::glam::DVec3;
 
-/// The triangles of a cloth in moving air.
 #[derive(Debug)]
 pub(super) struct Panels {
     /// The factor k = ½ρc/σ of the deceleration.
     factor: f64,
     triangles: Vec<[u32; 3]>,
     incidence: Incidence<(u32, f64)>,
-    /// The change of each triangle's velocity.
     changes: Vec<DVec3>,
 }
 

@@ -31,7 +31,6 @@ pub(super) struct Folds {
     hinges: Vec<Fold>,
     /// The source vertices of the last vertices, which are copies made by tears.
     copied: Vec<u32>,
-    /// The load on each vertex, in N.
     loads: Vec<DVec3>,
 }
 

@@ -137,7 +137,6 @@ struct Interpolation {
     outside: Vec<usize>,
 }
 
-/// A coarse triangle in a chart.
 struct Flat {
     corners: [u32; 3],
     places: [DVec2; 3],

@@ -39,9 +39,7 @@ pub(crate) struct Hierarchy<'a> {
     surface: Surface<'a>,
     masses: Vec<f64>,
     is_pinned: Vec<bool>,
-    /// The parts of the cloth in the next level.
     wanted: Vec<bool>,
-    /// The seed distance of the next level.
     spacing: f64,
     levels: Vec<Arc<Level>>,
 }

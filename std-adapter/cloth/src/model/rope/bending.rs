@@ -21,7 +21,6 @@ use selvedge_core::glam::DVec3;
 /// rounding of a move is 10⁻⁶ of it.
 const STIFFEST: f64 = 1e10;
 
-/// The joints of a cloth's loose edges.
 #[derive(Debug)]
 pub(crate) struct Bending {
     rows: Vec<Row>,

@@ -39,7 +39,6 @@ const STIFFEST: f64 = 1e9;
 /// A tie longer than this share of its largest length is taut. Earlier stitches leave it so, up to rounding.
 const TAUT: f64 = 0.999;
 
-/// The loose edges of a cloth as springs.
 #[derive(Debug)]
 pub(crate) struct Stretching {
     /// The axial stiffness, in N.

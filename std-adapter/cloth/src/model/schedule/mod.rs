@@ -149,7 +149,6 @@ mod tests {
     use selvedge::Threads;
     use selvedge::parallel::Workers;
 
-    /// A constraint that keeps two vertices at most 1 apart.
     #[derive(Clone, Debug)]
     struct Rope;
 

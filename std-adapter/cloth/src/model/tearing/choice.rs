@@ -7,7 +7,6 @@ use std::collections::BTreeSet;
 /// A place where a cloth tears. Vertices and triangles are the cloth's.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Tear {
-    /// The cloth's index.
     pub(crate) cloth: usize,
     /// One edge, or two within the cloth, each with its load in N/m.
     pub(crate) edges: Vec<([u32; 2], f64)>,

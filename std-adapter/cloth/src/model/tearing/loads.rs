@@ -17,7 +17,6 @@ use selvedge_core::glam::{DVec2, DVec3};
 pub(crate) struct Tearable {
     /// The effect's index in the scene.
     pub(crate) effect: usize,
-    /// The cloth's index.
     pub(crate) cloth: usize,
     /// The stiffnesses k_u and k_v along warp and weft, in N/m.
     stiffness: [f64; 2],

@@ -60,9 +60,7 @@ impl Fit {
 /// The vertices that an update reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Scope {
-    /// Vertices that move; resting ones once.
     Moving,
-    /// All vertices. The candidates do not depend on earlier updates.
     All,
     /// Vertices that move, the only ones that changed since the last update. The candidates complement those found then.
     Narrowed,
@@ -71,7 +69,6 @@ enum Scope {
 /// The age of the hierarchies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
-    /// Never built.
     Empty,
     /// Built, but not yet fitted as a whole.
     Built,
@@ -97,13 +94,11 @@ pub(crate) struct Hierarchies {
     boxes: Vec<MovingBox<f32>>,
     /// For each vertex, whether it moves; `None` if all do.
     moving: Option<Vec<bool>>,
-    /// The pairs that are excluded.
     pub(super) filter: Option<Arc<CollisionFilter>>,
     /// Pairs with a separation of their own.
     neighbours: Option<Arc<Neighbours>>,
     scope: Scope,
     state: State,
-    /// The mapping of the boxes of resting vertices, if they are still valid.
     resting: Option<Mapping>,
     /// The contents of the boxes.
     fit: Fit,
@@ -171,7 +166,6 @@ impl Hierarchies {
         self.mark();
     }
 
-    /// Finds only pairs that the filter allows from the next update on; `None` finds all.
     pub(crate) fn set_filter(&mut self, filter: Option<Arc<CollisionFilter>>) {
         self.filter = filter;
         self.note_members();
