@@ -12,10 +12,7 @@ fn main() {
     );
     for separation in [0.09, 0.15] {
         let filter = Filter::new(Tier::Permanent).with_separation(separation).expect("a length");
-        let limits = Limits {
-            separation,
-            ..Limits::default()
-        };
+        let limits = Limits::within(separation);
         let keeps = filter.verdict(&pair).is_culled();
         let time = time_of_impact(&pair, &limits).time();
         println!("keeps {separation}: {keeps}; within it from {time:?}");

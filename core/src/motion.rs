@@ -104,22 +104,25 @@ pub struct PrimitivePair<S: Scalar> {
 }
 
 impl<S: Scalar> PrimitivePair<S> {
+    /// Makes a pair from the motions of its four points.
+    #[inline(always)]
+    #[must_use]
+    pub const fn new(kind: PairKind, motions: [Motion<S>; 4]) -> Self {
+        Self { kind, motions }
+    }
+
     /// Makes a pair of a vertex and a triangle, given by its three vertices.
     #[inline(always)]
     #[must_use]
     pub const fn vertex_face(vertex: Motion<S>, [a, b, c]: [Motion<S>; 3]) -> Self {
-        let motions = [vertex, a, b, c];
-        let kind = PairKind::VertexFace;
-        Self { kind, motions }
+        Self::new(PairKind::VertexFace, [vertex, a, b, c])
     }
 
     /// Makes a pair of two edges, each given by its two ends.
     #[inline(always)]
     #[must_use]
     pub const fn edge_edge([u, v]: [Motion<S>; 2], [k, l]: [Motion<S>; 2]) -> Self {
-        let motions = [u, v, k, l];
-        let kind = PairKind::EdgeEdge;
-        Self { kind, motions }
+        Self::new(PairKind::EdgeEdge, [u, v, k, l])
     }
 
     /// Returns the points of the first set and those of the second.
@@ -143,11 +146,9 @@ impl<S: Scalar> PrimitivePair<S> {
             let coordinates: [S; 3] = position.into();
             coordinates.map(S::to_f64).into()
         };
-        PrimitivePair {
-            kind: self.kind,
-            motions: self
-                .motions
-                .map(|motion| Motion::new(widened(motion.start), widened(motion.end))),
-        }
+        let motions = self
+            .motions
+            .map(|motion| Motion::new(widened(motion.start), widened(motion.end)));
+        PrimitivePair::new(self.kind, motions)
     }
 }

@@ -43,10 +43,7 @@ impl<S: Scalar> Sheets<S> {
     }
 
     fn pair(&self, indices: [u32; 4]) -> PrimitivePair<S> {
-        PrimitivePair {
-            kind: PairKind::VertexFace,
-            motions: indices.map(|index| self.rows[index as usize].motion()),
-        }
+        PrimitivePair::new(PairKind::VertexFace, indices.map(|index| self.rows[index as usize].motion()))
     }
 }
 

@@ -53,10 +53,7 @@ fn intersecting(mesh: &Mesh, cloth_triangles: usize) -> usize {
 fn set_up(scene: Scene) -> Result<(Mesh, Option<Untangled>, bool), Failure> {
     match Simulation::new(scene, 1) {
         Ok(simulation) => {
-            let mesh = Mesh {
-                positions: simulation.positions().to_vec(),
-                triangles: simulation.triangles().to_vec(),
-            };
+            let mesh = Mesh::new(simulation.positions().to_vec(), simulation.triangles().to_vec());
             Ok((mesh, simulation.untangled().copied(), true))
         }
         Err(SetupError::Tangled(tangle)) => Ok((tangle.mesh, tangle.untangled, false)),

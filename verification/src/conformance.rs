@@ -135,10 +135,12 @@ impl Case {
     /// Returns the pairs of [`pairs`](Self::pairs) as the oracle takes them.
     pub fn questions(&self) -> Vec<Pair> {
         let [start, end] = self.positions();
-        let pair = |(kind, points): (PairKind, [u32; 4])| Pair {
-            kind,
-            start: points.map(|point| start[point as usize]),
-            end: points.map(|point| end[point as usize]),
+        let pair = |(kind, points): (PairKind, [u32; 4])| {
+            Pair::new(
+                kind,
+                points.map(|point| start[point as usize]),
+                points.map(|point| end[point as usize]),
+            )
         };
         self.pairs().into_iter().map(pair).collect()
     }

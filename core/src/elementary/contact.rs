@@ -49,14 +49,14 @@ pub enum ContactVerdict {
 /// Returns whether the pair touches at some time in [0, 1]. The result is exact: see the [module](self).
 #[inline]
 pub fn contact<S: Scalar>(pair: &PrimitivePair<S>) -> ContactVerdict {
-    answer(pair, &time_of_impact(pair, &exactly())).0
+    answer(pair, &time_of_impact(pair, &Limits::accurate_to(S::ZERO))).0
 }
 
 /// Returns [`contact`] and the evidence for it.
 #[cfg(feature = "kernels")]
 #[inline]
 pub fn contact_and_evidence<S: Scalar>(pair: &PrimitivePair<S>) -> (ContactVerdict, Evidence) {
-    answer(pair, &time_of_impact(pair, &exactly()))
+    answer(pair, &time_of_impact(pair, &Limits::accurate_to(S::ZERO)))
 }
 
 /// Returns [`contact`] of a pair whose time of impact is already known. `impact` must be this pair's, for separation zero and any
@@ -78,14 +78,6 @@ pub fn contact_and_evidence<S: Scalar>(pair: &PrimitivePair<S>) -> (ContactVerdi
 #[inline]
 pub fn contact_given_impact<S: Scalar>(pair: &PrimitivePair<S>, impact: &Impact<S>) -> ContactVerdict {
     answer(pair, impact).0
-}
-
-/// Returns limits with neither tolerance nor separation.
-const fn exactly<S: Scalar>() -> Limits<S> {
-    Limits {
-        tolerance: S::ZERO,
-        separation: S::ZERO,
-    }
 }
 
 #[inline(always)]
@@ -119,7 +111,7 @@ fn settled_in_f64<S: Scalar>(pair: &PrimitivePair<S>, time: S) -> Option<(Contac
     }
     let pair = pair.widened();
     let from = time.to_f64();
-    let Some(time) = time_of_impact_within(&pair, &exactly(), from, 1.0).time() else {
+    let Some(time) = time_of_impact_within(&pair, &Limits::accurate_to(0.0), from, 1.0).time() else {
         return Some((ContactVerdict::Never, Evidence::Separation));
     };
     certain_contact(&pair, time).map(|_| (ContactVerdict::Happens, Evidence::Crossing))

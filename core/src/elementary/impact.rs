@@ -14,6 +14,26 @@ pub struct Limits<S> {
     pub separation: S,
 }
 
+impl<S: Scalar> Limits<S> {
+    /// Returns limits with this separation and the [default](Self::default) tolerance.
+    #[inline]
+    #[must_use]
+    pub fn within(separation: S) -> Self {
+        Self {
+            separation,
+            ..Self::default()
+        }
+    }
+
+    /// Returns limits without a separation, with this tolerance.
+    #[inline]
+    #[must_use]
+    pub const fn accurate_to(tolerance: S) -> Self {
+        let separation = S::ZERO;
+        Self { tolerance, separation }
+    }
+}
+
 impl<S: Scalar> Default for Limits<S> {
     /// Returns the limits of contact without a separation. The tolerance is 2⁻³⁰ (`f64`, about 1e-9) or 2⁻²⁰ (`f32`, about 1e-6):
     /// for positions in metres, a nanometre or a micrometre. A finer tolerance costs little more.

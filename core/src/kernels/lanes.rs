@@ -60,6 +60,7 @@ pub trait Rounding: Copy {
 pub trait Lanes:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
+    /// The number format of each lane.
     type Scalar: Rounding;
     /// One truth value per lane: `bool`, or a mask.
     type Mask: Copy
@@ -73,11 +74,13 @@ pub trait Lanes:
     #[must_use]
     fn splat(self, value: Self::Scalar) -> Self;
     #[must_use]
+    /// Returns whether any lane of a mask is true.
     fn any(mask: Self::Mask) -> bool;
     /// Returns the square root of each lane, rounded once.
     #[must_use]
     fn sqrt(self) -> Self;
     #[must_use]
+    /// Returns the magnitude of each lane.
     fn abs(self) -> Self;
     /// Returns the larger of two, lane by lane. If one is NaN, the result may be either. Use it only for magnitudes whose NaN is
     /// noticed elsewhere.
@@ -93,6 +96,7 @@ pub trait Lanes:
     #[must_use]
     fn at_most(self, other: Self) -> Self::Mask;
     #[must_use]
+    /// Selects one or the other, lane by lane.
     fn select(mask: Self::Mask, if_true: Self, if_false: Self) -> Self;
     /// Returns true if no lane is `open`, so that the rest of a computation can be left out. With several lanes it always returns
     /// false: they agree so rarely that the test costs more than it saves.

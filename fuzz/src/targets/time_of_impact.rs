@@ -33,10 +33,7 @@ fn check<S: Format>(case: &PairCase<S>, exponent: i32) {
 }
 
 fn check_pair<S: Format>(case: &PairCase<S>, pair: &PrimitivePair<S>, tolerance: S, first: &mut Option<Option<AlgebraicTime>>) {
-    let limits = Limits {
-        tolerance,
-        separation: S::ZERO,
-    };
+    let limits = Limits::accurate_to(tolerance);
     let (impact, work) = time_of_impact_and_work(pair, &limits);
     assert!(work.rounds <= ROUNDS && work.volume_steps <= 1 + 8 * work.rounds);
     assert!(work.turns <= TURNS * work.rounds);

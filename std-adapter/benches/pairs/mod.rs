@@ -34,13 +34,13 @@ impl Random {
 /// Makes a pair from the start and the end of each point, rounded.
 fn vertex_face<S: Scalar>(points: [[[f64; 3]; 2]; 4]) -> PrimitivePair<S> {
     let rounded = |position: [f64; 3]| position.map(S::from_f64).into();
-    PrimitivePair {
-        kind: PairKind::VertexFace,
-        motions: points.map(|[start, end]| Motion {
+    PrimitivePair::new(
+        PairKind::VertexFace,
+        points.map(|[start, end]| Motion {
             start: rounded(start),
             end: rounded(end),
         }),
-    }
+    )
 }
 
 fn plus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
@@ -108,10 +108,7 @@ pub(crate) fn all_sizes<S: Scalar>() -> Vec<PrimitivePair<S>> {
         for (motion, end) in motions.iter_mut().zip(four()) {
             motion.end = end;
         }
-        PrimitivePair {
-            kind: PairKind::VertexFace,
-            motions,
-        }
+        PrimitivePair::new(PairKind::VertexFace, motions)
     };
     (0..COUNT).map(|_| pair()).collect()
 }

@@ -181,10 +181,7 @@ pub fn mesh_of(mesh: &selvedge::Mesh) -> Mesh {
 /// Creates a Bevy mesh with all cloths of a scene, one after the other. Ropes have no triangles; [`RopesOf`](crate::RopesOf) shows them.
 #[must_use]
 pub fn mesh_of_cloths(scene: &Scene) -> Mesh {
-    let mut all = selvedge::Mesh {
-        positions: Vec::new(),
-        triangles: Vec::new(),
-    };
+    let mut all = selvedge::Mesh::new(Vec::new(), Vec::new());
     for own in scene.cloths.iter().map(Cloth::mesh) {
         let first = all.positions.len() as u32;
         all.positions.extend(&own.positions);
@@ -227,10 +224,7 @@ fn joined(mesh: &Mesh) -> Result<selvedge::Mesh, MeshError> {
     let positions = positions_of(mesh)?
         .iter()
         .map(|position| DVec3::from_array(position.map(f64::from)));
-    Ok(selvedge::Mesh {
-        positions: shape.of_points(&positions.collect::<Vec<_>>()),
-        triangles: shape.topology.triangles().to_vec(),
-    })
+    Ok(selvedge::Mesh::new(shape.of_points(&positions.collect::<Vec<_>>()), shape.topology.triangles().to_vec()))
 }
 
 /// Moves bodies to their entities, runs the steps, and writes meshes.

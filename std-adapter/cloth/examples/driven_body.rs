@@ -35,10 +35,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for step in 1..=250 {
         // The ball has this position at the end of the step.
         let time = 2e-3 * f64::from(step);
-        let goal = Placement {
-            rotation: DQuat::from_rotation_z(time),
-            translation: start.translation + DVec3::Z * (0.3 * time),
-        };
+        let goal = Placement::new(DQuat::from_rotation_z(time), start.translation + DVec3::Z * (0.3 * time));
         simulation.place_body(0, goal)?;
         simulation.step()?;
     }

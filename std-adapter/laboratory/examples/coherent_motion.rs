@@ -51,10 +51,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn compare(topology: &Arc<Topology>, frames: &[Vec<DVec3>], separation: f64) -> Result<(), Box<dyn Error>> {
-    let limits = Limits {
-        separation,
-        ..Limits::default()
-    };
+    let limits = Limits::within(separation);
     let mut seconds = [(); 2].map(|()| vec![f64::INFINITY; frames.len() - 2]);
     for _ in 1..PASSES {
         pass(topology, frames, limits, &mut seconds)?;

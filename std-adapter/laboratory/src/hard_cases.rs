@@ -66,10 +66,10 @@ fn case(row: &Value) -> Option<HardCase> {
     Some(HardCase {
         name: name("kind")?,
         placement: name("place")?,
-        pair: PrimitivePair {
-            kind: row["question"].as_str()?.parse().ok()?,
-            motions: [0, 1, 2, 3].map(|point| Motion::new(start[point], end[point])),
-        },
+        pair: PrimitivePair::new(
+            row["question"].as_str()?.parse().ok()?,
+            [0, 1, 2, 3].map(|point| Motion::new(start[point], end[point])),
+        ),
         contact: match row["touches"].as_bool() {
             None => ExactContact::Undefined,
             Some(false) => ExactContact::Never,

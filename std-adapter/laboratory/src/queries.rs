@@ -272,10 +272,7 @@ impl QueryFile {
                 }
             }
             queries.push(Query {
-                pair: PrimitivePair {
-                    kind: query.pair.kind,
-                    motions,
-                },
+                pair: PrimitivePair::new(query.pair.kind, motions),
                 collides: query.collides,
                 line: query.line,
             });

@@ -28,10 +28,7 @@ fn pair<S: Scalar + Element>(kind: u8, [start, end]: [&[[S; 3]]; 2]) -> PyResult
         }
     }
     let motion = |point: usize| Motion::new(start[point].into(), end[point].into());
-    Ok(PrimitivePair {
-        kind,
-        motions: [0, 1, 2, 3].map(motion),
-    })
+    Ok(PrimitivePair::new(kind, [0, 1, 2, 3].map(motion)))
 }
 
 fn time_of<S: Scalar + Element>(

@@ -256,10 +256,7 @@ impl Simulation {
     pub fn place_body(&mut self, body: &str, translation: &[f64], rotation: Option<Vec<f64>>) -> Result<(), JsValue> {
         let rotation = rotation.unwrap_or_else(|| DQuat::IDENTITY.to_array().to_vec());
         let rotation = <[f64; 4]>::try_from(rotation).map_err(|_| input_error(&"rotation must have four numbers"))?;
-        let placement = Placement {
-            rotation: DQuat::from_array(rotation),
-            translation: vector(translation, "translation")?,
-        };
+        let placement = Placement::new(DQuat::from_array(rotation), vector(translation, "translation")?);
         let body = self.body(body)?;
         self.cloth.place_body(body, placement).map_err(|error| input_error(&error))
     }

@@ -80,10 +80,7 @@ pub(crate) fn chosen<S: Format>(source: &str, index: usize, random: &mut Random)
     } else {
         S::ZERO
     };
-    let limits = Limits {
-        separation,
-        ..Limits::default()
-    };
+    let limits = Limits::within(separation);
     (case, limits)
 }
 

@@ -44,10 +44,7 @@ impl<S: Format> PairCase<S> {
 
     /// Returns the pair in core's form.
     pub fn pair(&self) -> PrimitivePair<S> {
-        PrimitivePair {
-            kind: self.kind,
-            motions: self.motions(),
-        }
+        PrimitivePair::new(self.kind, self.motions())
     }
 
     /// Returns the points of the first and of the second set.
@@ -67,11 +64,7 @@ impl<S: Format> PairCase<S> {
     /// Returns the pair in the oracle's form.
     pub fn question(&self) -> Pair {
         let at = |end: usize| self.points.map(|point| point[end].map(S::to_f64));
-        Pair {
-            kind: self.kind,
-            start: at(0),
-            end: at(1),
-        }
+        Pair::new(self.kind, at(0), at(1))
     }
 
     pub fn is_finite(&self) -> bool {

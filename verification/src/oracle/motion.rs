@@ -14,6 +14,12 @@ pub struct Pair {
     pub end: [[f64; 3]; 4],
 }
 
+impl Pair {
+    pub const fn new(kind: PairKind, start: [[f64; 3]; 4], end: [[f64; 3]; 4]) -> Self {
+        Self { kind, start, end }
+    }
+}
+
 /// Returns mantissa and exponent: `value = mantissa · 2^exponent`, with the mantissa odd or zero.
 fn decode(value: f64) -> (i64, i32) {
     assert!(value.is_finite(), "coordinates must be finite, not {value}");

@@ -56,11 +56,11 @@ pub fn edges_that_meet(start: &[[f64; 3]], end: &[[f64; 3]], edges: &[[u32; 2]])
                 continue;
             }
             let vertices = [one[0], one[1], other[0], other[1]];
-            let pair = Pair {
-                kind: PairKind::EdgeEdge,
-                start: vertices.map(|vertex| start[vertex as usize]),
-                end: vertices.map(|vertex| end[vertex as usize]),
-            };
+            let pair = Pair::new(
+                PairKind::EdgeEdge,
+                vertices.map(|vertex| start[vertex as usize]),
+                vertices.map(|vertex| end[vertex as usize]),
+            );
             if collides(&pair).is_some() {
                 found.push([*one, *other]);
             }

@@ -1,6 +1,5 @@
 //! A detector that follows pairs from step to step gives the results of one that has not seen earlier steps.
 
-use crate::support;
 use crate::support::prelude::*;
 use std::sync::Arc;
 
@@ -80,7 +79,7 @@ fn are_those_of_a_new_one<S: Format>(
 
 fn are_followed<S: Format>(mesh: &MeshCase<S>, compared: &Cell<[usize; 2]>, separation: f64) -> Result<(), TestCaseError> {
     let topology = Arc::new(mesh.topology());
-    let limits = support::within(S::from_f64(separation));
+    let limits = Limits::within(S::from_f64(separation));
     let new = || {
         let mut detector = CollisionDetector::<S>::new(Arc::clone(&topology));
         detector.set_criterion(Criterion::Within(limits)).expect("lengths");
@@ -169,7 +168,7 @@ fn no_contact_of_any_step_is_missed() {
     check(12, meshes::<f64>(), |mesh| {
         let topology = Arc::new(mesh.topology());
         for separation in [0.0, 0.125] {
-            let limits = support::within(separation);
+            let limits = Limits::within(separation);
             let mut coherent = CollisionDetector::<f64>::new(Arc::clone(&topology));
             coherent.set_criterion(Criterion::Within(limits)).expect("lengths");
             coherent.set_coherent(true);
@@ -217,7 +216,7 @@ fn threads_and_instruction_sets_change_nothing() {
     };
     let frames: Vec<_> = (36..61).map(frame).collect();
     for separation in [0.0, 1e-3] {
-        let limits = support::within(separation);
+        let limits = Limits::within(separation);
         let contacts = |threads: Threads, level, is_coherent: bool| -> (Vec<Vec<Contact<f64>>>, u64) {
             let mut detector = CollisionDetector::<f64>::new(Arc::clone(&topology));
             detector.set_criterion(Criterion::Within(limits)).expect("lengths");
@@ -324,7 +323,7 @@ fn what_is_asked_may_change_from_step_to_step() {
     let (mut found, mut expected) = (Vec::new(), Vec::new());
     for number in 46..60 {
         coherent.set_coherent(number % 5 != 4);
-        let limits = support::within([0.0, 1e-3, 1e-3, 4e-3][number % 4]);
+        let limits = Limits::within([0.0, 1e-3, 1e-3, 4e-3][number % 4]);
         coherent.set_criterion(Criterion::Within(limits)).expect("lengths");
         let mut anew = CollisionDetector::<f64>::new(Arc::clone(&topology));
         anew.set_criterion(Criterion::Within(limits)).expect("lengths");

@@ -1,6 +1,5 @@
 //! The detector's results agree, step by step, with the exact oracle and with each other.
 
-use crate::support;
 use crate::support::prelude::*;
 use selvedge::PairKind::{EdgeEdge, VertexFace};
 use selvedge::{CandidateBoxes, Frame};
@@ -89,7 +88,7 @@ fn no_pair_that_comes_within_the_separation_is_missed() {
         let topology = mesh.topology();
         let mut detector = detector(mesh);
         for separation in [1e-9, 0.25, 1.0] {
-            let limits = support::within(separation);
+            let limits = Limits::within(separation);
             detector.set_criterion(Criterion::Within(limits)).expect("a length");
             let found = by_pair(&contacts(&mut detector, mesh));
             for pair in with_kinds(all_pairs(&topology)) {
@@ -117,7 +116,7 @@ fn a_separation_beyond_the_numbers_of_f32_excludes_nothing() {
     let mut detector = CollisionDetector::<f64>::new(topology);
     let mut found = Vec::new();
     for separation in [10.0, 1e39] {
-        let limits = support::within(separation);
+        let limits = Limits::within(separation);
         detector.set_criterion(Criterion::Within(limits)).expect("a length");
         detector.contacts(&frame, &frame, &mut found).expect("finite positions");
         assert_eq!(found.len(), 15, "{separation}");
@@ -353,10 +352,7 @@ fn what_is_wrong_with_the_input_is_an_error() {
         let (separation, tolerance) = (bad, 0.0);
         let limits = Limits { tolerance, separation };
         assert!(detector.set_criterion(Criterion::Within(limits)).is_err());
-        let limits = Limits {
-            tolerance: bad,
-            separation: 0.0,
-        };
+        let limits = Limits::accurate_to(bad);
         assert!(detector.set_criterion(Criterion::Within(limits)).is_err());
     }
     let bad = Criterion::Touching { tolerance: f64::NAN };

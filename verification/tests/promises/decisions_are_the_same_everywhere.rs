@@ -383,14 +383,8 @@ struct Times;
 
 impl Question for Times {
     fn ask<S: Format>(case: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest) {
-        let separated = Limits {
-            separation: separation_of(case),
-            ..Limits::default()
-        };
-        let tight = Limits {
-            tolerance: S::ZERO,
-            separation: S::ZERO,
-        };
+        let separated = Limits::within(separation_of(case));
+        let tight = Limits::accurate_to(S::ZERO);
         for limits in [Limits::default(), separated, tight] {
             let (impact, work) = time_of_impact_and_work(pair, &limits);
             digest.add_impact(impact);
@@ -435,10 +429,7 @@ impl Question for Geometries {
             .motions
             .map(|motion| Motion::new(in_double(motion.start), in_double(motion.end)));
         for time in [0.0, 0.7] {
-            let pair = PrimitivePair {
-                motions,
-                kind: pair.kind,
-            };
+            let pair = PrimitivePair::new(pair.kind, motions);
             let found = geometry(&pair, time);
             digest.add_numbers(found.weights);
             found.points.iter().for_each(|point| digest.add_numbers(point.to_array()));

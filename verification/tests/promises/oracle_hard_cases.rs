@@ -8,19 +8,11 @@ use std::f64::consts::FRAC_1_SQRT_2;
 type Positions = [[f64; 3]; 4];
 
 fn vertex_face(start: Positions, end: Positions) -> Pair {
-    Pair {
-        kind: PairKind::VertexFace,
-        start,
-        end,
-    }
+    Pair::new(PairKind::VertexFace, start, end)
 }
 
 fn edge_edge(start: Positions, end: Positions) -> Pair {
-    Pair {
-        kind: PairKind::EdgeEdge,
-        start,
-        end,
-    }
+    Pair::new(PairKind::EdgeEdge, start, end)
 }
 
 const FACE: [[f64; 3]; 3] = [[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 3.0, 0.0]];

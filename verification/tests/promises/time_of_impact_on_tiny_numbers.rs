@@ -380,10 +380,7 @@ fn late_with_bounds_times<F: Factors, S: Format>() -> u32 {
         let bytes: Vec<u8> = (0..Choices::ENOUGH / 8).flat_map(|_| random.word().to_le_bytes()).collect();
         let kind = [PairKind::VertexFace, PairKind::EdgeEdge][index % 2];
         let moment = Moment::<S>::choose(kind, Meeting::Touching, &mut Choices::new(&bytes));
-        let limits = Limits {
-            tolerance: S::ZERO,
-            separation: S::ZERO,
-        };
+        let limits = Limits::accurate_to(S::ZERO);
         let impact = altered::time_of_impact::<F, S>(&moment.pair(), &limits);
         let is_late = impact.time().is_none_or(|time| time.to_f64() > moment.time());
         late += u32::from(is_late);

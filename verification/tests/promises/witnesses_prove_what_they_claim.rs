@@ -49,10 +49,7 @@ fn cases<S: Format>() -> impl Strategy<Value = Case<S>> + Clone {
 }
 
 fn answer<S: Format>(case: &Case<S>) -> (Impact<S>, Claim) {
-    let limits = Limits {
-        separation: case.separation,
-        ..Limits::default()
-    };
+    let limits = Limits::within(case.separation);
     let pair = case.pair.pair();
     let (impact, witness) = witness(&pair, &limits);
     (impact, Claim::new(&pair, case.separation, impact, &witness))
@@ -67,10 +64,7 @@ fn is_proven<S: Format>(case: &Case<S>) -> Result<(), TestCaseError> {
     } else {
         prop_assert_eq!(impact.time(), Some(S::ZERO));
     }
-    let limits = Limits {
-        separation: case.separation,
-        ..Limits::default()
-    };
+    let limits = Limits::within(case.separation);
     let asks_more = matches!(
         impact,
         Impact::Possible {
@@ -88,11 +82,7 @@ formats!(every_answer_is_proven is is_proven(20_000, cases()));
 /// Returns the question of a claim for the oracle.
 fn question(claim: &Claim) -> Pair {
     let frame = |end: usize| claim.points.map(|ends| ends[end]);
-    Pair {
-        kind: claim.kind,
-        start: frame(0),
-        end: frame(1),
-    }
+    Pair::new(claim.kind, frame(0), frame(1))
 }
 
 /// Returns whether the claim is true, by the oracle.

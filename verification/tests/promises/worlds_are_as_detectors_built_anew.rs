@@ -1,6 +1,5 @@
 //! A world of meshes that are added and removed reports the contacts of a new detector for the same triangles.
 
-use crate::support;
 use crate::support::prelude::*;
 use selvedge::glam::DQuat;
 use selvedge::{CollisionFilter, Geometry, Groups, MeshHandle, MeshMotion, World, WorldContact, WorldError};
@@ -277,7 +276,7 @@ where
                 }
             }
             Event::Setting => {
-                let limits = support::within(S::from_f64(random.pick(&[0.0, 0.01, 0.3])));
+                let limits = Limits::within(S::from_f64(random.pick(&[0.0, 0.01, 0.3])));
                 let tolerance = limits.tolerance;
                 criterion = random.pick(&[Criterion::Within(limits), Criterion::Touching { tolerance }]);
                 for world in &mut worlds {

@@ -156,13 +156,7 @@ fn rest_in_contact_up_to_rounding_says_so() {
         Motion::resting(DVec3::new(0.25, 0.25, 0.5 + height)),
         [DVec3::Z, DVec3::X, DVec3::Y].map(Motion::resting),
     );
-    let impact = time_of_impact(
-        &tilted,
-        &Limits {
-            tolerance: 0.0,
-            separation: 0.0,
-        },
-    );
+    let impact = time_of_impact(&tilted, &Limits::accurate_to(0.0));
     let Impact::Possible { time, .. } = impact else {
         panic!("it touches");
     };

@@ -204,10 +204,7 @@ fn a_setting_that_is_none_is_told_and_the_one_before_holds() {
     let mut app = app();
     let [_, mover] = two_sheets(&mut app);
     let within = |separation| {
-        Criterion::Within(Limits {
-            separation,
-            ..Limits::default()
-        })
+        Criterion::Within(Limits::within(separation))
     };
     app.world_mut().resource_mut::<CollisionSettings>().criterion = within(0.5);
     assert!(step(&mut app).problems.is_empty());

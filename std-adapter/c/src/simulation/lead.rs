@@ -46,10 +46,7 @@ pub unsafe extern "C" fn selvedge_simulation_place_body(
         // SAFETY: the caller's promise. The layout is seven numbers, as fields or as an array.
         let given = unsafe { view::<f64, 7>("placement", placement.cast(), 1) }?;
         for &[x, y, z, w, a, b, c] in given {
-            let placement = Placement {
-                rotation: DQuat::from_xyzw(x, y, z, w),
-                translation: DVec3::new(a, b, c),
-            };
+            let placement = Placement::new(DQuat::from_xyzw(x, y, z, w), DVec3::new(a, b, c));
             it.simulation.place_body(body, placement)?;
         }
         Ok(())

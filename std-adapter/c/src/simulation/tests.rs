@@ -97,10 +97,10 @@ fn bits(vectors: &[DVec3]) -> Vec<u64> {
 /// Sets the same next step for both: the ball rises and turns, pins sway, the wind changes.
 fn lead(handle: *mut SimulationHandle, simulation: &mut Simulation, step: u32) {
     let t = f64::from(step);
-    let placement = Placement {
-        rotation: selvedge_cloth::glam::DQuat::from_rotation_z(0.002 * t),
-        translation: DVec3::new(0.0, 0.0, 0.0002 * t),
-    };
+    let placement = Placement::new(
+        selvedge_cloth::glam::DQuat::from_rotation_z(0.002 * t),
+        DVec3::new(0.0, 0.0, 0.0002 * t),
+    );
     simulation.place_body(0, placement).unwrap();
     let pose = Pose {
         rotation: placement.rotation.to_array(),

@@ -308,10 +308,7 @@ fn placement(reader: &mut Reader<'_>) -> Option<Option<Placement>> {
         *number = reader.f64()?;
     }
     let [x, y, z, w, translation @ ..] = numbers;
-    let placement = Placement {
-        rotation: DQuat::from_xyzw(x, y, z, w),
-        translation: translation.into(),
-    };
+    let placement = Placement::new(DQuat::from_xyzw(x, y, z, w), translation.into());
     // To normalise the rotation again would change bits.
     placement.checked().ok()?;
     Some(is_there.then_some(placement))

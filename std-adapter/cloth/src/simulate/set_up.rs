@@ -53,10 +53,7 @@ impl Simulation {
             if !found.is_empty() && tangled_start == TangledStart::Refuse {
                 return Err(SetupError::Tangled(Box::new(Tangled {
                     crossings: found,
-                    mesh: Mesh {
-                        positions: state.positions,
-                        triangles: made.triangles,
-                    },
+                    mesh: Mesh::new(state.positions, made.triangles),
                     cloth_triangles: made.cloth_triangles,
                     body_names: bodies.iter().map(|body| body.name.clone()).collect(),
                     untangled: None,

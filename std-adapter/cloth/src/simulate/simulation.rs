@@ -138,10 +138,7 @@ impl Simulation {
     /// not have stay where the file puts them. Vertices that tears add follow those of the file.
     #[must_use]
     pub fn mesh_as_in_files(&self) -> (Mesh, Vec<[u32; 2]>) {
-        let state = Mesh {
-            positions: self.positions().to_vec(),
-            triangles: self.triangles().to_vec(),
-        };
+        let state = Mesh::new(self.positions().to_vec(), self.triangles().to_vec());
         self.numbering
             .numbered(state, self.loose_edges(), &self.made.vertices_of_cloths)
     }

@@ -51,10 +51,7 @@ impl Simulation {
         }
         Err(SetupError::Tangled(Box::new(Tangled {
             crossings,
-            mesh: Mesh {
-                positions: self.state.positions.clone(),
-                triangles: self.made.triangles.clone(),
-            },
+            mesh: Mesh::new(self.state.positions.clone(), self.made.triangles.clone()),
             cloth_triangles: self.made.cloth_triangles,
             body_names: self.body_names.clone(),
             untangled: Some(untangled),

@@ -150,10 +150,7 @@ mod tests {
         let at = |x: i32| DVec3::X * f64::from(x);
         // Two triangles with a split seam (1 and 3, 2 and 4), one that collapses between 1 and 3, an unused vertex 5; and a loose edge.
         let file = FileMesh {
-            mesh: Mesh {
-                positions: [0, 1, 2, 1, 2, 9, 3].map(at).to_vec(),
-                triangles: vec![[0, 1, 2], [1, 3, 2], [3, 6, 4]],
-            },
+            mesh: Mesh::new([0, 1, 2, 1, 2, 9, 3].map(at).to_vec(), vec![[0, 1, 2], [1, 3, 2], [3, 6, 4]]),
             loose_edges: vec![[6, 0]],
             vertex_of: vec![0, 1, 2, 1, 2, LEFT_OUT, 3],
         };
@@ -162,10 +159,7 @@ mod tests {
             cloths: vec![None, Some(file)],
         };
         // A rope of two vertices; the cloth, which has torn at its vertex 2; a body.
-        let state = Mesh {
-            positions: (10..20).map(at).collect(),
-            triangles: vec![[2, 3, 4], [3, 5, 6], [7, 8, 9]],
-        };
+        let state = Mesh::new((10..20).map(at).collect(), vec![[2, 3, 4], [3, 5, 6], [7, 8, 9]]);
         let (mesh, edges) = numbering.numbered(state, &[[0, 1], [5, 2]], &[0..2, 2..7]);
         let expected = [10, 11, 12, 13, 14, 13, 14, 9, 15, 16, 17, 18, 19];
         assert_eq!(mesh.positions, expected.map(at));

@@ -24,13 +24,16 @@ pub struct Placement {
 }
 
 impl Placement {
+    /// Returns a placement with a rotation, then a translation in metres.
+    #[must_use]
+    pub const fn new(rotation: DQuat, translation: DVec3) -> Self {
+        Self { rotation, translation }
+    }
+
     /// Returns a placement without rotation; `translation` is in metres.
     #[must_use]
     pub const fn at(translation: DVec3) -> Self {
-        Self {
-            rotation: DQuat::IDENTITY,
-            translation,
-        }
+        Self::new(DQuat::IDENTITY, translation)
     }
 
     /// Maps a point of the body at rest to its position.
@@ -83,15 +86,9 @@ mod tests {
 
     #[test]
     fn turning_by_the_way_to_another_placement_leads_there() {
-        let from = Placement {
-            rotation: DQuat::from_rotation_x(0.3),
-            translation: DVec3::X,
-        };
+        let from = Placement::new(DQuat::from_rotation_x(0.3), DVec3::X);
         for angle in [0.0, 1e-9, 0.5, 3.0, 4.0, -2.0] {
-            let to = Placement {
-                rotation: DQuat::from_rotation_y(angle) * from.rotation,
-                translation: DVec3::Y,
-            };
+            let to = Placement::new(DQuat::from_rotation_y(angle) * from.rotation, DVec3::Y);
             let (axis, turn) = from.turn_to(&to);
             assert!((0.0..=std::f64::consts::PI + 1e-12).contains(&turn));
             let there = from.on(axis, turn, to.translation - from.translation);

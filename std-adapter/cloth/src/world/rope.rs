@@ -44,10 +44,7 @@ impl Cloth {
             let message = "a rope needs at least two points, and successive points must differ";
             return Err(ValueError::new(POINTS.name, message));
         }
-        let mesh = Mesh {
-            positions: along(points, segments),
-            triangles: Vec::new(),
-        };
+        let mesh = Mesh::new(along(points, segments), Vec::new());
         let edges: Vec<[u32; 2]> = (0..segments).map(|first| [first, first + 1]).collect();
         let parts = vec![("start", vec![0]), ("end", vec![segments])];
         Self::with_loose_edges(mesh, &edges, DVec3::X, [0.0, linear_density], parts)

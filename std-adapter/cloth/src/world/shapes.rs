@@ -296,10 +296,7 @@ mod tests {
 
     #[test]
     fn isolated_vertices_are_left_out_and_the_others_keep_their_order() {
-        let mut mesh = Mesh {
-            positions: (0..7).map(|x| DVec3::X * f64::from(x)).collect(),
-            triangles: vec![[6, 1, 4]],
-        };
+        let mut mesh = Mesh::new((0..7).map(|x| DVec3::X * f64::from(x)).collect(), vec![[6, 1, 4]]);
         let mut loose = [[2, 6]];
         let mut file = FileMesh::new(&mesh, &loose);
         assert_eq!(leave_out_isolated(&mut mesh, &mut loose, &mut file), 3);

@@ -147,10 +147,7 @@ fn numbered_files_and_frames_of_code_make_the_same_scene() {
     let (triangles, frames) = breathing(5);
     for (number, frame) in frames.iter().enumerate() {
         let triangles = triangles.clone();
-        let mesh = Mesh {
-            positions: frame.clone(),
-            triangles,
-        };
+        let mesh = Mesh::new(frame.clone(), triangles);
         mesh::write(&folder.path().join(format!("ball-{number:04}.ply")), &mesh).unwrap();
     }
     let of_files = |files: &str| {

@@ -44,10 +44,10 @@ pub(crate) fn folded(columns: i32, rows: Range<i32>, height: f64) -> Mesh {
         .flat_map(|row| (-columns..=columns).map(move |column| vertex(row, column)));
     let cells = (0..rows.len() as i32 - 1).flat_map(|row| (0..across - 1).map(move |column| across * row + column));
     let corners = |at: i32| [[at, at + 1, at + across], [at + 1, at + across + 1, at + across]];
-    Mesh {
-        positions: positions.collect(),
-        triangles: cells.flat_map(corners).map(|t| t.map(|corner| corner as u32)).collect(),
-    }
+    Mesh::new(
+        positions.collect(),
+        cells.flat_map(corners).map(|t| t.map(|corner| corner as u32)).collect(),
+    )
 }
 
 pub(crate) fn run(scene: Scene, steps: u64) -> Simulation {

@@ -105,10 +105,7 @@ fn code_and_file_make_the_same_scene_to_the_last_bit() {
 
 #[test]
 fn pins_that_follow_a_driven_body_start_where_the_cloth_is() {
-    let standing = Placement {
-        rotation: DQuat::from_rotation_x(0.8),
-        translation: DVec3::new(3.0, -2.0, 5.0),
-    };
+    let standing = Placement::new(DQuat::from_rotation_x(0.8), DVec3::new(3.0, -2.0, 5.0));
     let mut ball = Body::ball("ball", DVec3::Z, 0.01, 12).unwrap();
     ball.motion = BodyMotion::Driven(standing);
     let mut scene = scene_with(ball, 0.0);
@@ -116,10 +113,10 @@ fn pins_that_follow_a_driven_body_start_where_the_cloth_is() {
     let rest = scene.cloths[0].mesh().positions.clone();
     scene.add(pinned(&vertices[..], PinMotion::Body(0)));
     let mut simulation = Simulation::new(scene, 1).unwrap();
-    let next = Placement {
-        rotation: DQuat::from_rotation_x(0.8) * DQuat::from_rotation_y(1e-3),
-        translation: standing.translation + DVec3::splat(1e-4),
-    };
+    let next = Placement::new(
+        DQuat::from_rotation_x(0.8) * DQuat::from_rotation_y(1e-3),
+        standing.translation + DVec3::splat(1e-4),
+    );
     for (now, leads) in [(standing, false), (next, true)] {
         if leads {
             simulation.place_body(0, now).unwrap();

@@ -1,7 +1,9 @@
 //! Garments from code that intersect themselves or bodies, each at several depths.
 
-use crate::common::*;
-use selvedge_cloth::glam::{DMat3, DVec2};
+use selvedge_cloth::effects::{Bend, BodyContact, SelfCollision, Shear, Stretch, Thickness};
+use selvedge_cloth::glam::{DMat3, DVec2, DVec3};
+use selvedge_cloth::{Body, Cloth, Mesh, Scene};
+use std::f64::consts::{PI, TAU};
 
 pub(crate) const NAMES: [&str; 14] = [
     "fold through itself",
@@ -142,10 +144,7 @@ fn grid([across, along]: [u32; 2], point: impl Fn(f64, f64) -> DVec3) -> Mesh {
     let positions = points.map(|(i, j)| point(f64::from(i) / f64::from(across), f64::from(j) / f64::from(along)));
     let cells = (0..across).flat_map(|i| (0..along).map(move |j| (i, j)));
     let triangles = cells.flat_map(|(i, j)| cell([at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)], i + j));
-    Mesh {
-        positions: positions.collect(),
-        triangles: triangles.collect(),
-    }
+    Mesh::new(positions.collect(), triangles.collect())
 }
 
 fn cell([a, b, c, d]: [u32; 4], parity: u32) -> [[u32; 3]; 2] {
@@ -170,10 +169,7 @@ fn tube([around, along]: [u32; 2], point: impl Fn(f64, f64) -> DVec3) -> Mesh {
         let corners = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
         cell(corners, j)
     });
-    Mesh {
-        positions: positions.collect(),
-        triangles: triangles.collect(),
-    }
+    Mesh::new(positions.collect(), triangles.collect())
 }
 
 /// Makes two sheets: a lower one with this height, and a flat one at the height `gap`.

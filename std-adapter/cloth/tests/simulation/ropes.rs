@@ -85,10 +85,7 @@ fn a_rope_of_two_hundred_edges_that_holds_a_weight_is_stretched_by_a_thousandth_
         vec![Cloth::from_mesh_with_loose_edges(mesh, &edges, DVec3::X, [100.0, 0.05]).unwrap()]
     };
     let tied = || {
-        let mesh = Mesh {
-            positions: plate(-length_at_rest - gap).to_vec(),
-            triangles: vec![[0, 1, 2], [1, 3, 2]],
-        };
+        let mesh = Mesh::new(plate(-length_at_rest - gap).to_vec(), vec![[0, 1, 2], [1, 3, 2]]);
         vec![rope(), Cloth::from_mesh(mesh, DVec3::X, 100.0).unwrap().named("plate")]
     };
     for (is_tied, time_step) in [(false, 1e-3), (false, 4e-3), (true, 1e-3), (true, 4e-3)] {
@@ -159,10 +156,7 @@ fn a_ring_keeps_the_shape_that_it_rests_in() {
         let (sine, cosine) = (f64::from(k) * std::f64::consts::FRAC_PI_8).sin_cos();
         DVec3::new(cosine, sine, 0.0) * 0.2
     };
-    let mesh = Mesh {
-        positions: (0..16).map(corner).collect(),
-        triangles: Vec::new(),
-    };
+    let mesh = Mesh::new((0..16).map(corner).collect(), Vec::new());
     let edges: Vec<_> = (0..16).map(|k| [k, (k + 1) % 16]).collect();
     let hoop = Cloth::from_mesh_with_loose_edges(mesh, &edges, DVec3::X, [0.0, 0.1]).unwrap();
     let rest = hoop.mesh().positions.clone();
@@ -350,10 +344,7 @@ fn a_scene_file_says_what_code_does() {
 
 #[test]
 fn what_cannot_be_of_loose_edges_is_told_from_code() {
-    let triangle = || Mesh {
-        positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z],
-        triangles: vec![[0, 1, 2]],
-    };
+    let triangle = || Mesh::new(vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z], vec![[0, 1, 2]]);
     let made = |edges: &[[u32; 2]], densities| Cloth::from_mesh_with_loose_edges(triangle(), edges, DVec3::X, densities);
     assert!(made(&[[0, 3]], [0.1, 0.1]).is_ok());
     let twice = "loose edge 1 of the cloth joins two vertices that a triangle or another loose edge joins already";

@@ -47,10 +47,7 @@ impl Arm {
         };
         for &frame in &self.frames {
             let path = self.output.join(format!("arm-{frame:02}.{extension}"));
-            let mesh = Mesh {
-                positions: scene.frame(frame as usize),
-                triangles: scene.topology().triangles().to_vec(),
-            };
+            let mesh = Mesh::new(scene.frame(frame as usize), scene.topology().triangles().to_vec());
             mesh::write(&path, &mesh)?;
             output::say(format_args!("wrote {}", path.display()));
         }

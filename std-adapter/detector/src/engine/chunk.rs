@@ -76,10 +76,7 @@ impl<'a> StepInput<'a> {
 
     #[inline(always)]
     fn primitives(&self, kind: PairKind, rows: [u32; 4]) -> PrimitivePair<f64> {
-        PrimitivePair {
-            kind,
-            motions: rows.map(|row| self.rows.double[row as usize].motion()),
-        }
+        PrimitivePair::new(kind, rows.map(|row| self.rows.double[row as usize].motion()))
     }
 }
 

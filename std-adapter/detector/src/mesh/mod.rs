@@ -31,6 +31,12 @@ pub struct Mesh {
 }
 
 impl Mesh {
+    /// Makes a mesh.
+    #[must_use]
+    pub const fn new(positions: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Self {
+        Self { positions, triangles }
+    }
+
     /// Makes the topology of this mesh.
     ///
     /// # Errors

@@ -177,10 +177,10 @@ mod tests {
 
     #[test]
     fn a_triangle_that_collapses_is_left_out() {
-        let mesh = Mesh {
-            positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::X * 1.001],
-            triangles: vec![[0, 1, 2], [1, 3, 2]],
-        };
+        let mesh = Mesh::new(
+            vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::X * 1.001],
+            vec![[0, 1, 2], [1, 3, 2]],
+        );
         let welded = mesh.welded(0.01);
         assert_eq!((welded.mesh.triangles, welded.collapsed_triangles), (vec![[0, 1, 2]], 1));
         assert_eq!(mesh.welded(f64::NAN).mesh, mesh);

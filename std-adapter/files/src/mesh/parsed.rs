@@ -139,10 +139,7 @@ impl Parsed {
         let topology = Topology::new(self.positions.len(), std::mem::take(&mut split.triangles))?;
         let notes = self.notes(&mut split, &topology);
         let triangles = topology.triangles().to_vec();
-        let mesh = Mesh {
-            positions: self.positions,
-            triangles,
-        };
+        let mesh = Mesh::new(self.positions, triangles);
         Ok(MeshFile { mesh, notes })
     }
 

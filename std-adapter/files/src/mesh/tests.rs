@@ -46,10 +46,7 @@ fn bits(mesh: &Mesh) -> Vec<[u64; 3]> {
 }
 
 fn triangle() -> Mesh {
-    Mesh {
-        positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
-        triangles: vec![[0, 1, 2]],
-    }
+    Mesh::new(vec![DVec3::ZERO, DVec3::X, DVec3::Y], vec![[0, 1, 2]])
 }
 
 fn read_obj(text: &str) -> MeshFile {
@@ -194,10 +191,7 @@ type Change = fn(&mut Mesh);
 fn written_step(change: Change) -> (TempDir, Result<MeshStep, MeshError>) {
     let folder = TempDir::new().unwrap();
     let (start, end) = (folder.path().join("start.obj"), folder.path().join("end.ply"));
-    let mut mesh = Mesh {
-        positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z],
-        triangles: vec![[0, 1, 2], [1, 2, 3]],
-    };
+    let mut mesh = Mesh::new(vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z], vec![[0, 1, 2], [1, 2, 3]]);
     write(&start, &mesh).unwrap();
     change(&mut mesh);
     write(&end, &mesh).unwrap();
@@ -369,10 +363,7 @@ fn loose_edges_are_read_as_they_were_written_with_triangles_and_without() {
     let folder = TempDir::new().unwrap();
     let positions = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::splat(0.1)];
     for triangles in [vec![], vec![[0, 1, 2]]] {
-        let mesh = Mesh {
-            positions: positions.clone(),
-            triangles,
-        };
+        let mesh = Mesh::new(positions.clone(), triangles);
         for format in FORMATS {
             let path = folder
                 .path()
@@ -385,10 +376,7 @@ fn loose_edges_are_read_as_they_were_written_with_triangles_and_without() {
         }
     }
     let path = folder.path().join("rope.obj");
-    let mesh = Mesh {
-        positions,
-        triangles: Vec::new(),
-    };
+    let mesh = Mesh::new(positions, Vec::new());
     let written = |edges: &[[u32; 2]]| write_with_loose_edges(&path, &mesh, edges).unwrap_err().to_string();
     let no_vertex = "loose edge 1 names vertex 4, but there are 4 vertices, numbered from 0";
     assert_eq!(written(&[[0, 1], [1, 4]]), format!("{}: {no_vertex}", path.display()));

@@ -72,10 +72,7 @@ impl ElementaryTest {
     pub(crate) fn run<S: Scalar, W: WithTest<S, Option<S>>>(self, with: W) -> W::Outcome {
         let limits = match self.tolerance() {
             None => Limits::default(),
-            Some(tolerance) => Limits {
-                tolerance: S::from_f64(tolerance),
-                separation: S::ZERO,
-            },
+            Some(tolerance) => Limits::accurate_to(S::from_f64(tolerance)),
         };
         match self {
             Self::TimeOfImpact | Self::Certified(_) => with.with(|pair| advance::time_of_impact(pair, &limits).time()),

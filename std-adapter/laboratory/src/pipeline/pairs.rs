@@ -14,12 +14,11 @@ pub(super) struct MovingMesh<'a, S: Scalar> {
 impl<S: Scalar> MovingMesh<'_, S> {
     #[inline(always)]
     pub(super) fn pair(&self, kind: PairKind, pair: [u32; 2]) -> PrimitivePair<S> {
-        PrimitivePair {
+        PrimitivePair::new(
             kind,
-            motions: self
-                .topology
+            self.topology
                 .vertices_of(kind, pair)
                 .map(|vertex| self.rows[vertex as usize].motion()),
-        }
+        )
     }
 }

@@ -63,10 +63,10 @@ pub(super) fn exactly<S: Scalar>(case: &HardCase) -> Option<PrimitivePair<S>> {
         })
     });
     let [a, b, c, d] = &mut points;
-    Some(PrimitivePair {
-        kind: case.pair.kind,
-        motions: [a.take()?, b.take()?, c.take()?, d.take()?],
-    })
+    Some(PrimitivePair::new(
+        case.pair.kind,
+        [a.take()?, b.take()?, c.take()?, d.take()?],
+    ))
 }
 
 #[cfg(test)]

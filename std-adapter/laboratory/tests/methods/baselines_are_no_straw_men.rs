@@ -48,10 +48,7 @@ fn signs_of_polynomials_decide_pairs_in_general_position() {
 
 #[test]
 fn tight_inclusion_misses_nothing() {
-    const LIMITS: Limits<f64> = Limits {
-        tolerance: 1e-6,
-        separation: 0.0,
-    };
+    const LIMITS: Limits<f64> = Limits::accurate_to(1e-6);
     compare(
         2_000,
         |pair| tight_inclusion::time_of_impact(pair, &LIMITS) != Impact::Never,

@@ -80,10 +80,7 @@ impl Chunk<'_> {
                             let limits = if index % 2 == 0 {
                                 Limits::default()
                             } else {
-                                Limits {
-                                    tolerance: S::ZERO,
-                                    separation: S::ZERO,
-                                }
+                                Limits::accurate_to(S::ZERO)
                             };
                             time_of_impact(pair, &limits) == Impact::Never
                         }

@@ -11,21 +11,11 @@ pub(crate) mod rationals;
 pub(crate) mod widths;
 
 use rug::Rational;
-use selvedge_core::Scalar;
-use selvedge_core::elementary::Limits;
 
 pub(crate) type Point = [Rational; 3];
 
 pub(crate) fn point(coordinates: [f64; 3]) -> Point {
     coordinates.map(|x| Rational::from_f64(x).expect("finite"))
-}
-
-/// Returns limits with this separation, and the default tolerance.
-pub(crate) fn within<S: Scalar>(separation: S) -> Limits<S> {
-    Limits {
-        separation,
-        ..Limits::default()
-    }
 }
 
 /// Returns the position at time `t` of a point that moves linearly.

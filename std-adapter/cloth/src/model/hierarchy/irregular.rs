@@ -44,10 +44,7 @@ pub(crate) fn sheet(cells: u32, rounds: usize) -> Mesh {
         relax(&mut places, &triangles, &is_inner);
         flip(&places, &mut triangles);
     }
-    Mesh {
-        positions: places.into_iter().map(|p| p.extend(0.0)).collect(),
-        triangles,
-    }
+    Mesh::new(places.into_iter().map(|p| p.extend(0.0)).collect(), triangles)
 }
 
 fn relax(places: &mut [DVec2], triangles: &[[u32; 3]], is_inner: &[bool]) {

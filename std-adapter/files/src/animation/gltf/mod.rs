@@ -56,10 +56,7 @@ pub(crate) fn parse(bytes: &[u8], path: &Path, choice: &Choice<'_>) -> Result<Fi
     fingerprint.take(&number.to_le_bytes());
     let (shape, triangles) = file.shape(&nodes, animation.as_ref(), &mut left_out)?;
     let mut figure = Figure {
-        mesh: Mesh {
-            positions: Vec::new(),
-            triangles,
-        },
+        mesh: Mesh::new(Vec::new(), triangles),
         shape,
         left_out,
         fingerprint: fingerprint.value(),

@@ -310,10 +310,10 @@ impl Recording {
             let placed = move |triangle: &[u32; 3]| triangle.map(|vertex| first as u32 + vertex);
             part.triangles.iter().map(placed)
         });
-        Mesh {
-            positions: positions.map(|p| DVec3::from(p.map(f64::from))).collect(),
-            triangles: triangles.collect(),
-        }
+        Mesh::new(
+            positions.map(|p| DVec3::from(p.map(f64::from))).collect(),
+            triangles.collect(),
+        )
     }
 
     /// Returns the direction that is up, of length one.

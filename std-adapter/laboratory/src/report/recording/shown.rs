@@ -71,10 +71,7 @@ mod tests {
     #[test]
     fn a_fringe_is_shown_after_the_triangles_of_its_cloth() {
         let positions = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_X * 2.0];
-        let mesh = Mesh {
-            positions,
-            triangles: vec![[0, 1, 2]],
-        };
+        let mesh = Mesh::new(positions, vec![[0, 1, 2]]);
         let cloth = Cloth::from_mesh_with_loose_edges(mesh, &[[0, 3], [3, 4]], DVec3::X, [0.1, 0.1]).unwrap();
         let scene = Scene::new(cloth, 1e-3);
         let shown = Shown::new(&scene, 0);

@@ -87,10 +87,7 @@ impl<S: Scalar> Pairs<'_, S> {
 
     #[inline(always)]
     fn pair(&self, indices: [u32; 4]) -> PrimitivePair<S> {
-        PrimitivePair {
-            kind: self.kind,
-            motions: indices.map(|index| self.rows[index as usize].motion()),
-        }
+        PrimitivePair::new(self.kind, indices.map(|index| self.rows[index as usize].motion()))
     }
 
     /// Returns the pairs that exact arithmetic culls.

@@ -188,10 +188,9 @@ fn of_pairs<S: Scalar>(set: &PairSet) -> Questions<S> {
     let rows = set.rows::<S>();
     let mut pairs = Vec::new();
     for (kind, indices) in set.by_kind() {
-        let all = indices.iter().map(|indices| PrimitivePair {
-            kind,
-            motions: indices.map(|index| rows[index as usize].motion()),
-        });
+        let all = indices
+            .iter()
+            .map(|indices| PrimitivePair::new(kind, indices.map(|index| rows[index as usize].motion())));
         pairs.extend(all.filter(|pair| !boxes::swept_boxes(pair).is_culled()));
     }
     let truth = pairs.iter().map(exact_answer);

@@ -34,10 +34,7 @@ pub fn exact_answer<S: Scalar>(pair: &PrimitivePair<S>) -> ExactAnswer {
 
 /// Returns an enclosure of the first time of a pair that touches.
 fn first_time(pair: &PrimitivePair<f64>) -> Option<[f64; 2]> {
-    let as_tight_as_can_be = Limits {
-        tolerance: 0.0,
-        separation: 0.0,
-    };
+    let as_tight_as_can_be = Limits::accurate_to(0.0);
     let from = time_of_impact(pair, &as_tight_as_can_be).time()?;
     let [_, to] = certain_contact(pair, from)?;
     (to - from <= WIDEST).then_some([from, to])
