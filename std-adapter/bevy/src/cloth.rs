@@ -224,7 +224,10 @@ fn joined(mesh: &Mesh) -> Result<selvedge::Mesh, MeshError> {
     let positions = positions_of(mesh)?
         .iter()
         .map(|position| DVec3::from_array(position.map(f64::from)));
-    Ok(selvedge::Mesh::new(shape.of_points(&positions.collect::<Vec<_>>()), shape.topology.triangles().to_vec()))
+    Ok(selvedge::Mesh::new(
+        shape.of_points(&positions.collect::<Vec<_>>()),
+        shape.topology.triangles().to_vec(),
+    ))
 }
 
 /// Moves bodies to their entities, runs the steps, and writes meshes.

@@ -203,9 +203,7 @@ fn a_step_beyond_a_limit_is_told_and_the_next_is_done() {
 fn a_setting_that_is_none_is_told_and_the_one_before_holds() {
     let mut app = app();
     let [_, mover] = two_sheets(&mut app);
-    let within = |separation| {
-        Criterion::Within(Limits::within(separation))
-    };
+    let within = |separation| Criterion::Within(Limits::within(separation));
     app.world_mut().resource_mut::<CollisionSettings>().criterion = within(0.5);
     assert!(step(&mut app).problems.is_empty());
     app.world_mut().resource_mut::<CollisionSettings>().criterion = within(f64::NAN);
