@@ -7,7 +7,7 @@ From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent
   Magnitudes.
 From Selvedge Require Orders Boxes Apart Certificates Nearest Witnesses Integers.
-From Selvedge Require Machine Nearness Corners Advance Advancing Checker.
+From Selvedge Require Machine Nearness Corners Advance Advancing Checker Narrowing.
 From Coq Require QArith_base List.
 Import List.ListNotations.
 Open Scope R_scope.
@@ -306,7 +306,27 @@ Theorem the_checker_accepts_some : let one := QArith_base.Qmake 1 1 in
   Checker.accepts 0 falling Corners.vertex_face (QArith_base.Qmake 0 1) [(one, Checker.Volume)] one = true.
 Proof. split; vm_compute; reflexivity. Qed.
 
-(* 12. What the certificates of a separation and of truncation rest on stands in Certificates.v, in exact numbers: a
+(* 12. Between the formats (core/src/narrowing.rs), times become no later and lengths no smaller; a time keeps its place
+       among others. Numbers are not negative, and stand as encodings. The functions are written after the code, on bits;
+       they return what the code does for numbers at and beside all boundaries of the formats. *)
+Theorem times_are_rounded_down a b : (0 <= a <= b)%Z -> (b < Narrowing.infinity Narrowing.double)%Z ->
+  (0 <= Narrowing.rounded_down a <= Narrowing.rounded_down b)%Z /\
+  (Narrowing.rounded_down b < Narrowing.infinity Narrowing.single)%Z /\
+  Narrowing.value Narrowing.single (Narrowing.rounded_down b) <= Narrowing.value Narrowing.double b.
+Proof.
+  intros between finite. pose proof (Narrowing.rounding_down_keeps_the_order a b between finite).
+  destruct (Narrowing.rounded_down_is_no_later a ltac:(lia)), (Narrowing.rounded_down_is_no_later b ltac:(lia)).
+  repeat split; lia || assumption.
+Qed.
+Theorem lengths_are_rounded_up b : (0 <= b < Narrowing.infinity Narrowing.double)%Z ->
+  Narrowing.rounded_up b = Narrowing.infinity Narrowing.single \/
+  Narrowing.value Narrowing.double b <= Narrowing.value Narrowing.single (Narrowing.rounded_up b).
+Proof. exact (Narrowing.rounded_up_is_no_smaller b). Qed.
+Theorem widening_is_exact c : (0 <= c < Narrowing.infinity Narrowing.single)%Z ->
+  Narrowing.value Narrowing.double (Narrowing.widened c) = Narrowing.value Narrowing.single c.
+Proof. exact (Narrowing.widened_value c). Qed.
+
+(* 13. What the certificates of a separation and of truncation rest on stands in Certificates.v, in exact numbers: a
        direction held or turning over a part of the step, the volume there, shares of ways. *)
 
 Print Assumptions formats_are_reasonable.
@@ -341,6 +361,10 @@ Print Assumptions no_contact_of_two_edges_before.
 Print Assumptions an_accepted_witness_of_a_vertex_and_a_face_is_right.
 Print Assumptions an_accepted_witness_of_two_edges_is_right.
 Print Assumptions the_checker_accepts_some.
+Print Assumptions times_are_rounded_down.
+Print Assumptions lengths_are_rounded_up.
+Print Assumptions widening_is_exact.
+Print Assumptions Narrowing.the_code_returns_the_same.
 Print Assumptions Certificates.a_product_bounds_the_distance.
 Print Assumptions Certificates.ahead_of_the_triangle.
 Print Assumptions Certificates.between_two_ahead.

@@ -24,8 +24,10 @@ fi
 # above Filter: Permanent Magnitudes Advance Advancing Checker Witnesses Theorems
 # above Boxes: Apart Certificates Volume Clipping VolumeSteps Advancing Checker Witnesses Theorems
 # above Advance: Advancing Checker Theorems
+# above Narrowed: Narrowing Theorems
 files=(Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Magnitudes Orders Boxes Apart Certificates Machine
-    Nearness Corners Directions Held Hull Volume Clipping VolumeSteps Advance Advancing Checker Nearest Witnesses Integers Theorems)
+    Nearness Corners Directions Held Hull Volume Clipping VolumeSteps Advance Advancing Checker Nearest Witnesses Integers Narrowed
+    Narrowing Theorems)
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cp ./*.v "$folder"

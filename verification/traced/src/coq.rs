@@ -5,6 +5,7 @@
 
 use crate::Text;
 use crate::gappa::tetrahedron;
+use crate::narrowed;
 use crate::symbols::{Mask, MaskStep, Step, Trace, Traced, if_any, trace};
 use selvedge_core::Scalar;
 use selvedge_core::kernels::advance::corners::Corners;
@@ -44,9 +45,14 @@ From Selvedge Require Filter.
 
 /// The files that `verification/proofs` builds on.
 pub fn files() -> Vec<Text> {
-    [("Filter.v", filter()), ("Boxes.v", boxes()), ("Advance.v", advance())]
-        .map(|(name, text)| (name.to_owned(), text))
-        .into()
+    [
+        ("Filter.v", filter()),
+        ("Boxes.v", boxes()),
+        ("Advance.v", advance()),
+        ("Narrowed.v", narrowed::text()),
+    ]
+    .map(|(name, text)| (name.to_owned(), text))
+    .into()
 }
 
 fn filter() -> String {

@@ -10,6 +10,7 @@
 pub mod accepted;
 pub mod coq;
 pub mod gappa;
+mod narrowed;
 pub mod symbols;
 
 /// A file that a prover reads: its name and its text.
