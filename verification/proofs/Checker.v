@@ -5,15 +5,34 @@ From Selvedge Require Import Expressions Geometry.
 From Selvedge Require Machine Corners Volume VolumeSteps Advancing.
 Import ListNotations.
 
+(* Rational numbers are not reduced. Numbers with one denominator keep it in sums, so that denominators stay short. *)
+Definition sum (x y : Q) : Q := if (Z.pos (Qden x) =? Z.pos (Qden y))%Z then Qmake (Qnum x + Qnum y) (Qden x) else (x + y)%Q.
+Definition less (x y : Q) : Q := sum x (- y).
+Definition middle (x y : Q) : Q := let s := sum x y in Qmake (Qnum s) (2 * Qden s).
+Definition doubled (x : Q) : Q := Qmake (2 * Qnum x) (2 * Qden x).
+Lemma Q2R_sum x y : Q2R (sum x y) = (Q2R x + Q2R y)%R.
+Proof.
+  unfold sum. destruct (Z.eqb_spec (Z.pos (Qden x)) (Z.pos (Qden y))) as [[= E]|_]; [|apply Q2R_plus].
+  unfold Q2R; cbn [Qnum Qden]. rewrite plus_IZR, <- E. ring.
+Qed.
+Lemma Q2R_less x y : Q2R (less x y) = (Q2R x - Q2R y)%R.
+Proof. unfold less. rewrite Q2R_sum, Q2R_opp. reflexivity. Qed.
+Lemma Q2R_doubled x : Q2R (doubled x) = Q2R x.
+Proof.
+  unfold Q2R; cbn [Qnum Qden doubled]. rewrite Pos2Z.inj_mul, !mult_IZR. field. apply not_0_IZR. discriminate.
+Qed.
+
 (* Coordinates of a pair's four points, and vectors. *)
 Definition points := coordinate -> Q.
 Definition vector := axis -> Q.
 Definition corner (at_ : points) (pair : nat * nat) t : vector :=
-  fun a => (at_ (Coordinate (fst pair) t a) - at_ (Coordinate (snd pair) t a))%Q.
-Definition corner_at at_ pair t : vector := fun a => ((1 - t) * corner at_ pair Start a + t * corner at_ pair End a)%Q.
-Definition dot_ (u v : vector) : Q := (u X * v X + u Y * v Y + u Z_ * v Z_)%Q.
+  fun a => less (at_ (Coordinate (fst pair) t a)) (at_ (Coordinate (snd pair) t a)).
+Definition corner_at at_ pair t : vector := fun a =>
+  sum (less 1 t * corner at_ pair Start a)%Q (t * corner at_ pair End a)%Q.
+Definition dot_ (u v : vector) : Q := sum (sum (u X * v X)%Q (u Y * v Y)%Q) (u Z_ * v Z_)%Q.
 Definition cross_ (u v : vector) : vector := fun a => match a with
-  | X => (u Y * v Z_ - u Z_ * v Y)%Q | Y => (u Z_ * v X - u X * v Z_)%Q | Z_ => (u X * v Y - u Y * v X)%Q end.
+  | X => less (u Y * v Z_)%Q (u Z_ * v Y)%Q | Y => less (u Z_ * v X)%Q (u X * v Z_)%Q
+  | Z_ => less (u X * v Y)%Q (u Y * v X)%Q end.
 Definition det (u v w : vector) : Q := dot_ u (cross_ v w).
 Definition positive (x : Q) := (0 <? Qnum x)%Z.
 
@@ -22,22 +41,22 @@ Inductive proof := Volume | Held (w : vector) | Turning (v w : vector) | Curving
 Definition held at_ from until w pair := positive (dot_ w (corner_at at_ pair from)) && positive (dot_ w (corner_at at_
   pair until)).
 Definition turning at_ from until v w pair := let e0 := corner_at at_ pair from in let e1 := corner_at at_ pair until in
-  positive (dot_ v e0) && positive (dot_ v e1 + dot_ w e0)%Q && positive (dot_ w e1).
+  positive (dot_ v e0) && positive (sum (dot_ v e1) (dot_ w e0)) && positive (dot_ w e1).
 Definition curving at_ from until v m w pair := let e0 := corner_at at_ pair from in let e1 := corner_at at_ pair until
   in
-  positive (dot_ v e0) && positive (dot_ v e1 + dot_ m e0)%Q && positive (dot_ m e1 + dot_ w e0)%Q && positive (dot_ w
+  positive (dot_ v e0) && positive (sum (dot_ v e1) (dot_ m e0)) && positive (sum (dot_ m e1) (dot_ w e0)) && positive (dot_ w
     e1).
 (* The volume's Bernstein coefficients, those in the middle tripled; then those of halves, at most 2^depth of them. *)
 Fixpoint volume depth at_ p b c from until := let at_time pair t := corner_at at_ pair t in
   let d t0 t1 t2 := det (at_time p t0) (at_time b t1) (at_time c t2) in
-  let k0 := d from from from in let k1 := (d until from from + d from until from + d from from until)%Q in
-  let k2 := (d until until from + d until from until + d from until until)%Q in let k3 := d until until until in
+  let k0 := d from from from in let k1 := sum (sum (d until from from) (d from until from)) (d from from until) in
+  let k2 := sum (sum (d until until from) (d until from until)) (d from until until) in let k3 := d until until until in
   (positive k0 && positive k1 && positive k2 && positive k3) ||
   (positive (- k0) && positive (- k1) && positive (- k2) && positive (- k3)) ||
   match depth with
   | O => false
-  | S less => let middle := ((from + until) / 2)%Q in volume less at_ p b c from middle && volume less at_ p b c middle
-    until end.
+  | S fewer => volume fewer at_ p b c (doubled from) (middle from until) &&
+    volume fewer at_ p b c (middle from until) (doubled until) end.
 (* `depth` says how often parts are halved. *)
 Definition proves depth at_ pairs from until why := match why with
   | Volume => match pairs with p :: b :: c :: _ => volume depth at_ p b c from until | _ => false end
@@ -67,12 +86,12 @@ Lemma corner_real pair t a : Q2R (corner_at at_ pair t a) = Corners.exactly_at g
 Proof.
   destruct pair as [n k]. unfold corner_at, corner, Corners.exactly_at, Corners.exactly, Corners.exact_difference.
     cbn [fst snd given].
-  rewrite Q2R_plus, !Q2R_mult, !Q2R_minus. replace (Q2R 1) with 1 by (unfold Q2R; cbn; lra). reflexivity.
+  rewrite Q2R_sum, !Q2R_mult, !Q2R_less. replace (Q2R 1) with 1 by (unfold Q2R; cbn; lra). reflexivity.
 Qed.
 Definition real (v : vector) a := Q2R (v a).
 Definition product v pair t := Corners.sum3 (fun a => v a * Corners.exactly_at given pair a t).
 Lemma dot_real v pair t : Q2R (dot_ v (corner_at at_ pair t)) = product (real v) pair (Q2R t).
-Proof. unfold dot_, product, Corners.sum3, real. rewrite !Q2R_plus, !Q2R_mult, !corner_real. reflexivity. Qed.
+Proof. unfold dot_, product, Corners.sum3, real. rewrite !Q2R_sum, !Q2R_mult, !corner_real. reflexivity. Qed.
 
 (* A time between two is a part s of the way. *)
 Lemma part_of t0 t1 t : t0 <= t <= t1 -> exists s, 0 <= s <= 1 /\ t = (1 - s) * t0 + s * t1.
@@ -99,7 +118,7 @@ Definition real_det t0 t1 t2 := Corners.sum3 (fun a => Corners.exactly_at given 
 Lemma det_real t0 t1 t2 : Q2R (det (corner_at at_ p t0) (corner_at at_ b t1) (corner_at at_ c t2)) = real_det (Q2R t0)
   (Q2R t1) (Q2R t2).
 Proof.
-  unfold real_det, det, dot_, cross_, Corners.sum3, Volume.cross_at. rewrite !Q2R_plus, !Q2R_mult, !Q2R_minus,
+  unfold real_det, det, dot_, cross_, Corners.sum3, Volume.cross_at. rewrite !Q2R_sum, !Q2R_mult, !Q2R_less,
     !Q2R_mult, !corner_real. reflexivity.
 Qed.
 Lemma volume_on_the_part x y s : volume_at ((1 - s) * x + s * y) = real_det x x x * (1 - s) ^ 3 +
@@ -119,17 +138,17 @@ Lemma volume_sound depth : forall from until, volume depth at_ p b c from until 
 Proof.
   induction depth as [|depth IH]; intros from until h t between; cbn [volume] in h; apply orb_prop in h as [h|h];
     try (apply orb_prop in h as [h|h]); try discriminate.
-  1, 3: bools; rewrite ?Q2R_plus, ?det_real in *; destruct (part_of _ _ t between) as (s & s01 & ->);
+  1, 3: bools; rewrite ?Q2R_sum, ?det_real in *; destruct (part_of _ _ t between) as (s & s01 & ->);
     rewrite volume_on_the_part;
     match goal with |- ?v <> 0 => assert (0 < v); [|lra] end; apply hull; assumption.
-  1, 2: bools; rewrite ?Q2R_opp, ?Q2R_plus, ?det_real in *; destruct (part_of _ _ t between) as (s & s01 & ->);
+  1, 2: bools; rewrite ?Q2R_opp, ?Q2R_sum, ?det_real in *; destruct (part_of _ _ t between) as (s & s01 & ->);
     rewrite volume_on_the_part;
     match goal with |- ?v <> 0 => assert (0 < - v); [|lra] end;
     match goal with h0 : 0 < - ?a, h1 : 0 < - ?d, h2 : 0 < - ?e, h3 : 0 < - ?g |- _ => pose proof (hull (- a) (- d) (-
       e) (- g) s h0 h1 h2 h3 s01) end; lra.
-  apply andb_prop in h as [h h']. destruct (Rle_lt_dec t (Q2R ((from + until) / 2))).
-  - apply (IH _ _ h). lra.
-  - apply (IH _ _ h'). lra.
+  apply andb_prop in h as [h h']. destruct (Rle_lt_dec t (Q2R (middle from until))).
+  - apply (IH _ _ h). rewrite Q2R_doubled. lra.
+  - apply (IH _ _ h'). rewrite Q2R_doubled. lra.
 Qed.
 Lemma part_at x y s pair a : Corners.exactly_at given pair a ((1 - s) * x + s * y) =
   (1 - s) * Corners.exactly_at given pair a x + s * Corners.exactly_at given pair a y.
@@ -151,7 +170,7 @@ Proof.
   - left. destruct (part_of _ _ t between) as (s & s01 & ->). exists (fun a => (1 - s) * real v a + s * real w a).
     intros pair inside.
     rewrite forallb_forall in h. specialize (h pair inside). unfold turning in h. bools.
-      rewrite ?Q2R_plus, !dot_real in *.
+      rewrite ?Q2R_sum, !dot_real in *.
     match goal with A : 0 < product (real v) pair (Q2R from), B : 0 < _ + _, C : 0 < product (real w) pair (Q2R until)
       |- _ => pose proof (hull_2 _ _ _ s A B C s01) as pos end.
     eapply Rlt_le_trans; [exact pos|]. apply Req_le. unfold product, Corners.sum3. rewrite !part_at.
@@ -160,7 +179,7 @@ Proof.
   - left. destruct (part_of _ _ t between) as (s & s01 & ->). exists (fun a => (1 - s) ^ 2 * real v a + (1 - s) * s *
     real m a + s ^ 2 * real w a). intros pair inside.
     rewrite forallb_forall in h. specialize (h pair inside). unfold curving in h. bools.
-      rewrite ?Q2R_plus, !dot_real in *.
+      rewrite ?Q2R_sum, !dot_real in *.
     match goal with A : 0 < product (real v) pair (Q2R from), B : 0 < product (real v) _ _ + _,
       C : 0 < product (real m) _ _ + _, D : 0 < product (real w) pair (Q2R until) |- _ =>
       pose proof (hull _ _ _ _ s A B C D s01) as pos end.
