@@ -24,7 +24,9 @@ pub(crate) fn text() -> String {
     let mut text = String::from(HEAD);
     let last = 1 << 29;
     let fractions = [0, 1, last - 1, last, last + 1, 1 << 51, (1 << 52) - last, (1 << 52) - 1];
-    let doubles = DOUBLE_FIELDS.into_iter().flat_map(|field| fractions.map(|fraction| field << 52 | fraction));
+    let doubles = DOUBLE_FIELDS
+        .into_iter()
+        .flat_map(|field| fractions.map(|fraction| field << 52 | fraction));
     let rows = doubles.chain([f64::INFINITY, f64::NAN].map(f64::to_bits)).map(|bits| {
         let value = f64::from_bits(bits);
         let [down, up] = [rounded_down::<f32>(value), rounded_up(value)].map(f32::to_bits);
@@ -34,7 +36,9 @@ pub(crate) fn text() -> String {
     list("narrowed", rows, &mut text);
 
     let fractions = [0, 1, 2, 3, 1 << 22, (1 << 23) - 1];
-    let singles = SINGLE_FIELDS.into_iter().flat_map(|field| fractions.map(|fraction| field << 23 | fraction));
+    let singles = SINGLE_FIELDS
+        .into_iter()
+        .flat_map(|field| fractions.map(|fraction| field << 23 | fraction));
     let rows = singles.chain([f32::INFINITY, f32::NAN].map(f32::to_bits)).map(|bits| {
         let length = f32::from_bits(bits);
         let Limits { tolerance, separation } = widened(&Limits {
