@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Checks the npm package and the page: builds them, runs the package in Node, compares its bits and its speed with native ones, checks the
-# declarations, packs, bundles with Vite, and drives the page in Chromium. SELVEDGE_TIMES=no leaves out bounds of time, for a busy machine.
+# declarations, packs, bundles with Vite, and drives the page in Chromium, and in Firefox where firefox-esr and xvfb-run are installed. SELVEDGE_TIMES=no leaves out bounds of time, for a busy machine.
 # SELVEDGE_COMMAND names a built command, whose report the page then opens.
 #
 # Installs what is missing and says so: Debian's chromium, and its rustc-web, cargo-web and rust-web-src unless rustup has the target; Node's
@@ -61,4 +61,10 @@ fi
 
 say "the page"
 node --test --test-timeout=240000 tests/page.test.mjs
+if command -v firefox-esr >/dev/null && command -v xvfb-run >/dev/null; then
+    say "the page in Firefox"
+    SELVEDGE_BROWSER=firefox xvfb-run -a node --test --test-timeout=240000 tests/page.test.mjs
+else
+    say "skipped: the page in Firefox (Debian: apt install firefox-esr xvfb)"
+fi
 say "the web: everything passed"

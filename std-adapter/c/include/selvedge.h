@@ -202,6 +202,14 @@ enum selvedge_status
    * The pairs and contacts of a call take more memory than the limit allows.
    */
   SELVEDGE_STATUS_TOO_MUCH_MEMORY = 36,
+  /**
+   * The file was freed or never read.
+   */
+  SELVEDGE_STATUS_NO_SUCH_FILE = 37,
+  /**
+   * A file cannot be read as a mesh. The message names the place.
+   */
+  SELVEDGE_STATUS_BAD_FILE = 38,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L

@@ -22,11 +22,54 @@
 #define SELVEDGE_CHECKPOINT_STEPS 200
 
 /**
+ * A mesh file that was read. Its pointer is a handle: a number that is looked up and never followed.
+ */
+typedef struct selvedge_file selvedge_file;
+
+/**
  * A simulation of a scene. Its pointer is a handle: a number that is looked up and never followed.
  *
  * One thread at a time may use a simulation, as for a detector.
  */
 typedef struct selvedge_simulation selvedge_simulation;
+
+/**
+ * The lists of a mesh. An empty list is at NULL.
+ */
+typedef struct selvedge_mesh_lists {
+  /**
+   * x y z of each vertex.
+   */
+  const double *positions;
+  /**
+   * The number of vertices.
+   */
+  size_t vertex_count;
+  /**
+   * Three vertices of each triangle.
+   */
+  const uint32_t *triangles;
+  /**
+   * The number of triangles.
+   */
+  size_t triangle_count;
+  /**
+   * Two vertices of each edge that belongs to no triangle.
+   */
+  const uint32_t *loose_edges;
+  /**
+   * The number of loose edges.
+   */
+  size_t loose_edge_count;
+  /**
+   * The vertices that are particles.
+   */
+  const uint32_t *points;
+  /**
+   * The number of particles.
+   */
+  size_t point_count;
+} selvedge_mesh_lists;
 
 /**
  * The steps of a frame.
@@ -168,6 +211,38 @@ typedef struct selvedge_near_pair {
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
+
+/**
+ * Reads a mesh file: OBJ, PLY, STL or OFF, by its extension. Vertices have the file's numbers, positions every bit that the file holds, in the
+ * file's unit. Polygons are split by their shape. SELVEDGE_STATUS_BAD_FILE means that it cannot be read; the message names the place.
+ *
+ * `*file` receives the handle; free it with selvedge_file_free.
+ *
+ * The caller promises:
+ * `path` points to a text that a zero ends, `file` to a pointer.
+ */
+selvedge_status selvedge_file_new(const char *path,
+                                  struct selvedge_file **file);
+
+/**
+ * Returns the mesh of a file, and the report about it. `*missing` receives a text that names the parts which may have an area and were not
+ * read, or NULL. With such parts, contacts of this mesh are not all contacts of the file. `*notes` receives one line of counts, and of what
+ * was split or left out.
+ *
+ * Lists and texts belong to the file. They stay valid until it is freed.
+ *
+ * The caller promises:
+ * `mesh` points to one entry, `missing` and `notes` to a pointer each.
+ */
+selvedge_status selvedge_file_mesh(const struct selvedge_file *file,
+                                   struct selvedge_mesh_lists *mesh,
+                                   const char **missing,
+                                   const char **notes);
+
+/**
+ * Frees a file and its lists. NULL is allowed.
+ */
+selvedge_status selvedge_file_free(struct selvedge_file *file);
 
 /**
  * Creates a simulation from the text of a scene (TOML, see std-adapter/cloth/scenes/README.md). It uses `threads` threads, 0 for one
@@ -318,6 +393,21 @@ selvedge_status selvedge_simulation_loose_edges(const struct selvedge_simulation
 selvedge_status selvedge_simulation_near_pairs(struct selvedge_simulation *simulation,
                                                const struct selvedge_near_pair **pairs,
                                                size_t *count);
+
+/**
+ * Returns the state as one mesh in which cloths from files have the vertices and faces of their files: each cloth, then the bodies. Vertices
+ * that `weld` merged are apart again, those that the cloth does not have stay where the file puts them, and copies that tears made follow those
+ * of the file. `*number_of` receives a list with the number in this mesh of each of the simulation's vertices.
+ *
+ * The lists belong to the simulation. They stay valid until the next call of this function, or until the simulation is freed.
+ *
+ * The caller promises:
+ * `mesh` points to one entry, `number_of` to a pointer, `count` to a number.
+ */
+selvedge_status selvedge_simulation_mesh_in_files(struct selvedge_simulation *simulation,
+                                                  struct selvedge_mesh_lists *mesh,
+                                                  const uint32_t **number_of,
+                                                  size_t *count);
 
 /**
  * Moves a driven body to a placement in the next step: its mesh in the scene is rotated and then translated. It rotates the short way

@@ -8,6 +8,48 @@
 
 namespace selvedge {
 
+/// A mesh: x y z of each vertex, three vertices of each triangle, two of each loose edge, and the vertices that are particles.
+struct mesh_lists {
+  explicit mesh_lists(const selvedge_mesh_lists &lists)
+      : positions(lists.positions, lists.positions + 3 * lists.vertex_count),
+        triangles(lists.triangles, lists.triangles + 3 * lists.triangle_count),
+        loose_edges(lists.loose_edges, lists.loose_edges + 2 * lists.loose_edge_count),
+        points(lists.points, lists.points + lists.point_count) {}
+
+  std::vector<double> positions;
+  std::vector<std::uint32_t> triangles, loose_edges, points;
+};
+
+namespace detail {
+
+/// Rejects a text with a zero inside, since C would end it there.
+inline const char *text(const std::string &text) {
+  if (text.find('\0') != std::string::npos) throw error(SELVEDGE_STATUS_BAD_TEXT, "a text has a zero before its end");
+  return text.c_str();
+}
+
+}  // namespace detail
+
+/// A mesh that was read from a file, with the file's numbers and unit.
+struct mesh_file {
+  /// Reads OBJ, PLY, STL or OFF, by the extension. It throws `error` with SELVEDGE_STATUS_BAD_FILE and a message that names the place.
+  static mesh_file read(const std::string &path) {
+    selvedge_file *made = nullptr;
+    check(selvedge_file_new(detail::text(path), &made));
+    const std::unique_ptr<selvedge_file, selvedge_status (*)(selvedge_file *)> owner(made, selvedge_file_free);
+    selvedge_mesh_lists lists{};
+    const char *missing = nullptr, *notes = nullptr;
+    check(selvedge_file_mesh(made, &lists, &missing, &notes));
+    return {mesh_lists(lists), missing ? std::optional<std::string>(missing) : std::nullopt, notes};
+  }
+
+  mesh_lists mesh;
+  /// Parts that may have an area and were not read. With such parts, contacts of this mesh are not all contacts of the file.
+  std::optional<std::string> missing;
+  /// One line of counts, and of what was split or left out.
+  std::string notes;
+};
+
 /// A simulation of cloth whose states never intersect. std-adapter/cloth/scenes/README.md describes scenes. All numbers are in SI
 /// units.
 ///
@@ -72,6 +114,12 @@ class simulation {
   std::vector<std::uint32_t> loose_edges() const {
     return copied<std::uint32_t>(selvedge_simulation_loose_edges, sizes().loose_edge_count, 2);
   }
+
+  /// Returns the state as one mesh in which cloths from files have the vertices and faces of their files.
+  mesh_lists mesh_in_files() { return in_files().first; }
+
+  /// Returns the number in that mesh of each of the simulation's vertices.
+  std::vector<std::uint32_t> numbers_in_files() { return in_files().second; }
 
   /// Finds the body of this name.
   selvedge_part body(const std::string &name) const {
@@ -144,10 +192,14 @@ class simulation {
 
   explicit simulation(selvedge_simulation *made) noexcept : handle_(made) {}
 
-  /// Rejects a text with a zero inside, since C would end it there.
-  static const char *text(const std::string &text) {
-    if (text.find('\0') != std::string::npos) throw error(SELVEDGE_STATUS_BAD_TEXT, "a text has a zero before its end");
-    return text.c_str();
+  static const char *text(const std::string &text) { return detail::text(text); }
+
+  std::pair<mesh_lists, std::vector<std::uint32_t>> in_files() {
+    selvedge_mesh_lists lists{};
+    const std::uint32_t *first = nullptr;
+    std::size_t count = 0;
+    check(selvedge_simulation_mesh_in_files(get(), &lists, &first, &count));
+    return {mesh_lists(lists), {first, first + count}};
   }
 
   template <class Number>

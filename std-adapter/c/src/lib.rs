@@ -4,7 +4,8 @@
 //! status      result codes, their texts, the last error of each thread
 //! guard       catches panics at the border
 //! input       checks pointers, counts and enumeration values; most `unsafe` code is here
-//! handles     looks up detectors, worlds and simulations by number
+//! files       reads mesh files, with the feature `cloth`
+//! handles     looks up detectors, worlds, simulations and files by number
 //! detector    creates and frees detectors
 //! settings    how a detector searches
 //! questions   what C can ask a detector
@@ -27,6 +28,8 @@ compile_error!("build the C interface with panic = \"unwind\": otherwise a bug i
 
 mod answers;
 mod detector;
+#[cfg(feature = "cloth")]
+mod files;
 mod guard;
 mod handles;
 mod input;

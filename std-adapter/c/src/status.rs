@@ -83,10 +83,14 @@ pub enum Status {
     Tangled = 35,
     /// The pairs and contacts of a call take more memory than the limit allows.
     TooMuchMemory = 36,
+    /// The file was freed or never read.
+    NoSuchFile = 37,
+    /// A file cannot be read as a mesh. The message names the place.
+    BadFile = 38,
 }
 
 impl Status {
-    const ALL: [Self; 37] = [
+    const ALL: [Self; 39] = [
         Self::Ok,
         Self::NullPointer,
         Self::MisalignedPointer,
@@ -124,6 +128,8 @@ impl Status {
         Self::BadText,
         Self::Tangled,
         Self::TooMuchMemory,
+        Self::NoSuchFile,
+        Self::BadFile,
     ];
 
     const fn text(self) -> &'static CStr {
@@ -165,6 +171,8 @@ impl Status {
             Self::BadText => c"not UTF-8",
             Self::Tangled => c"tangled at the start",
             Self::TooMuchMemory => c"too much memory",
+            Self::NoSuchFile => c"no such file",
+            Self::BadFile => c"bad mesh file",
         }
     }
 }

@@ -60,7 +60,7 @@ pub use simulate::{
     Blocked, CHECKPOINT_STEPS, CheckpointError, DriveError, EdgeStretch, EffectTime, FASTEST, FrameError, FrameSteps, SetupError,
     Simulation, Tangled, Untangled, UntanglingEnd, UntanglingProgress,
 };
-pub use world::{Animation, Body, BodyMotion, Cloth, Keyframe, KeyframeMotion, Material, Placement, sleeve};
+pub use world::{Animation, Body, BodyMotion, Cloth, Keyframe, KeyframeMotion, Material, MeshInFiles, Placement, sleeve};
 
 /// The scene of the paper's sleeve on a bending arm, as text for [`Scene::parse`].
 pub const ARM_SLEEVE: &str = include_str!("../scenes/arm-sleeve.toml");

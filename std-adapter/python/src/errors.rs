@@ -59,7 +59,8 @@ pub(crate) fn of_setup(py: Python<'_>, error: &SetupError) -> PyErr {
     match error {
         SetupError::Threads(error) => of_threads(error),
         SetupError::Tangled(tangled) => {
-            let shown = show_crossings(py, &tangled.crossings).and_then(|crossings| {
+            let crossings: Vec<_> = tangled.crossings_in_files().collect();
+            let shown = show_crossings(py, &crossings).and_then(|crossings| {
                 let untangled = show_untangled(py, tangled.untangled.as_ref())?;
                 Ok((tangled.to_string(), crossings.unbind(), untangled.map(Bound::unbind)))
             });

@@ -1,10 +1,10 @@
 //! The class `Simulation`.
 
-use crate::answers::{rows, show_crossings, show_near_pairs, show_released, show_torn_edges, show_untangled};
+use crate::answers::{class, rows, show_crossings, show_near_pairs, show_released, show_torn_edges, show_untangled};
 use crate::call::{Length, interruptible};
 use crate::driven::{Body, copied};
 use crate::errors::{self, BlockedError, BrokenError, CheckpointError, ForkedError, InputError};
-use numpy::{PyArray2, PyArrayMethods};
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyRuntimeWarning;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyBytes, PyDict, PySlice, PyType};
@@ -332,6 +332,16 @@ impl Simulation {
     #[getter]
     fn loose_edges<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         rows(py, self.simulation()?.loose_edges().to_vec())
+    }
+
+    fn mesh_in_files<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let now = self.simulation()?.mesh_in_files();
+        class(py, "MeshInFiles")?.call1((
+            rows(py, now.mesh.positions.iter().map(DVec3::to_array).collect())?,
+            rows(py, now.mesh.triangles)?,
+            rows(py, now.loose_edges)?,
+            PyArray1::from_vec(py, now.number_of),
+        ))
     }
 
     #[getter]

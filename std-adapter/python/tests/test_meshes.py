@@ -37,6 +37,18 @@ def test_vertices_in_one_place_are_merged_with_the_way_back():
         selvedge.welded(positions, faces, -1)
 
 
+def test_a_welded_cloth_has_its_files_numbers_back(tmp_path):
+    (tmp_path / "seam.obj").write_text(SEAM.replace("l 2 6\n", ""))
+    cloth = {"shape": "file", "file": "seam.obj", "weld": 0, "density": 0.1}
+    scene = {"time_step": 0.01, "duration": 1, "cloth": cloth, "effects": {"gravity": {}}}
+    simulation = selvedge.Simulation.from_dict(scene, folder=tmp_path)
+    simulation.step()
+    now = simulation.mesh_in_files()
+    assert now.faces.tolist() == [[0, 1, 2], [3, 4, 5]] and now.edges.shape == (0, 2)
+    assert now.number_of.tolist() == [0, 1, 2, 5] and (now.positions[now.number_of] == simulation.positions).all()
+    assert (now.positions[[3, 4]] == now.positions[[0, 2]]).all() and now.positions[0, 2] < 0
+
+
 def nonsense():
     """Each file's name, its bytes, and the message about it, which follows the name."""
     table = Path(__file__).parents[2] / "files" / "tests" / "nonsense" / "table.txt"

@@ -28,6 +28,7 @@ export async function startCloth() {
   let before = null;
   let owed = 0; // Seconds to simulate.
   let frames = [];
+  let spent = [0, 0]; // Milliseconds of a frame in the worker and on this thread, the mean of about ten frames.
   let run = 0;
 
   for (const { file, name } of SCENES) find("scene").append(new Option(name, file));
@@ -73,17 +74,22 @@ export async function startCloth() {
   }
 
   function show(state) {
+    const begin = performance.now();
     last = state;
     view.show(state.positions);
-    const ratios = strain.measure(state.positions);
+    const { ratios, largest } = strain.measure(state.positions);
     const colours = find("colours").value;
     view.tint(colours === "strain" ? strain.tints(ratios) : colours === "contacts" ? contactTints(scene, state.contacts) : null);
     find("time").textContent = `${state.time.toFixed(3)} s`;
     find("certified").textContent = state.hasContact ? `${state.certified.toLocaleString("en")} of ${state.stepsDone.toLocaleString("en")}` : "no contact effect";
-    find("stretch").textContent = `${Math.max(...ratios).toFixed(3)}× rest`;
+    find("stretch").textContent = `${largest.toFixed(3)}× rest`;
     if (state.done) {
       find("step-time").textContent = `${(state.milliseconds / state.done).toFixed(2)} ms`;
       costs.add(state);
+      // The draw is the last frame's.
+      const now = [state.milliseconds, performance.now() - begin + view.drawing];
+      spent = spent.map((mean, i) => mean + (now[i] - mean) / Math.min(10, state.stepsDone / state.done));
+      find("frame-time").textContent = `${spent[0].toFixed(1)} + ${spent[1].toFixed(1)} ms`;
     }
   }
 
@@ -129,6 +135,7 @@ export async function startCloth() {
     playing = wanted && Boolean(scene || report);
     find("play").textContent = playing ? "Pause" : "Play";
     before = null;
+    find("frame-rate").textContent = "–";
     if (playing) requestAnimationFrame(tick);
   }
 

@@ -34,9 +34,15 @@ export class Strain {
     return lengths;
   }
 
-  /** Returns each edge's length relative to rest. */
+  /** Returns each edge's length relative to rest, and the largest. */
   measure(positions) {
-    return this.#lengths(positions).map((length, i) => length / this.#rest[i]);
+    const ratios = this.#lengths(positions);
+    let largest = 0;
+    for (let i = 0; i < ratios.length; i++) {
+      ratios[i] /= this.#rest[i];
+      largest = Math.max(largest, ratios[i]);
+    }
+    return { ratios, largest };
   }
 
   /** Returns red where an edge is 10 % longer than at rest, blue where it is 10 % shorter. */

@@ -11,8 +11,14 @@ export function createView(canvas) {
   let current = null;
   let isStale = false;
   let areEdgesShown = false;
+  let drawing = 0; // Milliseconds of this thread for the last draw.
   const refresh = () => {
-    if (!isStale) requestAnimationFrame(() => { isStale = false; viewer?.draw(); });
+    if (!isStale) requestAnimationFrame(() => {
+      isStale = false;
+      const begin = performance.now();
+      viewer?.draw();
+      drawing = performance.now() - begin;
+    });
     isStale = true;
   };
   const steered = { turn: 0, zoom: 0, shift: 0 };
@@ -40,6 +46,7 @@ export function createView(canvas) {
 
   return {
     get viewer() { return viewer; },
+    get drawing() { return drawing; },
     open,
     /** Shows a mesh whose positions change. */
     openMesh({ triangles, positions, up, clothTriangleCount, room = 0.15 }) {

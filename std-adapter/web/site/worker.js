@@ -76,7 +76,7 @@ function pull(seconds) {
 function state() {
   const { effectSeconds, contactSeconds, time, stepsDone, isCertified, blockedSteps, contactCounts } = simulation;
   return {
-    positions: Float32Array.from(simulation.positions), effectSeconds, contactSeconds: contactSeconds ?? {}, time, stepsDone, isCertified,
+    positions: new Float32Array(simulation.positions), effectSeconds, contactSeconds: contactSeconds ?? {}, time, stepsDone, isCertified,
     certified, blockedSteps, hasContact: contactCounts !== undefined,
   };
 }

@@ -1,14 +1,14 @@
 //! The class `Detector`.
 
 use crate::values::{
-    array, exception, floats, get, input_error, kind_number, object, rows_of, set, take_positions, view, whole_numbers,
+    Exception, Frame, Positions, array, floats, get, kind_number, object, rows_of, set, take_positions, view, whole_numbers,
 };
 use js_sys::{Float64Array, Uint8Array, Uint32Array};
 use selvedge::{
-    CandidateBoxes, CollisionDetector, CollisionFilter, Contact, ContactGeometry, Criterion, Groups, Intersection, StepError,
-    Topology,
+    CandidateBoxes, CollisionDetector, CollisionFilter, Contact, ContactGeometry, Criterion, Groups, Intersection, Topology,
 };
 use selvedge_core::elementary::Limits;
+use selvedge_core::glam::DVec3;
 use wasm_bindgen::{JsCast, JsValue, prelude::wasm_bindgen};
 
 /// Finds the contacts of a moving triangle mesh, one step after another, and never misses one.
@@ -24,15 +24,6 @@ pub struct Detector {
     geometries: Vec<ContactGeometry>,
 }
 
-fn step_error(error: &StepError) -> JsValue {
-    let name = match error {
-        StepError::TooManyPairs { .. } => "TooManyPairsError",
-        StepError::TooMuchMemory { .. } => "TooMuchMemoryError",
-        _ => "InputError",
-    };
-    exception(name, &error.to_string())
-}
-
 #[wasm_bindgen]
 impl Detector {
     /// Makes a detector for a mesh: three vertices for each triangle, two for each loose edge (rope, hair), one for each loose point.
@@ -44,12 +35,12 @@ impl Detector {
         triangles: &[u32],
         #[wasm_bindgen(js_name = looseEdges)] loose_edges: Option<Vec<u32>>,
         #[wasm_bindgen(js_name = loosePoints)] loose_points: Option<Vec<u32>>,
-    ) -> Result<Detector, JsValue> {
+    ) -> Result<Detector, Exception> {
         let edges = rows_of(&loose_edges.unwrap_or_default(), "looseEdges")?;
         let triangles = rows_of(triangles, "triangles")?;
         let points = loose_points.unwrap_or_default();
         let topology = Topology::with_loose_features(vertex_count as usize, triangles, &edges, &points);
-        let topology = topology.map_err(|error| input_error(&error))?;
+        let topology = topology.map_err(|error| Exception::input(&error))?;
         Ok(Self {
             start: vec![[0.0; 3]; topology.vertex_count()],
             end: vec![[0.0; 3]; topology.vertex_count()],
@@ -75,42 +66,22 @@ impl Detector {
     ///
     /// Throws an `InputError` if a frame has the wrong length or a coordinate is NaN or infinite.
     #[wasm_bindgen(unchecked_return_type = "Contacts")]
-    pub fn contacts(
-        &mut self,
-        #[wasm_bindgen(unchecked_param_type = "Positions | undefined")] start: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "Positions | undefined")] end: &JsValue,
-        geometry: Option<bool>,
-    ) -> Result<JsValue, JsValue> {
+    pub fn contacts(&mut self, start: &Frame, end: &Frame, geometry: Option<bool>) -> Result<JsValue, Exception> {
         self.take(start, end)?;
-        let Self {
-            detector,
-            start,
-            end,
-            contacts,
-            geometries,
-        } = self;
-        detector.contacts(start, end, contacts).map_err(|error| step_error(&error))?;
-        geometries.clear();
+        self.detector.contacts(&self.start, &self.end, &mut self.contacts)?;
+        self.geometries.clear();
         if geometry == Some(true) {
-            detector
-                .contact_geometries(start, end, contacts, geometries)
-                .map_err(|error| step_error(&error))?;
+            self.detector
+                .contact_geometries(&self.start, &self.end, &self.contacts, &mut self.geometries)?;
         }
         Ok(self.columns(geometry == Some(true)))
     }
 
     /// Finds the earliest contact. The step is certainly free before its time, and throughout if the result is undefined.
     #[wasm_bindgen(unchecked_return_type = "Contact | undefined")]
-    pub fn earliest(
-        &mut self,
-        #[wasm_bindgen(unchecked_param_type = "Positions | undefined")] start: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "Positions | undefined")] end: &JsValue,
-    ) -> Result<JsValue, JsValue> {
+    pub fn earliest(&mut self, start: &Frame, end: &Frame) -> Result<JsValue, Exception> {
         self.take(start, end)?;
-        let earliest = self
-            .detector
-            .earliest(&self.start, &self.end)
-            .map_err(|error| step_error(&error))?;
+        let earliest = self.detector.earliest(&self.start, &self.end)?;
         Ok(earliest.map_or(JsValue::UNDEFINED, |contact| {
             let vertices = self.detector.topology().vertices_of(contact.kind, contact.pair);
             let properties = [
@@ -125,80 +96,47 @@ impl Detector {
 
     /// Decides whether the step is certainly free of contact. The search ends at the first contact.
     #[wasm_bindgen(js_name = isFree)]
-    pub fn is_free(
-        &mut self,
-        #[wasm_bindgen(unchecked_param_type = "Positions | undefined")] start: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "Positions | undefined")] end: &JsValue,
-    ) -> Result<bool, JsValue> {
+    pub fn is_free(&mut self, start: &Frame, end: &Frame) -> Result<bool, Exception> {
         self.take(start, end)?;
-        self.detector
-            .is_free(&self.start, &self.end)
-            .map_err(|error| step_error(&error))
+        Ok(self.detector.is_free(&self.start, &self.end)?)
     }
 
     /// Finds the pairs that bounding boxes keep: two numbers each, vertices and faces, and edges and edges.
     #[wasm_bindgen(unchecked_return_type = "{ vertexFace: Uint32Array; edgeEdge: Uint32Array }")]
-    pub fn candidates(
-        &mut self,
-        #[wasm_bindgen(unchecked_param_type = "Positions | undefined")] start: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "Positions | undefined")] end: &JsValue,
-        swept: Option<bool>,
-    ) -> Result<JsValue, JsValue> {
+    pub fn candidates(&mut self, start: &Frame, end: &Frame, swept: Option<bool>) -> Result<JsValue, Exception> {
         self.take(start, end)?;
-        let boxes = if swept == Some(true) {
-            CandidateBoxes::Swept
-        } else {
-            CandidateBoxes::Moving
+        let boxes = match swept {
+            Some(true) => CandidateBoxes::Swept,
+            _ => CandidateBoxes::Moving,
         };
         let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
-        let found = self
-            .detector
-            .candidates(&self.start, &self.end, boxes, &mut vertex_face, &mut edge_edge);
-        found.map_err(|error| step_error(&error))?;
+        self.detector
+            .candidates(&self.start, &self.end, boxes, &mut vertex_face, &mut edge_edge)?;
         let pairs = |pairs: &[[u32; 2]]| whole_numbers(pairs.as_flattened());
         Ok(object([("vertexFace", pairs(&vertex_face)), ("edgeEdge", pairs(&edge_edge))]).into())
     }
 
     /// Finds all pairs of a mesh at rest within a distance, with their closest points. None is missed.
     #[wasm_bindgen(unchecked_return_type = "Contacts")]
-    pub fn near(
-        &mut self,
-        #[wasm_bindgen(unchecked_param_type = "Positions")] positions: &JsValue,
-        distance: f64,
-    ) -> Result<JsValue, JsValue> {
+    pub fn near(&mut self, positions: &Positions, distance: f64) -> Result<JsValue, Exception> {
         take_positions(positions, "positions", &mut self.start)?;
-        let Self {
-            detector,
-            start,
-            contacts,
-            geometries,
-            ..
-        } = self;
-        detector
-            .near(start, distance, geometries)
-            .map_err(|error| step_error(&error))?;
-        contacts.clear();
-        contacts.extend(geometries.iter().map(|near| Contact {
+        self.detector.near(&self.start, distance, &mut self.geometries)?;
+        let contact = |near: &ContactGeometry| Contact {
             kind: near.kind,
             pair: near.pair,
             time: 0.0,
-        }));
+        };
+        self.contacts.clear();
+        self.contacts.extend(self.geometries.iter().map(contact));
         Ok(self.columns(true))
     }
 
     /// Moves each vertex as far towards `wanted` as its neighbourhood allows, so that the step is certainly free of contact.
     #[wasm_bindgen(unchecked_return_type = "Truncation")]
-    pub fn truncate(
-        &mut self,
-        #[wasm_bindgen(unchecked_param_type = "Positions | undefined")] start: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "Positions | undefined")] wanted: &JsValue,
-    ) -> Result<JsValue, JsValue> {
+    pub fn truncate(&mut self, start: &Frame, wanted: &Frame) -> Result<JsValue, Exception> {
         self.take(start, wanted)?;
         let mut end = Vec::new();
-        let truncation = self
-            .detector
-            .truncate(&self.start, &self.end, &mut end)
-            .map_err(|error| step_error(&error))?;
+        let truncation = self.detector.truncate(&self.start, &self.end, &mut end)?;
         let properties = [
             ("end", floats(end.as_flattened())),
             ("heldBack", truncation.held_back.into()),
@@ -209,15 +147,10 @@ impl Detector {
 
     /// Finds all intersections of a mesh at rest, exactly, touching included.
     #[wasm_bindgen(unchecked_return_type = "Intersections")]
-    pub fn intersections(
-        &mut self,
-        #[wasm_bindgen(unchecked_param_type = "Positions")] positions: &JsValue,
-    ) -> Result<JsValue, JsValue> {
+    pub fn intersections(&mut self, positions: &Positions) -> Result<JsValue, Exception> {
         take_positions(positions, "positions", &mut self.start)?;
         let mut found = Vec::new();
-        self.detector
-            .intersections(&self.start, &mut found)
-            .map_err(|error| step_error(&error))?;
+        self.detector.intersections(&self.start, &mut found)?;
         let row = |intersection: &Intersection| match *intersection {
             Intersection::EdgeFace { edge, face } => (0_u8, [edge, face]),
             Intersection::VertexFace { vertex, face } => (1, [vertex, face]),
@@ -234,38 +167,31 @@ impl Detector {
 
     /// Decides whether there is any intersection. The search ends at the first.
     #[wasm_bindgen(js_name = hasIntersections)]
-    pub fn has_intersections(
-        &mut self,
-        #[wasm_bindgen(unchecked_param_type = "Positions")] positions: &JsValue,
-    ) -> Result<bool, JsValue> {
+    pub fn has_intersections(&mut self, positions: &Positions) -> Result<bool, Exception> {
         take_positions(positions, "positions", &mut self.start)?;
-        self.detector
-            .has_intersections(&self.start)
-            .map_err(|error| step_error(&error))
+        Ok(self.detector.has_intersections(&self.start)?)
     }
 
     /// Sets what counts as a contact.
     #[wasm_bindgen(js_name = setLimits)]
-    pub fn set_limits(&mut self, #[wasm_bindgen(unchecked_param_type = "Limits")] limits: &JsValue) -> Result<(), JsValue> {
+    pub fn set_limits(&mut self, #[wasm_bindgen(unchecked_param_type = "Limits")] limits: &JsValue) -> Result<(), Exception> {
         let number = |name| get(limits, name).and_then(|value| value.as_f64());
         let tolerance = number("tolerance").unwrap_or(Limits::<f64>::default().tolerance);
         let separation = number("separation").unwrap_or(0.0);
         let touching = get(limits, "touching").is_some_and(|value| value.is_truthy());
         let criterion = match (touching, separation == 0.0) {
             (true, true) => Criterion::Touching { tolerance },
-            (true, false) => return Err(input_error(&"with touching there is no separation")),
+            (true, false) => return Err(Exception::input(&"with touching there is no separation")),
             (false, _) => Criterion::Within(Limits { tolerance, separation }),
         };
-        self.detector.set_criterion(criterion).map_err(|error| step_error(&error))
+        Ok(self.detector.set_criterion(criterion)?)
     }
 
     /// Names the moving vertices by a number that is not zero. Without an argument all vertices move.
     #[wasm_bindgen(js_name = setMoving)]
-    pub fn set_moving(&mut self, moving: Option<Vec<u8>>) -> Result<(), JsValue> {
+    pub fn set_moving(&mut self, moving: Option<Vec<u8>>) -> Result<(), Exception> {
         let moving: Option<Vec<bool>> = moving.map(|moving| moving.iter().map(|&moves| moves != 0).collect());
-        self.detector
-            .set_moving(moving.as_deref())
-            .map_err(|error| step_error(&error))
+        Ok(self.detector.set_moving(moving.as_deref())?)
     }
 
     /// Sets which pairs may collide; it replaces the previous filter.
@@ -273,24 +199,18 @@ impl Detector {
     pub fn set_collision_filter(
         &mut self,
         #[wasm_bindgen(unchecked_param_type = "CollisionFilter")] filter: &JsValue,
-    ) -> Result<(), JsValue> {
+    ) -> Result<(), Exception> {
         let list = |name: &str| match get(filter, name) {
             None => Ok(None),
-            Some(list) => list
-                .dyn_ref()
-                .map(Uint32Array::to_vec)
-                .map(Some)
-                .ok_or_else(|| input_error(&format!("{name} must be a Uint32Array"))),
+            Some(list) => {
+                let list = list.dyn_ref().map(Uint32Array::to_vec).map(Some);
+                list.ok_or_else(|| Exception::input(&format!("{name} must be a Uint32Array")))
+            }
         };
         let mut made = CollisionFilter::new();
         if let Some(groups) = list("groups")? {
-            let groups = rows_of::<2>(&groups, "groups")?;
-            made = made.with_groups(
-                groups
-                    .into_iter()
-                    .map(|[memberships, filter]| Groups::new(memberships, filter))
-                    .collect(),
-            );
+            let rows = rows_of::<2>(&groups, "groups")?.into_iter();
+            made = made.with_groups(rows.map(|[memberships, filter]| Groups::new(memberships, filter)).collect());
         }
         if let Some(patches) = list("patches")? {
             made = made.with_patches(patches);
@@ -298,7 +218,7 @@ impl Detector {
         if let Some(excluded) = list("excluded")? {
             made = made.without_vertex_pairs(rows_of::<2>(&excluded, "excluded")?);
         }
-        self.detector.set_collision_filter(made).map_err(|error| step_error(&error))
+        Ok(self.detector.set_collision_filter(made)?)
     }
 
     /// Sets whether each step starts where the last one ended. Such steps are faster; the contacts are the same.
@@ -350,7 +270,7 @@ impl Detector {
         self.detector.topology().components()
     }
 
-    fn take(&mut self, start: &JsValue, end: &JsValue) -> Result<(), JsValue> {
+    fn take(&mut self, start: &JsValue, end: &JsValue) -> Result<(), Exception> {
         if !start.is_undefined() {
             take_positions(start, "start", &mut self.start)?;
         }
@@ -379,28 +299,14 @@ impl Detector {
         ]);
         if with_geometry {
             let all = || self.geometries.iter().map(|found| &found.geometry);
-            let points: Vec<f64> = all()
-                .flat_map(|found| found.points)
-                .flat_map(|point| point.to_array())
-                .collect();
-            let normal = all().flat_map(|found| found.normal.map_or([f64::NAN; 3], |normal| normal.to_array()));
-            set(&columns, "points", &floats(&points));
-            set(
-                &columns,
-                "weights",
-                &floats(&all().flat_map(|found| found.weights).collect::<Vec<_>>()),
-            );
-            set(&columns, "normal", &floats(&normal.collect::<Vec<_>>()));
-            set(
-                &columns,
-                "distance",
-                &floats(&all().flat_map(|found| found.distance).collect::<Vec<_>>()),
-            );
-            set(
-                &columns,
-                "speed",
-                &floats(&all().map(|found| found.speed).collect::<Vec<_>>()),
-            );
+            let column = |name, values: Vec<f64>| set(&columns, name, &floats(&values));
+            let points = all().flat_map(|found| found.points);
+            column("points", points.flat_map(|point| point.to_array()).collect());
+            column("weights", all().flat_map(|found| found.weights).collect());
+            let normal = |normal: Option<DVec3>| normal.map_or([f64::NAN; 3], |normal| normal.to_array());
+            column("normal", all().flat_map(|found| normal(found.normal)).collect());
+            column("distance", all().flat_map(|found| found.distance).collect());
+            column("speed", all().map(|found| found.speed).collect());
         }
         columns.into()
     }

@@ -1,7 +1,7 @@
 //! The page's contents besides the library: published methods and hard cases.
 
 use crate::pair::pair_of;
-use crate::values::{floats, input_error, object, rows_of, set, take_positions, whole_numbers};
+use crate::values::{Exception, floats, object, rows_of, set, take_positions, whole_numbers};
 use js_sys::Array;
 use selvedge::{CandidateBoxes, CollisionDetector, PairKind, Topology};
 use selvedge_core::PrimitivePair;
@@ -15,10 +15,7 @@ use std::sync::Arc;
 use wasm_bindgen::{JsValue, prelude::wasm_bindgen};
 
 #[wasm_bindgen(typescript_custom_section)]
-const TYPES: &str = r#"
-export interface HardCase { name: string; placement: string; kind: PairKind; start: Float64Array; end: Float64Array; exact: string; time: number | undefined; }
-export interface MethodStage { name: string; pairs: number; milliseconds: number; vertices: Uint32Array; }
-"#;
+const TYPES: &str = include_str!("page.d.ts");
 
 fn coordinates(pair: &PrimitivePair<f64>, end: bool) -> JsValue {
     let points = pair
@@ -52,7 +49,7 @@ pub fn named_hard_cases() -> JsValue {
 
 /// Runs the published tests of a pair, which may be wrong: the paper's filter as printed, and Provot's cubic.
 #[wasm_bindgen(js_name = publishedVerdicts, unchecked_return_type = "{ filterCulls: boolean; cubicTime: number | undefined }")]
-pub fn published_verdicts(kind: &str, start: &JsValue, end: &JsValue) -> Result<JsValue, JsValue> {
+pub fn published_verdicts(kind: &str, start: &JsValue, end: &JsValue) -> Result<JsValue, Exception> {
     let pair = pair_of(kind, start, end)?;
     let time = cubic::time_of_impact(&pair).map_or(JsValue::UNDEFINED, JsValue::from);
     Ok(object([
@@ -71,11 +68,11 @@ pub fn method_names() -> Vec<String> {
 
 /// Returns a step of the sleeve on the bending arm, from time `start` to time `end` of 0 to 1.
 #[wasm_bindgen(js_name = armStep, unchecked_return_type = "{ triangles: Uint32Array; start: Float64Array; end: Float64Array }")]
-pub fn arm_step(start: f64, end: f64) -> Result<JsValue, JsValue> {
+pub fn arm_step(start: f64, end: f64) -> Result<JsValue, Exception> {
     if !(0.0..=1.0).contains(&start) || !(0.0..=1.0).contains(&end) {
-        return Err(input_error(&"times must be from 0 to 1"));
+        return Err(Exception::input(&"times must be from 0 to 1"));
     }
-    let scene = ArmScene::new(1).map_err(|error| input_error(&error))?;
+    let scene = ArmScene::new(1).map_err(|error| Exception::input(&error))?;
     let positions = |time| floats(&scene.positions(time).iter().flat_map(DVec3::to_array).collect::<Vec<_>>());
     let properties = [
         ("triangles", whole_numbers(scene.mesh().triangles.as_flattened())),
@@ -87,12 +84,12 @@ pub fn arm_step(start: f64, end: f64) -> Result<JsValue, JsValue> {
 
 /// Runs a method on one step. Each stage has its count, its time, and the four vertices of each pair that it leaves.
 #[wasm_bindgen(js_name = runMethod, unchecked_return_type = "{ stages: MethodStage[]; milliseconds: number; certified: boolean }")]
-pub fn run_method(name: &str, triangles: &[u32], start: &JsValue, end: &JsValue) -> Result<JsValue, JsValue> {
-    let preset: Preset = name.parse().map_err(|error| input_error(&error))?;
+pub fn run_method(name: &str, triangles: &[u32], start: &JsValue, end: &JsValue) -> Result<JsValue, Exception> {
+    let preset: Preset = name.parse().map_err(|error| Exception::input(&error))?;
     let (mut from, mut to) = (Vec::new(), Vec::new());
     take_positions(start, "start", &mut from)?;
     take_positions(end, "end", &mut to)?;
-    let topology = Topology::new(from.len(), rows_of(triangles, "triangles")?).map_err(|error| input_error(&error))?;
+    let topology = Topology::new(from.len(), rows_of(triangles, "triangles")?).map_err(|error| Exception::input(&error))?;
     let topology = Arc::new(topology);
     let [from, to] = [from, to].map(|rows| rows.into_iter().map(DVec3::from).collect::<Vec<_>>());
     let stages = preset.stages();
@@ -151,15 +148,17 @@ struct Run {
 }
 
 impl Run {
-    fn pipeline(&self, stages: Stages) -> Result<Pipeline<f64>, JsValue> {
-        Pipeline::new(self.topology.clone(), stages, 1).map_err(|error| input_error(&error))
+    fn pipeline(&self, stages: Stages) -> Result<Pipeline<f64>, Exception> {
+        Pipeline::new(self.topology.clone(), stages, 1).map_err(|error| Exception::input(&error))
     }
 
     /// Runs the method twice, since the first step builds its hierarchies. Returns the report and the vertices of the contacts.
-    fn whole(&self, stages: Stages) -> Result<(StepReport, Vec<u32>), JsValue> {
+    fn whole(&self, stages: Stages) -> Result<(StepReport, Vec<u32>), Exception> {
         let mut pipeline = self.pipeline(stages)?;
         for _ in 0..2 {
-            pipeline.step(&self.from, &self.to).map_err(|error| input_error(&error))?;
+            pipeline
+                .step(&self.from, &self.to)
+                .map_err(|error| Exception::input(&error))?;
         }
         let contacts = pipeline.contacts().iter();
         let vertices = contacts.flat_map(|contact| self.topology.vertices_of(contact.kind, contact.pair));
@@ -167,19 +166,21 @@ impl Run {
     }
 
     /// Returns the vertices of the pairs that reach the elementary test.
-    fn after(&self, stages: Stages) -> Result<Vec<u32>, JsValue> {
+    fn after(&self, stages: Stages) -> Result<Vec<u32>, Exception> {
         let mut pipeline = self.pipeline(stages)?;
         pipeline.keep_candidates(true);
-        pipeline.step(&self.from, &self.to).map_err(|error| input_error(&error))?;
+        pipeline
+            .step(&self.from, &self.to)
+            .map_err(|error| Exception::input(&error))?;
         let [vertex_face, edge_edge] = [PairKind::VertexFace, PairKind::EdgeEdge].map(|kind| pipeline.candidates(kind));
         Ok(self.vertices(vertex_face, edge_edge))
     }
 
-    fn candidates(&self) -> Result<Vec<u32>, JsValue> {
+    fn candidates(&self) -> Result<Vec<u32>, Exception> {
         let mut detector = CollisionDetector::<f64>::new(self.topology.clone());
         let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
         let found = detector.candidates(&self.from, &self.to, CandidateBoxes::Moving, &mut vertex_face, &mut edge_edge);
-        found.map_err(|error| input_error(&error))?;
+        found.map_err(|error| Exception::input(&error))?;
         Ok(self.vertices(&vertex_face, &edge_edge))
     }
 

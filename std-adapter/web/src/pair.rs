@@ -1,6 +1,6 @@
 //! Functions of one pair.
 
-use crate::values::{floats, input_error, kind_of, object, take_positions};
+use crate::values::{Exception, Positions, floats, kind_of, object, take_positions};
 use selvedge_core::elementary::{ContactVerdict, Impact, Limits, Reason, advance, contact};
 use selvedge_core::filter::{Filter, Tier};
 use selvedge_core::kernels::coplanarity::MovingTetrahedron;
@@ -8,13 +8,13 @@ use selvedge_core::{Motion, PrimitivePair, boxes};
 use wasm_bindgen::{JsValue, prelude::wasm_bindgen};
 
 /// Makes a pair from twelve coordinates at the start of the step and twelve at its end.
-pub(crate) fn pair_of(kind: &str, start: &JsValue, end: &JsValue) -> Result<PrimitivePair<f64>, JsValue> {
+pub(crate) fn pair_of(kind: &str, start: &JsValue, end: &JsValue) -> Result<PrimitivePair<f64>, Exception> {
     let kind = kind_of(kind)?;
     let (mut from, mut to) = (Vec::new(), Vec::new());
     take_positions(start, "start", &mut from)?;
     take_positions(end, "end", &mut to)?;
     let (Ok(from), Ok(to)) = (<[_; 4]>::try_from(from), <[_; 4]>::try_from(to)) else {
-        return Err(input_error(
+        return Err(Exception::input(
             &"a pair has four points, twelve numbers at the start and twelve at the end",
         ));
     };
@@ -33,11 +33,11 @@ fn limits(separation: Option<f64>, tolerance: Option<f64>) -> Limits<f64> {
 #[wasm_bindgen(js_name = timeOfImpact)]
 pub fn time_of_impact(
     #[wasm_bindgen(unchecked_param_type = "PairKind")] kind: &str,
-    #[wasm_bindgen(unchecked_param_type = "Positions")] start: &JsValue,
-    #[wasm_bindgen(unchecked_param_type = "Positions")] end: &JsValue,
+    start: &Positions,
+    end: &Positions,
     separation: Option<f64>,
     tolerance: Option<f64>,
-) -> Result<Option<f64>, JsValue> {
+) -> Result<Option<f64>, Exception> {
     let impact = advance::time_of_impact(&pair_of(kind, start, end)?, &limits(separation, tolerance));
     Ok(impact.time())
 }
@@ -47,9 +47,9 @@ pub fn time_of_impact(
 #[wasm_bindgen(js_name = pairVerdicts, unchecked_return_type = "PairVerdicts")]
 pub fn pair_verdicts(
     #[wasm_bindgen(unchecked_param_type = "PairKind")] kind: &str,
-    #[wasm_bindgen(unchecked_param_type = "Positions")] start: &JsValue,
-    #[wasm_bindgen(unchecked_param_type = "Positions")] end: &JsValue,
-) -> Result<JsValue, JsValue> {
+    start: &Positions,
+    end: &Positions,
+) -> Result<JsValue, Exception> {
     let pair = pair_of(kind, start, end)?;
     let volume = MovingTetrahedron::from(&pair);
     let filter = |tier| JsValue::from(Filter::new(tier).verdict(&pair).is_culled());

@@ -1,6 +1,6 @@
 //! Scenes and mesh files that come from JavaScript.
 
-use crate::values::{array, exception, floats, input_error, object, whole_numbers};
+use crate::values::{Exception, Files, array, floats, object, whole_numbers};
 use js_sys::{Array, Object, Uint8Array};
 use selvedge_cloth::Scene;
 use selvedge_cloth::files::FileSource;
@@ -10,7 +10,7 @@ use std::path::Path;
 use wasm_bindgen::{JsCast, JsValue, prelude::wasm_bindgen};
 
 /// Reads a scene; its name in messages is `scene.toml`.
-pub(crate) fn scene_of(text: &str, files: &JsValue) -> Result<Scene, JsValue> {
+pub(crate) fn scene_of(text: &str, files: &Files) -> Result<Scene, Exception> {
     let mut given = BTreeMap::new();
     if let Some(files) = files.dyn_ref::<Object>() {
         for entry in Object::entries(files).iter() {
@@ -20,28 +20,29 @@ pub(crate) fn scene_of(text: &str, files: &JsValue) -> Result<Scene, JsValue> {
             let bytes = match (file.dyn_ref::<Uint8Array>(), file.as_string()) {
                 (Some(bytes), _) => bytes.to_vec(),
                 (None, Some(text)) => text.into_bytes(),
-                (None, None) => return Err(input_error(&format!("the file '{name}' must be a Uint8Array or a string"))),
+                (None, None) => {
+                    return Err(Exception::input(&format!(
+                        "the file '{name}' must be a Uint8Array or a string"
+                    )));
+                }
             };
             given.insert(name.into(), bytes);
         }
     }
     let scene = Scene::parse_with_files(text, Path::new("scene.toml"), &FileSource::Memory(given));
-    scene.map_err(|error| exception("SceneError", &error.to_string()))
+    scene.map_err(|error| Exception::new("SceneError", &error))
 }
 
 /// Returns the names of the effects that a scene calls for, in the order in which they run.
 #[wasm_bindgen(js_name = effectNames)]
-pub fn effect_names(
-    text: &str,
-    #[wasm_bindgen(unchecked_param_type = "Record<string, Uint8Array | string> | undefined")] files: &JsValue,
-) -> Result<Vec<String>, JsValue> {
+pub fn effect_names(text: &str, files: &Files) -> Result<Vec<String>, Exception> {
     Ok(scene_of(text, files)?.effect_names().into_iter().map(str::to_owned).collect())
 }
 
 /// Reads a mesh file: OBJ, PLY, STL, OFF or glTF, as its name says. Throws a `MeshError` that names the place.
 #[wasm_bindgen(js_name = readMesh, unchecked_return_type = "{ positions: Float64Array; triangles: Uint32Array }")]
-pub fn read_mesh(name: &str, bytes: &[u8]) -> Result<JsValue, JsValue> {
-    let error = |words: &dyn ToString| exception("MeshError", &format!("{name}: {}", words.to_string()));
+pub fn read_mesh(name: &str, bytes: &[u8]) -> Result<JsValue, Exception> {
+    let error = |words: &dyn ToString| Exception::new("MeshError", &format!("{name}: {}", words.to_string()));
     let format = FileFormat::from_path(Path::new(name))
         .ok_or_else(|| error(&"its ending must be .obj, .ply, .stl, .off, .glb or .gltf"))?;
     let mesh = read_bytes(bytes, format).map_err(|problem| error(&problem))?.mesh;

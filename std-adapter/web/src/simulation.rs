@@ -1,10 +1,10 @@
 //! The class `Simulation`.
 
 use crate::scene::{range, scene_of};
-use crate::values::{exception, floats, input_error, object, set, take_positions, view, whole_numbers};
-use js_sys::{Float64Array, Object};
+use crate::values::{Exception, Files, Positions, floats, object, take_positions, view, whole_numbers};
+use js_sys::Float64Array;
 use selvedge_cloth::glam::{DQuat, DVec3};
-use selvedge_cloth::{FrameError, Placement, SetupError, Simulation as Cloth, vertex_normals};
+use selvedge_cloth::{Blocked, DriveError, FrameError, Placement, SetupError, Simulation as Cloth, vertex_normals};
 use wasm_bindgen::{JsValue, prelude::wasm_bindgen};
 
 /// A simulation of cloth. Each state is certified free of intersections, with the same bits as in native programs. SI units.
@@ -24,21 +24,14 @@ impl Simulation {
     ///
     /// Throws a `SceneError` that names line and column, or a `TangledError` if surfaces pass through each other.
     #[wasm_bindgen(constructor)]
-    pub fn new(
-        text: &str,
-        #[wasm_bindgen(unchecked_param_type = "Record<string, Uint8Array | string> | undefined")] files: &JsValue,
-    ) -> Result<Simulation, JsValue> {
+    pub fn new(text: &str, files: &Files) -> Result<Simulation, Exception> {
         let scene = scene_of(text, files)?;
         let (steps, steps_per_frame, time_step) = (scene.steps(), scene.steps_per_frame(), scene.time_step);
         let up = scene.up.normalize_or(DVec3::Z);
         let settings = scene.settings();
-        let cloth = Cloth::new(scene, 1).map_err(|error| {
-            let name = if matches!(error, SetupError::Tangled(_)) {
-                "TangledError"
-            } else {
-                "SceneError"
-            };
-            exception(name, &error.to_string())
+        let cloth = Cloth::new(scene, 1).map_err(|error| match error {
+            SetupError::Tangled(tangled) => Exception::new("TangledError", &tangled),
+            error => Exception::new("SceneError", &error),
         })?;
         Ok(Self {
             cloth,
@@ -52,25 +45,21 @@ impl Simulation {
 
     /// Runs steps. Throws a `BlockedError` if bodies or pins force the cloth where it cannot go and the scene stops then; the steps before
     /// it remain.
-    pub fn step(&mut self, count: Option<u32>) -> Result<(), JsValue> {
+    pub fn step(&mut self, count: Option<u32>) -> Result<(), Exception> {
         for _ in 0..count.unwrap_or(1) {
-            self.cloth
-                .step()
-                .map_err(|blocked| exception("BlockedError", &blocked.to_string()))?;
+            self.cloth.step()?;
         }
         Ok(())
     }
 
     /// Lets seconds pass, in as many steps as the cloth needs, and at most `most` (default 64). Returns both numbers.
     #[wasm_bindgen(unchecked_return_type = "{ steps: number; needed: number }")]
-    pub fn advance(&mut self, seconds: f64, most: Option<u32>) -> Result<JsValue, JsValue> {
-        let frame = self
-            .cloth
-            .advance_within(seconds, most.unwrap_or(64))
-            .map_err(|error| match error {
-                FrameError::Blocked(blocked) => exception("BlockedError", &blocked.to_string()),
-                FrameError::Seconds(error) => input_error(&error),
-            })?;
+    pub fn advance(&mut self, seconds: f64, most: Option<u32>) -> Result<JsValue, Exception> {
+        let frame = self.cloth.advance_within(seconds, most.unwrap_or(64));
+        let frame = frame.map_err(|error| match error {
+            FrameError::Blocked(blocked) => blocked.into(),
+            FrameError::Seconds(error) => Exception::input(&error),
+        })?;
         Ok(object([("steps", frame.steps.into()), ("needed", frame.needed.into())]).into())
     }
 
@@ -215,9 +204,8 @@ impl Simulation {
     /// The processing time of contact so far, without its pushes; undefined without a contact effect.
     #[wasm_bindgen(getter, js_name = contactSeconds, unchecked_return_type = "Record<string, number> | undefined")]
     pub fn contact_seconds(&self) -> JsValue {
-        self.cloth
-            .contact_seconds()
-            .map_or(JsValue::UNDEFINED, |seconds| by_name(seconds.stages()))
+        let seconds = self.cloth.contact_seconds();
+        seconds.map_or(JsValue::UNDEFINED, |seconds| by_name(seconds.stages()))
     }
 
     /// The near pairs of the last step: four vertices and a unit normal each.
@@ -238,66 +226,48 @@ impl Simulation {
     /// The settings that trade time for accuracy, with values and units.
     #[wasm_bindgen(getter, unchecked_return_type = "Record<string, string>")]
     pub fn settings(&self) -> JsValue {
-        let settings = Object::new();
-        self.settings
-            .iter()
-            .for_each(|(name, value)| set(&settings, name, &value.into()));
-        settings.into()
+        object(self.settings.iter().map(|(name, value)| (&**name, value.into()))).into()
     }
 
     /// The vertices of a body, from the first to before the second number.
     #[wasm_bindgen(js_name = bodyVertices, unchecked_return_type = "[number, number]")]
-    pub fn body_vertices(&self, body: &str) -> Result<JsValue, JsValue> {
+    pub fn body_vertices(&self, body: &str) -> Result<JsValue, Exception> {
         Ok(range(self.cloth.body_vertices(self.body(body)?).unwrap_or_default()))
     }
 
     /// Moves a driven body in the next step: its mesh in the scene is rotated by a quaternion (x, y, z, w) and then translated.
     #[wasm_bindgen(js_name = placeBody)]
-    pub fn place_body(&mut self, body: &str, translation: &[f64], rotation: Option<Vec<f64>>) -> Result<(), JsValue> {
+    pub fn place_body(&mut self, body: &str, translation: &[f64], rotation: Option<Vec<f64>>) -> Result<(), Exception> {
         let rotation = rotation.unwrap_or_else(|| DQuat::IDENTITY.to_array().to_vec());
-        let rotation = <[f64; 4]>::try_from(rotation).map_err(|_| input_error(&"rotation must have four numbers"))?;
+        let rotation = <[f64; 4]>::try_from(rotation).map_err(|_| Exception::input(&"rotation must have four numbers"))?;
         let placement = Placement::new(DQuat::from_array(rotation), vector(translation, "translation")?);
         let body = self.body(body)?;
-        self.cloth.place_body(body, placement).map_err(|error| input_error(&error))
+        Ok(self.cloth.place_body(body, placement)?)
     }
 
     /// Moves each vertex of a driven body straight to a position in the next step.
     #[wasm_bindgen(js_name = moveBody)]
-    pub fn move_body(
-        &mut self,
-        body: &str,
-        #[wasm_bindgen(unchecked_param_type = "Positions")] positions: &JsValue,
-    ) -> Result<(), JsValue> {
+    pub fn move_body(&mut self, body: &str, positions: &Positions) -> Result<(), Exception> {
         let (body, positions) = (self.body(body)?, vectors(positions)?);
-        self.cloth.move_body(body, &positions).map_err(|error| input_error(&error))
+        Ok(self.cloth.move_body(body, &positions)?)
     }
 
     /// Moves each vertex of a driven group of pins, given by its index, in the next step.
     #[wasm_bindgen(js_name = movePins)]
-    pub fn move_pins(
-        &mut self,
-        group: usize,
-        #[wasm_bindgen(unchecked_param_type = "Positions")] positions: &JsValue,
-    ) -> Result<(), JsValue> {
-        self.cloth
-            .move_pins(group, &vectors(positions)?)
-            .map_err(|error| input_error(&error))
+    pub fn move_pins(&mut self, group: usize, positions: &Positions) -> Result<(), Exception> {
+        Ok(self.cloth.move_pins(group, &vectors(positions)?)?)
     }
 
     /// Sets the velocity of the scene's wind from now on, in m/s.
     #[wasm_bindgen(js_name = setWind)]
-    pub fn set_wind(&mut self, velocity: &[f64]) -> Result<(), JsValue> {
-        let velocity = vector(velocity, "velocity")?;
-        self.cloth.set_wind(velocity).map_err(|error| input_error(&error))
+    pub fn set_wind(&mut self, velocity: &[f64]) -> Result<(), Exception> {
+        Ok(self.cloth.set_wind(vector(velocity, "velocity")?)?)
     }
 
     /// Sets the velocity, in m/s, with which vertices of cloth start the next step, as if a hand pulled them.
     #[wasm_bindgen(js_name = setVelocity)]
-    pub fn set_velocity(&mut self, vertices: &[u32], velocity: &[f64]) -> Result<(), JsValue> {
-        let velocity = vector(velocity, "velocity")?;
-        self.cloth
-            .set_velocity(vertices, velocity)
-            .map_err(|error| input_error(&error))
+    pub fn set_velocity(&mut self, vertices: &[u32], velocity: &[f64]) -> Result<(), Exception> {
+        Ok(self.cloth.set_velocity(vertices, vector(velocity, "velocity")?)?)
     }
 
     /// Returns the state as bytes after every 200th step; undefined in between.
@@ -307,31 +277,40 @@ impl Simulation {
     }
 
     /// Continues from a checkpoint of the same scene, with the same bits as an uninterrupted simulation.
-    pub fn resume(&mut self, checkpoint: &[u8]) -> Result<(), JsValue> {
-        self.cloth
-            .resume(checkpoint)
-            .map_err(|error| exception("CheckpointError", &error.to_string()))
+    pub fn resume(&mut self, checkpoint: &[u8]) -> Result<(), Exception> {
+        let resumed = self.cloth.resume(checkpoint);
+        resumed.map_err(|error| Exception::new("CheckpointError", &error))
     }
 
-    fn body(&self, name: &str) -> Result<usize, JsValue> {
+    fn body(&self, name: &str) -> Result<usize, Exception> {
         let names = self.cloth.body_names();
         let found = names.iter().position(|known| known == name);
-        found.ok_or_else(|| input_error(&format!("there is no body '{name}'; the scene has {names:?}")))
+        found.ok_or_else(|| Exception::input(&format!("there is no body '{name}'; the scene has {names:?}")))
+    }
+}
+
+impl From<Blocked> for Exception {
+    fn from(blocked: Blocked) -> Self {
+        Self::new("BlockedError", &blocked)
+    }
+}
+
+impl From<DriveError> for Exception {
+    fn from(error: DriveError) -> Self {
+        Self::input(&error)
     }
 }
 
 fn by_name<'a>(values: impl IntoIterator<Item = (&'a str, f64)>) -> JsValue {
-    let object = Object::new();
-    values.into_iter().for_each(|(name, value)| set(&object, name, &value.into()));
-    object.into()
+    object(values.into_iter().map(|(name, value)| (name, value.into()))).into()
 }
 
-fn vector(values: &[f64], name: &str) -> Result<DVec3, JsValue> {
-    let values = <[f64; 3]>::try_from(values).map_err(|_| input_error(&format!("{name} must have three numbers")))?;
+fn vector(values: &[f64], name: &str) -> Result<DVec3, Exception> {
+    let values = <[f64; 3]>::try_from(values).map_err(|_| Exception::input(&format!("{name} must have three numbers")))?;
     Ok(values.into())
 }
 
-fn vectors(positions: &JsValue) -> Result<Vec<DVec3>, JsValue> {
+fn vectors(positions: &JsValue) -> Result<Vec<DVec3>, Exception> {
     let mut rows = Vec::new();
     take_positions(positions, "positions", &mut rows)?;
     Ok(rows.into_iter().map(DVec3::from).collect())

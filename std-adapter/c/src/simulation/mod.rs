@@ -8,6 +8,7 @@ pub(crate) mod state;
 #[cfg(test)]
 mod tests;
 
+use crate::files::ListedMesh;
 use crate::handles::{self, Handled, Living};
 use crate::status::{Failure, Status};
 use run::SimulationHandle;
@@ -34,6 +35,8 @@ struct OfScene {
 struct Answers {
     near_pairs: Vec<NearPairRow>,
     checkpoint: Vec<u8>,
+    in_files: ListedMesh,
+    number_of: Vec<u32>,
 }
 
 impl Handled for HandledSimulation {

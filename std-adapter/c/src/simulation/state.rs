@@ -2,9 +2,10 @@
 
 use super::on;
 use super::run::SimulationHandle;
-use crate::input::{OutFrame, OutList, Plain};
+use crate::files::{ListedMesh, MeshLists};
+use crate::input::{Out, OutFrame, OutList, Plain};
 use crate::status::{Failure, Status};
-use selvedge_cloth::{ProximityPair, Simulation, vertex_normals};
+use selvedge_cloth::{MeshInFiles, ProximityPair, Simulation, vertex_normals};
 use std::borrow::Cow;
 
 /// A vertex and a face, or two edges, that were near each other in the last step.
@@ -172,6 +173,38 @@ pub unsafe extern "C" fn selvedge_simulation_near_pairs(
         shown.clear();
         shown.extend(it.simulation.near_pairs().map(NearPairRow::from));
         out.set(shown);
+        Ok(())
+    })
+}
+
+/// Returns the state as one mesh in which cloths from files have the vertices and faces of their files: each cloth, then the bodies. Vertices
+/// that `weld` merged are apart again, those that the cloth does not have stay where the file puts them, and copies that tears made follow those
+/// of the file. `*number_of` receives a list with the number in this mesh of each of the simulation's vertices.
+///
+/// The lists belong to the simulation. They stay valid until the next call of this function, or until the simulation is freed.
+///
+/// # Safety
+/// `mesh` points to one entry, `number_of` to a pointer, `count` to a number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selvedge_simulation_mesh_in_files(
+    simulation: *mut SimulationHandle,
+    mesh: *mut MeshLists,
+    number_of: *mut *const u32,
+    count: *mut usize,
+) -> Status {
+    on(simulation, |it| {
+        // SAFETY: the caller's promises.
+        let (lists, numbers) = unsafe { (Out::new("mesh", mesh)?, OutList::new("number_of", number_of, count)?) };
+        let MeshInFiles {
+            mesh,
+            loose_edges,
+            number_of,
+            ..
+        } = it.simulation.mesh_in_files();
+        it.answers.in_files = ListedMesh::new(mesh, loose_edges, Vec::new());
+        it.answers.number_of = number_of;
+        lists.set(it.answers.in_files.lists());
+        numbers.set(&it.answers.number_of);
         Ok(())
     })
 }

@@ -22,7 +22,14 @@ const SINGLE: [&str; 2] = [
     concat!(env!("OUT_DIR"), "/world.rs"),
 ];
 
-const CLOTH_SOURCES: [&str; 5] = ["run", "counts", "state", "lead", "checkpoint"];
+const CLOTH_SOURCES: [&str; 6] = [
+    "files",
+    "simulation/run",
+    "simulation/counts",
+    "simulation/state",
+    "simulation/lead",
+    "simulation/checkpoint",
+];
 
 const CLOTH_HEAD: &str = "
 /* Selvedge's cloth: a simulation whose states never intersect.
@@ -76,10 +83,5 @@ fn the_header_of_cloth_is_that_of_the_sources() {
     config.include_guard = Some("SELVEDGE_CLOTH_H".into());
     config.header = Some(CLOTH_HEAD.into());
     config.includes = vec!["selvedge.h".into()];
-    is_made_of(
-        "selvedge_cloth.h",
-        config,
-        &CLOTH_SOURCES.map(|source| format!("simulation/{source}")),
-        &[],
-    );
+    is_made_of("selvedge_cloth.h", config, &CLOTH_SOURCES.map(str::to_owned), &[]);
 }

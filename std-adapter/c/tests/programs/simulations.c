@@ -211,6 +211,53 @@ static void checkpoints(selvedge_simulation *it) {
   EXPECT(OK, selvedge_simulation_free(other));
 }
 
+#define SEAM "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 4 5 6\nl 2 6\n"
+
+static void write_seam(const char *content) {
+  FILE *out = fopen("seam.obj", "w");
+  if (!out) exit(1);
+  fputs(content, out);
+  fclose(out);
+}
+
+/* A file with a split seam is read, and a cloth of it is numbered as it is. */
+static void files(void) {
+  write_seam(SEAM "surf 0 1 0 1 1 2 3\n");
+  selvedge_file *file = NULL;
+  selvedge_mesh_lists mesh = {0};
+  const char *missing = NULL, *notes = NULL;
+  EXPECT(NULL_POINTER, selvedge_file_new(NULL, &file));
+  EXPECT(BAD_TEXT, selvedge_file_new("\xff.obj", &file));
+  EXPECT(BAD_FILE, selvedge_file_new("none.obj", &file));
+  SAYS("none.obj: there is no such file");
+  EXPECT(NO_SUCH_FILE, selvedge_file_mesh((selvedge_file *)(void *)&mesh, &mesh, &missing, &notes));
+  EXPECT(OK, selvedge_file_new("seam.obj", &file));
+  EXPECT(NULL_POINTER, selvedge_file_mesh(file, NULL, &missing, &notes));
+  EXPECT(NULL_POINTER, selvedge_file_mesh(file, &mesh, NULL, &notes));
+  EXPECT(OK, selvedge_file_mesh(file, &mesh, &missing, &notes));
+  HOLDS(mesh.vertex_count == 6 && mesh.triangle_count == 2 && mesh.loose_edge_count == 1 && !mesh.points && !mesh.point_count);
+  HOLDS(mesh.positions[3] == 1 && mesh.triangles[3] == 3 && mesh.loose_edges[1] == 5);
+  HOLDS(missing && strcmp(missing, "1 line 'surf' (line 10)") == 0);
+  HOLDS(notes && strstr(notes, "surf"));
+  EXPECT(OK, selvedge_file_free(file));
+  EXPECT(NO_SUCH_FILE, selvedge_file_free(file));
+  EXPECT(OK, selvedge_file_free(NULL));
+
+  write_seam(SEAM);
+  selvedge_simulation *it = NULL;
+  const uint32_t *number_of = NULL;
+  size_t count = 0;
+  EXPECT(OK, selvedge_simulation_new(HEAD "[cloth]\nshape = \"file\"\nfile = \"seam.obj\"\nweld = 0\ndensity = 0.1\n"
+                                          "linear_density = 0.1\n[effects.gravity]\n", NULL, 1, &it));
+  EXPECT(OK, selvedge_simulation_step(it));
+  EXPECT(NULL_POINTER, selvedge_simulation_mesh_in_files(it, &mesh, NULL, &count));
+  EXPECT(OK, selvedge_simulation_mesh_in_files(it, &mesh, &number_of, &count));
+  HOLDS(mesh.vertex_count == 6 && count == 4 && number_of[2] == 2 && number_of[3] == 5);
+  HOLDS(mesh.triangle_count == 2 && mesh.triangles[4] == 4 && mesh.positions[14] == mesh.positions[8] && mesh.positions[8] < 0);
+  EXPECT(OK, selvedge_simulation_free(it));
+  remove("seam.obj");
+}
+
 /* The ball moves into a sheet of which every vertex is pinned: there is no way out. */
 static void blocked(void) {
   selvedge_simulation *it = NULL;
@@ -233,6 +280,7 @@ int main(void) {
   scenes();
   tangled();
   handles();
+  files();
   blocked();
 
   /* One simulation gets all wrong calls after each step, the other none. */

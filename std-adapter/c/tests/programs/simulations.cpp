@@ -39,7 +39,10 @@ int main() {
   expect(__LINE__, SELVEDGE_STATUS_BAD_TEXT, [] { simulation(std::string("a\0b", 3)); });
   expect(__LINE__, SELVEDGE_STATUS_BAD_SCENE, [] { simulation::read("there-is-none.toml"); });
 
+  expect(__LINE__, SELVEDGE_STATUS_BAD_FILE, [] { selvedge::mesh_file::read("there-is-none.obj"); });
+
   simulation first(SCENE);
+  holds(__LINE__, first.mesh_in_files().positions == first.positions() && first.numbers_in_files().back() + 1 == first.sizes().vertex_count);
   const auto sizes = first.sizes();
   const auto ball = first.body("ball");
   holds(__LINE__, first.cloth("cloth").vertex_count == 25 && ball.first_vertex == 25 && sizes.cloth_count == 1);

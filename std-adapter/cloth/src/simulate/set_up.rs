@@ -51,9 +51,12 @@ impl Simulation {
             state.begin_anew(contact, time_step);
             let found = contact.tolerate(&state.positions)?;
             if !found.is_empty() && tangled_start == TangledStart::Refuse {
+                let mesh = Mesh::new(state.positions, made.triangles);
+                let numbered = FileNumbering::new(cloths).numbered(&mesh, &made.loose_edges, &made.vertices_of_cloths);
                 return Err(SetupError::Tangled(Box::new(Tangled {
                     crossings: found,
-                    mesh: Mesh::new(state.positions, made.triangles),
+                    numbers_in_files: numbered.number_of,
+                    mesh,
                     cloth_triangles: made.cloth_triangles,
                     body_names: bodies.iter().map(|body| body.name.clone()).collect(),
                     untangled: None,

@@ -9,7 +9,7 @@ use crate::contact::{ContactCounts, ContactSeconds, Crossing, ProximityPair};
 use crate::model::energy::{Configuration, Energy};
 use crate::model::step::{Release, Touches};
 use crate::scene::{OnBlocked, TangledStart};
-use crate::world::{FileNumbering, Pose};
+use crate::world::{FileNumbering, MeshInFiles, Pose};
 use selvedge::Mesh;
 use selvedge::parallel::Workers;
 use selvedge_core::glam::DVec3;
@@ -131,16 +131,19 @@ impl Simulation {
         &self.made.loose_edges
     }
 
-    /// Returns the present state as one mesh, with its loose edges: each cloth, then the bodies. Cloths from files have the vertices and faces of
-    /// their files.
+    /// Returns the present state as one mesh, in which cloths from files have the vertices and faces of their files.
     ///
     /// Vertices that `weld` merged are apart again, in the same place, so that texture coordinates and seams fit. Vertices that the cloth does
     /// not have stay where the file puts them. Vertices that tears add follow those of the file.
     #[must_use]
-    pub fn mesh_as_in_files(&self) -> (Mesh, Vec<[u32; 2]>) {
-        let state = Mesh::new(self.positions().to_vec(), self.triangles().to_vec());
+    pub fn mesh_in_files(&self) -> MeshInFiles {
         self.numbering
-            .numbered(state, self.loose_edges(), &self.made.vertices_of_cloths)
+            .numbered(&self.mesh(), &self.made.loose_edges, &self.made.vertices_of_cloths)
+    }
+
+    /// Returns [`positions`](Self::positions) and [`triangles`](Self::triangles).
+    pub(super) fn mesh(&self) -> Mesh {
+        Mesh::new(self.state.positions.clone(), self.made.triangles.clone())
     }
 
     /// Returns the velocities of [`positions`](Self::positions), in m/s.

@@ -61,8 +61,11 @@ impl fmt::Display for UntanglingEnd {
 /// The places where surfaces pass through each other at the start of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tangled {
-    /// The edges and faces that meet.
+    /// The edges and faces that meet, by the numbers of `mesh`.
     pub crossings: Vec<Crossing>,
+    /// For each vertex of `mesh`, its number where cloths have the vertices of their files, as in
+    /// [`MeshInFiles`](crate::MeshInFiles). Messages have these numbers.
+    pub numbers_in_files: Vec<u32>,
     /// The positions of all vertices, and the triangles: the cloth's, then the bodies'.
     pub mesh: Mesh,
     /// The number of the cloth's triangles.
@@ -74,6 +77,16 @@ pub struct Tangled {
 }
 
 impl Tangled {
+    /// Returns the edges and faces that meet, by their [numbers in files](Self::numbers_in_files).
+    pub fn crossings_in_files(&self) -> impl Iterator<Item = Crossing> {
+        let number = |vertex: u32| self.numbers_in_files[vertex as usize];
+        self.crossings.iter().map(move |crossing| Crossing {
+            edge: crossing.edge.map(number),
+            face: crossing.face.map(number),
+            ..*crossing
+        })
+    }
+
     /// Returns the number of the cloths' vertices that lie in the same place as an earlier one, such as those of split seams.
     fn coincident_vertices(&self) -> usize {
         let of_cloths = &self.mesh.triangles[..self.cloth_triangles];
@@ -119,9 +132,9 @@ impl fmt::Display for Tangled {
             face: [c, d, e],
             point,
             ..
-        }) = self.crossings.first()
+        }) = self.crossings_in_files().next()
         {
-            let DVec3 { x, y, z } = *point;
+            let DVec3 { x, y, z } = point;
             write!(
                 f,
                 "; first the edge {a}, {b} and the face {c}, {d}, {e}, at ({x:.4}, {y:.4}, {z:.4}) m"

@@ -12,7 +12,6 @@
 use super::errors::SetupError;
 use super::simulation::Simulation;
 use super::tangled::{Tangled, Untangled, UntanglingEnd, UntanglingProgress};
-use selvedge::Mesh;
 use selvedge::clock::Clock;
 use selvedge_core::glam::DVec3;
 
@@ -51,7 +50,8 @@ impl Simulation {
         }
         Err(SetupError::Tangled(Box::new(Tangled {
             crossings,
-            mesh: Mesh::new(self.state.positions.clone(), self.made.triangles.clone()),
+            numbers_in_files: self.mesh_in_files().number_of,
+            mesh: self.mesh(),
             cloth_triangles: self.made.cloth_triangles,
             body_names: self.body_names.clone(),
             untangled: Some(untangled),

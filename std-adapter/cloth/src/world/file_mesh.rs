@@ -38,10 +38,23 @@ impl FileMesh {
     }
 
     /// Returns the number of the cloth's vertices before it tore.
-    fn vertices_as_made(&self) -> u32 {
+    fn vertices_as_made(&self) -> usize {
         let named = self.vertex_of.iter().filter(|&&vertex| vertex != LEFT_OUT);
-        named.max().map_or(0, |last| last + 1)
+        named.max().map_or(0, |&last| last as usize + 1)
     }
+}
+
+/// The state of a simulation as one mesh in which cloths from files have the vertices and faces of their files.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MeshInFiles {
+    /// Each cloth, then the bodies.
+    pub mesh: Mesh,
+    /// The edges of cloths that belong to no triangle.
+    pub loose_edges: Vec<[u32; 2]>,
+    /// The number in this mesh of each vertex of the simulation. Of vertices that `weld` merged it is the first.
+    pub number_of: Vec<u32>,
+    /// The vertices of each cloth in this mesh: those of its file, then the copies that tears made.
+    pub vertices_of_cloths: Vec<Range<usize>>,
 }
 
 /// The way from the numbers of a simulation to those of files.
@@ -59,82 +72,81 @@ impl FileNumbering {
     }
 
     /// Converts the mesh and the loose edges of a simulation whose cloths have these ranges of vertices.
-    pub(crate) fn numbered(&self, state: Mesh, edges: &[[u32; 2]], cloths: &[Range<usize>]) -> (Mesh, Vec<[u32; 2]>) {
-        if self.cloths.iter().all(Option::is_none) {
-            return (state, edges.to_vec());
-        }
-        let (mut made, mut made_edges, mut end) = (Mesh::default(), Vec::new(), 0);
+    pub(crate) fn numbered(&self, state: &Mesh, edges: &[[u32; 2]], cloths: &[Range<usize>]) -> MeshInFiles {
+        let mut made = MeshInFiles::default();
         let (mut triangles, mut edges) = (state.triangles.as_slice(), edges);
         for (own, file) in cloths.iter().zip(&self.cloths) {
-            let place = Place {
-                from: own.start as u32,
-                to: made.positions.len() as u32,
-                file: file.as_ref(),
-            };
+            let first = made.mesh.positions.len();
             let positions = &state.positions[own.clone()];
-            let first_copy = file.as_ref().map_or(0, |file| file.vertices_as_made() as usize);
-            for (rest, &vertex) in file.iter().flat_map(|file| file.mesh.positions.iter().zip(&file.vertex_of)) {
-                made.positions.push(positions.get(vertex as usize).copied().unwrap_or(*rest));
+            let vertex_of = file.as_ref().map_or(&[][..], |file| &file.vertex_of);
+            let first_copy = file.as_ref().map_or(0, FileMesh::vertices_as_made);
+            for (rest, &vertex) in file.iter().flat_map(|file| file.mesh.positions.iter().zip(vertex_of)) {
+                let position = positions.get(vertex as usize).copied().unwrap_or(*rest);
+                made.mesh.positions.push(position);
             }
-            made.positions.extend_from_slice(&positions[first_copy..]);
-            place.renumber(
-                &mut triangles,
-                own.end,
-                file.as_ref().map(|file| &*file.mesh.triangles),
-                &mut made.triangles,
-            );
-            place.renumber(
-                &mut edges,
-                own.end,
-                file.as_ref().map(|file| &*file.loose_edges),
-                &mut made_edges,
-            );
-            end = own.end;
+            made.number_of.resize(own.start + first_copy, 0);
+            made.number_of
+                .extend((made.mesh.positions.len() as u32..).take(own.len() - first_copy));
+            made.mesh.positions.extend_from_slice(&positions[first_copy..]);
+            let named = (first..).zip(vertex_of).filter(|(_, vertex)| **vertex != LEFT_OUT);
+            // The first of merged vertices is the last to be written.
+            for (number, &vertex) in named.collect::<Vec<_>>().into_iter().rev() {
+                made.number_of[own.start + vertex as usize] = number as u32;
+            }
+            made.vertices_of_cloths.push(first..made.mesh.positions.len());
+            let place = Place {
+                own,
+                first: first as u32,
+                number_of: &made.number_of,
+                vertex_of,
+            };
+            let faces = file.as_ref().map(|file| &*file.mesh.triangles);
+            place.renumber(&mut triangles, faces, &mut made.mesh.triangles);
+            let loose_edges = file.as_ref().map(|file| &*file.loose_edges);
+            place.renumber(&mut edges, loose_edges, &mut made.loose_edges);
         }
-        let bodies = Place {
-            from: end as u32,
-            to: made.positions.len() as u32,
-            file: None,
-        };
-        made.positions.extend_from_slice(&state.positions[end..]);
-        bodies.renumber(&mut triangles, state.positions.len(), None, &mut made.triangles);
-        (made, made_edges)
+        let bodies = &state.positions[made.number_of.len()..];
+        made.number_of.extend((made.mesh.positions.len() as u32..).take(bodies.len()));
+        made.mesh.positions.extend_from_slice(bodies);
+        let of_bodies = triangles
+            .iter()
+            .map(|corners| corners.map(|corner| made.number_of[corner as usize]));
+        made.mesh.triangles.extend(of_bodies);
+        made
     }
 }
 
-/// The way from the numbers of a simulation to those of a file, for one cloth or all bodies.
+/// The way from the numbers of a simulation to those of a file, for one cloth.
 struct Place<'a> {
-    /// The first vertex of the simulation, and of the result.
-    from: u32,
-    to: u32,
-    file: Option<&'a FileMesh>,
+    /// The vertices of the simulation.
+    own: &'a Range<usize>,
+    /// The first vertex in the result.
+    first: u32,
+    /// The numbers in the result.
+    number_of: &'a [u32],
+    /// The cloth's vertex for each vertex of the file.
+    vertex_of: &'a [u32],
 }
 
 impl Place<'_> {
-    /// Takes the features below the vertex `end` from the front of `features`, and appends those of the file.
-    fn renumber<const N: usize>(
-        &self,
-        features: &mut &[[u32; N]],
-        end: usize,
-        of_file: Option<&[[u32; N]]>,
-        made: &mut Vec<[u32; N]>,
-    ) {
-        let count = features.iter().take_while(|vertices| (vertices[0] as usize) < end).count();
-        let (own, rest) = features.split_at(count);
+    /// Takes the cloth's features from the front of `features`, and appends those of the file.
+    fn renumber<const N: usize>(&self, features: &mut &[[u32; N]], of_file: Option<&[[u32; N]]>, made: &mut Vec<[u32; N]>) {
+        let is_own = |vertices: &&[u32; N]| (vertices[0] as usize) < self.own.end;
+        let (own, rest) = features.split_at(features.iter().take_while(is_own).count());
         *features = rest;
-        let (Some(file), Some(of_file)) = (self.file, of_file) else {
-            made.extend(own.iter().map(|vertices| vertices.map(|vertex| vertex - self.from + self.to)));
+        let number = |vertex: u32| self.number_of[vertex as usize];
+        let Some(of_file) = of_file else {
+            made.extend(own.iter().map(|vertices| vertices.map(number)));
             return;
         };
-        let first_copy = file.vertices_as_made();
         let mut own = own.iter();
         for corners in of_file {
-            let merged = corners.map(|corner| file.vertex_of[corner as usize]);
+            let merged = corners.map(|corner| self.vertex_of[corner as usize]);
             let has_collapsed = (1..N).any(|k| merged[..k].contains(&merged[k]));
             let torn = if has_collapsed { None } else { own.next() };
-            made.push(std::array::from_fn(|k| match torn.map(|now| now[k] - self.from) {
-                Some(copy) if copy != merged[k] => self.to + file.vertex_of.len() as u32 + (copy - first_copy),
-                _ => self.to + corners[k],
+            made.push(std::array::from_fn(|k| match torn.map(|now| now[k]) {
+                Some(copy) if copy - self.own.start as u32 != merged[k] => number(copy),
+                _ => self.first + corners[k],
             }));
         }
     }
@@ -160,10 +172,17 @@ mod tests {
         };
         // A rope of two vertices; the cloth, which has torn at its vertex 2; a body.
         let state = Mesh::new((10..20).map(at).collect(), vec![[2, 3, 4], [3, 5, 6], [7, 8, 9]]);
-        let (mesh, edges) = numbering.numbered(state, &[[0, 1], [5, 2]], &[0..2, 2..7]);
+        let MeshInFiles {
+            mesh,
+            loose_edges,
+            number_of,
+            vertices_of_cloths,
+        } = numbering.numbered(&state, &[[0, 1], [5, 2]], &[0..2, 2..7]);
         let expected = [10, 11, 12, 13, 14, 13, 14, 9, 15, 16, 17, 18, 19];
         assert_eq!(mesh.positions, expected.map(at));
         assert_eq!(mesh.triangles, [[2, 3, 4], [3, 5, 4], [5, 8, 9], [10, 11, 12]]);
-        assert_eq!(edges, [[0, 1], [8, 2]]);
+        assert_eq!(loose_edges, [[0, 1], [8, 2]]);
+        assert_eq!(number_of, [0, 1, 2, 3, 4, 8, 9, 10, 11, 12]);
+        assert_eq!(vertices_of_cloths, [0..2, 2..10]);
     }
 }

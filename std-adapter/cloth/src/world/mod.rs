@@ -27,6 +27,7 @@ pub use placement::Placement;
 pub(crate) use animation::FASTEST_VERTEX;
 pub(crate) use driven::{Driven, Kinematic};
 pub(crate) use file_mesh::FileNumbering;
+pub use file_mesh::MeshInFiles;
 pub(crate) use incidence::Incidence;
 pub(crate) use motion::{KEY_TIME, Pose, check_key_time};
 pub(crate) use runs::runs;

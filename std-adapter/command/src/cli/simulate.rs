@@ -333,7 +333,11 @@ impl Simulate {
         };
         let stem = self.scene.file_stem().unwrap_or_default().to_string_lossy();
         let name = format!("{stem}-{frame:05}.{extension}");
-        let (mesh, loose_edges) = simulation.mesh_as_in_files();
-        Ok(mesh::write_with_loose_edges(&self.output.join(name), &mesh, &loose_edges)?)
+        let now = simulation.mesh_in_files();
+        Ok(mesh::write_with_loose_edges(
+            &self.output.join(name),
+            &now.mesh,
+            &now.loose_edges,
+        )?)
     }
 }

@@ -157,6 +157,21 @@ fn cloth_that_tears_is_reported_and_shown_and_resumes_torn() {
     }
 }
 
+#[test]
+fn results_have_the_numbers_of_the_cloths_file() {
+    let place = Workplace::new();
+    // Two triangles with a split seam; an unused vertex comes first.
+    place.write(
+        "seam.obj",
+        "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 0\nv 1 1 0\nv 0 1 0\nf 2 3 4\nf 5 6 7\n",
+    );
+    let scene = "time_step = 0.01\nduration = 0.2\ncloth = { shape = 'file', file = 'seam.obj', weld = 0, density = 0.1 }\n\
+                 effects.gravity = {}\neffects.attachments.group = [{ vertices = [3], limit = 0.001 }]\n";
+    place.write("seam.toml", scene);
+    let result = place.json(&["simulate", "seam.toml", "--json"]);
+    assert_eq!(result["released"][0]["vertex"], 6, "{result}");
+}
+
 /// Writes a scene with the sheet of `SHEET` through the upper part of its ball.
 fn tangled(start: &str) -> Workplace {
     let place = Workplace::new();

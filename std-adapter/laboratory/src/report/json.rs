@@ -161,7 +161,8 @@ pub fn effects_one_by_one(costs: &[crate::study::EffectCost]) -> Value {
 /// Returns a simulation and its recording, for `selvedge simulate`.
 ///
 /// Energies are in J; gravitational energy counts from the scene's origin. Stretch is relative to the length at rest. Both lists
-/// belong to the times in `seconds`.
+/// belong to the times in `seconds`. Vertices have the numbers of the [mesh in files](selvedge_cloth::MeshInFiles), those of `torn` within
+/// their cloth.
 pub fn simulation(simulation: &selvedge_cloth::Simulation, recording: &Recording) -> Value {
     let seconds = recording.wall_seconds.unwrap_or(f64::NAN);
     let steps = simulation.steps_done();
@@ -177,7 +178,10 @@ pub fn simulation(simulation: &selvedge_cloth::Simulation, recording: &Recording
     let stages = stages.map(|(stage, seconds)| json!({"stage": stage, "seconds": seconds}));
     let stretch = simulation.edge_stretch();
     let released = simulation.released().into_iter();
-    let released = released.map(|release| json!({"group": release.group, "vertex": release.vertex, "seconds": release.time}));
+    let in_files = simulation.mesh_in_files();
+    let number = |vertex: usize| in_files.number_of[vertex];
+    let released = released
+        .map(|release| json!({"group": release.group, "vertex": number(release.vertex as usize), "seconds": release.time}));
     let torn = simulation.torn_edges().iter();
     let torn = torn.map(|edge| {
         let TornEdge {
@@ -186,7 +190,10 @@ pub fn simulation(simulation: &selvedge_cloth::Simulation, recording: &Recording
             time,
             load,
         } = *edge;
-        json!({"cloth": cloth, "edge": vertices, "seconds": time, "newtons_per_metre": load})
+        let first = simulation.vertices_of_cloth(cloth).unwrap_or_default().start;
+        let first_in_file = in_files.vertices_of_cloths[cloth].start as u32;
+        let edge = vertices.map(|vertex| number(first + vertex as usize) - first_in_file);
+        json!({"cloth": cloth, "edge": edge, "seconds": time, "newtons_per_metre": load})
     });
     let slowest = recording.step_times();
     json!({

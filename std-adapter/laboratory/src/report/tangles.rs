@@ -332,10 +332,10 @@ pub fn crossing_triangles(tangled: &Tangled) -> Vec<bool> {
     tangled.mesh.triangles.iter().map(meets).collect()
 }
 
-/// Returns the document of `selvedge simulate --json` for a scene that starts tangled. Vertices count from 0, the cloth's first,
-/// then the bodies'.
+/// Returns the document of `selvedge simulate --json` for a scene that starts tangled. Vertices have their
+/// [numbers in files](Tangled::numbers_in_files).
 pub fn tangled_start_json(scene: &str, tangled: &Tangled) -> Value {
-    let crossing = |crossing: &Crossing| {
+    let crossing = |crossing: Crossing| {
         json!({
             "edge": crossing.edge,
             "face": crossing.face,
@@ -347,7 +347,7 @@ pub fn tangled_start_json(scene: &str, tangled: &Tangled) -> Value {
         "scene": scene,
         "tangled_start": {
             "message": tangled.to_string(),
-            "crossings": tangled.crossings.iter().map(crossing).collect::<Vec<_>>(),
+            "crossings": tangled.crossings_in_files().map(crossing).collect::<Vec<_>>(),
             "untangled": tangled.untangled.as_ref().map(untangled_json),
         },
     })

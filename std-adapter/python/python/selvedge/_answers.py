@@ -139,6 +139,21 @@ class MeshFile:
 
 
 @dataclass(frozen=True, eq=False)
+class MeshInFiles:
+    """The state of a simulation in which cloths from files have the vertices and faces of their files: each cloth, then the bodies."""
+
+    positions: NDArray[np.float64]
+    """(n, 3) in metres. Vertices that ``weld`` merged are apart again; those that the cloth does not have stay where the file puts them.
+    Copies that tears made follow those of the file."""
+    faces: NDArray[np.uint32]
+    """(m, 3) triangles."""
+    edges: NDArray[np.uint32]
+    """(k, 2) edges that belong to no triangle."""
+    number_of: NDArray[np.uint32]
+    """The number here of each row of the simulation's positions. Of vertices that ``weld`` merged it is the first."""
+
+
+@dataclass(frozen=True, eq=False)
 class Welded:
     """A mesh whose vertices in the same place are one."""
 

@@ -16,6 +16,7 @@ from ._answers import (
     Crossings,
     Intersections,
     MeshFile,
+    MeshInFiles,
     NearPairs,
     Release,
     TornEdge,
@@ -277,6 +278,9 @@ class Simulation:
     @property
     def loose_edges(self) -> NDArray[np.uint32]:
         """(n, 2) the loose edges of cloths: ropes, laces and fringes. Tearing changes them, as :attr:`faces`."""
+    def mesh_in_files(self) -> MeshInFiles:
+        """Returns the present state with the vertices and faces of the cloths' files, seams included."""
+
     @property
     def cloth_vertex_count(self) -> int: ...
     @property

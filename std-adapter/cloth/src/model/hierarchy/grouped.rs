@@ -16,9 +16,14 @@ impl<T: Copy> Grouped<T> {
         for owner in 1..starts.len() {
             starts[owner] += starts[owner - 1];
         }
-        let mut order: Vec<u32> = (0..pairs.len() as u32).collect();
-        order.sort_by_key(|&k| pairs[k as usize].0);
-        let items = order.into_iter().map(|k| pairs[k as usize].1).collect();
+        let mut next = starts.clone();
+        let mut order = vec![0; pairs.len()];
+        for (k, (owner, _)) in pairs.iter().enumerate() {
+            let place = &mut next[*owner as usize];
+            order[*place as usize] = k;
+            *place += 1;
+        }
+        let items = order.into_iter().map(|k| pairs[k].1).collect();
         Self { starts, items }
     }
 }

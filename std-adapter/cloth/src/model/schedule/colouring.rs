@@ -32,15 +32,16 @@ pub(super) fn in_groups(order: &mut [u32], centres: &[DVec3], groups: &mut Vec<V
 /// more neighbours than there are colours, the item gets a colour of its own.
 pub(super) fn sort_by_colour<T>(items: &mut Vec<T>, vertices: impl Fn(&T) -> &[u32], vertex_count: usize) -> Vec<Range<usize>> {
     let mut taken = vec![0_u128; vertex_count];
-    let colour_of = |item: T| {
-        let all = vertices(&item).iter().map(|&v| taken[v as usize]);
+    let colour_of = |(k, item): (usize, &T)| {
+        let all = vertices(item).iter().map(|&v| taken[v as usize]);
         let colour = all.fold(0, |all, own| all | own).trailing_ones();
         let bit = 1_u128.checked_shl(colour).unwrap_or(0);
-        vertices(&item).iter().for_each(|&v| taken[v as usize] |= bit);
-        (colour, item)
+        vertices(item).iter().for_each(|&v| taken[v as usize] |= bit);
+        (colour, k)
     };
-    let mut by_colour: Vec<_> = items.drain(..).map(colour_of).collect();
-    by_colour.sort_by_key(|(colour, _)| *colour);
+    let mut by_colour: Vec<(u32, usize)> = items.iter().enumerate().map(colour_of).collect();
+    // Places are sorted and not items, whose types would each add the code of a sort to the program.
+    by_colour.sort_unstable();
     let mut end = 0;
     let colours = by_colour.chunk_by(|a, b| a.0 == b.0 && a.0 < u128::BITS).map(|group| {
         let begin = end;
@@ -48,6 +49,7 @@ pub(super) fn sort_by_colour<T>(items: &mut Vec<T>, vertices: impl Fn(&T) -> &[u
         begin..end
     });
     let colours = colours.collect();
-    items.extend(by_colour.into_iter().map(|(_, item)| item));
+    let mut all: Vec<Option<T>> = items.drain(..).map(Some).collect();
+    items.extend(by_colour.into_iter().filter_map(|(_, k)| all[k].take()));
     colours
 }

@@ -345,9 +345,13 @@ function placeScene(recording) {
   }
   const middle = least.map((low, i) => 0.5 * (low + most[i]));
   const place = (points) => {
+    // Written out, since it runs for each vertex of each frame.
+    const [[a, b, c], [d, e, f], [g, h, j]] = rows;
     for (let i = 0; i < points.length; i += 3) {
-      const p = rotate([points[i], points[i + 1], points[i + 2]]);
-      for (let k = 0; k < 3; k++) points[i + k] = p[k] - middle[k];
+      const x = points[i], y = points[i + 1], z = points[i + 2];
+      points[i] = a * x + b * y + c * z - middle[0];
+      points[i + 1] = d * x + e * y + f * z - middle[1];
+      points[i + 2] = g * x + h * y + j * z - middle[2];
     }
   };
 
