@@ -7,7 +7,7 @@ From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent
   Magnitudes.
 From Selvedge Require Orders Boxes Apart Certificates Nearest Witnesses Integers.
-From Selvedge Require Machine Nearness Corners Advance Advancing Checker Narrowing.
+From Selvedge Require Machine Nearness Corners Advance Advancing Checker Chains Narrowing.
 From Coq Require QArith_base List.
 Import List.ListNotations.
 Open Scope R_scope.
@@ -281,6 +281,22 @@ Proof.
   - exact (Advancing.ahead_excludes_contact_of_two_edges place given t same ahead).
   - exact (Advancing.volume_excludes_contact_of_two_edges place given t same volume).
 Qed.
+(* None of it is empty. Coq runs the traced code with Flocq's binary numbers: for a pair of each kind, a chain reaches the
+   end of the step, and each proof of a round holds; for another pair, clipping gives a later time. *)
+Theorem chains_reach_the_end f : f = Advance.binary32 \/ f = Advance.binary64 ->
+  (exists place, Advancing.reaches Advancing.of_a_vertex_and_a_face place 0 1) /\
+  (exists place, Advancing.reaches Advancing.of_two_edges place 0 1).
+Proof.
+  intro which. assert (fine : Corners.reasonable_constants f).
+  { destruct constants_of_the_time_of_impact. destruct which as [-> | ->]; assumption. }
+  destruct (Chains.every_proof_holds_for_some f which) as [a b]. split; eapply Chains.a_chain_exists; eassumption.
+Qed.
+Theorem each_proof_of_a_round_holds_for_some_pair f : f = Advance.binary32 \/ f = Advance.binary64 ->
+  Chains.every_proof_holds Advancing.of_a_vertex_and_a_face f /\ Chains.every_proof_holds Advancing.of_two_edges f.
+Proof. exact (Chains.every_proof_holds_for_some f). Qed.
+Theorem clipping_advances_for_some_pair : Chains.clipping_advances Advancing.of_a_vertex_and_a_face Advance.binary32 /\
+  Chains.clipping_advances Advancing.of_two_edges Advance.binary32.
+Proof. exact Chains.clipping_advances_for_some. Qed.
 
 (* 11. A checker of witnesses without a separation, in rational numbers (Checker.v): for whoever distrusts the code and
        the model of its arithmetic. A witness is a list of parts of the step, each with its proof (docs/witnesses.md).
@@ -358,6 +374,9 @@ Print Assumptions constants_of_the_time_of_impact.
 Print Assumptions environments_exist.
 Print Assumptions no_contact_of_a_vertex_and_a_face_before.
 Print Assumptions no_contact_of_two_edges_before.
+Print Assumptions chains_reach_the_end.
+Print Assumptions each_proof_of_a_round_holds_for_some_pair.
+Print Assumptions clipping_advances_for_some_pair.
 Print Assumptions an_accepted_witness_of_a_vertex_and_a_face_is_right.
 Print Assumptions an_accepted_witness_of_two_edges_is_right.
 Print Assumptions the_checker_accepts_some.

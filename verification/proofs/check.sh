@@ -1,19 +1,26 @@
 #!/usr/bin/env bash
-# Checks the proofs in this folder with Coq, and that their only axioms are those of the real numbers.
+# Checks the proofs in this folder with Coq, and that their only axioms are those of the real numbers. Then extracts the checker of
+# witnesses, and tests it.
 #
-# Installs what is missing (Debian's coq, libcoq-flocq).
+#   check.sh [PROGRAM]    leaves the extracted checker there
+#
+# Installs what is missing (Debian's coq, libcoq-flocq, libzarith-ocaml-dev).
 set -euo pipefail
+program=${1:+$(realpath "$1")}
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
-is_there() { command -v coqc >/dev/null 2>&1 && [ -e "$(coqc -where)/user-contrib/Flocq/Core/Core.vo" ]; }
+is_there() {
+    command -v coqc ocamlfind >/dev/null 2>&1 && [ -e "$(coqc -where)/user-contrib/Flocq/Core/Core.vo" ] &&
+        [ -e "$(ocamlfind query zarith 2>/dev/null)/zarith.cmxa" ]
+}
 as_root() {
     if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo -n "$@"; fi
 }
-install() { as_root apt-get install -y --no-install-recommends coq libcoq-flocq </dev/null >/dev/null; }
+install() { as_root apt-get install -y --no-install-recommends coq libcoq-flocq libzarith-ocaml-dev </dev/null >/dev/null; }
 
 if ! is_there; then
     command -v apt-get >/dev/null || {
-        echo "proofs: coq and flocq are missing, and this script knows only Debian's packages" >&2
+        echo "proofs: coq, flocq or zarith are missing, and this script knows only Debian's packages" >&2
         exit 1
     }
     install || { as_root apt-get update >/dev/null && install; }
@@ -21,18 +28,19 @@ fi
 
 # In the order of their dependencies; the last one prints the axioms of its theorems. mutations.py reads the following lists of the files
 # that build on the ones written from the kernels:
-# above Filter: Permanent Magnitudes Advance Advancing Checker Witnesses Theorems
-# above Boxes: Apart Certificates Volume Clipping VolumeSteps Advancing Checker Witnesses Theorems
-# above Advance: Advancing Checker Theorems
+# above Filter: Permanent Magnitudes Advance Advancing Checker Witnesses Chains Theorems
+# above Boxes: Apart Certificates Volume Clipping VolumeSteps Advancing Checker Witnesses Chains Theorems
+# above Advance: Advancing Checker Chains Theorems
 # above Narrowed: Narrowing Theorems
 files=(Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Magnitudes Orders Boxes Apart Certificates Machine
-    Nearness Corners Directions Held Hull Volume Clipping VolumeSteps Advance Advancing Checker Nearest Witnesses Integers Narrowed
-    Narrowing Theorems)
+    Nearness Corners Directions Held Hull Volume Clipping VolumeSteps Advance Advancing Checker Nearest Witnesses Chains Integers
+    Narrowed Narrowing Theorems)
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-cp ./*.v "$folder"
+cp -r ./*.v extracted "$folder"
+manifest=$(realpath ../Cargo.toml)
 # The kernels' terms. Changes that are not accepted are refused.
-cargo run --quiet --manifest-path ../Cargo.toml --package selvedge-traced -- coq "$folder"
+cargo run --quiet --manifest-path "$manifest" --package selvedge-traced -- coq "$folder"
 cd "$folder"
 
 if [ "$(ls ./*.v | wc -l)" -ne "${#files[@]}" ]; then
@@ -67,3 +75,9 @@ if grep -vE "^( |Axioms:\$|Closed under the global context\$|($known)( |\$))" sa
     exit 1
 fi
 echo "proofs: ${#files[@]} files accepted by Coq in $SECONDS s, $(grep -c '^Axioms:' says) theorems on the axioms of the real numbers alone"
+
+cd extracted
+coqc -q -Q .. Selvedge Extract.v
+ocamlfind ocamlopt -package zarith -linkpkg checker.mli checker.ml check_witnesses.ml -o check_witnesses
+python3 test.py ./check_witnesses cargo run --quiet --manifest-path "$manifest" --package selvedge-command --
+[ -z "$program" ] || cp check_witnesses "$program"
