@@ -22,7 +22,8 @@ export async function serve(folder) {
 /** Opens Chromium, or Firefox if `SELVEDGE_BROWSER` says so. Firefox draws by WebGL only with a display, such as that of `xvfb-run`. */
 export function open() {
   if (process.env.SELVEDGE_BROWSER === "firefox") {
-    const firefoxUserPrefs = { "webgl.force-enabled": true };
+    // Playwright cannot emulate media there.
+    const firefoxUserPrefs = { "webgl.force-enabled": true, "ui.prefersReducedMotion": 1 };
     return firefox.launch({ channel: "moz-firefox", executablePath: process.env.FIREFOX ?? "/usr/bin/firefox-esr", headless: false, firefoxUserPrefs });
   }
   const args = ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
