@@ -53,6 +53,8 @@ pub struct Case {
     pub split: usize,
     /// Says whether there is a contact. `None` if a number is not finite.
     pub touches: Option<bool>,
+    /// The first time of contact, if it is a quotient: `1/2`.
+    pub exact: Option<String>,
     /// Two numbers that enclose the first time of contact.
     pub first: Option<[Hexadecimal; 2]>,
     /// Two numbers that enclose the smallest distance.

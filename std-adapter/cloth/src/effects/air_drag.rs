@@ -10,14 +10,10 @@ use selvedge_core::glam::DVec3;
 
 const RATE: Field = Field::new("rate", FREQUENCY, 0.0, 1e6);
 
-pub(super) const REGISTRATION: Registration = Registration {
-    keys: &["rate"],
-    needs: &[],
-    read: |table, _| {
-        let rate = table.required_number(&RATE)?;
-        Ok(Box::new(AirDrag { rate }))
-    },
-};
+pub(super) const REGISTRATION: Registration = Registration::new(&["rate"], |table, _| {
+    let rate = table.required_number(&RATE)?;
+    Ok(Box::new(AirDrag { rate }))
+});
 
 /// The drag of still air on all vertices. [`Wind`](super::Wind) is moving air.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -26,23 +26,19 @@ use selvedge_core::glam::DVec3;
 const LIMIT: Field = Field::new("limit", FORCE, 1e-6, 1e6);
 const GIVE: Field = Field::new("give", LENGTH, 1e-6, 1.0);
 
-pub(super) const REGISTRATION: Registration = Registration {
-    keys: &["group"],
-    needs: &[],
-    read: |table, world| {
-        let mut attachments = Attachments::default();
-        let mut taken = vec![false; world.cloth_vertices()];
-        for table in table.tables("group")? {
-            table.expect_keys(&keys(&[LIMIT.name, GIVE.name]))?;
-            let mut group = AttachmentGroup::resting(read_vertices(&table, world)?, table.required_number(&LIMIT)?);
-            group.motion = read_motion(&table, world)?;
-            group.give = table.number(&GIVE)?.unwrap_or(group.give);
-            group.check(world, &mut taken).map_err(|error| placed(&table, error))?;
-            attachments.groups.push(group);
-        }
-        Ok(Box::new(attachments))
-    },
-};
+pub(super) const REGISTRATION: Registration = Registration::new(&["group"], |table, world| {
+    let mut attachments = Attachments::default();
+    let mut taken = vec![false; world.cloth_vertices()];
+    for table in table.tables("group")? {
+        table.expect_keys(&keys(&[LIMIT.name, GIVE.name]))?;
+        let mut group = AttachmentGroup::resting(read_vertices(&table, world)?, table.required_number(&LIMIT)?);
+        group.motion = read_motion(&table, world)?;
+        group.give = table.number(&GIVE)?.unwrap_or(group.give);
+        group.check(world, &mut taken).map_err(|error| placed(&table, error))?;
+        attachments.groups.push(group);
+    }
+    Ok(Box::new(attachments))
+});
 
 /// Vertices of the cloth that are held until the force exceeds a limit.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -10,17 +10,13 @@ const WARP: Field = Field::new("stiffness", BENDING_STIFFNESS, 1e-12, 10.0);
 const WEFT: Field = Field::new("weft_stiffness", BENDING_STIFFNESS, 1e-12, 10.0);
 const STAGES: Count = Count::new("stages", 1, 1000);
 
-pub(super) const REGISTRATION: Registration = Registration {
-    keys: &["stiffness", "weft_stiffness", "stages"],
-    needs: &[],
-    read: |table, world| {
-        let of_material = world.cloth.material.as_ref().map(Bend::of_material);
-        let mut bend = table.number_or(&WARP, Bend::isotropic, of_material)?;
-        bend.weft_stiffness = table.number(&WEFT)?.unwrap_or(bend.weft_stiffness);
-        bend.stages = table.count(&STAGES)?.unwrap_or(bend.stages);
-        Ok(Box::new(bend))
-    },
-};
+pub(super) const REGISTRATION: Registration = Registration::new(&["stiffness", "weft_stiffness", "stages"], |table, world| {
+    let of_material = world.cloth.material.as_ref().map(Bend::of_material);
+    let mut bend = table.number_or(&WARP, Bend::isotropic, of_material)?;
+    bend.weft_stiffness = table.number(&WEFT)?.unwrap_or(bend.weft_stiffness);
+    bend.stages = table.count(&STAGES)?.unwrap_or(bend.stages);
+    Ok(Box::new(bend))
+});
 
 /// Resistance to bending. The cloth is flat at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -14,11 +14,9 @@ use crate::world::{Pose, SceneParts};
 use selvedge_core::glam::DVec3;
 use std::ops::Range;
 
-pub(super) const REGISTRATION: Registration = Registration {
-    keys: &["thickness", "separation"],
-    needs: &[],
-    read: |table, _| Ok(Box::new(BodyContact(thickness::read(table)?))),
-};
+pub(super) const REGISTRATION: Registration = Registration::new(&["thickness", "separation"], |table, _| {
+    Ok(Box::new(BodyContact(thickness::read(table)?)))
+});
 
 /// The cloth keeps a thickness from bodies, and every step is certified not to pass through their triangles.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -14,14 +14,11 @@ use selvedge_core::glam::DVec3;
 
 const COEFFICIENT: Field = Field::new("coefficient", RATIO, 0.0, 10.0);
 
-pub(super) const REGISTRATION: Registration = Registration {
-    keys: &["coefficient"],
-    needs: &["self_collision", "body_contact"],
-    read: |table, _| {
-        let coefficient = table.required_number(&COEFFICIENT)?;
-        Ok(Box::new(Friction { coefficient }))
-    },
-};
+pub(super) const REGISTRATION: Registration = Registration::new(&["coefficient"], |table, _| {
+    let coefficient = table.required_number(&COEFFICIENT)?;
+    Ok(Box::new(Friction { coefficient }))
+})
+.needing(&["self_collision", "body_contact"]);
 
 /// Friction in contacts. It needs [`SelfCollision`](super::SelfCollision) or [`BodyContact`](super::BodyContact).
 #[derive(Clone, Copy, Debug, PartialEq)]

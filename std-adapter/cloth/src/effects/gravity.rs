@@ -10,16 +10,12 @@ use selvedge_core::glam::DVec3;
 
 const ACCELERATING: Field = Field::vector("acceleration", ACCELERATION, 1e4);
 
-pub(super) const REGISTRATION: Registration = Registration {
-    keys: &["acceleration"],
-    needs: &[],
-    read: |table, _| {
-        let acceleration = table.vector(&ACCELERATING)?;
-        Ok(Box::new(
-            acceleration.map_or_else(Gravity::default, |acceleration| Gravity { acceleration }),
-        ))
-    },
-};
+pub(super) const REGISTRATION: Registration = Registration::new(&["acceleration"], |table, _| {
+    let acceleration = table.vector(&ACCELERATING)?;
+    Ok(Box::new(
+        acceleration.map_or_else(Gravity::default, |acceleration| Gravity { acceleration }),
+    ))
+});
 
 /// A uniform acceleration.
 #[derive(Clone, Copy, Debug, PartialEq)]

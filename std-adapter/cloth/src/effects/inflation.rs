@@ -12,22 +12,18 @@ use selvedge_core::glam::DVec3;
 
 const GIVEN: Field = Field::new("pressure", PRESSURE, -1e7, 1e7);
 
-pub(super) const REGISTRATION: Registration = Registration {
-    keys: &["pressure", "keyframes"],
-    needs: &[],
-    read: |table, _| {
-        let given = table.number(&GIVEN)?;
-        let keyframes = read_keyframes(table)?;
-        match given {
-            Some(_) if !keyframes.is_empty() => {
-                let message = "inflation takes `pressure` or `keyframes`, not both".to_owned();
-                Err(table.error("keyframes", message))
-            }
-            Some(pressure) => Ok(Box::new(Inflation::at(pressure))),
-            None => Ok(Box::new(Inflation { keyframes })),
+pub(super) const REGISTRATION: Registration = Registration::new(&["pressure", "keyframes"], |table, _| {
+    let given = table.number(&GIVEN)?;
+    let keyframes = read_keyframes(table)?;
+    match given {
+        Some(_) if !keyframes.is_empty() => {
+            let message = "inflation takes `pressure` or `keyframes`, not both".to_owned();
+            Err(table.error("keyframes", message))
         }
-    },
-};
+        Some(pressure) => Ok(Box::new(Inflation::at(pressure))),
+        None => Ok(Box::new(Inflation { keyframes })),
+    }
+});
 
 fn read_keyframes(table: &Table<'_>) -> Result<Vec<PressureKey>, SceneError> {
     let mut keyframes: Vec<PressureKey> = Vec::new();

@@ -239,14 +239,8 @@ mod tests {
         let mesh = Schedule::<Tension, 3>::once(Vec::new(), masses.len());
         let mut levels = OnLevels::new(hierarchy.levels_to(f64::INFINITY), mesh, tension);
         let mut moved = positions.to_vec();
-        let step = TimeStep {
-            time: 0.0,
-            h: 1e-3,
-            start: positions,
-            inverse_masses: &masses.iter().map(|m| 1.0 / m).collect::<Vec<_>>(),
-            held: &[],
-            poses: &[],
-        };
+        let inverse_masses: Vec<f64> = masses.iter().map(|m| 1.0 / m).collect();
+        let step = TimeStep::first(1e-3, positions, &inverse_masses);
         levels.project(&step, &mut moved, &mut Touches::default());
         moved
     }

@@ -9,24 +9,20 @@ use crate::input::ValueError;
 use crate::model::step::Carrier;
 use crate::world::{BodyMotion, KeyframeMotion, SceneParts};
 
-pub(super) const REGISTRATION: Registration = Registration {
-    keys: &["group"],
-    needs: &[],
-    read: |table, world| {
-        let mut pins = Pins::default();
-        let mut taken = vec![false; world.cloth_vertices()];
-        for table in table.tables("group")? {
-            table.expect_keys(&keys(&[]))?;
-            let group = PinGroup {
-                vertices: read_vertices(&table, world)?,
-                motion: read_motion(&table, world)?,
-            };
-            group.check(world, &mut taken).map_err(|error| placed(&table, error))?;
-            pins.groups.push(group);
-        }
-        Ok(Box::new(pins))
-    },
-};
+pub(super) const REGISTRATION: Registration = Registration::new(&["group"], |table, world| {
+    let mut pins = Pins::default();
+    let mut taken = vec![false; world.cloth_vertices()];
+    for table in table.tables("group")? {
+        table.expect_keys(&keys(&[]))?;
+        let group = PinGroup {
+            vertices: read_vertices(&table, world)?,
+            motion: read_motion(&table, world)?,
+        };
+        group.check(world, &mut taken).map_err(|error| placed(&table, error))?;
+        pins.groups.push(group);
+    }
+    Ok(Box::new(pins))
+});
 
 /// Vertices of the cloth that follow a prescribed motion. Forces do not move them.
 #[derive(Clone, Debug, Default, PartialEq)]

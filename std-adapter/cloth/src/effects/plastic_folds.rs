@@ -9,15 +9,12 @@ use crate::world::SceneParts;
 const LIMIT: Field = Field::new("yield_curvature", CURVATURE, 1e-3, 1e6);
 const CREEP: Field = Field::new("creep", TIME, 0.0, LARGEST_TIME);
 
-pub(super) const REGISTRATION: Registration = Registration {
-    keys: &["yield_curvature", "creep"],
-    needs: &["bend"],
-    read: |table, _| {
-        let mut folds = PlasticFolds::beyond(table.required_number(&LIMIT)?);
-        folds.creep = table.number(&CREEP)?.unwrap_or(folds.creep);
-        Ok(Box::new(folds))
-    },
-};
+pub(super) const REGISTRATION: Registration = Registration::new(&["yield_curvature", "creep"], |table, _| {
+    let mut folds = PlasticFolds::beyond(table.required_number(&LIMIT)?);
+    folds.creep = table.number(&CREEP)?.unwrap_or(folds.creep);
+    Ok(Box::new(folds))
+})
+.needing(&["bend"]);
 
 /// Folds that stay after cloth is bent too far. They act through [`Bend`](super::Bend), which then leaves out the part that is
 /// too stiff for its stages.

@@ -14,17 +14,13 @@ use selvedge_core::glam::DVec3;
 const VOLUME: Field = Field::new("volume", RATIO, 0.01, 10.0);
 const MODULUS: Field = Field::new("modulus", PRESSURE, 1e-3, 1e9);
 
-pub(super) const REGISTRATION: Registration = Registration {
-    keys: &["volume", "modulus"],
-    needs: &[],
-    read: |table, _| {
-        let mut pressure = InternalPressure::with_volume_ratio(table.required_number(&VOLUME)?);
-        if let Some(modulus) = table.number(&MODULUS)? {
-            pressure.modulus = modulus;
-        }
-        Ok(Box::new(pressure))
-    },
-};
+pub(super) const REGISTRATION: Registration = Registration::new(&["volume", "modulus"], |table, _| {
+    let mut pressure = InternalPressure::with_volume_ratio(table.required_number(&VOLUME)?);
+    if let Some(modulus) = table.number(&MODULUS)? {
+        pressure.modulus = modulus;
+    }
+    Ok(Box::new(pressure))
+});
 
 /// A closed cloth keeps a volume, as if it were filled with gas.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -117,6 +117,15 @@ pub(crate) struct Registration {
 }
 
 impl Registration {
+    pub(super) const fn new(keys: &'static [&'static str], read: Read) -> Self {
+        let needs = &[];
+        Self { keys, needs, read }
+    }
+
+    pub(super) const fn needing(self, needs: &'static [&'static str]) -> Self {
+        Self { needs, ..self }
+    }
+
     /// Checks that one of the effects that `name` needs is present.
     pub(crate) fn check_needs(&self, name: &str, is_there: impl Fn(&str) -> bool) -> Result<(), ValueError> {
         if self.needs.is_empty() || self.needs.iter().any(|other| is_there(other)) {

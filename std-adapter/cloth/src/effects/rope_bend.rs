@@ -9,16 +9,12 @@ use crate::world::SceneParts;
 const STIFFNESS: Field = Field::new("stiffness", ROPE_BENDING_STIFFNESS, 1e-15, 1e3);
 const REST: [(&str, RopeShape); 2] = [("straight", RopeShape::Straight), ("as_built", RopeShape::AsBuilt)];
 
-pub(super) const REGISTRATION: Registration = Registration {
-    keys: &["stiffness", "rest"],
-    needs: &[],
-    read: |table, _| {
-        Ok(Box::new(RopeBend {
-            stiffness: table.required_number(&STIFFNESS)?,
-            rest: table.choice("rest", &REST)?.unwrap_or_default(),
-        }))
-    },
-};
+pub(super) const REGISTRATION: Registration = Registration::new(&["stiffness", "rest"], |table, _| {
+    Ok(Box::new(RopeBend {
+        stiffness: table.required_number(&STIFFNESS)?,
+        rest: table.choice("rest", &REST)?.unwrap_or_default(),
+    }))
+});
 
 /// Bending resistance where exactly two loose edges meet.
 ///

@@ -8,11 +8,9 @@ use crate::world::SceneParts;
 
 const STIFFNESS: Field = Field::new("stiffness", FORCE, 1e-3, 1e9);
 
-pub(super) const REGISTRATION: Registration = Registration {
-    keys: &["stiffness"],
-    needs: &[],
-    read: |table, _| Ok(Box::new(RopeStretch::new(table.required_number(&STIFFNESS)?))),
-};
+pub(super) const REGISTRATION: Registration = Registration::new(&["stiffness"], |table, _| {
+    Ok(Box::new(RopeStretch::new(table.required_number(&STIFFNESS)?)))
+});
 
 /// Resistance of loose edges to stretch and compression.
 ///

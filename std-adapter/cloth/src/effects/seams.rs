@@ -18,17 +18,13 @@ use selvedge_core::glam::DVec3;
 const GAP: Field = Field::new("gap", LENGTH, 0.0, 0.1);
 const CLOSING: Field = Field::new("closing", TIME, 1e-6, LARGEST_TIME);
 
-pub(super) const REGISTRATION: Registration = Registration {
-    keys: &["seam"],
-    needs: &[],
-    read: |table, world| {
-        let tables = table.tables("seam")?;
-        let seams = { tables.iter() }
-            .map(|table| read_seam(table, world))
-            .collect::<Result<_, _>>()?;
-        Ok(Box::new(Seams { seams }))
-    },
-};
+pub(super) const REGISTRATION: Registration = Registration::new(&["seam"], |table, world| {
+    let tables = table.tables("seam")?;
+    let seams = { tables.iter() }
+        .map(|table| read_seam(table, world))
+        .collect::<Result<_, _>>()?;
+    Ok(Box::new(Seams { seams }))
+});
 
 /// The distance of two vertices that are tied without a gap, in metres. A tie without length would have no direction along which
 /// a rope could pull.

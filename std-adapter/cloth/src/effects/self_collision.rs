@@ -9,11 +9,9 @@ use crate::effects::plan::{Fabric, Plan};
 use crate::input::ValueError;
 use crate::world::SceneParts;
 
-pub(super) const REGISTRATION: Registration = Registration {
-    keys: &["thickness", "separation"],
-    needs: &[],
-    read: |table, _| Ok(Box::new(SelfCollision(thickness::read(table)?))),
-};
+pub(super) const REGISTRATION: Registration = Registration::new(&["thickness", "separation"], |table, _| {
+    Ok(Box::new(SelfCollision(thickness::read(table)?)))
+});
 
 /// Cloth keeps a thickness from itself and from other cloths, and every step is certified to be free of contact.
 ///

@@ -12,18 +12,14 @@ use selvedge_core::glam::DVec3;
 const STIFFNESS: Field = Field::new("stiffness", MEMBRANE_STIFFNESS, 1e-3, 1e9);
 const SWEEPS: Count = Count::new("sweeps", 1, 100);
 
-pub(super) const REGISTRATION: Registration = Registration {
-    keys: &["stiffness", "sweeps"],
-    needs: &[],
-    read: |table, world| {
-        let of_material = world.cloth.material.as_ref().map(Shear::of_material);
-        let shear = table.number_or(&STIFFNESS, Shear::new, of_material)?;
-        Ok(Box::new(Shear {
-            sweeps: table.count(&SWEEPS)?.unwrap_or(shear.sweeps),
-            ..shear
-        }))
-    },
-};
+pub(super) const REGISTRATION: Registration = Registration::new(&["stiffness", "sweeps"], |table, world| {
+    let of_material = world.cloth.material.as_ref().map(Shear::of_material);
+    let shear = table.number_or(&STIFFNESS, Shear::new, of_material)?;
+    Ok(Box::new(Shear {
+        sweeps: table.count(&SWEEPS)?.unwrap_or(shear.sweeps),
+        ..shear
+    }))
+});
 
 /// Resistance to changes of the angle between warp and weft.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -19,17 +19,13 @@ use selvedge_core::glam::DVec3;
 const LIMIT: Field = Field::new("limit", RATIO, 1.0, 10.0);
 const SWEEPS: Count = Count::new("sweeps", 1, 100);
 
-pub(super) const REGISTRATION: Registration = Registration {
-    keys: &["limit", "sweeps", "levels"],
-    needs: &[],
-    read: |table, _| {
-        Ok(Box::new(StrainLimit {
-            limit: table.required_number(&LIMIT)?,
-            sweeps: table.count(&SWEEPS)?.unwrap_or(1),
-            levels: levels::read_most(table)?,
-        }))
-    },
-};
+pub(super) const REGISTRATION: Registration = Registration::new(&["limit", "sweeps", "levels"], |table, _| {
+    Ok(Box::new(StrainLimit {
+        limit: table.required_number(&LIMIT)?,
+        sweeps: table.count(&SWEEPS)?.unwrap_or(1),
+        levels: levels::read_most(table)?,
+    }))
+});
 
 /// No triangle is stretched beyond a ratio.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -26,10 +26,8 @@ const WARP: Field = Field::new("stiffness", MEMBRANE_STIFFNESS, 1e-3, 1e9);
 const WEFT: Field = Field::new("weft_stiffness", MEMBRANE_STIFFNESS, 1e-3, 1e9);
 const SWEEPS: Count = Count::new("sweeps", 1, 100);
 
-pub(super) const REGISTRATION: Registration = Registration {
-    keys: &["stiffness", "weft_stiffness", "sweeps", "levels"],
-    needs: &[],
-    read: |table, world| {
+pub(super) const REGISTRATION: Registration =
+    Registration::new(&["stiffness", "weft_stiffness", "sweeps", "levels"], |table, world| {
         let of_material = world.cloth.material.as_ref().map(Stretch::of_material);
         let stretch = table.number_or(&WARP, Stretch::isotropic, of_material)?;
         Ok(Box::new(Stretch {
@@ -38,8 +36,7 @@ pub(super) const REGISTRATION: Registration = Registration {
             levels: levels::read_most(table)?,
             ..stretch
         }))
-    },
-};
+    });
 
 /// Resistance to stretch and compression along warp and weft.
 #[derive(Clone, Copy, Debug, PartialEq)]

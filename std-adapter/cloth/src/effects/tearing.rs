@@ -21,26 +21,23 @@ use crate::world::SceneParts;
 
 const STRENGTH: Field = Field::new("strength", MEMBRANE_STIFFNESS, 1e-3, 1e9);
 
-pub(super) const REGISTRATION: Registration = Registration {
-    keys: &["strength", "perforation"],
-    needs: &["stretch"],
-    read: |table, world| {
-        let mut tearing = Tearing {
-            strength: table.number(&STRENGTH)?,
-            perforations: Vec::new(),
+pub(super) const REGISTRATION: Registration = Registration::new(&["strength", "perforation"], |table, world| {
+    let mut tearing = Tearing {
+        strength: table.number(&STRENGTH)?,
+        perforations: Vec::new(),
+    };
+    for table in table.tables("perforation")? {
+        table.expect_keys(&[&WAYS[..], &["cloth", STRENGTH.name]].concat())?;
+        let perforation = Perforation {
+            vertices: read_vertices(&table, world)?,
+            strength: table.required_number(&STRENGTH)?,
         };
-        for table in table.tables("perforation")? {
-            table.expect_keys(&[&WAYS[..], &["cloth", STRENGTH.name]].concat())?;
-            let perforation = Perforation {
-                vertices: read_vertices(&table, world)?,
-                strength: table.required_number(&STRENGTH)?,
-            };
-            perforation.check(world).map_err(|error| placed(&table, error))?;
-            tearing.perforations.push(perforation);
-        }
-        Ok(Box::new(tearing))
-    },
-};
+        perforation.check(world).map_err(|error| placed(&table, error))?;
+        tearing.perforations.push(perforation);
+    }
+    Ok(Box::new(tearing))
+})
+.needing(&["stretch"]);
 
 /// Edges between two triangles tear when the pull of [`Stretch`](super::Stretch) across them exceeds their strength.
 ///

@@ -26,6 +26,22 @@ pub struct TimeStep<'a> {
     pub(crate) poses: &'a [[Pose; 2]],
 }
 
+#[cfg(test)]
+impl<'a> TimeStep<'a> {
+    /// Makes the first step, in which nothing is held or carried.
+    pub(crate) const fn first(h: f64, start: &'a [DVec3], inverse_masses: &'a [f64]) -> Self {
+        let (time, held, poses) = (0.0, &[] as &[_], &[] as &[_]);
+        Self {
+            time,
+            h,
+            start,
+            inverse_masses,
+            held,
+            poses,
+        }
+    }
+}
+
 /// Changes velocities before positions are predicted.
 ///
 /// A failed step is repeated in parts, so a force must depend on its arguments alone.

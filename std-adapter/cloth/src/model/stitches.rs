@@ -217,11 +217,7 @@ mod tests {
             };
             let step = TimeStep {
                 time,
-                h: 0.1,
-                start: &rest,
-                inverse_masses: &[1.0; 4],
-                held: &[],
-                poses: &[],
+                ..TimeStep::first(0.1, &rest, &[1.0; 4])
             };
             sewing.project(&step, &mut positions, &mut Touches::default());
             made[0].length(&positions)

@@ -190,14 +190,7 @@ mod tests {
 
     /// Projects random corrections, and returns the result, with the vertices and masses.
     fn left(start: &[DVec3], corrections: &[DVec3], inverse_masses: &[f64]) -> Vec<DVec3> {
-        let step = TimeStep {
-            time: 0.0,
-            h: 1e-3,
-            start,
-            inverse_masses,
-            held: &[],
-            poses: &[],
-        };
+        let step = TimeStep::first(1e-3, start, inverse_masses);
         let mut pieces = Pieces::new(inverse_masses, (1..start.len() as u32).map(|vertex| [vertex - 1, vertex]));
         pieces.begin(start);
         let moved = start.iter().zip(corrections).zip(inverse_masses);

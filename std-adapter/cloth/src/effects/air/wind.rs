@@ -20,10 +20,9 @@ const VELOCITY: Field = Field::vector("velocity", SPEED, 1e3);
 const GUST: Field = Field::new("gust", RATIO, 0.0, 1.0);
 const GUST_FREQUENCY: Field = Field::new("gust_frequency", FREQUENCY, 0.0, 1e3);
 
-pub(in crate::effects) const REGISTRATION: Registration = Registration {
-    keys: &["velocity", "air_density", "drag", "rope_diameter", "gust", "gust_frequency"],
-    needs: &[],
-    read: |table, _| {
+pub(in crate::effects) const REGISTRATION: Registration = Registration::new(
+    &["velocity", "air_density", "drag", "rope_diameter", "gust", "gust_frequency"],
+    |table, _| {
         let number = |field, default| table.number(field).map(|n| n.unwrap_or(default));
         let default = Wind::default();
         let velocity = table.required_vector(&VELOCITY)?;
@@ -37,7 +36,7 @@ pub(in crate::effects) const REGISTRATION: Registration = Registration {
             gust_frequency: number(&GUST_FREQUENCY, default.gust_frequency)?,
         }))
     },
-};
+);
 
 /// Uniform wind with gusts. [`Simulation::set_wind`](crate::Simulation::set_wind) changes it from step to step.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -15,10 +15,8 @@ use selvedge_core::glam::DVec3;
 use std::fmt::Debug;
 use std::sync::Arc;
 
-pub(in crate::effects) const REGISTRATION: Registration = Registration {
-    keys: &["fan", "vortex", "air_density", "drag", "rope_diameter"],
-    needs: &[],
-    read: |table, _| {
+pub(in crate::effects) const REGISTRATION: Registration =
+    Registration::new(&["fan", "vortex", "air_density", "drag", "rope_diameter"], |table, _| {
         let mut sources = Vec::new();
         for fan in table.tables("fan")? {
             sources.push(AirSource::Fan(Fan::read(&fan)?));
@@ -37,8 +35,7 @@ pub(in crate::effects) const REGISTRATION: Registration = Registration {
             rope_diameter: air.rope_diameter,
             ..WindField::from_sources(sources)
         }))
-    },
-};
+    });
 
 /// Wind that varies with place and time.
 ///

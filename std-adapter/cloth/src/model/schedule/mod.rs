@@ -201,14 +201,8 @@ mod tests {
 
     fn run<C: Constraint>(start: &[DVec3], project: &mut C, threads: usize) -> Vec<DVec3> {
         let mut positions = start.to_vec();
-        let step = TimeStep {
-            time: 0.0,
-            h: 1.0,
-            start,
-            inverse_masses: &vec![1.0; start.len()],
-            held: &[],
-            poses: &[],
-        };
+        let inverse_masses = vec![1.0; start.len()];
+        let step = TimeStep::first(1.0, start, &inverse_masses);
         let threads = Workers::new(Threads::from_count(threads)).unwrap();
         threads.run(|| project.project(&step, &mut positions, &mut Touches::default()));
         positions

@@ -6,14 +6,7 @@ const CLOTH_AND_BALL: usize = 2;
 
 /// Records `frames` frames of a triangle that falls and turns over a body that stays.
 fn recording(frames: u64, up: DVec3) -> Recording {
-    let about = About {
-        name: "fall".to_owned(),
-        scene: String::new(),
-        up,
-        time_step: 0.02,
-        fabric: Vec::new(),
-        knobs: Vec::new(),
-    };
+    let about = About::test("fall", up, 0.02);
     let parts = vec![
         Part::new("cloth", PartKind::Cloth, 3, vec![[0, 1, 2]]),
         Part::new("nothing", PartKind::Body, 1, vec![]),

@@ -34,10 +34,8 @@ fn recording(frames: &[Vec<DVec3>], series: &[(&str, SeriesKind)]) -> Recording 
     let about = About {
         name: "a <scene> & \"more\"".to_owned(),
         scene: "# </script><b>\nlimit = 3 & 4\n".to_owned(),
-        up: DVec3::Y,
-        time_step: 0.001,
-        fabric: Vec::new(),
         knobs: vec![Knob::new("time step", "1 ms")],
+        ..About::test("", DVec3::Y, 0.001)
     };
     let vertices = frames[0].len();
     let parts = vec![

@@ -98,6 +98,15 @@ pub struct About {
     pub knobs: Vec<Knob>,
 }
 
+#[cfg(test)]
+impl About {
+    /// Describes a scene without a file, without fabric and settings.
+    pub(super) fn test(name: &str, up: DVec3, time_step: f64) -> Self {
+        let (name, scene, fabric, knobs) = (name.to_owned(), String::new(), Vec::new(), Vec::new());
+        Self { name, scene, up, time_step, fabric, knobs }
+    }
+}
+
 /// The cost of a step with some of the effects.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Added {

@@ -2,14 +2,7 @@ use super::*;
 use proptest::prelude::*;
 
 fn about() -> About {
-    About {
-        name: "test".to_owned(),
-        scene: String::new(),
-        up: DVec3::Z,
-        time_step: 0.5,
-        fabric: Vec::new(),
-        knobs: Vec::new(),
-    }
+    About::test("test", DVec3::Z, 0.5)
 }
 
 fn triangle() -> Part {

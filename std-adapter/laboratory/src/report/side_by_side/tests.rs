@@ -5,12 +5,10 @@ use selvedge_core::glam::DVec3;
 
 fn recording(name: &str, scene: &str, thickness: &str, measures: &[(&str, MeasureKind)]) -> Recording {
     let about = About {
-        name: name.to_owned(),
         scene: scene.to_owned(),
-        up: DVec3::Z,
-        time_step: 0.1,
         fabric: vec![Knob::new("weight", "150 g/m²")],
         knobs: vec![Knob::new("self-collision: thickness", thickness)],
+        ..About::test(name, DVec3::Z, 0.1)
     };
     let series = [("self_collision", SeriesKind::Effect), ("whole step", SeriesKind::Step)];
     let parts = vec![Part::new("cloth", PartKind::Cloth, 3, vec![[0, 1, 2]])];

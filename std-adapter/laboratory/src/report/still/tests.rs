@@ -5,14 +5,7 @@ use tiny_skia::ColorU8;
 
 /// Records a square of cloth, 1 m wide and flat, above a larger one that is a body.
 fn recording(up: DVec3, unit: f64) -> Recording {
-    let about = About {
-        name: "squares".to_owned(),
-        scene: String::new(),
-        up,
-        time_step: 0.1,
-        fabric: Vec::new(),
-        knobs: Vec::new(),
-    };
+    let about = About::test("squares", up, 0.1);
     let triangles = vec![[0, 1, 2], [2, 1, 3]];
     let parts = vec![
         Part::new("cloth", PartKind::Cloth, 4, triangles.clone()),
