@@ -60,11 +60,7 @@ impl<S: Format> Batch<S> {
     }
 
     /// Checks that `test` gives all of them together, on every instruction set and in every form, the verdicts of `one_by_one`.
-    fn agrees(
-        &self,
-        test: impl BatchTest<S> + std::fmt::Debug,
-        one_by_one: impl Fn(&PairCase<S>) -> Verdict,
-    ) -> Result<(), TestCaseError> {
+    fn agrees(&self, test: impl BatchTest<S> + std::fmt::Debug, one_by_one: impl Fn(&PairCase<S>) -> Verdict) -> TestCaseResult {
         let count = self.pairs.len();
         let expected: Vec<_> = self.pairs.iter().map(|pair| one_by_one(pair).is_culled()).collect();
         for (name, level) in available_levels() {

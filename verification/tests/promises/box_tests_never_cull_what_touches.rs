@@ -7,7 +7,7 @@ use selvedge_verification::culling::certified;
 use selvedge_verification::oracle::segment_meets_box;
 
 /// This needs no oracle: the pair touches by construction.
-fn nothing_certified_culls_a_pair_built_to_touch<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
+fn nothing_certified_culls_a_pair_built_to_touch<S: Format>(moment: &Moment<S>) -> TestCaseResult {
     let pair = moment.pair();
     for test in certified() {
         prop_assert!(!verdict(test, &pair).is_culled(), "{test:?}");
@@ -17,7 +17,7 @@ fn nothing_certified_culls_a_pair_built_to_touch<S: Format>(moment: &Moment<S>) 
 
 formats!(nothing_certified_culls_a_pair_built_to_touch(60_000, touching_pairs()));
 
-fn nothing_certified_culls_what_collides<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn nothing_certified_culls_what_collides<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     let culling: Vec<CullingTest> = certified().filter(|&test| verdict(test, pair).is_culled()).collect();
     if !culling.is_empty() {
         prop_assert!(collides(&pair.question()).is_none(), "culled by {culling:?}");
@@ -27,7 +27,7 @@ fn nothing_certified_culls_what_collides<S: Format>(pair: &PairCase<S>) -> Resul
 
 formats!(nothing_certified_culls_what_collides(25_000, pairs_of_any_kind()));
 
-fn nothing_certified_culls_what_is_not_finite<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn nothing_certified_culls_what_is_not_finite<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     if pair.is_finite() {
         return nothing_certified_culls_what_collides(pair);
     }
@@ -40,7 +40,7 @@ fn nothing_certified_culls_what_is_not_finite<S: Format>(pair: &PairCase<S>) -> 
 formats!(nothing_certified_culls_nan_or_infinity is nothing_certified_culls_what_is_not_finite(15_000, extraordinary_pairs()));
 
 /// Stronger tests cull more, provided that sums are finite, since relative boxes keep all other pairs.
-fn stronger_tests_cull_what_weaker_ones_cull<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn stronger_tests_cull_what_weaker_ones_cull<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     if !pair.sums_are_finite() {
         return Ok(());
     }
@@ -82,7 +82,7 @@ fn keeps_order<S: Format>(pair: &PairCase<S>, direction: [i32; 3]) -> bool {
 
 const AXES: [[i32; 3]; 3] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
 
-fn relative_boxes_are_what_they_say<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn relative_boxes_are_what_they_say<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     let on_an_axis = AXES.iter().any(|&axis| keeps_order(pair, axis));
     let culled = verdict(RelativeBoxes, pair).is_culled();
     prop_assert!(on_an_axis || !culled);
@@ -100,7 +100,7 @@ fn swept_bounds<S: Format>(pair: &PairCase<S>) -> [RationalPoint; 2] {
     ]
 }
 
-fn a_path_that_meets_the_box_is_kept<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn a_path_that_meets_the_box_is_kept<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     if verdict(SegmentBox, pair).is_culled() {
         prop_assert!(!segment_meets_box(&pair.points[0].map(rational), &swept_bounds(pair)));
     }
@@ -127,7 +127,7 @@ type PathThroughBox = ([i16; 3], [u8; 3], [u8; 3], [i16; 3], [u8; 2]);
 /// may move every product.
 fn a_path_through_the_border_of_the_box_is_kept<S: Format>(
     (corner, size, place, direction, times): PathThroughBox,
-) -> Result<(), TestCaseError> {
+) -> TestCaseResult {
     let number = |whole: i64| S::exact(whole, -3);
     let [corner, direction] = [corner, direction].map(|x| x.map(i64::from));
     // The point is at most 4 / 4 of the way along each side.

@@ -47,7 +47,7 @@ fn batch_culls<S: Format>(level: Level, kind: PairKind, test: impl BatchTest<S>,
     masks != [0]
 }
 
-pub(crate) fn nothing_culls<S: Format>(pair: &PairCase<S>, touches: bool) -> Result<(), TestCaseError> {
+pub(crate) fn nothing_culls<S: Format>(pair: &PairCase<S>, touches: bool) -> TestCaseResult {
     for environment in Environment::all() {
         let culling = environment.run(pair, |pair| culling(pair, touches));
         prop_assert!(culling.is_empty(), "{environment:?}: culled by {culling:?}");

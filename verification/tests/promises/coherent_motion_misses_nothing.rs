@@ -60,7 +60,7 @@ fn are_those_of_a_new_one<S: Format>(
     [found, expected]: [&Contacts; 2],
     limits: &Limits<S>,
     compared: &Cell<[usize; 2]>,
-) -> Result<(), TestCaseError> {
+) -> TestCaseResult {
     for (pair, time) in found {
         prop_assert_eq!(expected.get(pair), Some(time), "{:?}", pair);
     }
@@ -77,7 +77,7 @@ fn are_those_of_a_new_one<S: Format>(
     Ok(())
 }
 
-fn are_followed<S: Format>(mesh: &MeshCase<S>, compared: &Cell<[usize; 2]>, separation: f64) -> Result<(), TestCaseError> {
+fn are_followed<S: Format>(mesh: &MeshCase<S>, compared: &Cell<[usize; 2]>, separation: f64) -> TestCaseResult {
     let topology = Arc::new(mesh.topology());
     let limits = Limits::within(S::from_f64(separation));
     let new = || {

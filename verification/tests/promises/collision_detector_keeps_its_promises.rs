@@ -23,7 +23,7 @@ fn by_pair<S: Scalar>(contacts: &[Contact<S>]) -> BTreeMap<MeshPair, f64> {
 }
 
 /// Runs every query whose result the oracle knows.
-fn no_question_misses_a_contact<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
+fn no_question_misses_a_contact<S: Format>(mesh: &MeshCase<S>) -> TestCaseResult {
     let topology = mesh.topology();
     let (start, end) = (mesh.frame(0), mesh.frame(1));
     let mut detector = detector(mesh);
@@ -60,7 +60,7 @@ fn no_question_misses_a_contact<S: Format>(mesh: &MeshCase<S>) -> Result<(), Tes
 formats!(no_question_misses_a_contact(150, meshes()));
 
 /// With exact verdicts the contacts are those that the oracle finds, and no others.
-fn exact_contacts_are_those_that_touch<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
+fn exact_contacts_are_those_that_touch<S: Format>(mesh: &MeshCase<S>) -> TestCaseResult {
     let topology = mesh.topology();
     let (start, end) = (mesh.frame(0), mesh.frame(1));
     let mut detector = detector(mesh);
@@ -124,7 +124,7 @@ fn a_separation_beyond_the_numbers_of_f32_excludes_nothing() {
 }
 
 /// Half of the vertices rest, in this step and the next. Pairs with another vertex are found as before, with the same times.
-fn what_rests_changes_nothing_for_what_moves<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
+fn what_rests_changes_nothing_for_what_moves<S: Format>(mesh: &MeshCase<S>) -> TestCaseResult {
     let topology = mesh.topology();
     let moving: Vec<bool> = (0..mesh.positions.len()).map(|k| k % 2 == 0).collect();
     let step = |step: usize| {

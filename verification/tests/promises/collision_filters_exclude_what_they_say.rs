@@ -35,7 +35,7 @@ fn sorted(mut contacts: Vec<Contact<f64>>) -> Vec<Contact<f64>> {
     contacts
 }
 
-fn is_kept(mesh: &MeshCase<f64>, counts: &Cell<[usize; 2]>) -> Result<(), TestCaseError> {
+fn is_kept(mesh: &MeshCase<f64>, counts: &Cell<[usize; 2]>) -> TestCaseResult {
     let topology = Arc::new(mesh.topology());
     let (start, end) = (mesh.frame(0), mesh.frame(1));
     let mut all = Vec::new();

@@ -29,13 +29,13 @@ fn as_contact(touches: Option<bool>) -> ContactVerdict {
 }
 
 /// Checks that both give the expected verdict.
-fn both_say<S: Format>(pair: &PairCase<S>, truth: bool) -> Result<(), TestCaseError> {
+fn both_say<S: Format>(pair: &PairCase<S>, truth: bool) -> TestCaseResult {
     prop_assert_eq!(touches(pair), Some(truth), "in whole numbers");
     prop_assert_eq!(verdict(pair).0, as_contact(Some(truth)));
     Ok(())
 }
 
-fn agree_with_the_oracle<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn agree_with_the_oracle<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     both_say(pair, collides(&pair.question()).is_some())
 }
 
@@ -48,7 +48,7 @@ fn on_a_grid<S: Format>(limit: u32, choices: &mut Choices<'_>) -> PairCase<S> {
     PairCase::from_coordinates(kind, || S::exact(choices.below(limit + 1).into(), 0))
 }
 
-fn verdicts_are_the_oracles_on_small_whole_numbers<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn verdicts_are_the_oracles_on_small_whole_numbers<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     agree_with_the_oracle(pair)
 }
 
@@ -60,7 +60,7 @@ formats!(verdicts_are_the_oracles_on_small_whole_numbers(
     })
 ));
 
-fn nothing_overflows_at_the_limit_of_a_width<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn nothing_overflows_at_the_limit_of_a_width<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     agree_with_the_oracle(pair)
 }
 
@@ -102,13 +102,13 @@ fn verdicts_are_the_oracles_on_pairs_in_a_cube() {
     }
 }
 
-fn pairs_that_touch_by_construction_do<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
+fn pairs_that_touch_by_construction_do<S: Format>(moment: &Moment<S>) -> TestCaseResult {
     both_say(&moment.pair(), true)
 }
 
 formats!(pairs_that_touch_by_construction_do(15_000, touching_pairs()));
 
-fn verdicts_are_the_oracles_for_coplanar_pairs<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
+fn verdicts_are_the_oracles_for_coplanar_pairs<S: Format>(moment: &Moment<S>) -> TestCaseResult {
     agree_with_the_oracle(&moment.pair())
 }
 
@@ -132,7 +132,7 @@ fn every_kind_of_evidence_is_given() {
     assert!(counts.iter().all(|&count| count > 10), "{counts:?}");
 }
 
-fn what_is_not_finite_is_undefined<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn what_is_not_finite_is_undefined<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     if pair.is_finite() {
         return agree_with_the_oracle(pair);
     }
@@ -144,20 +144,20 @@ fn what_is_not_finite_is_undefined<S: Format>(pair: &PairCase<S>) -> Result<(), 
 formats!(what_is_not_finite_is_undefined(8_000, extraordinary_pairs()));
 
 /// The verdict in integers is the same for a pair that is written in another way.
-fn same<S: Format>(pair: &PairCase<S>, changed: &PairCase<S>) -> Result<(), TestCaseError> {
+fn same<S: Format>(pair: &PairCase<S>, changed: &PairCase<S>) -> TestCaseResult {
     let expected = touches(pair);
     prop_assert_eq!(touches(changed), expected, "changed to {:?}", changed);
     prop_assert_eq!(verdict(changed).0, as_contact(expected), "{:?}", changed);
     Ok(())
 }
 
-fn reversing_time_changes_no_verdict<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn reversing_time_changes_no_verdict<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     same(pair, &pair.reversed())
 }
 
 formats!(reversing_time_changes_no_verdict(1_200, pairs_of_any_kind()));
 
-fn mirroring_and_permuting_axes_changes_no_verdict<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn mirroring_and_permuting_axes_changes_no_verdict<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     for axis in 0..3 {
         let mirrored = pair.with_positions(|mut position| {
             position[axis] = -position[axis];
@@ -173,7 +173,7 @@ fn mirroring_and_permuting_axes_changes_no_verdict<S: Format>(pair: &PairCase<S>
 
 formats!(mirroring_and_permuting_axes_changes_no_verdict(800, pairs_of_any_kind()));
 
-fn permuting_the_faces_vertices_changes_no_verdict<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn permuting_the_faces_vertices_changes_no_verdict<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     [[0, 2, 3, 1], [0, 3, 1, 2], [0, 2, 1, 3]]
         .into_iter()
         .try_for_each(|order| same(pair, &pair.reordered(order)))
@@ -184,7 +184,7 @@ formats!(permuting_the_faces_vertices_changes_no_verdict(
     pairs(PairKind::VertexFace)
 ));
 
-fn exchanging_edges_and_their_ends_changes_no_verdict<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn exchanging_edges_and_their_ends_changes_no_verdict<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     [[2, 3, 0, 1], [1, 0, 2, 3], [0, 1, 3, 2], [3, 2, 0, 1]]
         .into_iter()
         .try_for_each(|order| same(pair, &pair.reordered(order)))
@@ -195,7 +195,7 @@ formats!(exchanging_edges_and_their_ends_changes_no_verdict(
     pairs(PairKind::EdgeEdge)
 ));
 
-fn scaling_by_powers_of_two_changes_no_verdict<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn scaling_by_powers_of_two_changes_no_verdict<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     // Scales each axis by its own factor: coplanar points, and points in triangles, stay so.
     for exponents in [[40, 40, 40], [-30, -30, -30], [7, -20, 60]] {
         let factors = exponents.map(|exponent| S::exact(1, exponent));
@@ -212,7 +212,7 @@ fn scaling_by_powers_of_two_changes_no_verdict<S: Format>(pair: &PairCase<S>) ->
 formats!(scaling_by_powers_of_two_changes_no_verdict(1_200, pairs_of_any_kind()));
 
 // Each verdict is right in any case. This also checks which pairs floating point decides; that may differ.
-fn verdicts_are_the_same_in_every_floating_point_environment<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn verdicts_are_the_same_in_every_floating_point_environment<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     let answers = |pair: &PairCase<S>| (touches(pair), verdict(pair).0);
     let expected = answers(pair);
     for environment in Environment::all() {

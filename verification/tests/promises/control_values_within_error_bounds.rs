@@ -176,7 +176,7 @@ fn compared<S: Format>(pair: &PairCase<S>) -> Option<Compared> {
 
 /// Each monomial passes through at most 8 roundings (k₀, k₃) or 10 (3k₁, 3k₂), here to nearest. Each product that underflows
 /// loses η₀. There are two for a component of n, four for one of h, and at most one more in the last six additions.
-fn control_values_are_off_by_no_more_than_their_roundings<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn control_values_are_off_by_no_more_than_their_roundings<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     let Some(Compared {
         computed,
         exact,
@@ -209,11 +209,7 @@ formats!(control_values_are_off_by_no_more_than_their_roundings(
 ));
 
 /// Checks that a computed value beyond its bound has the sign of the exact one.
-fn signs_are_certain(
-    computed: &[Rational; 4],
-    bounds: &[Rational; 4],
-    exact: &[ExactControlValue; 4],
-) -> Result<(), TestCaseError> {
+fn signs_are_certain(computed: &[Rational; 4], bounds: &[Rational; 4], exact: &[ExactControlValue; 4]) -> TestCaseResult {
     for k in 0..4 {
         let (computed, bound, value) = (&computed[k], &bounds[k], &exact[k].value);
         prop_assert!(computed <= bound || *value > 0, "control value {k}");
@@ -230,7 +226,7 @@ fn bounds_by_magnitudes<S: Format>(pair: &PairCase<S>) -> [Rational; 4] {
 }
 
 /// The filter relies on this promise for each of the four values alone.
-fn a_control_value_beyond_its_bound_has_the_exact_sign<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn a_control_value_beyond_its_bound_has_the_exact_sign<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     match compared(pair) {
         Some(Compared {
             computed, bounds, exact, ..
@@ -244,7 +240,7 @@ formats!(a_control_value_beyond_its_bound_has_the_exact_sign(
     pairs_of_any_kind()
 ));
 
-fn a_control_value_beyond_its_bound_by_magnitudes_has_the_exact_sign<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn a_control_value_beyond_its_bound_by_magnitudes_has_the_exact_sign<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     if let Some(Compared { computed, exact, .. }) = compared(pair) {
         signs_are_certain(&computed, &bounds_by_magnitudes(pair), &exact)?;
     }
@@ -258,7 +254,7 @@ formats!(a_control_value_beyond_its_bound_by_magnitudes_has_the_exact_sign(
 
 /// Checks that a computed bound is the documented sum of a relative and an absolute term. It may differ by 16 roundings and the
 /// underflow of its products. The underflow is less than an eighth of the absolute term.
-fn is_documented<S: Format>(bound: &Rational, relative: Rational, absolute: &Rational) -> Result<(), TestCaseError> {
+fn is_documented<S: Format>(bound: &Rational, relative: Rational, absolute: &Rational) -> TestCaseResult {
     let slack = relative_error::<S>(16) + 1_u32;
     let (documented, lost) = (relative + absolute, Rational::from(absolute / 8_u32));
     let most = Rational::from(&documented * &slack) + &lost;
@@ -274,7 +270,7 @@ fn underflow_term<S: Format>(largest: &Rational) -> Rational {
 }
 
 /// The bounds are Eᵢ = Cᵢ·P̂ᵢ + (1 + M)²·η with C = 16u, 20u.
-fn error_bounds_are_the_documented_ones<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn error_bounds_are_the_documented_ones<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     let Some(Compared {
         bounds, exact, largest, ..
     }) = compared(pair)
@@ -292,7 +288,7 @@ fn error_bounds_are_the_documented_ones<S: Format>(pair: &PairCase<S>) -> Result
 formats!(error_bounds_are_the_documented_ones(4_000, pairs_of_any_kind()));
 
 /// The bound is 96u times the product of the three largest magnitudes + (1 + M)²·η.
-fn error_bounds_by_magnitudes_are_the_documented_ones<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn error_bounds_by_magnitudes_are_the_documented_ones<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     if compared(pair).is_none() {
         return Ok(());
     }
@@ -340,7 +336,7 @@ fn largest_normal<S: Format>(pair: &PairCase<S>) -> S {
     pair.tetrahedron().largest_normal(kind)
 }
 
-fn no_normal_is_longer_than_its_bound<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn no_normal_is_longer_than_its_bound<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     if compared(pair).is_some() {
         let bound = rational(largest_normal(pair)).square();
         for (k, squared) in squared_normals(pair).iter().enumerate() {

@@ -21,7 +21,7 @@ fn never_within<S: Format>(pair: &PairCase<S>, separation: S, known: KnownSigns)
     is_never_within(&pair.pair(), separation, known)
 }
 
-fn signs_are_those_of_rationals<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn signs_are_those_of_rationals<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     prop_assert_eq!(signs(pair), Some(InRationals::new(pair).signs()));
     Ok(())
 }
@@ -30,7 +30,7 @@ formats!(signs_are_those_of_rationals(8_000, pairs_of_any_kind()));
 
 formats!(nothing_overflows_at_the_limit_of_a_width is signs_are_those_of_rationals(2_000, from_choices(at_the_limit_of_a_width)));
 
-fn never_coplanar_means_one_sign_whatever_is_known_before<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn never_coplanar_means_one_sign_whatever_is_known_before<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     let signs = signs(pair).expect("finite");
     let one_sign = [[Greater; 4], [Less; 4]].contains(&signs);
     for subset in 0..16 {
@@ -47,7 +47,7 @@ formats!(never_coplanar_means_one_sign_whatever_is_known_before(
     pairs_of_any_kind()
 ));
 
-fn what_is_known_is_not_asked_again<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn what_is_known_is_not_asked_again<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     let signs = signs(pair).expect("finite");
     for i in 0..4 {
         for claimed in [Less, Equal, Greater] {
@@ -62,7 +62,7 @@ fn what_is_known_is_not_asked_again<S: Format>(pair: &PairCase<S>) -> Result<(),
 
 formats!(what_is_known_is_not_asked_again(2_000, pairs_of_any_kind()));
 
-fn signs_that_rounding_cannot_change_are_the_exact_ones<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn signs_that_rounding_cannot_change_are_the_exact_ones<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     let tetrahedron = pair.tetrahedron();
     if !is_in_range(tetrahedron.largest_by_axis().largest()) {
         return Ok(());
@@ -83,7 +83,7 @@ formats!(signs_that_rounding_cannot_change_are_the_exact_ones(
     pairs_of_any_kind()
 ));
 
-fn what_is_not_finite_has_no_signs_and_is_kept<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn what_is_not_finite_has_no_signs_and_is_kept<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     prop_assert_eq!(signs(pair).is_some(), pair.is_finite());
     if !pair.is_finite() {
         prop_assert!(!never_coplanar(pair, UNKNOWN));
@@ -99,7 +99,7 @@ fn reversed(signs: [Ordering; 4]) -> [Ordering; 4] {
     signs.map(Ordering::reverse)
 }
 
-fn mirroring_an_axis_or_exchanging_two_axes_reverses_the_signs<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn mirroring_an_axis_or_exchanging_two_axes_reverses_the_signs<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     let opposite = signs(pair).map(reversed);
     for axis in 0..3 {
         let mirrored = pair.with_positions(|mut position| {
@@ -119,7 +119,7 @@ formats!(mirroring_an_axis_or_exchanging_two_axes_reverses_the_signs(
     pairs_of_any_kind()
 ));
 
-fn exchanging_two_points_reverses_the_signs_whichever_is_the_base<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn exchanging_two_points_reverses_the_signs_whichever_is_the_base<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     let opposite = signs(pair).map(reversed);
     for order in [
         [1, 0, 2, 3],
@@ -139,7 +139,7 @@ formats!(exchanging_two_points_reverses_the_signs_whichever_is_the_base(
     pairs_of_any_kind()
 ));
 
-fn reversing_time_reverses_the_order_of_the_signs<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn reversing_time_reverses_the_order_of_the_signs<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     let mut backwards = signs(&pair.reversed());
     if let Some(signs) = &mut backwards {
         signs.reverse();
@@ -158,7 +158,7 @@ fn the_same_numbers_in_f64_have_the_same_signs() {
     });
 }
 
-fn is_right_to_a_relative_2_to_the_minus_60<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn is_right_to_a_relative_2_to_the_minus_60<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     let exact = InRationals::new(pair);
     let slack = Rational::from(1) + (Rational::from(1) >> 60);
     for separation in separations(pair, &exact) {
@@ -188,7 +188,7 @@ fn never_within_is_right_where_a_middle_normal_is_zero_and_its_control_value_is_
     is_right_to_a_relative_2_to_the_minus_60(&pair).expect("right");
 }
 
-fn never_culls_what_the_oracle_calls_within<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn never_culls_what_the_oracle_calls_within<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     let exact = InRationals::new(pair);
     for separation in separations(pair, &exact) {
         if never_within(pair, separation, UNKNOWN) {
@@ -200,7 +200,7 @@ fn never_culls_what_the_oracle_calls_within<S: Format>(pair: &PairCase<S>) -> Re
 
 formats!(never_culls_what_the_oracle_calls_within(800, pairs_of_any_kind()));
 
-fn a_separation_that_is_no_length_keeps_the_pair<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn a_separation_that_is_no_length_keeps_the_pair<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     for separation in [S::NAN, -S::NAN, S::INFINITY, -S::INFINITY, -S::ONE, -S::ZERO.up()] {
         prop_assert!(!never_within(pair, separation, UNKNOWN), "{separation:?}");
     }
@@ -243,7 +243,7 @@ fn decides_the_largest_spread_there_is<S: Format>() {
 
 formats!(decides_the_largest_spread_there_is);
 
-fn answers_are_the_same_in_every_floating_point_environment<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn answers_are_the_same_in_every_floating_point_environment<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     let [[x, ..], _] = pair.points[1];
     let separation = x.abs();
     let answers = |pair: &PairCase<S>| (signs(pair), never_within(pair, separation, UNKNOWN));

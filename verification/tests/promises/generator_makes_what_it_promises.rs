@@ -4,14 +4,14 @@ use crate::support::prelude::*;
 use selvedge_verification::culling::CullingTest::CertifiedNonCoplanarity;
 use selvedge_verification::oracle::touches_at;
 
-fn touches_when_it_says<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
+fn touches_when_it_says<S: Format>(moment: &Moment<S>) -> TestCaseResult {
     prop_assert!(touches_at(&moment.pair().question(), &moment.time()));
     Ok(())
 }
 
 formats!(a_touching_pair_touches_at_its_time is touches_when_it_says(4000, touching_pairs()));
 
-fn is_coplanar<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
+fn is_coplanar<S: Format>(moment: &Moment<S>) -> TestCaseResult {
     let pair = moment.pair().question();
     prop_assert!(coplanar(&pair.start, &pair.end));
     Ok(())

@@ -68,7 +68,7 @@ fn truth(topology: &Topology, positions: &[Point]) -> Truth {
 
 /// Checks that all edges and faces that meet are found, and no others. The vertices and faces, and the edges, that are found do
 /// touch, and some are found if any touch.
-fn intersections_are_those_of_exact_triangles<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
+fn intersections_are_those_of_exact_triangles<S: Format>(mesh: &MeshCase<S>) -> TestCaseResult {
     let topology = mesh.topology();
     let positions = points(mesh);
     let mut detector = CollisionDetector::<S>::new(topology.clone());

@@ -48,7 +48,7 @@ fn is_near_origin<S: Format>(mesh: &MeshCase<S>) -> bool {
     })
 }
 
-fn candidates_are_those_of_the_definition<S: Format>(mesh: &MeshCase<S>, exact: &Cell<u32>) -> Result<(), TestCaseError> {
+fn candidates_are_those_of_the_definition<S: Format>(mesh: &MeshCase<S>, exact: &Cell<u32>) -> TestCaseResult {
     let topology = mesh.topology();
     let all: BTreeSet<MeshPair> = with_kinds(all_pairs(&topology)).into_iter().collect();
     for is_swept in [false, true] {
@@ -128,7 +128,7 @@ fn an_exact_translation_leaves_the_same_candidates() {
 }
 
 /// Compares with the exact oracle, with a separation of the size of the mesh or far smaller.
-fn no_pair_that_comes_within_the_separation_is_lost<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
+fn no_pair_that_comes_within_the_separation_is_lost<S: Format>(mesh: &MeshCase<S>) -> TestCaseResult {
     let topology = mesh.topology();
     let mut broad_phase = MovingBroadPhase::new(topology.clone());
     for separation in [0.0, 1e-9, 0.25, 1.0] {

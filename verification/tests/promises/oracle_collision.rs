@@ -78,7 +78,7 @@ fn sample_times() -> Vec<Rational> {
 
 /// Checks that the sampled contacts are found, that none of them is before the reported time, and that there is a contact at that
 /// time.
-fn check_against_clipping(pair: &Pair) -> Result<(), TestCaseError> {
+fn check_against_clipping(pair: &Pair) -> TestCaseResult {
     let earliest = collides(pair);
     for t in sample_times() {
         let touches = touches_by_clipping(pair, &t);
@@ -95,7 +95,7 @@ fn check_against_clipping(pair: &Pair) -> Result<(), TestCaseError> {
 }
 
 /// Checks that the earliest time is where stepping ends.
-fn check_against_stepping(pair: &Pair) -> Result<(), TestCaseError> {
+fn check_against_stepping(pair: &Pair) -> TestCaseResult {
     let stepped = advance(pair, 0.0);
     match collides(pair) {
         None => prop_assert_eq!(stepped, None, "stepping finds a contact"),

@@ -57,7 +57,7 @@ fn a_point_of_a_body_that_turns_is_where_it_is_said_to_be_and_as_fast() {
     });
 }
 
-fn is_near(moment: &Moment, (position, velocity): &(Place, Place)) -> Result<(), TestCaseError> {
+fn is_near(moment: &Moment, (position, velocity): &(Place, Place)) -> TestCaseResult {
     let off = distance(&place(moment.position), position);
     prop_assert!(off <= float(moment.position_error), "{} of {}", off, moment.position_error);
     let off = distance(&place(moment.velocity), velocity);
@@ -102,7 +102,7 @@ fn a_point_on_straight_pieces_is_where_it_is_said_to_be_and_as_fast() {
 }
 
 /// Checks the deviation of a point from the straight motion, at times in between.
-fn deviates(piece: &Piece, [from, to]: [f64; 2], at: impl Fn(f64) -> Place) -> Result<(), TestCaseError> {
+fn deviates(piece: &Piece, [from, to]: [f64; 2], at: impl Fn(f64) -> Place) -> TestCaseResult {
     for share in [0.0, 0.1, 0.5, 0.77, 1.0] {
         let time = from + (to - from) * share;
         if time > to {
@@ -172,7 +172,7 @@ fn sides_that_touch(case: &Turning, kind: PairKind) -> [Vec<DVec3>; 2] {
 /// Two bodies in screw motion, each with one set, touch at a time by construction, up to the rounding of the starts. The time of
 /// impact is no later, for any separation that exceeds this rounding. Counts the pairs, tight times, and those that the chords of the
 /// arcs would miss.
-fn contacts_are_found(case: &Turning, count: &Cell<[usize; 3]>) -> Result<(), TestCaseError> {
+fn contacts_are_found(case: &Turning, count: &Cell<[usize; 3]>) -> TestCaseResult {
     let [first, second] = &case.turns;
     for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
         let [own, other] = sides_that_touch(case, kind);
@@ -209,7 +209,7 @@ fn contacts_are_found(case: &Turning, count: &Cell<[usize; 3]>) -> Result<(), Te
 
 /// Checks the promises about the geometry of such a pair at its time of impact, and at any other time. Counts the normals of
 /// bodies that begin apart and meet.
-fn geometry_is_kept(case: &Turning, environment: Environment, count: &Cell<[usize; 2]>) -> Result<(), TestCaseError> {
+fn geometry_is_kept(case: &Turning, environment: Environment, count: &Cell<[usize; 2]>) -> TestCaseResult {
     let motions = case.turns.each_ref().map(Screw::motion);
     for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
         let sides = sides_that_touch(case, kind);
@@ -294,7 +294,7 @@ fn no_contact_of_bodies_in_screw_motion_is_missed() {
 
 /// If a polyline is straight up to the rounding of a knot, a contact comes within three tolerances and the rounding of knots and
 /// places. That rounding is far less than 2⁻⁴⁰.
-fn comes_near_on_polylines(case: &PairCase<f64>) -> Result<(), TestCaseError> {
+fn comes_near_on_polylines(case: &PairCase<f64>) -> TestCaseResult {
     let knots = case.points.map(|ends| {
         let [start, end] = ends.map(DVec3::from);
         [start, (start + end) * 0.5, end]
@@ -336,7 +336,7 @@ fn sliding_on_arcs(kind: PairKind) -> impl Strategy<Value = Turning> + Clone {
 }
 
 /// Checks that a contact on arcs comes as near as the documentation of [`time_of_impact`] says, and counts the contacts.
-fn comes_near_on_arcs(kind: PairKind, case: &Turning, contacts: &Cell<usize>) -> Result<(), TestCaseError> {
+fn comes_near_on_arcs(kind: PairKind, case: &Turning, contacts: &Cell<usize>) -> TestCaseResult {
     let side = |k: usize| side_of(kind, k);
     let bodies = case.turns.each_ref().map(Screw::motion);
     let arcs = [0, 1, 2, 3].map(|k| bodies[side(k)].path(case.points[k]));

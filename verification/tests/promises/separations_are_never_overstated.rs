@@ -104,7 +104,7 @@ fn is_kept_apart<S: Format>(pair: &PairCase<S>, directions: &[S::Vector], separa
 }
 
 /// The clearance holds for any direction.
-fn nothing_keeps_apart_what_touches<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
+fn nothing_keeps_apart_what_touches<S: Format>(moment: &Moment<S>) -> TestCaseResult {
     let pair = &moment.pair();
     let directions = directions(pair);
     for environment in Environment::all() {
@@ -124,7 +124,7 @@ fn largest_of_all<S: Format, I>(input: &I, f: impl Fn(&I) -> Option<S>) -> Optio
     found.reduce(|a, b| if a < b { b } else { a })
 }
 
-fn a_pair_keeps_the_separation_that_a_direction_is_said_to_keep<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn a_pair_keeps_the_separation_that_a_direction_is_said_to_keep<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     let directions = directions(pair);
     let kept = largest_of_all(pair, |pair| {
         largest_accepted(|separation| is_kept_apart(pair, &directions, separation))
@@ -145,7 +145,7 @@ fn is_at_least(pair: &Pair, end: u32, bound: f64) -> bool {
     bound <= 0.0 || !within_at(pair, &Rational::from(end), bound.next_down())
 }
 
-fn a_bound_of_the_distance_is_not_above_it<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn a_bound_of_the_distance_is_not_above_it<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     let directions = directions(pair);
     let (question, kind) = (pair.question(), pair.kind);
     let better = |a: S, b: S| if a < b { b } else { a };
@@ -177,7 +177,7 @@ fn a_bound_of_the_distance_is_not_above_it<S: Format>(pair: &PairCase<S>) -> Res
 
 formats!(a_bound_of_the_distance_is_not_above_it(600, pairs_of_any_kind()));
 
-fn what_is_not_finite_is_never_kept_apart<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn what_is_not_finite_is_never_kept_apart<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     let finite = pair.map(S::made_finite);
     let directions = directions(&finite);
     if pair.is_finite() {
@@ -241,7 +241,7 @@ fn strayed(x: f64, by: f64) -> f64 {
 }
 
 /// Its points stray towards each other as far as they may.
-fn a_clear_pair_keeps_its_distance<S: Format>(question: &Question<S>) -> Result<(), TestCaseError> {
+fn a_clear_pair_keeps_its_distance<S: Format>(question: &Question<S>) -> TestCaseResult {
     let pair = in_double(&question.pair);
     let largest = largest_coordinate(&ends(&pair).concat());
     let share = [0.0, 1.0, 0.25, 0.5_f64.powi(10), 0.5_f64.powi(20)][question.choice as usize % 5];
@@ -254,9 +254,7 @@ fn a_clear_pair_keeps_its_distance<S: Format>(question: &Question<S>) -> Result<
 formats!(a_clear_pair_keeps_its_distance(400, questions()));
 
 /// The points stray as far as the clearance allows.
-fn a_pair_keeps_its_distance_though_its_points_stray_as_far_as_they_may<S: Format>(
-    question: &Question<S>,
-) -> Result<(), TestCaseError> {
+fn a_pair_keeps_its_distance_though_its_points_stray_as_far_as_they_may<S: Format>(question: &Question<S>) -> TestCaseResult {
     let pair = in_double(&question.pair);
     let Some(kept) = largest_of_all(&pair, |pair| largest_accepted(|distance| is_clear(pair, distance, 0.0))) else {
         return Ok(());
@@ -274,7 +272,7 @@ formats!(a_pair_keeps_its_distance_though_its_points_stray_as_far_as_they_may(
     questions()
 ));
 
-fn keeps_it_though_strayed(pair: &PairCase<f64>, distance: f64, stray: f64) -> Result<(), TestCaseError> {
+fn keeps_it_though_strayed(pair: &PairCase<f64>, distance: f64, stray: f64) -> TestCaseResult {
     let first = if pair.kind == PairKind::EdgeEdge { 2 } else { 1 };
     for signs in 0..8_u32 {
         let sign = |axis: usize| if signs >> axis & 1 == 0 { 1.0 } else { -1.0 };
@@ -365,7 +363,7 @@ fn course_of<S: Format>(question: &Question<S>) -> Option<Course<S>> {
     })
 }
 
-fn who_has_room_has_not_strayed_farther_from_the_course<S: Format>(question: &Question<S>) -> Result<(), TestCaseError> {
+fn who_has_room_has_not_strayed_farther_from_the_course<S: Format>(question: &Question<S>) -> TestCaseResult {
     for environment in Environment::all() {
         let Some(course) = environment.run(question, |question| course_of(question)) else {
             continue;
@@ -454,7 +452,7 @@ fn cut_short(pair: &Pair, until: f64) -> Option<Pair> {
     Some(cut)
 }
 
-fn boxes_that_are_apart_keep_their_separation<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn boxes_that_are_apart_keep_their_separation<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     for until in [1.0, 0.0625] {
         let Some(cut) = cut_short(&pair.question(), until) else {
             continue;
@@ -472,7 +470,7 @@ fn boxes_that_are_apart_keep_their_separation<S: Format>(pair: &PairCase<S>) -> 
 
 formats!(boxes_that_are_apart_keep_their_separation(600, pairs_of_any_kind()));
 
-fn boxes_that_are_drawn_in_keep_the_smaller_separation<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn boxes_that_are_drawn_in_keep_the_smaller_separation<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     let kept = largest_of_all(pair, |pair| {
         largest_accepted(|separation| are_boxes_apart(pair, separation, S::ONE))
     });
@@ -516,7 +514,7 @@ fn boxes_that_are_drawn_in_show_nearly_all_that_is_kept_and_nothing_that_is_unce
     assert!(!everywhere.drawn_in(inset.for_bounds(&everywhere)).is_apart_from(&second));
 }
 
-fn boxes_of_what_is_not_finite_are_not_apart<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn boxes_of_what_is_not_finite_are_not_apart<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     // A single point is neither finite nor apart from anything.
     for k in 0..4 {
         let mut one = pair.map(S::made_finite);
@@ -535,7 +533,7 @@ fn boxes_of_what_is_not_finite_are_not_apart<S: Format>(pair: &PairCase<S>) -> R
 
 formats!(boxes_of_what_is_not_finite_are_not_apart(800, extraordinary_pairs()));
 
-fn narrowing_makes_nothing_less_or_later_and_hardly_more_or_earlier<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn narrowing_makes_nothing_less_or_later_and_hardly_more_or_earlier<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     let exact = |x: f64| Rational::from_f64(x).expect("finite");
     let near = Rational::from((1, 1 << 22));
     let least_normal = exact(f32::MIN_POSITIVE.into());
@@ -578,7 +576,7 @@ formats!(narrowing_makes_nothing_less_or_later_and_hardly_more_or_earlier(
     pairs_of_any_kind()
 ));
 
-fn narrowing_exchanges_no_two_numbers_in_any_environment<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn narrowing_exchanges_no_two_numbers_in_any_environment<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     let value = pair
         .coordinates()
         .map(|x| x.to_f64().abs())

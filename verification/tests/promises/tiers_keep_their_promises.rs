@@ -21,7 +21,7 @@ fn culls_beyond<S: Format>(tier: Tier, separation: S, pair: &PairCase<S>) -> boo
 }
 
 /// Checks that no tier culls the pair wrongly. The oracle runs at most once, and only if a tier culls it.
-fn nothing_culls_what_it_must_not<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn nothing_culls_what_it_must_not<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     let culling: Vec<_> = Tier::ALL.into_iter().filter(|&tier| culls(tier, pair)).collect();
     if !culling.is_empty() {
         let question = pair.question();
@@ -35,7 +35,7 @@ formats!(nothing_certified_culls_what_the_oracle_calls_coplanar is nothing_culls
 
 formats!(nothing_certified_culls_a_graze is nothing_culls_what_it_must_not(8_000, grazes_of_a_box()));
 
-fn nothing_certified_culls_what_is_not_finite<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn nothing_certified_culls_what_is_not_finite<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     if pair.is_finite() {
         return nothing_culls_what_it_must_not(pair);
     }
@@ -48,7 +48,7 @@ fn nothing_certified_culls_what_is_not_finite<S: Format>(pair: &PairCase<S>) -> 
 
 formats!(nothing_certified_culls_what_is_not_finite(40_000, extraordinary_pairs()));
 
-fn nothing_certified_culls_what_is_built_to_meet<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
+fn nothing_certified_culls_what_is_built_to_meet<S: Format>(moment: &Moment<S>) -> TestCaseResult {
     let pair = moment.pair();
     for tier in Tier::ALL {
         prop_assert!(!culls(tier, &pair), "{tier:?}");
@@ -60,9 +60,7 @@ formats!(nothing_certified_culls_what_is_built_to_touch is nothing_certified_cul
 
 formats!(nothing_certified_culls_what_is_built_to_be_coplanar is nothing_certified_culls_what_is_built_to_meet(25_000, coplanar_pairs()));
 
-fn exact_culls_exactly_when_the_rational_control_values_have_one_sign<S: Format>(
-    pair: &PairCase<S>,
-) -> Result<(), TestCaseError> {
+fn exact_culls_exactly_when_the_rational_control_values_have_one_sign<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     let one_sign = InRationals::new(pair).have_one_sign();
     prop_assert_eq!(culls(Tier::Exact, pair), one_sign);
     Ok(())
@@ -74,11 +72,7 @@ formats!(exact_culls_exactly_when_the_rational_control_values_have_one_sign(
 ));
 
 /// Checks that the second tier culls whatever the first culls, for the given separations and for none.
-fn is_at_least_as_sharp<S: Format>(
-    pair: &PairCase<S>,
-    separations: &[S],
-    [tier, sharper]: [Tier; 2],
-) -> Result<(), TestCaseError> {
+fn is_at_least_as_sharp<S: Format>(pair: &PairCase<S>, separations: &[S], [tier, sharper]: [Tier; 2]) -> TestCaseResult {
     for &separation in [S::ZERO].iter().chain(separations) {
         prop_assert!(
             !culls_beyond(tier, separation, pair) || culls_beyond(sharper, separation, pair),
@@ -96,7 +90,7 @@ fn lengths<S: Format>(pair: &PairCase<S>) -> Vec<S> {
     vec![x.abs(), y.abs() * fine, (z - x2).abs().made_finite(), fine]
 }
 
-fn sharper_tiers_cull_whatever_others_cull<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn sharper_tiers_cull_whatever_others_cull<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     use Tier::{Exact, Permanent, Widened};
     let lengths = lengths(pair);
     for pair_of_tiers in [[Permanent, Widened], [Widened, Exact], [Permanent, Exact]] {
@@ -107,7 +101,7 @@ fn sharper_tiers_cull_whatever_others_cull<S: Format>(pair: &PairCase<S>) -> Res
 
 formats!(sharper_tiers_cull_whatever_others_cull(40_000, pairs_of_any_kind()));
 
-fn a_larger_separation_never_culls_more_and_none_is_zero<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn a_larger_separation_never_culls_more_and_none_is_zero<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     let mut lengths = lengths(pair);
     lengths.extend([S::ZERO, -S::ZERO, S::ZERO.up(), S::LARGEST]);
     lengths.sort_by(|a, b| a.partial_cmp(b).expect("finite"));
@@ -127,7 +121,7 @@ formats!(a_larger_separation_never_culls_more_and_none_is_zero(
 
 /// The promise is about the plane of the face and the lines of the edges, whose distance is at most that of the sets. The
 /// separations are those at which the rational control values change their answer, where the tiers must err to the safe side.
-fn nothing_certified_culls_what_comes_within_the_separation<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn nothing_certified_culls_what_comes_within_the_separation<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     let exact = InRationals::new(pair);
     for separation in separations(pair, &exact) {
         let culling: Vec<_> = Tier::ALL
@@ -206,7 +200,7 @@ fn certified_culls<S: Format>(pair: &PairCase<S>) -> bool {
 }
 
 /// Each point may be the base of the volume, and each axis may come first: every arrangement rounds differently.
-fn never_culls_a_coplanar_pair_in_any_arrangement<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
+fn never_culls_a_coplanar_pair_in_any_arrangement<S: Format>(moment: &Moment<S>) -> TestCaseResult {
     let pair = moment.pair();
     let four = (0..256_usize).map(|code| [code & 3, code >> 2 & 3, code >> 4 & 3, code >> 6]);
     for order in four.filter(|order| order.iter().fold(0, |seen, point| seen | 1 << point) == 0b1111) {

@@ -154,11 +154,11 @@ fn separation<S: Format>(pair: &PairCase<S>, choices: &mut Choices<'_>) -> S {
     }
 }
 
-fn is_not_late<S: Format>(question: &Question<S>) -> Result<(), TestCaseError> {
+fn is_not_late<S: Format>(question: &Question<S>) -> TestCaseResult {
     never_is_late(question, question.answer().0)
 }
 
-fn is_not_late_in_sweeps<S: Format>(question: &Question<S>) -> Result<(), TestCaseError> {
+fn is_not_late_in_sweeps<S: Format>(question: &Question<S>) -> TestCaseResult {
     let Question {
         pair,
         tolerance,
@@ -173,7 +173,7 @@ fn is_not_late_in_sweeps<S: Format>(question: &Question<S>) -> Result<(), TestCa
     never_is_late(question, impact)
 }
 
-fn never_is_late<S: Format>(question: &Question<S>, impact: Impact<S>) -> Result<(), TestCaseError> {
+fn never_is_late<S: Format>(question: &Question<S>, impact: Impact<S>) -> TestCaseResult {
     let exact = question.pair.question();
     let separation = question.separation.to_f64();
     let first = if separation == 0.0 {
@@ -202,7 +202,7 @@ formats!(is_never_later_than_the_exact_time is is_not_late(12_000, questions()))
 formats!(is_never_later_than_the_exact_time_in_sweeps is is_not_late_in_sweeps(6_000, questions()));
 
 /// The time of contact is known without the oracle.
-fn finds_what_touches<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
+fn finds_what_touches<S: Format>(moment: &Moment<S>) -> TestCaseResult {
     let pair = moment.pair();
     let time = moment.time();
     for tolerance in [S::ZERO, size(&pair) * S::exact(1, -20)] {
@@ -216,7 +216,7 @@ fn finds_what_touches<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError
 formats!(finds_every_pair_that_touches is finds_what_touches(80_000, touching_pairs()));
 
 /// The time holds in every environment of a thread.
-fn finds_what_touches_in_every_environment<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
+fn finds_what_touches_in_every_environment<S: Format>(moment: &Moment<S>) -> TestCaseResult {
     let pair = moment.pair();
     let time = moment.time();
     for tolerance in [S::ZERO, size(&pair) * S::exact(1, -20)] {
@@ -235,7 +235,7 @@ fn finds_what_touches_in_every_environment<S: Format>(moment: &Moment<S>) -> Res
 formats!(finds_every_pair_that_touches_in_every_environment is finds_what_touches_in_every_environment(8_000, touching_pairs()));
 
 /// With a separation, the oracle decides whether the pair comes that close.
-fn excludes_only_what_stays_apart<S: Format>(question: &Question<S>) -> Result<(), TestCaseError> {
+fn excludes_only_what_stays_apart<S: Format>(question: &Question<S>) -> TestCaseResult {
     let mut excluding = Environment::all();
     excluding.retain(|environment| {
         let (impact, _) = environment.run(question, Question::answer);
@@ -280,7 +280,7 @@ fn a_subnormal_separation_counts_where_subnormal_numbers_are_taken_for_zero() {
 }
 
 /// The pair is coplanar at some time, which is often a contact or a near miss.
-fn is_not_late_when_coplanar<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
+fn is_not_late_when_coplanar<S: Format>(moment: &Moment<S>) -> TestCaseResult {
     let pair = moment.pair();
     is_not_late(&Question {
         tolerance: size(&pair) * S::exact(1, -20),
@@ -292,7 +292,7 @@ fn is_not_late_when_coplanar<S: Format>(moment: &Moment<S>) -> Result<(), TestCa
 formats!(is_not_late_for_coplanar_pairs is is_not_late_when_coplanar(12_000, coplanar_pairs()));
 
 /// The distance is what the module's documentation says for each reason.
-fn comes_near<S: Format>(question: &Question<S>) -> Result<(), TestCaseError> {
+fn comes_near<S: Format>(question: &Question<S>) -> TestCaseResult {
     let Impact::Possible { time, reason } = question.answer().0 else {
         return Ok(());
     };
@@ -334,7 +334,7 @@ const CHEAP_ROUNDS: u32 = 3;
 
 /// Checks how near a pair comes that is undecided after this many rounds: within the separation, the rounding, and the part of
 /// the longest way of a corner that one of the accurate rounds takes.
-fn comes_near_at_last<S: Format>(question: &Question<S>, rounds: u32) -> Result<(), TestCaseError> {
+fn comes_near_at_last<S: Format>(question: &Question<S>, rounds: u32) -> TestCaseResult {
     let [first, second] = question.pair.sets();
     let way = |one: &[[S; 3]; 2], other: &[[S; 3]; 2]| {
         let along = |axis: usize| {
@@ -356,7 +356,7 @@ fn comes_near_at_last<S: Format>(question: &Question<S>, rounds: u32) -> Result<
 }
 
 /// With few rounds, many pairs are undecided.
-fn comes_near_after_few_rounds<S: Format>(question: &Question<S>) -> Result<(), TestCaseError> {
+fn comes_near_after_few_rounds<S: Format>(question: &Question<S>) -> TestCaseResult {
     let limits = Limits {
         tolerance: question.tolerance,
         separation: question.separation.raised_to_normal(),
@@ -439,21 +439,21 @@ fn pairs_that_slide_take_few_rounds() {
     );
 }
 
-fn does_not_work_more_than_stated(work: Work) -> Result<(), TestCaseError> {
+fn does_not_work_more_than_stated(work: Work) -> TestCaseResult {
     prop_assert!(work.rounds <= ROUNDS_WITH_SEPARATION, "{work:?}");
     prop_assert!(work.volume_steps <= 1 + 8 * work.rounds, "{work:?}");
     prop_assert!(work.turns <= TURNS * work.rounds, "{work:?}");
     Ok(())
 }
 
-fn does_no_more_work_than_stated<S: Format>(question: &Question<S>) -> Result<(), TestCaseError> {
+fn does_no_more_work_than_stated<S: Format>(question: &Question<S>) -> TestCaseResult {
     does_not_work_more_than_stated(question.answer().1)
 }
 
 formats!(does_no_more_work_than_stated(40_000, questions()));
 
 /// A relative box may cull a pair of huge but finite numbers; nothing culls one that is not finite.
-fn excludes_nothing_that_is_not_finite<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+fn excludes_nothing_that_is_not_finite<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     for separation in [S::ZERO, S::ONE] {
         let (impact, work) = answer(pair, S::exact(1, -20), separation);
         does_not_work_more_than_stated(work)?;
@@ -479,11 +479,7 @@ formats!(excludes_nothing_from_bad_input is excludes_nothing_that_is_not_finite(
 /// Counts the confirmed contacts.
 type Confirmed = Cell<u32>;
 
-fn confirms_only_contacts<S: Format>(
-    pair: &PairCase<S>,
-    environment: Environment,
-    confirmed: &Confirmed,
-) -> Result<(), TestCaseError> {
+fn confirms_only_contacts<S: Format>(pair: &PairCase<S>, environment: Environment, confirmed: &Confirmed) -> TestCaseResult {
     let (impact, _) = answer(pair, size(pair) * S::exact(1, -20), S::ZERO);
     let times = [impact.time(), Some(S::exact(1, -1)), Some(S::ZERO)];
     for near in times.into_iter().flatten() {

@@ -18,7 +18,7 @@ fn are_in_contact(question: &Pair, separation: f64) -> bool {
     }
 }
 
-fn is_free<S: Format>(mesh: &MeshCase<S>, criterion: Criterion<S>, met: &Met) -> Result<(), TestCaseError> {
+fn is_free<S: Format>(mesh: &MeshCase<S>, criterion: Criterion<S>, met: &Met) -> TestCaseResult {
     let topology = mesh.topology();
     let separation = match criterion {
         Criterion::Within(limits) => limits.separation.to_f64(),

@@ -56,7 +56,7 @@ fn answer<S: Format>(case: &Case<S>) -> (Impact<S>, Claim) {
 }
 
 /// The proof holds, and the answer is that without a proof, unless rounds run out or coordinates differ too much.
-fn is_proven<S: Format>(case: &Case<S>) -> Result<(), TestCaseError> {
+fn is_proven<S: Format>(case: &Case<S>) -> TestCaseResult {
     let (impact, claim) = answer(case);
     prop_assert!(claim.parts.len() <= WITNESS_PARTS);
     if case.pair.is_finite() {
@@ -147,7 +147,7 @@ fn altered(mut claim: Claim, choices: &mut Choices<'_>) -> Claim {
 }
 
 /// Accepted claims are true. Counts the false ones.
-fn no_false_claim_is_accepted<S: Format>(case: &Case<S>, untrue: &Cell<u32>) -> Result<(), TestCaseError> {
+fn no_false_claim_is_accepted<S: Format>(case: &Case<S>, untrue: &Cell<u32>) -> TestCaseResult {
     let numbers = case.pair.coordinates().map(|x| x.to_f64().abs()).filter(|&x| x > 0.0);
     let (smallest, largest) = numbers.fold((1.0_f64, 1.0_f64), |(low, high), x| (low.min(x), high.max(x)));
     // With other sizes the oracle may take minutes.

@@ -109,7 +109,7 @@ fn agrees<P: Position>(
     world: &mut World<P>,
     motions: &[(MeshHandle, MeshMotion<'_, P>)],
     contacts: &[WorldContact<P::Scalar>],
-) -> Result<(), TestCaseError> {
+) -> TestCaseResult {
     prop_assert_eq!(world.is_free(motions), Ok(contacts.is_empty()));
     let earliest = world.earliest(motions);
     let first = contacts.iter().map(|contact| contact.time.to_f64()).min_by(f64::total_cmp);
@@ -221,7 +221,7 @@ struct Count {
     contacts: [usize; 2],
 }
 
-fn is_as_one_detector<S: Scalar>(story: &[(Event, u64)], count: &Cell<Count>) -> Result<(), TestCaseError>
+fn is_as_one_detector<S: Scalar>(story: &[(Event, u64)], count: &Cell<Count>) -> TestCaseResult
 where
     [S; 3]: Position<Scalar = S>,
 {
@@ -604,7 +604,7 @@ impl Turn {
 
 /// Two bodies, at least one of which may rotate, and a deforming mesh. No reported contact is late, and pairs that are not
 /// reported are apart.
-fn turning_bodies_are_not_missed(seed: u64, count: &Cell<[usize; 3]>) -> Result<(), TestCaseError> {
+fn turning_bodies_are_not_missed(seed: u64, count: &Cell<[usize; 3]>) -> TestCaseResult {
     let mut random = Random(seed);
     let turns = [Turn::choose(&mut random), Turn::choose(&mut random)];
     let separation = random.pick(&[1e-9, 0.05]);

@@ -2,6 +2,7 @@
 
 pub(crate) use super::environment::Environment;
 pub(crate) use proptest::prelude::*;
+pub(crate) use proptest::test_runner::TestCaseResult;
 pub(crate) use rug::Rational;
 pub(crate) use selvedge::simd::{available_levels, best_level};
 pub(crate) use selvedge::{CollisionDetector, Contact, Criterion, Position, StepError, Threads, Topology};
