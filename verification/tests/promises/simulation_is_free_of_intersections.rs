@@ -49,13 +49,6 @@ fn the_arm_sleeve_is_free_throughout_the_bend() {
 }
 
 #[test]
-#[ignore = "minutes: every step of the bend"]
-fn every_step_of_the_arm_sleeve_is_free() {
-    let mut simulation = load("arm-sleeve.toml", |text| text);
-    run(&mut simulation, 1500, 1);
-}
-
-#[test]
 fn a_sheet_that_falls_on_a_ball_is_free() {
     let mut simulation = load("drop.toml", |text| text);
     run(&mut simulation, 700, 100);
@@ -122,21 +115,14 @@ fn a_hem_pulled_through_folds_at_high_speed_is_free() {
     assert!(counts.violated > 1000, "the pass had something to do");
 }
 
-/// Multiplies the stiffness of the violent and the twisted scene by a factor.
-fn stiffened(text: &str, factor: f64) -> String {
-    let text = text.replace("\"300 N/m\"", &(300.0 * factor).to_string());
-    let text = text.replace("\"100 N/m\"", &(100.0 * factor).to_string());
-    text.replace("\"10 uN m\"", &(10e-6 * factor).to_string())
-}
-
 /// Cloth that is coarser, thicker and a thousand times as stiff jams between the pins: thousands of pairs are repaired, and
 /// vertices are truncated. The pins never wait, and hardly a step is cut.
 #[test]
 fn stiff_cloth_that_is_jammed_between_pins_is_free_and_does_not_stop_them() {
     let change = |text: String| {
-        stiffened(&text, 1e3)
-            .replace("[20, 20]", "[8, 8]")
-            .replace("\"3 mm\"", "\"10 mm\"")
+        let text = text.replace("\"300 N/m\"", "300e3").replace("\"100 N/m\"", "100e3");
+        let text = text.replace("\"10 uN m\"", "10e-3");
+        text.replace("[20, 20]", "[8, 8]").replace("\"3 mm\"", "\"10 mm\"")
     };
     let mut simulation = load("violent.toml", change);
     run(&mut simulation, 1500, 100);
@@ -145,47 +131,6 @@ fn stiff_cloth_that_is_jammed_between_pins_is_free_and_does_not_stop_them() {
     assert!(counts.held > 0, "and truncated: {counts:?}");
     assert_eq!(simulation.blocked_steps(), 0, "{counts:?}");
     assert!(counts.cuts < 65, "{counts:?}");
-}
-
-/// Runs all keyframes of a scene, with steps of so many milliseconds and all stiffness times a factor.
-fn whole_scene(name: &str, milliseconds: u64, factor: f64, every: u64) {
-    let change = |text: String| stiffened(&text, factor).replace("\"1 ms\"", &format!("\"{milliseconds} ms\""));
-    let mut simulation = load(name, change);
-    let steps = 10_000 / milliseconds;
-    for done in (0..steps).step_by(500) {
-        run(&mut simulation, 500.min(steps - done), every);
-        let counts = simulation.contact_counts().expect("a scene with contact");
-        eprintln!(
-            "{name}, {milliseconds} ms, stiffness times {factor:e}: {} steps, a state in {every} free; {} blocked, {:.3} s behind, {counts:?}",
-            simulation.steps_done(),
-            simulation.blocked_steps(),
-            simulation.lag()
-        );
-        // The clock is late exactly if a step was blocked, since lost time is not made up for.
-        assert_eq!(simulation.blocked_steps() > 0, simulation.lag() > 0.0);
-    }
-}
-
-#[test]
-#[ignore = "many minutes: 10,000 steps"]
-fn ten_thousand_steps_of_the_violent_scene_are_free() {
-    whole_scene("violent.toml", 1, 1.0, 25);
-}
-
-#[test]
-#[ignore = "many minutes: 10,000 steps"]
-fn ten_thousand_steps_of_the_twisted_scene_are_free() {
-    whole_scene("twist.toml", 1, 1.0, 25);
-}
-
-#[test]
-#[ignore = "many minutes: 5,000 to 10,000 steps each"]
-fn violent_and_twisted_scenes_in_double_steps_and_with_other_stiffness_are_free() {
-    for name in ["twist.toml", "violent.toml"] {
-        for (milliseconds, factor) in [(2, 1.0), (1, 1e-3), (1, 1e3), (2, 1e-3), (2, 1e3)] {
-            whole_scene(name, milliseconds, factor, 100);
-        }
-    }
 }
 
 /// The same sleeve without the certified effects shows that the tests above can fail.
