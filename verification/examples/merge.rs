@@ -6,40 +6,31 @@
 //! the same state. Gaps, overlaps, unfinished shards, different commits and different settings are refused; the message names the
 //! files. The exit status is 0 if no promise is broken, 1 if one is or shards are refused, 2 for a wrong command line.
 
+use clap::Parser;
 use selvedge_verification::campaign::exact::{ExactFindings, Progress};
 use selvedge_verification::campaign::{Findings, StateFile, merge, read};
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-const USAGE: &str = "usage: merge SHARD... --state FILE";
+#[derive(Parser)]
+struct Options {
+    #[arg(required = true)]
+    shards: Vec<PathBuf>,
+    /// The file of the joined state.
+    #[arg(long)]
+    state: PathBuf,
+}
 
 fn main() -> ExitCode {
-    let Some((shards, state)) = parse() else {
-        eprintln!("{USAGE}");
-        return ExitCode::from(2);
-    };
+    let Options { shards, state } = Options::parse();
     match join(&shards, &state) {
-        Ok(0) => ExitCode::SUCCESS,
-        Ok(_) => ExitCode::FAILURE,
+        Ok(wrong) => ExitCode::from(u8::from(wrong > 0)),
         Err(failure) => {
             eprintln!("{failure}");
             ExitCode::FAILURE
         }
     }
-}
-
-fn parse() -> Option<(Vec<PathBuf>, PathBuf)> {
-    let (mut shards, mut state) = (Vec::new(), None);
-    let mut arguments = std::env::args_os().skip(1);
-    while let Some(argument) = arguments.next() {
-        if argument == "--state" {
-            state = Some(arguments.next()?.into());
-        } else {
-            shards.push(argument.into());
-        }
-    }
-    Some((shards, state?)).filter(|(shards, _)| !shards.is_empty())
 }
 
 /// Joins the shards, keeps the state, and returns the number of broken promises.

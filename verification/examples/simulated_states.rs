@@ -9,6 +9,7 @@
 //! paths. Without `self_collision` the run must fail, which shows that it can. The exit status is 1 if a state is invalid, a step
 //! failed, or the scene cannot be read.
 
+use clap::Parser;
 use indicatif::{ProgressBar, ProgressIterator, ProgressStyle};
 use selvedge_cloth::glam::DVec3;
 use selvedge_cloth::{Scene, Simulation};
@@ -16,46 +17,28 @@ use selvedge_verification::oracle::{edges_that_meet, intersections_with_loose_ed
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-const USAGE: &str =
-    "usage: simulated_states SCENE.toml [--steps N] [--every N] [--time-step FACTOR] [--stiffness FACTOR] [--without EFFECT]";
-
 type Failure = Box<dyn std::error::Error>;
 
+#[derive(Parser)]
 struct Options {
     scene: PathBuf,
+    #[arg(long, default_value_t = 10_000)]
     steps: u64,
+    /// Check one state in this many.
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
     every: u64,
+    /// Multiply the time step.
+    #[arg(long, default_value_t = 1.0)]
     time_step: f64,
+    /// Multiply all stiffnesses.
+    #[arg(long, default_value_t = 1.0)]
     stiffness: f64,
+    /// Leave out this effect.
+    #[arg(long)]
     without: Option<String>,
 }
 
 impl Options {
-    fn parse(mut arguments: impl Iterator<Item = String>) -> Option<Self> {
-        let mut options = Self {
-            scene: arguments.next()?.into(),
-            steps: 10_000,
-            every: 1,
-            time_step: 1.0,
-            stiffness: 1.0,
-            without: None,
-        };
-        while let Some(option) = arguments.next() {
-            let value = arguments.next()?;
-            let factor = || value.parse().ok();
-            let count = || value.replace('_', "").parse().ok().filter(|&n| n > 0);
-            match option.as_str() {
-                "--steps" => options.steps = count()?,
-                "--every" => options.every = count()?,
-                "--time-step" => options.time_step = factor()?,
-                "--stiffness" => options.stiffness = factor()?,
-                "--without" => options.without = Some(value),
-                _ => return None,
-            }
-        }
-        Some(options)
-    }
-
     fn load(&self) -> Result<Simulation, Failure> {
         let mut table = None;
         let mut text = String::new();
@@ -181,10 +164,7 @@ fn report(simulation: &Simulation, findings: Findings) {
 }
 
 fn main() -> ExitCode {
-    let Some(options) = Options::parse(std::env::args().skip(1)) else {
-        eprintln!("{USAGE}");
-        return ExitCode::from(2);
-    };
+    let options = Options::parse();
     match run(&options) {
         Ok((simulation, findings)) => {
             report(&simulation, findings);

@@ -8,39 +8,24 @@
 #[path = "../../std-adapter/cloth/tests/simulation/garments.rs"]
 mod garments;
 
+use clap::Parser;
 use garments::{NAMES, garment};
 use selvedge_cloth::{Mesh, Scene, SetupError, Simulation, TangledStart, Untangled};
 use selvedge_verification::oracle::mesh_intersections;
 use std::process::ExitCode;
 
-const USAGE: &str = "usage: untangled_garments [--cells N] [--depths 1,2,3] [--only WORDS]";
-
 type Failure = Box<dyn std::error::Error>;
 
+#[derive(Parser)]
 struct Options {
+    /// The number of cells along the longer side.
+    #[arg(long, default_value_t = 24, value_parser = clap::value_parser!(u32).range(4..))]
     cells: u32,
+    #[arg(long, value_delimiter = ',', default_values_t = [1.0, 2.0, 3.0])]
     depths: Vec<f64>,
+    /// Only garments whose names contain this.
+    #[arg(long, default_value = "")]
     only: String,
-}
-
-impl Options {
-    fn parse(mut arguments: impl Iterator<Item = String>) -> Option<Self> {
-        let mut options = Self {
-            cells: 24,
-            depths: vec![1.0, 2.0, 3.0],
-            only: String::new(),
-        };
-        while let Some(option) = arguments.next() {
-            let value = arguments.next()?;
-            match option.as_str() {
-                "--cells" => options.cells = value.parse().ok().filter(|&cells| cells >= 4)?,
-                "--depths" => options.depths = value.split(',').map(|depth| depth.parse().ok()).collect::<Option<_>>()?,
-                "--only" => options.only = value,
-                _ => return None,
-            }
-        }
-        Some(options)
-    }
 }
 
 /// Returns pairs of triangles that intersect, except pairs of two bodies.
@@ -98,10 +83,7 @@ fn run(options: &Options) -> Result<bool, Failure> {
 }
 
 fn main() -> ExitCode {
-    let Some(options) = Options::parse(std::env::args().skip(1)) else {
-        eprintln!("{USAGE}");
-        return ExitCode::from(2);
-    };
+    let options = Options::parse();
     match run(&options) {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => {

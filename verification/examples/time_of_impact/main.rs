@@ -16,42 +16,41 @@ mod alarms;
 mod sliding;
 mod witnesses;
 
-use std::path::Path;
+use clap::Parser;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
-const USAGE: &str = "usage: time_of_impact alarms COUNT [SEED] | witnesses COUNT [SEED] | sliding COUNT PLOT.svg";
+#[derive(Parser)]
+enum Task {
+    Alarms {
+        count: u64,
+        #[arg(default_value_t = 1)]
+        seed: u64,
+    },
+    Witnesses {
+        count: u64,
+        #[arg(default_value_t = 1)]
+        seed: u64,
+    },
+    Sliding {
+        count: u64,
+        plot: PathBuf,
+    },
+}
 
 fn main() -> ExitCode {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
-    let number = |text: &str| text.parse::<u64>().ok();
-    let broken = match *arguments {
-        [task @ ("alarms" | "witnesses"), count, ref seed @ ..] if seed.len() < 2 => {
-            let task = if task == "alarms" {
-                alarms::alarms
-            } else {
-                witnesses::witnesses
-            };
-            let seed = seed.first().map_or(Some(1), |seed| number(seed));
-            number(count).zip(seed).map(|(count, seed)| task(count, seed))
-        }
-        ["sliding", count, plot] => number(count).map(|count| match sliding::sliding(count, Path::new(plot)) {
-            Ok(()) => 0,
-            Err(error) => {
-                eprintln!("{plot}: {error}");
+    let broken = match Task::parse() {
+        Task::Alarms { count, seed } => alarms::alarms(count, seed),
+        Task::Witnesses { count, seed } => witnesses::witnesses(count, seed),
+        Task::Sliding { count, plot } => sliding::sliding(count, &plot).map_or_else(
+            |error| {
+                eprintln!("{}: {error}", plot.display());
                 1
-            }
-        }),
-        _ => None,
+            },
+            |()| 0,
+        ),
     };
-    match broken {
-        Some(0) => ExitCode::SUCCESS,
-        Some(_) => ExitCode::FAILURE,
-        None => {
-            eprintln!("{USAGE}");
-            ExitCode::from(2)
-        }
-    }
+    ExitCode::from(u8::from(broken > 0))
 }
 
 /// Reproducible pseudo-random numbers by Marsaglia's xorshift.
