@@ -13,9 +13,7 @@ const TESTS: [(Test, CullingTest); 3] = [
     (Test::RelativeBoxes, CullingTest::RelativeBoxes),
 ];
 
-fn filter_verdict<S: Format>(filter: Filter<S>, case: &PairCase<S>) -> Verdict {
-    filter.verdict(&case.pair())
-}
+const KINDS: [PairKind; 2] = [PairKind::VertexFace, PairKind::EdgeEdge];
 
 /// Generates pairs of one kind. Some have coordinates that are NaN, infinite or huge.
 fn some_pairs<S: Format>(kind: PairKind) -> impl Strategy<Value = Vec<PairCase<S>>> {
@@ -91,41 +89,24 @@ fn config() -> ProptestConfig {
     }
 }
 
-fn verdicts_agree<S: Format>(kind: PairKind) {
-    proptest!(config(), |(pairs in some_pairs::<S>(kind), scale in 0..24_i32)| {
-        let batch = Batch::<S>::new(kind, &pairs);
-        for (test, one_by_one) in TESTS {
-            batch.agrees(test, |pair: &PairCase<S>| verdict(one_by_one, pair))?;
-        }
-        for tier in Tier::ALL {
-            let filter = Filter::<S>::new(tier);
-            batch.agrees(filter, |pair: &PairCase<S>| filter_verdict(filter, pair))?;
-            let separation: S = S::exact(1, -scale);
-            let filter = filter.with_separation(separation).expect("a length");
-            batch.agrees(filter, |pair: &PairCase<S>| filter_verdict(filter, pair))?;
-        }
-    });
+fn verdicts_agree<S: Format>() {
+    for kind in KINDS {
+        proptest!(config(), |(pairs in some_pairs::<S>(kind), scale in 0..24_i32)| {
+            let batch = Batch::<S>::new(kind, &pairs);
+            for (test, one_by_one) in TESTS {
+                batch.agrees(test, |pair: &PairCase<S>| verdict(one_by_one, pair))?;
+            }
+            for filter in Tier::ALL.map(Filter::<S>::new) {
+                let separated = filter.with_separation(S::exact(1, -scale)).expect("a length");
+                for filter in [filter, separated] {
+                    batch.agrees(filter, |pair: &PairCase<S>| filter.verdict(&pair.pair()))?;
+                }
+            }
+        });
+    }
 }
 
-#[test]
-fn vertex_face_f32() {
-    verdicts_agree::<f32>(PairKind::VertexFace);
-}
-
-#[test]
-fn vertex_face_f64() {
-    verdicts_agree::<f64>(PairKind::VertexFace);
-}
-
-#[test]
-fn edge_edge_f32() {
-    verdicts_agree::<f32>(PairKind::EdgeEdge);
-}
-
-#[test]
-fn edge_edge_f64() {
-    verdicts_agree::<f64>(PairKind::EdgeEdge);
-}
+formats!(verdicts_agree);
 
 /// Negative numbers and NaN both mean that there is no stray.
 fn strays_agree(kind: PairKind) {
@@ -152,13 +133,8 @@ fn strays_agree(kind: PairKind) {
 }
 
 #[test]
-fn how_far_vertices_and_faces_may_stray() {
-    strays_agree(PairKind::VertexFace);
-}
-
-#[test]
-fn how_far_edges_may_stray() {
-    strays_agree(PairKind::EdgeEdge);
+fn how_far_pairs_may_stray() {
+    KINDS.into_iter().for_each(strays_agree);
 }
 
 /// All NaNs count as the same.
@@ -182,13 +158,8 @@ fn closest_points_agree(kind: PairKind) {
 }
 
 #[test]
-fn where_vertices_and_faces_are_closest() {
-    closest_points_agree(PairKind::VertexFace);
-}
-
-#[test]
-fn where_edges_are_closest() {
-    closest_points_agree(PairKind::EdgeEdge);
+fn where_pairs_are_closest() {
+    KINDS.into_iter().for_each(closest_points_agree);
 }
 
 #[test]

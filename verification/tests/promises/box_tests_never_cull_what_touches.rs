@@ -107,17 +107,9 @@ fn a_path_that_meets_the_box_is_kept<S: Format>(pair: &PairCase<S>) -> TestCaseR
     Ok(())
 }
 
-#[test]
-fn a_path_that_meets_the_swept_box_is_kept_f64() {
-    check(40_000, pairs::<f64>(PairKind::VertexFace), a_path_that_meets_the_box_is_kept);
-}
+formats!(a_path_that_meets_the_swept_box_is_kept is a_path_that_meets_the_box_is_kept(40_000, pairs(PairKind::VertexFace)));
 
 formats!(a_path_that_grazes_the_swept_box_is_kept is a_path_that_meets_the_box_is_kept(40_000, grazes_of_a_box()));
-
-#[test]
-fn a_path_that_meets_the_swept_box_is_kept_f32() {
-    check(40_000, pairs::<f32>(PairKind::VertexFace), a_path_that_meets_the_box_is_kept);
-}
 
 /// A corner of the box, its size, the point where the path passes through it, the path's direction, and its length in either
 /// direction.
@@ -146,24 +138,16 @@ fn a_path_through_the_border_of_the_box_is_kept<S: Format>(
     Ok(())
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig {
-        cases: 64 * ProptestConfig::default().cases,
+/// All of the numbers fit in 24 bits: 18 for the corner, 23 for the path.
+fn paths_through_the_border_of_the_box_are_kept<S: Format>() {
+    let config = ProptestConfig {
         failure_persistence: None,
-        ..ProptestConfig::default()
-    })]
-
-    #[test]
-    fn a_path_through_the_border_of_the_box_is_kept_f64(case in any::<PathThroughBox>()) {
-        a_path_through_the_border_of_the_box_is_kept::<f64>(case)?;
-    }
-
-    /// All of the numbers fit in 24 bits: 18 for the corner, 23 for the path.
-    #[test]
-    fn a_path_through_the_border_of_the_box_is_kept_f32(case in any::<PathThroughBox>()) {
-        a_path_through_the_border_of_the_box_is_kept::<f32>(case)?;
-    }
+        ..ProptestConfig::with_cases(64 * ProptestConfig::default().cases)
+    };
+    proptest!(config, |(case in any::<PathThroughBox>())| a_path_through_the_border_of_the_box_is_kept::<S>(case)?);
 }
+
+formats!(paths_through_the_border_of_the_box_are_kept);
 
 /// Numbers go up to 8 on a grid of 2⁻¹⁰. Let the path miss the box enlarged by 2⁻⁷ on all sides. Then on a cross axis of the box
 /// itself s > 2⁻⁷(|d_j| + |d_k|). The error bound is at most 4u·32(|d_j| + |d_k|) + η, which is far less if d is not zero.

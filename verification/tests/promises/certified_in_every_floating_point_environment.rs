@@ -157,13 +157,9 @@ fn keeps_within_a_subnormal_separation<S: Format>(height: S, separation: S) {
 }
 
 #[test]
-fn a_subnormal_separation_counts_when_flushing_f32() {
+fn a_subnormal_separation_counts_when_flushing() {
     keeps_within_a_subnormal_separation(3e-39_f32, 4e-39);
-}
-
-#[test]
-fn a_subnormal_separation_counts_when_flushing_f64() {
-    keeps_within_a_subnormal_separation(3e-310, 4e-310);
+    keeps_within_a_subnormal_separation(3e-310_f64, 4e-310);
 }
 
 /// Two edges on one line, one inside the other, with coordinates of a few times the smallest subnormal number. A compiler added

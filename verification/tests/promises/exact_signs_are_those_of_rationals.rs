@@ -39,16 +39,7 @@ fn never_coplanar_means_one_sign_whatever_is_known_before<S: Format>(pair: &Pair
         prop_assert_eq!(never_within(pair, S::ZERO, known), one_sign);
         prop_assert_eq!(never_within(pair, -S::ZERO, known), one_sign);
     }
-    Ok(())
-}
-
-formats!(never_coplanar_means_one_sign_whatever_is_known_before(
-    8_000,
-    pairs_of_any_kind()
-));
-
-fn what_is_known_is_not_asked_again<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
-    let signs = signs(pair).expect("finite");
+    // What is known is not computed again, even if it is wrong.
     for i in 0..4 {
         for claimed in [Less, Equal, Greater] {
             let mut known = [Some(claimed); 4];
@@ -57,10 +48,16 @@ fn what_is_known_is_not_asked_again<S: Format>(pair: &PairCase<S>) -> TestCaseRe
             prop_assert_eq!(never_coplanar(pair, known), expected, "{:?}", known);
         }
     }
+    for no_length in [S::NAN, -S::NAN, S::INFINITY, -S::INFINITY, -S::ONE, -S::ZERO.up()] {
+        prop_assert!(!never_within(pair, no_length, UNKNOWN), "{no_length:?}");
+    }
     Ok(())
 }
 
-formats!(what_is_known_is_not_asked_again(2_000, pairs_of_any_kind()));
+formats!(never_coplanar_means_one_sign_whatever_is_known_before(
+    8_000,
+    pairs_of_any_kind()
+));
 
 fn signs_that_rounding_cannot_change_are_the_exact_ones<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     let tetrahedron = pair.tetrahedron();
@@ -99,7 +96,8 @@ fn reversed(signs: [Ordering; 4]) -> [Ordering; 4] {
     signs.map(Ordering::reverse)
 }
 
-fn mirroring_an_axis_or_exchanging_two_axes_reverses_the_signs<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
+/// Mirroring, and exchanging two axes or two points, reverses the signs; reversing time reverses their order.
+fn signs_follow_the_order<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
     let opposite = signs(pair).map(reversed);
     for axis in 0..3 {
         let mirrored = pair.with_positions(|mut position| {
@@ -111,44 +109,17 @@ fn mirroring_an_axis_or_exchanging_two_axes_reverses_the_signs<S: Format>(pair: 
     for axes in [[1, 0, 2], [0, 2, 1], [2, 1, 0]] {
         prop_assert_eq!(signs(&pair.with_axes(axes)), opposite);
     }
-    Ok(())
-}
-
-formats!(mirroring_an_axis_or_exchanging_two_axes_reverses_the_signs(
-    8_000,
-    pairs_of_any_kind()
-));
-
-fn exchanging_two_points_reverses_the_signs_whichever_is_the_base<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
-    let opposite = signs(pair).map(reversed);
-    for order in [
-        [1, 0, 2, 3],
-        [2, 1, 0, 3],
-        [3, 1, 2, 0],
-        [0, 2, 1, 3],
-        [0, 3, 2, 1],
-        [0, 1, 3, 2],
-    ] {
+    for [i, j] in [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]] {
+        let mut order = [0, 1, 2, 3];
+        order.swap(i, j);
         prop_assert_eq!(signs(&pair.reordered(order)), opposite, "{:?}", order);
     }
-    Ok(())
-}
-
-formats!(exchanging_two_points_reverses_the_signs_whichever_is_the_base(
-    8_000,
-    pairs_of_any_kind()
-));
-
-fn reversing_time_reverses_the_order_of_the_signs<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
-    let mut backwards = signs(&pair.reversed());
-    if let Some(signs) = &mut backwards {
-        signs.reverse();
-    }
+    let backwards = signs(&pair.reversed()).map(|[a, b, c, d]| [d, c, b, a]);
     prop_assert_eq!(signs(pair), backwards);
     Ok(())
 }
 
-formats!(reversing_time_reverses_the_order_of_the_signs(8_000, pairs_of_any_kind()));
+formats!(signs_follow_the_order(8_000, pairs_of_any_kind()));
 
 #[test]
 fn the_same_numbers_in_f64_have_the_same_signs() {
@@ -199,15 +170,6 @@ fn never_culls_what_the_oracle_calls_within<S: Format>(pair: &PairCase<S>) -> Te
 }
 
 formats!(never_culls_what_the_oracle_calls_within(800, pairs_of_any_kind()));
-
-fn a_separation_that_is_no_length_keeps_the_pair<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
-    for separation in [S::NAN, -S::NAN, S::INFINITY, -S::INFINITY, -S::ONE, -S::ZERO.up()] {
-        prop_assert!(!never_within(pair, separation, UNKNOWN), "{separation:?}");
-    }
-    Ok(())
-}
-
-formats!(a_separation_that_is_no_length_keeps_the_pair(2_000, pairs_of_any_kind()));
 
 /// In this unit a high power of two is 1, and the exponent of the unit is below those of all numbers of the format.
 #[test]

@@ -77,23 +77,15 @@ fn candidates_are_those_of_the_definition<S: Format>(mesh: &MeshCase<S>, exact: 
     Ok(())
 }
 
-#[test]
-fn candidates_are_those_of_the_definition_f64() {
+fn all_candidates_are_those_of_the_definition<S: Format>() {
     let exact = Cell::new(0);
-    check(2000, meshes::<f64>(), |mesh| {
+    check(2000, meshes::<S>(), |mesh| {
         candidates_are_those_of_the_definition(mesh, &exact)
     });
-    assert!(exact.get() > 500, "{exact:?}");
+    assert!(exact.get() > if S::NAME == "f32" { 3000 } else { 500 }, "{exact:?}");
 }
 
-#[test]
-fn candidates_are_those_of_the_definition_f32() {
-    let exact = Cell::new(0);
-    check(2000, meshes::<f32>(), |mesh| {
-        candidates_are_those_of_the_definition(mesh, &exact)
-    });
-    assert!(exact.get() > 3000, "{exact:?}");
-}
+formats!(all_candidates_are_those_of_the_definition);
 
 #[test]
 fn candidates_far_from_the_origin_lack_none_of_the_definition() {

@@ -71,17 +71,6 @@ formats!(exact_culls_exactly_when_the_rational_control_values_have_one_sign(
     pairs_of_any_kind()
 ));
 
-/// Checks that the second tier culls whatever the first culls, for the given separations and for none.
-fn is_at_least_as_sharp<S: Format>(pair: &PairCase<S>, separations: &[S], [tier, sharper]: [Tier; 2]) -> TestCaseResult {
-    for &separation in [S::ZERO].iter().chain(separations) {
-        prop_assert!(
-            !culls_beyond(tier, separation, pair) || culls_beyond(sharper, separation, pair),
-            "{tier:?} culls, {sharper:?} does not, by {separation}"
-        );
-    }
-    Ok(())
-}
-
 /// Returns lengths of the pair's own size, large and small.
 fn lengths<S: Format>(pair: &PairCase<S>) -> Vec<S> {
     let [[x, y, _], [z, ..]] = pair.points[1];
@@ -91,10 +80,9 @@ fn lengths<S: Format>(pair: &PairCase<S>) -> Vec<S> {
 }
 
 fn sharper_tiers_cull_whatever_others_cull<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
-    use Tier::{Exact, Permanent, Widened};
-    let lengths = lengths(pair);
-    for pair_of_tiers in [[Permanent, Widened], [Widened, Exact], [Permanent, Exact]] {
-        is_at_least_as_sharp(pair, &lengths, pair_of_tiers)?;
+    for separation in lengths(pair).into_iter().chain([S::ZERO]) {
+        let culled = [Tier::Permanent, Tier::Widened, Tier::Exact].map(|tier| culls_beyond(tier, separation, pair));
+        prop_assert!(culled.is_sorted(), "{culled:?} by {separation}");
     }
     Ok(())
 }
