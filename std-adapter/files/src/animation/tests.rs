@@ -37,7 +37,7 @@ const JOINTS: [u8; 16] = [0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0];
 const INDICES: [u16; 6] = [0, 1, 2, 1, 3, 2];
 
 /// Returns the file's JSON, which contains its one buffer.
-fn text(name: impl Fn(String) -> String) -> String {
+fn text() -> String {
     let mut bytes: Vec<u8> = Vec::new();
     let mut views = Vec::new();
     for (what, numbers) in NUMBERS {
@@ -73,7 +73,7 @@ fn text(name: impl Fn(String) -> String) -> String {
         accessor(7, 5123, "SCALAR", 6),
         accessor(8, 5121, "VEC4", 4),
     ];
-    name(format!(
+    format!(
         r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0,2]}}],
 "nodes":[{{"name":"root","children":[1]}},{{"name":"upper","translation":[0,1,0]}},{{"name":"strip","mesh":0,"skin":0}}],
 "meshes":[{{"name":"ribbon","primitives":[{{"attributes":{{"POSITION":0,"JOINTS_0":8,"WEIGHTS_0":1}},"indices":7,"targets":[{{"POSITION":5}}]}}]}}],
@@ -84,7 +84,7 @@ fn text(name: impl Fn(String) -> String) -> String {
         accessors.join(","),
         views.join(","),
         bytes.len()
-    ))
+    )
 }
 
 fn read_text(text: &str, choice: &Choice<'_>) -> Result<Figure, AnimationError> {
@@ -107,7 +107,7 @@ fn assert_near(found: &[DVec3], expected: &[[f64; 3]]) {
 
 #[test]
 fn vertices_go_with_their_joints_and_their_morph_targets_and_rest_before_and_after_the_keys() {
-    let figure = read_text(&text(|text| text), &Choice::default()).unwrap();
+    let figure = read_text(&text(), &Choice::default()).unwrap();
     assert_eq!((figure.span(), figure.key_times()), ([1.0, 2.0], vec![1.0, 2.0]));
     assert_eq!(figure.mesh().triangles, [[0, 1, 2], [1, 3, 2]]);
     let rest = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [1.0, 2.0, 0.0]];
@@ -128,7 +128,7 @@ fn vertices_go_with_their_joints_and_their_morph_targets_and_rest_before_and_aft
 
 #[test]
 fn a_figure_is_chosen_by_the_name_of_its_node_or_its_mesh() {
-    let text = text(|text| text);
+    let text = text();
     let choose = |node, animation| {
         let choice = Choice {
             node,
@@ -149,7 +149,7 @@ fn a_figure_is_chosen_by_the_name_of_its_node_or_its_mesh() {
 /// Checks the message for the file with one passage replaced.
 #[track_caller]
 fn message(passage: &str, by: &str) -> String {
-    let good = text(|text| text);
+    let good = text();
     assert!(good.contains(passage), "'{passage}' must be there");
     read_text(&good.replacen(passage, by, 1), &Choice::default())
         .unwrap_err()
@@ -171,7 +171,7 @@ fn files_that_are_wrong_or_lie_are_refused_with_the_place_named() {
 
 #[test]
 fn a_figure_without_an_animation_of_its_own_rests() {
-    let text = text(|text| text);
+    let text = text();
     let between = |from: &str, to: &str, by: &str| {
         let begin = text.find(from).unwrap();
         let end = begin + text[begin..].find(to).unwrap();
@@ -197,7 +197,7 @@ fn a_figure_without_an_animation_of_its_own_rests() {
 
 #[test]
 fn looks_and_other_channels_are_ignored_even_where_they_are_required() {
-    let text = text(|text| text);
+    let text = text();
     let plain = read_text(&text, &Choice::default()).unwrap();
     for (passage, by) in [
         (
@@ -241,7 +241,7 @@ fn looks_and_other_channels_are_ignored_even_where_they_are_required() {
 
 #[test]
 fn strips_fans_and_accessors_without_bytes_are_read() {
-    let text = text(|text| text);
+    let text = text();
     let triangles = |by: &str| {
         let figure = read_text(&text.replacen(r#""indices":7"#, by, 1), &Choice::default()).unwrap();
         figure.mesh().triangles.clone()
@@ -270,7 +270,7 @@ fn strips_fans_and_accessors_without_bytes_are_read() {
 /// Two nodes with the strip's mesh, one below the other.
 #[test]
 fn all_nodes_of_the_scene_are_one_figure_and_one_is_chosen_by_its_path() {
-    let text = text(|text| text);
+    let text = text();
     let two = text.replacen(r#"{"name":"upper","#, r#"{"name":"upper","children":[3],"#, 1);
     let two = two.replacen(
         r#""skin":0}]"#,
@@ -309,7 +309,7 @@ fn all_nodes_of_the_scene_are_one_figure_and_one_is_chosen_by_its_path() {
 /// One animation moves the joint from 1 to 2 s and the weights from 0 to 1 s, which another figure would not have.
 #[test]
 fn all_nodes_of_an_animation_share_its_clock() {
-    let text = text(|text| text);
+    let text = text();
     // Only rotations remain, from 1 s on. The times of weights are the weights: 0 and 1.
     let shifted = text.replacen(r#"{"input":3,"output":6}"#, r#"{"input":6,"output":6}"#, 1);
     let figure = read_text(&shifted, &Choice::default()).unwrap();
@@ -321,7 +321,7 @@ fn all_nodes_of_an_animation_share_its_clock() {
 
 #[test]
 fn numbers_that_are_not_finite_or_out_of_range_are_refused() {
-    let good = text(|text| text);
+    let good = text();
     let begin = good.find("base64,").unwrap() + 7;
     let end = begin + good[begin..].find('"').unwrap();
     let engine = &base64::engine::general_purpose::STANDARD;
@@ -346,7 +346,7 @@ fn numbers_that_are_not_finite_or_out_of_range_are_refused() {
 
 #[test]
 fn binary_files_that_are_cut_short_or_say_another_length_are_refused() {
-    let json = text(|text| text);
+    let json = text();
     let json = format!("{json}{}", " ".repeat(json.len().next_multiple_of(4) - json.len()));
     let file = |length: u32| {
         let mut bytes = b"glTF".to_vec();
@@ -450,7 +450,7 @@ proptest! {
     /// No change of a file's bytes causes a panic.
     #[test]
     fn no_bytes_make_the_reader_panic(changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6)) {
-        let mut bytes = text(|text| text).into_bytes();
+        let mut bytes = text().into_bytes();
         for (place, byte) in changes {
             let place = place.index(bytes.len());
             bytes[place] = byte;
@@ -463,7 +463,7 @@ proptest! {
     /// No replaced number in the JSON half causes a panic.
     #[test]
     fn no_numbers_make_the_reader_panic(which in any::<prop::sample::Index>(), by in prop_oneof![Just(u64::MAX), Just(u64::from(u32::MAX)), 0..20_u64]) {
-        let text = text(|text| text);
+        let text = text();
         let end = text.find("base64").unwrap();
         let digits: Vec<usize> = (1..end).filter(|&k| text.as_bytes()[k].is_ascii_digit() && b":[,".contains(&text.as_bytes()[k - 1])).collect();
         let begin = digits[which.index(digits.len())];
