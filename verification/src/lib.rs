@@ -26,6 +26,7 @@ pub mod generator;
 pub mod minifloat;
 pub mod oracle;
 pub mod plain;
+pub mod random;
 pub mod witness;
 
 /// Declares a module with tests in `f32` and in `f64` of a generic function, or of a property with a number of cases and a strategy. The

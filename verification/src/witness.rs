@@ -6,6 +6,7 @@ mod file;
 
 pub use file::{Answer, Record, WitnessFile, WitnessFileError};
 
+use crate::oracle::volume::{cross, dot, minus};
 use rug::Rational;
 use selvedge_core::elementary::Impact;
 use selvedge_core::elementary::advance::{Proof, Witness};
@@ -108,21 +109,6 @@ impl Claim {
 fn exact(vector: [f64; 3]) -> Option<Vector> {
     let [x, y, z] = vector.map(Rational::from_f64);
     Some([x?, y?, z?])
-}
-
-fn minus(a: &Vector, b: &Vector) -> Vector {
-    std::array::from_fn(|k| Rational::from(&a[k] - &b[k]))
-}
-
-fn dot(a: &Vector, b: &Vector) -> Rational {
-    (0..3).map(|k| Rational::from(&a[k] * &b[k])).sum()
-}
-
-fn cross(a: &Vector, b: &Vector) -> Vector {
-    std::array::from_fn(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        Rational::from(&a[i] * &b[j]) - Rational::from(&a[j] * &b[i])
-    })
 }
 
 fn at([start, end]: &Corner, time: &Rational) -> Vector {

@@ -18,9 +18,14 @@ pub struct PairCase<S> {
 
 /// Returns the set, 0 or 1, to which one of the four points belongs.
 pub const fn side_of(kind: PairKind, point: usize) -> usize {
+    (point >= points_of_first(kind)) as usize
+}
+
+/// Returns the number of points in the first set.
+pub const fn points_of_first(kind: PairKind) -> usize {
     match kind {
-        PairKind::VertexFace => (point > 0) as usize,
-        PairKind::EdgeEdge => point / 2,
+        PairKind::VertexFace => 1,
+        PairKind::EdgeEdge => 2,
     }
 }
 
@@ -49,10 +54,7 @@ impl<S: Format> PairCase<S> {
 
     /// Returns the points of the first and of the second set.
     pub fn sets(&self) -> [&[[[S; 3]; 2]]; 2] {
-        let (first, second) = self.points.split_at(match self.kind {
-            PairKind::VertexFace => 1,
-            PairKind::EdgeEdge => 2,
-        });
+        let (first, second) = self.points.split_at(points_of_first(self.kind));
         [first, second]
     }
 

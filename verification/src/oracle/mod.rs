@@ -34,7 +34,7 @@ mod ropes;
 mod segment;
 mod separation;
 mod signs;
-mod volume;
+pub(crate) mod volume;
 
 pub use algebraic::AlgebraicTime;
 pub use collision::{collides, coplanar, touches_at};

@@ -2,6 +2,7 @@
 
 use super::geometry::{Point, Ring};
 use super::polynomial::Polynomial;
+use crate::generator::points_of_first;
 use rug::{Integer, Rational};
 // This is a name, not arithmetic.
 pub use selvedge_core::PairKind;
@@ -85,10 +86,7 @@ impl Motion {
     /// Returns whether the two sides of the pair are more than `separation` apart along one coordinate axis, in the same order at
     /// both ends of the step. Linear motion then keeps them so in between.
     pub(crate) fn apart_along_an_axis(&self, kind: PairKind, separation: &Integer) -> bool {
-        let first = match kind {
-            PairKind::VertexFace => 1,
-            PairKind::EdgeEdge => 2,
-        };
+        let first = points_of_first(kind);
         let apart = |low: usize, high: usize, axis: usize| {
             [&self.start, &self.end]
                 .iter()

@@ -15,16 +15,16 @@ pub fn rational<S: Scalar>(x: S) -> Rational {
     Rational::from_f64(x.to_f64()).expect("finite")
 }
 
-fn minus(a: &Point, b: &Point) -> Point {
+pub(crate) fn minus(a: &Point, b: &Point) -> Point {
     std::array::from_fn(|axis| Rational::from(&a[axis] - &b[axis]))
 }
 
-fn cross(a: &Point, b: &Point) -> Point {
+pub(crate) fn cross(a: &Point, b: &Point) -> Point {
     let minor = |i: usize, j: usize| Rational::from(&a[i] * &b[j]) - Rational::from(&a[j] * &b[i]);
     [minor(1, 2), minor(2, 0), minor(0, 1)]
 }
 
-fn dot(a: &Point, b: &Point) -> Rational {
+pub(crate) fn dot(a: &Point, b: &Point) -> Rational {
     a.iter().zip(b).map(|(x, y)| Rational::from(x * y)).sum()
 }
 

@@ -65,7 +65,7 @@ fn rational<S: Format>(position: [S; 3]) -> RationalPoint {
 
 /// Returns whether `direction` · x strictly separates the two sets, in the same order at both ends, from the definition.
 fn keeps_order<S: Format>(pair: &PairCase<S>, direction: [i32; 3]) -> bool {
-    let first = if pair.kind == PairKind::VertexFace { 1 } else { 2 };
+    let first = points_of_first(pair.kind);
     let heights = pair.points.map(|ends| {
         ends.map(|position| {
             let terms = rational(position).into_iter().zip(direction);

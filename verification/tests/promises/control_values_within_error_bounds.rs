@@ -2,6 +2,7 @@
 //! bounds.
 
 use crate::support::prelude::*;
+use crate::support::{cross, determinant, minus};
 use rug::Float;
 use rug::ops::Pow;
 use selvedge_core::kernels::coplanarity::error_bound_by_magnitudes;
@@ -24,15 +25,14 @@ fn tetrahedron(points: &WholePoints) -> MovingTetrahedron<f64> {
     MovingTetrahedron::from_points(points.map(|ends| ends[0]), points.map(|ends| ends[1]))
 }
 
-/// Returns the volume P · (B × C) at time i/3, times 27, by the rule of Sarrus.
+/// Returns the volume P · (B × C) at time i/3, times 27.
 fn volume_at_third(points: &WholePoints, i: i128) -> i128 {
     let position = |point: usize, axis: usize| {
         let [start, end] = points[point].map(|ends| i128::from(ends[axis]));
         (3 - i) * start + i * end
     };
     let from_a = |point: usize| [0, 1, 2].map(|axis| position(point, axis) - position(0, axis));
-    let [b, c, p] = [1, 2, 3].map(from_a);
-    p[0] * b[1] * c[2] + p[1] * b[2] * c[0] + p[2] * b[0] * c[1] - p[2] * b[1] * c[0] - p[0] * b[2] * c[1] - p[1] * b[0] * c[2]
+    determinant([3, 1, 2].map(from_a))
 }
 
 proptest! {
@@ -103,9 +103,7 @@ fn exact_control_values<S: Format>(pair: &PairCase<S>) -> [ExactControlValue; 4]
         PairKind::EdgeEdge => [2, 0, 1, 3],
     };
     let [a, b, c, p] = order.map(|k| pair.points[k].map(|position| position.map(rational)));
-    let from_a = |x: &[[Rational; 3]; 2]| -> [[Rational; 3]; 2] {
-        std::array::from_fn(|end| std::array::from_fn(|axis| Rational::from(&x[end][axis] - &a[end][axis])))
-    };
+    let from_a = |x: &[[Rational; 3]; 2]| [0, 1].map(|end| minus(&x[end], &a[end]));
     let [p, b, c] = [from_a(&p), from_a(&b), from_a(&c)];
     let mut values = [(); 4].map(|()| ExactControlValue {
         value: Rational::new(),
@@ -147,110 +145,10 @@ fn largest<S: Format>(vectors: impl IntoIterator<Item = [Vector<S>; 2]>) -> Rati
     magnitudes.max().expect("some components")
 }
 
-/// The computed and the exact values of a pair.
-struct Compared {
-    computed: [Rational; 4],
-    bounds: [Rational; 4],
-    exact: [ExactControlValue; 4],
-    /// The largest component of P.
-    largest_p: Rational,
-    /// The largest component of all edges.
-    largest: Rational,
+/// Returns four numbers for the control values: the one for k₀ and k₃ twice, and the other.
+fn outer_and_inner<T: Clone>(outer: T, inner: T) -> [T; 4] {
+    [outer.clone(), inner.clone(), inner, outer]
 }
-
-/// Returns `None` if the pair is outside the range in which the bounds hold.
-fn compared<S: Format>(pair: &PairCase<S>) -> Option<Compared> {
-    let tetrahedron = pair.tetrahedron();
-    if !is_in_range(tetrahedron.largest_by_axis().largest()) {
-        return None;
-    }
-    let MovingTetrahedron { b, c, p } = tetrahedron;
-    Some(Compared {
-        computed: tetrahedron.control_values().0.map(rational),
-        bounds: tetrahedron.error_bounds().map(rational),
-        exact: exact_control_values(pair),
-        largest_p: largest([p]),
-        largest: largest([b, c, p]),
-    })
-}
-
-/// Each monomial passes through at most 8 roundings (k₀, k₃) or 10 (3k₁, 3k₂), here to nearest. Each product that underflows
-/// loses η₀. There are two for a component of n, four for one of h, and at most one more in the last six additions.
-fn control_values_are_off_by_no_more_than_their_roundings<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
-    let Some(Compared {
-        computed,
-        exact,
-        largest_p,
-        ..
-    }) = compared(pair)
-    else {
-        return Ok(());
-    };
-    for (k, (computed, exact)) in computed.iter().zip(&exact).enumerate() {
-        let outer = k == 0 || k == 3;
-        let (roundings, per_p, alone) = if outer { (8, 6, 3) } else { (10, 18, 6) };
-        let underflow =
-            (Rational::from(&largest_p * per_p) + alone) * lost_by_underflow::<S>() * (relative_error::<S>(6) + 1_u32);
-        let allowed: Rational = relative_error::<S>(roundings) * &exact.permanent + underflow;
-        let error = Rational::from(computed - &exact.value).abs();
-        prop_assert!(
-            error <= allowed,
-            "control value {k}: off by {} of {}",
-            error.to_f64(),
-            allowed.to_f64()
-        );
-    }
-    Ok(())
-}
-
-formats!(control_values_are_off_by_no_more_than_their_roundings(
-    8_000,
-    pairs_of_any_kind()
-));
-
-/// Checks that a computed value beyond its bound has the sign of the exact one.
-fn signs_are_certain(computed: &[Rational; 4], bounds: &[Rational; 4], exact: &[ExactControlValue; 4]) -> TestCaseResult {
-    for k in 0..4 {
-        let (computed, bound, value) = (&computed[k], &bounds[k], &exact[k].value);
-        prop_assert!(computed <= bound || *value > 0, "control value {k}");
-        prop_assert!(-computed.clone() <= *bound || *value < 0, "control value {k}");
-    }
-    Ok(())
-}
-
-/// Returns the bounds of k₀ and k₃, and four times as much for the other two.
-fn bounds_by_magnitudes<S: Format>(pair: &PairCase<S>) -> [Rational; 4] {
-    let outer = error_bound_by_magnitudes(pair.tetrahedron().largest_by_axis());
-    let inner = S::small(4) * outer;
-    [outer, inner, inner, outer].map(rational)
-}
-
-/// The filter relies on this promise for each of the four values alone.
-fn a_control_value_beyond_its_bound_has_the_exact_sign<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
-    match compared(pair) {
-        Some(Compared {
-            computed, bounds, exact, ..
-        }) => signs_are_certain(&computed, &bounds, &exact),
-        None => Ok(()),
-    }
-}
-
-formats!(a_control_value_beyond_its_bound_has_the_exact_sign(
-    15_000,
-    pairs_of_any_kind()
-));
-
-fn a_control_value_beyond_its_bound_by_magnitudes_has_the_exact_sign<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
-    if let Some(Compared { computed, exact, .. }) = compared(pair) {
-        signs_are_certain(&computed, &bounds_by_magnitudes(pair), &exact)?;
-    }
-    Ok(())
-}
-
-formats!(a_control_value_beyond_its_bound_by_magnitudes_has_the_exact_sign(
-    15_000,
-    pairs_of_any_kind()
-));
 
 /// Checks that a computed bound is the documented sum of a relative and an absolute term. It may differ by 16 roundings and the
 /// underflow of its products. The underflow is less than an eighth of the absolute term.
@@ -264,47 +162,58 @@ fn is_documented<S: Format>(bound: &Rational, relative: Rational, absolute: &Rat
     Ok(())
 }
 
-/// Returns (1 + M)²·η.
-fn underflow_term<S: Format>(largest: &Rational) -> Rational {
-    (Rational::from(largest) + 1_u32).square() * rational(S::UNDERFLOW)
-}
-
-/// The bounds are Eᵢ = Cᵢ·P̂ᵢ + (1 + M)²·η with C = 16u, 20u.
-fn error_bounds_are_the_documented_ones<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
-    let Some(Compared {
-        bounds, exact, largest, ..
-    }) = compared(pair)
-    else {
-        return Ok(());
-    };
-    for (k, (bound, exact)) in bounds.iter().zip(&exact).enumerate() {
-        let count = if k == 0 || k == 3 { 16_u32 } else { 20 };
-        let relative = rational(S::UNIT_ROUNDOFF) * count * &exact.permanent;
-        is_documented::<S>(bound, relative, &underflow_term::<S>(&largest))?;
-    }
-    Ok(())
-}
-
-formats!(error_bounds_are_the_documented_ones(4_000, pairs_of_any_kind()));
-
-/// The bound is 96u times the product of the three largest magnitudes + (1 + M)²·η.
-fn error_bounds_by_magnitudes_are_the_documented_ones<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
-    if compared(pair).is_none() {
+/// - Each monomial of a computed value passes through at most 8 roundings (k₀, k₃) or 10 (3k₁, 3k₂), here to nearest. Each product
+///   that underflows loses η₀. There are two for a component of n, four for one of h, and at most one more in the last six
+///   additions.
+/// - A computed value beyond either of its bounds has the sign of the exact one. The filter relies on this for each of the four
+///   values alone.
+/// - The bounds are Eᵢ = Cᵢ·P̂ᵢ + (1 + M)²·η with C = 16u, 20u. The bound by magnitudes is 96u times the product of the three
+///   largest magnitudes + (1 + M)²·η.
+fn control_values_and_their_bounds_are_the_documented_ones<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
+    let tetrahedron = pair.tetrahedron();
+    if !is_in_range(tetrahedron.largest_by_axis().largest()) {
         return Ok(());
     }
-    let MovingTetrahedron { b, c, p } = pair.tetrahedron();
-    let edges = [b, c, p];
+    let (computed, bounds) = (
+        tetrahedron.control_values().0.map(rational),
+        tetrahedron.error_bounds().map(rational),
+    );
+    let by_magnitudes = error_bound_by_magnitudes(tetrahedron.largest_by_axis());
+    let by_magnitudes = outer_and_inner(by_magnitudes, S::small(4) * by_magnitudes).map(rational);
+    let MovingTetrahedron { b, c, p } = tetrahedron;
+    let (largest_p, edges) = (largest([p]), [b, c, p]);
+    let underflow: Rational = (largest(edges) + 1_u32).square() * rational(S::UNDERFLOW);
+    let u = rational(S::UNIT_ROUNDOFF);
+    let counts = outer_and_inner((8, 6, 3, 16_u32), (10, 18, 6, 20));
+    for (k, ExactControlValue { value, permanent }) in exact_control_values(pair).iter().enumerate() {
+        let (roundings, per_p, alone, count) = counts[k];
+        let lost = (Rational::from(&largest_p * per_p) + alone) * lost_by_underflow::<S>() * (relative_error::<S>(6) + 1_u32);
+        let allowed: Rational = relative_error::<S>(roundings) * permanent + lost;
+        let error = Rational::from(&computed[k] - value).abs();
+        prop_assert!(
+            error <= allowed,
+            "control value {k}: off by {} of {}",
+            error.to_f64(),
+            allowed.to_f64()
+        );
+        for bound in [&bounds[k], &by_magnitudes[k]] {
+            prop_assert!(computed[k] <= *bound || *value > 0, "control value {k}");
+            prop_assert!(-computed[k].clone() <= *bound || *value < 0, "control value {k}");
+        }
+        is_documented::<S>(&bounds[k], Rational::from(&u * count) * permanent, &underflow)?;
+    }
     let along = |axis: usize| {
         let only = |v: Vector<S>| Vector::new([v.x, v.y, v.z][axis], S::ZERO, S::ZERO);
         largest(edges.map(|ends| ends.map(only)))
     };
     let [x, y, z] = [0, 1, 2].map(along);
-    let underflow = underflow_term::<S>(&largest(edges));
-    let relative = rational(S::UNIT_ROUNDOFF) * 96_u32 * (x * y * z);
-    is_documented::<S>(&bounds_by_magnitudes(pair)[0], relative, &underflow)
+    is_documented::<S>(&by_magnitudes[0], u * 96_u32 * (x * y * z), &underflow)
 }
 
-formats!(error_bounds_by_magnitudes_are_the_documented_ones(4_000, pairs_of_any_kind()));
+formats!(control_values_and_their_bounds_are_the_documented_ones(
+    15_000,
+    pairs_of_any_kind()
+));
 
 /// Returns the control points n₀, h/2, n₁ of the normal, exactly, each as the square of its length.
 fn squared_normals<S: Format>(pair: &PairCase<S>) -> [Rational; 3] {
@@ -314,16 +223,7 @@ fn squared_normals<S: Format>(pair: &PairCase<S>) -> [Rational; 3] {
         PairKind::EdgeEdge => [0, 1, 2, 3],
     };
     let points = pair.points.map(|ends| ends.map(|x| x.map(rational)));
-    let vector = |from: usize, to: usize, end: usize| -> [Rational; 3] {
-        let ends = [&points[from][end], &points[to][end]];
-        std::array::from_fn(|axis| Rational::from(&ends[1][axis] - &ends[0][axis]))
-    };
-    let cross = |a: &[Rational; 3], b: &[Rational; 3]| -> [Rational; 3] {
-        std::array::from_fn(|axis| {
-            let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
-            Rational::from(&a[i] * &b[j]) - Rational::from(&a[j] * &b[i])
-        })
-    };
+    let vector = |from: usize, to: usize, end: usize| minus(&points[to][end], &points[from][end]);
     let [a0, a1] = [0, 1].map(|end| vector(from_0, to_0, end));
     let [b0, b1] = [0, 1].map(|end| vector(from_1, to_1, end));
     let (one, other) = (cross(&a0, &b1), cross(&a1, &b0));
@@ -337,7 +237,7 @@ fn largest_normal<S: Format>(pair: &PairCase<S>) -> S {
 }
 
 fn no_normal_is_longer_than_its_bound<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
-    if compared(pair).is_some() {
+    if is_in_range(pair.tetrahedron().largest_by_axis().largest()) {
         let bound = rational(largest_normal(pair)).square();
         for (k, squared) in squared_normals(pair).iter().enumerate() {
             prop_assert!(bound >= *squared, "control point {k}");

@@ -96,27 +96,25 @@ fn cases<S: Format>(kind: PairKind, count: usize) -> Vec<PairCase<S>> {
 }
 
 /// A question about one pair, of either kind.
-trait Question {
-    fn ask<S: Format>(case: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest);
-}
+type Question<S> = fn(&PairCase<S>, &PrimitivePair<S>, &mut Digest);
 
-fn digest<S: Format, Q: Question>(kind: PairKind, count: usize) -> u64 {
+fn digest<S: Format>(kind: PairKind, count: usize, ask: Question<S>) -> u64 {
     let mut digest = Digest::default();
     for case in cases::<S>(kind, count) {
-        Q::ask(&case, &case.pair(), &mut digest);
+        ask(&case, &case.pair(), &mut digest);
     }
     digest.0.finish()
 }
 
 /// Returns the digests of vertex–face pairs in `f32` and `f64`, and of edge–edge pairs.
-fn digests<Q: Question>(count: usize) -> String {
-    let all = [
-        digest::<f32, Q>(PairKind::VertexFace, count),
-        digest::<f64, Q>(PairKind::VertexFace, count),
-        digest::<f32, Q>(PairKind::EdgeEdge, count),
-        digest::<f64, Q>(PairKind::EdgeEdge, count),
-    ];
-    all.map(|digest| format!("{digest:016x}")).join(" ")
+fn digests(count: usize, in_f32: Question<f32>, in_f64: Question<f64>) -> String {
+    let of_kind = |kind| [digest(kind, count, in_f32), digest(kind, count, in_f64)];
+    let all = [PairKind::VertexFace, PairKind::EdgeEdge].map(of_kind);
+    all.as_flattened()
+        .iter()
+        .map(|digest| format!("{digest:016x}"))
+        .collect::<Vec<_>>()
+        .join(" ")
 }
 
 /// Returns a separation of the size of the pair, so that some pairs are kept and some are culled.
@@ -126,93 +124,77 @@ fn separation_of<S: Format>(case: &PairCase<S>) -> S {
     if apart.is_finite() { apart } else { S::ONE }
 }
 
-struct Filters;
-
-impl Question for Filters {
-    fn ask<S: Format>(case: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest) {
-        for odd in [S::NAN, S::INFINITY, -S::ONE] {
-            let separated = Filter::new(Tier::Permanent).with_separation(odd);
-            digest.add(u64::from(separated.is_some()));
-        }
-        let mut bits = 0;
-        let mut add = |alone: Verdict, separated: Verdict| {
-            bits = bits << 2 | u64::from(alone.is_culled()) | u64::from(separated.is_culled()) << 1;
-        };
-        for tier in Tier::ALL {
-            let filter = Filter::new(tier);
-            let separated = filter.with_separation(separation_of(case)).expect("positive");
-            add(filter.verdict(pair), separated.verdict(pair));
-        }
-        digest.add(bits);
+fn of_filters<S: Format>(case: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest) {
+    for odd in [S::NAN, S::INFINITY, -S::ONE] {
+        let separated = Filter::new(Tier::Permanent).with_separation(odd);
+        digest.add(u64::from(separated.is_some()));
     }
+    let mut bits = 0;
+    let mut add = |alone: Verdict, separated: Verdict| {
+        bits = bits << 2 | u64::from(alone.is_culled()) | u64::from(separated.is_culled()) << 1;
+    };
+    for tier in Tier::ALL {
+        let filter = Filter::new(tier);
+        let separated = filter.with_separation(separation_of(case)).expect("positive");
+        add(filter.verdict(pair), separated.verdict(pair));
+    }
+    digest.add(bits);
 }
 
 #[test]
 fn filters() {
     assert_eq!(
-        digests::<Filters>(10_000),
+        digests(10_000, of_filters, of_filters),
         "fc30cf837ca491bc bc82dccb8d9f6438 1096646b7d71c27b ea08f49d3e2a3acd"
     );
 }
 
-struct Volume;
-
-impl Question for Volume {
-    fn ask<S: Format>(_: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest) {
-        let volume = MovingTetrahedron::from(pair);
-        let (values, bounds) = (volume.control_values(), volume.error_bounds());
-        digest.add_numbers(values.0);
-        digest.add_numbers(bounds);
-        let largest = volume.largest_by_axis();
-        digest.add_number(error_bound_by_magnitudes(largest));
-        digest.add(u64::from(is_in_range(largest.largest())));
-        for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
-            digest.add_number(volume.largest_normal(kind));
-        }
-        digest.add(u64::from(values.one_sign_beyond(bounds)));
+fn of_volume<S: Format>(_: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest) {
+    let volume = MovingTetrahedron::from(pair);
+    let (values, bounds) = (volume.control_values(), volume.error_bounds());
+    digest.add_numbers(values.0);
+    digest.add_numbers(bounds);
+    let largest = volume.largest_by_axis();
+    digest.add_number(error_bound_by_magnitudes(largest));
+    digest.add(u64::from(is_in_range(largest.largest())));
+    for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
+        digest.add_number(volume.largest_normal(kind));
     }
+    digest.add(u64::from(values.one_sign_beyond(bounds)));
 }
 
 #[test]
 fn control_values_and_their_bounds() {
     assert_eq!(
-        digests::<Volume>(10_000),
+        digests(10_000, of_volume, of_volume),
         "49dd52df5a209cc9 4f45650a3226f385 78f33fc028cb0de2 d4e09d282d8651ab"
     );
 }
 
-struct Boxes;
-
-impl Question for Boxes {
-    fn ask<S: Format>(case: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest) {
-        let mut bits = u64::from(swept_boxes(pair).is_culled());
-        for test in CullingTest::ALL {
-            bits = bits << 1 | u64::from(culling::verdict(test, case).is_culled());
-        }
-        let motions = case.motions();
-        let target = Aabb::swept(&motions[1..]);
-        bits = bits << 1 | u64::from(segment::misses(&motions[0], &target));
-        let boxes = motions.map(|motion| MovingBox::from_motion(&motion));
-        let [first, second] = [boxes[0].merged(&boxes[1]), boxes[2].merged(&boxes[3])];
-        bits = bits << 1 | u64::from(first.is_apart_from(&second));
-        digest.add(bits);
-        let Aabb { lower, upper } = first.merged(&second).swept();
-        digest.add_numbers(lower);
-        digest.add_numbers(upper);
+fn of_boxes<S: Format>(case: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest) {
+    let mut bits = u64::from(swept_boxes(pair).is_culled());
+    for test in CullingTest::ALL {
+        bits = bits << 1 | u64::from(culling::verdict(test, case).is_culled());
     }
+    let motions = case.motions();
+    let target = Aabb::swept(&motions[1..]);
+    bits = bits << 1 | u64::from(segment::misses(&motions[0], &target));
+    let boxes = motions.map(|motion| MovingBox::from_motion(&motion));
+    let [first, second] = [boxes[0].merged(&boxes[1]), boxes[2].merged(&boxes[3])];
+    bits = bits << 1 | u64::from(first.is_apart_from(&second));
+    digest.add(bits);
+    let Aabb { lower, upper } = first.merged(&second).swept();
+    digest.add_numbers(lower);
+    digest.add_numbers(upper);
 }
 
 #[test]
 fn boxes() {
     assert_eq!(
-        digests::<Boxes>(10_000),
+        digests(10_000, of_boxes, of_boxes),
         "e61ed86ec81b55a5 a1be679e8570001f d7cf3447c6499e7f 2cf9b7673a198e93"
     );
 }
-
-/// Compares the moving boxes of a pair's four points, in a block with empty lanes between, with each of them, on every
-/// instruction set.
-struct Blocks;
 
 struct Near<'a>(&'a MovingBlock, &'a MovingBox<f32>, Mask);
 
@@ -225,30 +207,30 @@ impl Loop for Near<'_> {
     }
 }
 
-impl Question for Blocks {
-    fn ask<S: Format>(case: &PairCase<S>, _: &PrimitivePair<S>, digest: &mut Digest) {
-        let mut block = MovingBlock::empty();
-        let narrow = case.points.map(|ends| ends.map(|x| x.map(|x| x.to_f64() as f32)));
-        let boxes = narrow.map(|[start, end]| MovingBox::from_motion(&(start, end).into()));
-        for (lane, moving) in boxes.iter().enumerate() {
-            block.set(5 * lane, moving);
-        }
-        for moving in &boxes {
-            let near = block.near(moving, Mask::MAX);
-            for among in [Mask::MAX, 1 << 10 | 1 << 5 | 1 << 2] {
-                assert_eq!(block.near(moving, among), near & among, "one by one {case:?}");
-                for (name, level) in available_levels() {
-                    let found = in_lanes(level, Near(&block, moving, among));
-                    assert_eq!(found, near & among, "{name} {case:?}");
-                }
+/// Compares the moving boxes of a pair's four points, in a block with empty lanes between, with each of them, on every
+/// instruction set.
+fn of_blocks<S: Format>(case: &PairCase<S>, _: &PrimitivePair<S>, digest: &mut Digest) {
+    let mut block = MovingBlock::empty();
+    let narrow = case.points.map(|ends| ends.map(|x| x.map(|x| x.to_f64() as f32)));
+    let boxes = narrow.map(|[start, end]| MovingBox::from_motion(&(start, end).into()));
+    for (lane, moving) in boxes.iter().enumerate() {
+        block.set(5 * lane, moving);
+    }
+    for moving in &boxes {
+        let near = block.near(moving, Mask::MAX);
+        for among in [Mask::MAX, 1 << 10 | 1 << 5 | 1 << 2] {
+            assert_eq!(block.near(moving, among), near & among, "one by one {case:?}");
+            for (name, level) in available_levels() {
+                let found = in_lanes(level, Near(&block, moving, among));
+                assert_eq!(found, near & among, "{name} {case:?}");
             }
-            digest.add(near.into());
         }
-        let merged = block.merged();
-        for Aabb { lower, upper } in [merged.start, merged.end, block.get(5).start] {
-            digest.add_numbers(lower);
-            digest.add_numbers(upper);
-        }
+        digest.add(near.into());
+    }
+    let merged = block.merged();
+    for Aabb { lower, upper } in [merged.start, merged.end, block.get(5).start] {
+        digest.add_numbers(lower);
+        digest.add_numbers(upper);
     }
 }
 
@@ -342,72 +324,64 @@ fn equal_numbers_are_those_among_the_lanes_asked_about_on_every_instruction_set(
 #[test]
 fn blocks_of_moving_boxes() {
     assert_eq!(
-        digests::<Blocks>(4000),
+        digests(4000, of_blocks, of_blocks),
         "8a86cf97b9eb16de 3423ce3eeadc7b75 ff0fde85066139bb 0d138a6175dfcf34"
     );
 }
 
-struct Signs;
-
-impl Question for Signs {
-    fn ask<S: Format>(case: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest) {
-        let volume = MovingTetrahedron::from(pair);
-        let signs = control_value_signs(pair);
-        let mut bits = signs.map_or(0, |signs| {
-            signs
-                .iter()
-                .fold(0, |bits, &sign| bits * 4 + u64::from((sign as i8 + 2).unsigned_abs()))
-        });
-        let known = certain_signs(&volume.control_values(), volume.error_bounds());
-        for sign in known {
-            let sign = sign.map_or(0, |sign| (sign as i8 + 2).unsigned_abs());
-            bits = bits << 2 | u64::from(sign);
-        }
-        for known in [UNKNOWN, known] {
-            bits = bits << 1 | u64::from(is_never_coplanar(pair, known));
-        }
-        let within = is_never_within(pair, separation_of(case), UNKNOWN);
-        digest.add(bits << 1 | u64::from(within));
+fn of_signs<S: Format>(case: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest) {
+    let volume = MovingTetrahedron::from(pair);
+    let signs = control_value_signs(pair);
+    let mut bits = signs.map_or(0, |signs| {
+        signs
+            .iter()
+            .fold(0, |bits, &sign| bits * 4 + u64::from((sign as i8 + 2).unsigned_abs()))
+    });
+    let known = certain_signs(&volume.control_values(), volume.error_bounds());
+    for sign in known {
+        let sign = sign.map_or(0, |sign| (sign as i8 + 2).unsigned_abs());
+        bits = bits << 2 | u64::from(sign);
     }
+    for known in [UNKNOWN, known] {
+        bits = bits << 1 | u64::from(is_never_coplanar(pair, known));
+    }
+    let within = is_never_within(pair, separation_of(case), UNKNOWN);
+    digest.add(bits << 1 | u64::from(within));
 }
 
 #[test]
 fn exact_signs() {
     assert_eq!(
-        digests::<Signs>(10_000),
+        digests(10_000, of_signs, of_signs),
         "e6237934e9213cec 2223f37cef4297c6 b1039403865db81a de66eea94085a974"
     );
 }
 
-struct Times;
-
-impl Question for Times {
-    fn ask<S: Format>(case: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest) {
-        let separated = Limits::within(separation_of(case));
-        let tight = Limits::accurate_to(S::ZERO);
-        for limits in [Limits::default(), separated, tight] {
-            let (impact, work) = time_of_impact_and_work(pair, &limits);
-            digest.add_impact(impact);
-            digest.add(u64::from(work.rounds));
-            digest.add(u64::from(work.volume_steps));
-            digest.add(u64::from(work.turns));
-        }
-        let [early, late, never] = [0.25, 0.75, -0.5].map(S::from_f64);
-        for (from, until) in [
-            (early, late),
-            (late, early),
-            (never, late),
-            (early, S::ONE + S::ONE),
-            (S::NAN, late),
-            (early, S::NAN),
-        ] {
-            digest.add_impact(time_of_impact_within(pair, &tight, from, until));
-        }
-        for near in [S::ZERO, early, S::ONE, never, S::ONE + S::ONE, S::NAN] {
-            match certain_contact(pair, near) {
-                None => digest.add(0),
-                Some(times) => digest.add_numbers(times),
-            }
+fn of_times<S: Format>(case: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest) {
+    let separated = Limits::within(separation_of(case));
+    let tight = Limits::accurate_to(S::ZERO);
+    for limits in [Limits::default(), separated, tight] {
+        let (impact, work) = time_of_impact_and_work(pair, &limits);
+        digest.add_impact(impact);
+        digest.add(u64::from(work.rounds));
+        digest.add(u64::from(work.volume_steps));
+        digest.add(u64::from(work.turns));
+    }
+    let [early, late, never] = [0.25, 0.75, -0.5].map(S::from_f64);
+    for (from, until) in [
+        (early, late),
+        (late, early),
+        (never, late),
+        (early, S::ONE + S::ONE),
+        (S::NAN, late),
+        (early, S::NAN),
+    ] {
+        digest.add_impact(time_of_impact_within(pair, &tight, from, until));
+    }
+    for near in [S::ZERO, early, S::ONE, never, S::ONE + S::ONE, S::NAN] {
+        match certain_contact(pair, near) {
+            None => digest.add(0),
+            Some(times) => digest.add_numbers(times),
         }
     }
 }
@@ -415,62 +389,50 @@ impl Question for Times {
 #[test]
 fn times_of_impact() {
     assert_eq!(
-        digests::<Times>(8000),
+        digests(8000, of_times, of_times),
         "bb3dfa084c7c6c82 d69769016e9a9250 448dff158c697630 d3f2207dd14b8bd0"
     );
 }
 
-struct Geometries;
-
-impl Question for Geometries {
-    fn ask<S: Format>(_: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest) {
-        let in_double = |point: S::Vector| DVec3::from(point.into().map(S::to_f64));
-        let motions = pair
-            .motions
-            .map(|motion| Motion::new(in_double(motion.start), in_double(motion.end)));
-        for time in [0.0, 0.7] {
-            let pair = PrimitivePair::new(pair.kind, motions);
-            let found = geometry(&pair, time);
-            digest.add_numbers(found.weights);
-            found.points.iter().for_each(|point| digest.add_numbers(point.to_array()));
-            digest.add_numbers(found.normal.unwrap_or(DVec3::ZERO).to_array());
-            digest.add_numbers(found.distance);
-            digest.add_numbers([found.separated_at, found.speed]);
-        }
+fn of_geometries<S: Format>(_: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest) {
+    let in_double = |point: S::Vector| DVec3::from(point.into().map(S::to_f64));
+    let motions = pair
+        .motions
+        .map(|motion| Motion::new(in_double(motion.start), in_double(motion.end)));
+    for time in [0.0, 0.7] {
+        let pair = PrimitivePair::new(pair.kind, motions);
+        let found = geometry(&pair, time);
+        digest.add_numbers(found.weights);
+        found.points.iter().for_each(|point| digest.add_numbers(point.to_array()));
+        digest.add_numbers(found.normal.unwrap_or(DVec3::ZERO).to_array());
+        digest.add_numbers(found.distance);
+        digest.add_numbers([found.separated_at, found.speed]);
     }
 }
 
 #[test]
 fn geometries_of_contacts() {
     assert_eq!(
-        digests::<Geometries>(4000),
+        digests(4000, of_geometries, of_geometries),
         "143ff9a66d5e345c 8f4bd3492855d5b0 29aa30f54c6d4ebe 79d07806ff3157de"
     );
 }
 
-struct Contacts;
-
-impl Question for Contacts {
-    fn ask<S: Format>(_: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest) {
-        let (contact, evidence) = contact_and_evidence(pair);
-        digest.add(contact as u64);
-        digest.add(evidence as u64);
-        let exact = touches(pair);
-        digest.add(exact.map_or(2, u64::from));
-    }
+fn of_contacts<S: Format>(_: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest) {
+    let (contact, evidence) = contact_and_evidence(pair);
+    digest.add(contact as u64);
+    digest.add(evidence as u64);
+    let exact = touches(pair);
+    digest.add(exact.map_or(2, u64::from));
 }
 
 #[test]
 fn exact_verdicts() {
     assert_eq!(
-        digests::<Contacts>(4000),
+        digests(4000, of_contacts, of_contacts),
         "8feac5cb5f535b64 104f7223f0812c85 69260860004b2907 395049f3243aa625"
     );
 }
-
-/// The places where results change: how far the first point must move, and which separation is too large. On a grid, values are
-/// exactly equal to their bounds there.
-struct Thresholds;
 
 /// Bisects until no number lies between. Returns `None` if both ends have the same result.
 fn threshold<S: Format>(mut low: S, mut high: S, holds: impl Fn(S) -> bool) -> Option<S> {
@@ -505,21 +467,21 @@ fn answers_yes<S: Format>(test: usize, pair: &PrimitivePair<S>, separation: S) -
     }
 }
 
-impl Question for Thresholds {
-    fn ask<S: Format>(case: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest) {
-        for test in 0..Tier::ALL.len() + 3 {
-            let (zero, far) = (S::ZERO, S::from_f64(8.0));
-            let separation = threshold(zero, far, |separation| answers_yes(test, pair, separation));
-            let moved = threshold(zero, far, |by| {
-                let mut case = *case;
-                for end in &mut case.points[0] {
-                    end[0] = end[0] + by;
-                }
-                answers_yes(test, &case.pair(), zero)
-            });
-            for found in [separation, moved] {
-                digest.add_number(found.unwrap_or(-far));
+/// The places where results change: how far the first point must move, and which separation is too large. On a grid, values are
+/// exactly equal to their bounds there.
+fn of_thresholds<S: Format>(case: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest) {
+    for test in 0..Tier::ALL.len() + 3 {
+        let (zero, far) = (S::ZERO, S::from_f64(8.0));
+        let separation = threshold(zero, far, |separation| answers_yes(test, pair, separation));
+        let moved = threshold(zero, far, |by| {
+            let mut case = *case;
+            for end in &mut case.points[0] {
+                end[0] = end[0] + by;
             }
+            answers_yes(test, &case.pair(), zero)
+        });
+        for found in [separation, moved] {
+            digest.add_number(found.unwrap_or(-far));
         }
     }
 }
@@ -527,7 +489,7 @@ impl Question for Thresholds {
 #[test]
 fn thresholds() {
     assert_eq!(
-        digests::<Thresholds>(200),
+        digests(200, of_thresholds, of_thresholds),
         "1809ff244f6d1025 2a431dbda1285717 adc81e539e5f1f0f f29f8582bb5d17cc"
     );
 }

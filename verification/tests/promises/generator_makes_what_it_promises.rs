@@ -3,6 +3,7 @@
 use crate::support::prelude::*;
 use selvedge_verification::culling::CullingTest::CertifiedNonCoplanarity;
 use selvedge_verification::oracle::touches_at;
+use selvedge_verification::random::Random;
 
 fn touches_when_it_says<S: Format>(moment: &Moment<S>) -> TestCaseResult {
     prop_assert!(touches_at(&moment.pair().question(), &moment.time()));
@@ -46,17 +47,12 @@ fn share<S: Format>(cases: u32, of: impl Fn(&PairCase<S>) -> bool) -> u32 {
     1000 * found.get() / all.get()
 }
 
-#[test]
-fn pairs_are_culled_coplanar_and_colliding_often_enough_f64() {
-    assert!(share::<f64>(3000, |pair| verdict(CertifiedNonCoplanarity, pair).is_culled()) > 30);
-    assert!(share::<f64>(3000, |pair| collides(&pair.question()).is_some()) > 200);
+fn pairs_are_culled_coplanar_and_colliding_often_enough<S: Format>() {
+    assert!(share::<S>(3000, |pair| verdict(CertifiedNonCoplanarity, pair).is_culled()) > 30);
+    assert!(share::<S>(3000, |pair| collides(&pair.question()).is_some()) > 200);
 }
 
-#[test]
-fn pairs_are_culled_coplanar_and_colliding_often_enough_f32() {
-    assert!(share::<f32>(3000, |pair| verdict(CertifiedNonCoplanarity, pair).is_culled()) > 30);
-    assert!(share::<f32>(3000, |pair| collides(&pair.question()).is_some()) > 200);
-}
+formats!(pairs_are_culled_coplanar_and_colliding_often_enough);
 
 #[test]
 fn meshes_are_degenerate_non_manifold_and_incomplete_often_enough() {
@@ -96,12 +92,9 @@ fn simplest<T: Simplify>(mut case: T, fails: impl Fn(&T) -> bool) -> T {
 fn shrinking_ends_in_a_pair_of_small_numbers() {
     let culled = |pair: &PairCase<f64>| verdict(CertifiedNonCoplanarity, pair).is_culled();
     let mut culled_pairs = 0;
-    let mut state = 1_u64;
+    let mut random = Random(1);
     for _ in 0..2000 {
-        let bytes: [u8; Choices::ENOUGH] = std::array::from_fn(|_| {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            (state >> 56) as u8
-        });
+        let bytes: [u8; Choices::ENOUGH] = random.bytes();
         let pair = PairCase::from_bytes(PairKind::EdgeEdge, &bytes);
         if culled(&pair) {
             culled_pairs += 1;

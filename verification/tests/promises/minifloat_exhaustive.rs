@@ -10,6 +10,7 @@
 //! No input may have a wrong sign. The tests also assert how close the grids come to the bounds, so they would detect constants
 //! that are a fraction of these.
 
+use crate::support::determinant;
 use crate::support::prelude::*;
 use rug::ops::Pow;
 use selvedge_verification::minifloat::{DOWNWARD, FLUSHING, Minifloat, TO_NEAREST, TOWARDS_ZERO, UPWARD, every, numbers};
@@ -24,13 +25,7 @@ fn exact_control_value<const E: u32, const F: u32, const ENVIRONMENT: u32>(
 ) -> i128 {
     let units = points.map(|ends| ends.map(|x| x.map(|x| i128::from(x.units()))));
     let from_a = |point: usize, end: usize| [0, 1, 2].map(|axis| units[point][end][axis] - units[0][end][axis]);
-    let determinant = |i: usize, j: usize, k: usize| {
-        let [p, b, c] = [from_a(3, i), from_a(1, j), from_a(2, k)];
-        p[0] * b[1] * c[2] + p[1] * b[2] * c[0] + p[2] * b[0] * c[1]
-            - p[2] * b[1] * c[0]
-            - p[0] * b[2] * c[1]
-            - p[1] * b[0] * c[2]
-    };
+    let determinant = |i: usize, j: usize, k: usize| determinant([from_a(3, i), from_a(1, j), from_a(2, k)]);
     match k {
         0 => determinant(0, 0, 0),
         1 => determinant(1, 0, 0) + determinant(0, 1, 0) + determinant(0, 0, 1),

@@ -61,10 +61,7 @@ fn any_pair() -> impl Strategy<Value = Pair> {
 /// Decides contact at a rational time by construction instead of signs.
 fn touches_by_clipping(pair: &Pair, t: &Rational) -> bool {
     let points: Vec<_> = (0..4).map(|i| at(pair.start[i], pair.end[i], t)).collect();
-    let (first, second) = points.split_at(match pair.kind {
-        PairKind::VertexFace => 1,
-        PairKind::EdgeEdge => 2,
-    });
+    let (first, second) = points.split_at(points_of_first(pair.kind));
     !common_part(first, second).is_empty()
 }
 

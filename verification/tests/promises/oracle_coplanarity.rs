@@ -1,5 +1,6 @@
 //! The coplanarity of four moving points agrees with the extremes of the volume.
 
+use crate::support::determinant;
 use crate::support::prelude::*;
 use rug::Integer;
 use std::cmp::Ordering;
@@ -28,12 +29,7 @@ fn by_extremes(start: &[[i32; 3]; 4], end: &[[i32; 3]; 4]) -> bool {
             let relative = |p: &[[i32; 3]; 4]| p[i][axis] - p[0][axis];
             i128::from(relative(start) * (1 - t) + relative(end) * t)
         };
-        let [a, b, c] = [1, 2, 3].map(|i| [at(i, 0), at(i, 1), at(i, 2)]);
-        // This is the rule of Sarrus.
-        a[0] * b[1] * c[2] + a[1] * b[2] * c[0] + a[2] * b[0] * c[1]
-            - a[2] * b[1] * c[0]
-            - a[1] * b[0] * c[2]
-            - a[0] * b[2] * c[1]
+        determinant([1, 2, 3].map(|i| [at(i, 0), at(i, 1), at(i, 2)]))
     };
     let [v0, v1, v2, v3] = [0, 1, 2, 3].map(volume);
     // This is Newton's interpolation, times 6.
@@ -64,60 +60,47 @@ fn to_f64(points: &[[i32; 3]; 4]) -> Positions {
     points.map(|p| p.map(f64::from))
 }
 
-fn grid(limit: i32) -> impl Strategy<Value = [[i32; 3]; 4]> {
-    prop::array::uniform4(prop::array::uniform3(-limit..=limit))
+/// Returns the ends of a step on a small or a large grid.
+fn ends() -> impl Strategy<Value = [[[i32; 3]; 4]; 2]> {
+    let grid = |limit: i32| prop::array::uniform2(prop::array::uniform4(prop::array::uniform3(-limit..=limit)));
+    prop_oneof![grid(1), grid(50)]
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(20_000))]
+    #![proptest_config(ProptestConfig::with_cases(40_000))]
 
     #[test]
-    fn coplanar_on_a_small_grid_is_what_the_extremes_say(start in grid(1), end in grid(1)) {
-        let oracle = coplanar(&to_f64(&start), &to_f64(&end));
-        prop_assert_eq!(oracle, by_extremes(&start, &end));
-    }
-
-    #[test]
-    fn coplanar_on_a_large_grid_is_what_the_extremes_say(start in grid(50), end in grid(50)) {
-        let oracle = coplanar(&to_f64(&start), &to_f64(&end));
-        prop_assert_eq!(oracle, by_extremes(&start, &end));
+    fn coplanar_is_what_the_extremes_say([start, end] in ends()) {
+        prop_assert_eq!(coplanar(&to_f64(&start), &to_f64(&end)), by_extremes(&start, &end));
     }
 }
 
 /// Returns whether a tetrahedron over a fixed face with its apex at height `from`, then `to`, is ever flat.
-fn apex_moves(from: f64, to: f64) -> bool {
+fn apex_moves([from, to]: [f64; 2]) -> bool {
     let face = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     let with_apex = |z| [face[0], face[1], face[2], [0.25, 0.25, z]];
     coplanar(&with_apex(from), &with_apex(to))
 }
 
 #[test]
-fn no_motion_is_decided_by_the_volume() {
-    assert!(!apex_moves(5e-324, 5e-324));
-    assert!(apex_moves(0.0, 0.0));
+fn touching_the_plane_at_an_end_or_in_a_step_at_rest_is_coplanar() {
+    for ends in [[0.0, 0.0], [0.0, 1.0], [-1.0, 0.0]] {
+        assert!(apex_moves(ends), "{ends:?}");
+    }
+    for ends in [[5e-324, 5e-324], [5e-324, 1.0], [-1.0, -5e-324]] {
+        assert!(!apex_moves(ends), "{ends:?}");
+    }
 }
 
 #[test]
-fn touching_the_plane_at_an_end_of_the_step_is_coplanar() {
-    assert!(apex_moves(0.0, 1.0));
-    assert!(apex_moves(-1.0, 0.0));
-    assert!(!apex_moves(5e-324, 1.0));
-    assert!(!apex_moves(-1.0, -5e-324));
-}
-
-#[test]
-fn a_double_root_is_found_and_none_once_it_is_parted() {
+fn multiple_roots_are_found_and_none_once_they_are_parted() {
     // Three edges with the volume (1 − 2t)² + gap².
-    let edges = |x: f64, gap: f64| [[0.0; 3], [x, -gap, 0.0], [gap, x, 0.0], [0.0, 0.0, 1.0]];
-    assert!(coplanar(&edges(1.0, 0.0), &edges(-1.0, 0.0)));
-    assert!(!coplanar(&edges(1.0, 1e-300), &edges(-1.0, 1e-300)));
-}
-
-#[test]
-fn a_triple_root_is_found() {
-    let at = |x: f64| [[0.0; 3], [x, 0.0, 0.0], [0.0, x, 0.0], [0.0, 0.0, x]];
-    assert!(coplanar(&at(1.0), &at(-1.0)));
-    assert!(!coplanar(&at(1.0), &at(5e-324)));
+    let double = |x: f64, gap: f64| [[0.0; 3], [x, -gap, 0.0], [gap, x, 0.0], [0.0, 0.0, 1.0]];
+    assert!(coplanar(&double(1.0, 0.0), &double(-1.0, 0.0)));
+    assert!(!coplanar(&double(1.0, 1e-300), &double(-1.0, 1e-300)));
+    let triple = |x: f64| [[0.0; 3], [x, 0.0, 0.0], [0.0, x, 0.0], [0.0, 0.0, x]];
+    assert!(coplanar(&triple(1.0), &triple(-1.0)));
+    assert!(!coplanar(&triple(1.0), &triple(5e-324)));
 }
 
 #[test]

@@ -2,8 +2,8 @@
 //! a pair keeps although its points stray, and their stray. Others are boxes with a separation, lengths and times in fewer
 //! digits, and how wide neighbours are open. This holds in every floating-point environment.
 
-use crate::support::point;
 use crate::support::prelude::*;
+use crate::support::{dot, minus, point};
 use selvedge_core::boxes::mapping::{Inset, Mapping};
 use selvedge_core::boxes::moving::MovingBox;
 use selvedge_core::narrowing::{rounded_down, rounded_up};
@@ -56,7 +56,7 @@ fn directions<S: Format>(pair: &PairCase<S>) -> Vec<S::Vector> {
     let middle: [[f64; 3]; 4] =
         [0, 1, 2, 3].map(|k| [0, 1, 2].map(|axis| 0.5 * question.start[k][axis] + 0.5 * question.end[k][axis]));
     let mut directions = vec![DVec3::X, DVec3::Y, DVec3::Z];
-    let first = if pair.kind == PairKind::EdgeEdge { 2 } else { 1 };
+    let first = points_of_first(pair.kind);
     for points in [question.start, middle, question.end] {
         let points = points.map(DVec3::from);
         let [a, b, c, d] = points;
@@ -273,7 +273,7 @@ formats!(a_pair_keeps_its_distance_though_its_points_stray_as_far_as_they_may(
 ));
 
 fn keeps_it_though_strayed(pair: &PairCase<f64>, distance: f64, stray: f64) -> TestCaseResult {
-    let first = if pair.kind == PairKind::EdgeEdge { 2 } else { 1 };
+    let first = points_of_first(pair.kind);
     for signs in 0..8_u32 {
         let sign = |axis: usize| if signs >> axis & 1 == 0 { 1.0 } else { -1.0 };
         let mut towards = *pair;
@@ -611,9 +611,7 @@ formats!(narrowing_exchanges_no_two_numbers_in_any_environment(
 /// Returns (a·b)(e·e) − (a·e)(b·e), which is negative beyond a right angle. The vectors lead from the first point to the others,
 /// e to the second.
 fn across<S: Format>([v, others @ ..]: [[S; 3]; 4]) -> Rational {
-    let way = |point: [S; 3]| [0, 1, 2].map(|axis| rational(point[axis]) - rational(v[axis]));
-    let [e, a, b] = others.map(way);
-    let dot = |x: &[Rational; 3], y: &[Rational; 3]| x.iter().zip(y).map(|(x, y)| Rational::from(x * y)).sum::<Rational>();
+    let [e, a, b] = others.map(|other| minus(&other.map(rational), &v.map(rational)));
     dot(&a, &b) * dot(&e, &e) - dot(&a, &e) * dot(&b, &e)
 }
 

@@ -10,6 +10,7 @@ use selvedge_core::elementary::advance::{
 use selvedge_core::kernels::advance::Work;
 use selvedge_core::kernels::of_kind;
 use selvedge_core::kernels::points::PairPoints;
+use selvedge_verification::random::Random;
 
 /// A pair, and lengths on its own scale.
 #[derive(Clone, Debug)]
@@ -408,16 +409,9 @@ formats!(is_not_late_in_sweeps_where_it_slides is is_not_late_in_sweeps(3_000, s
 fn pairs_that_slide_take_few_rounds() {
     let (mut rounds, mut most, mut last_resorts) = (0, 0, 0);
     let cases = 6000;
-    let mut random = 0x9e37_79b9_7f4a_7c15_u64;
+    let mut random = Random(1);
     for case in 0..cases {
-        let bytes: Vec<u8> = (0..Choices::ENOUGH)
-            .map(|_| {
-                random ^= random << 13;
-                random ^= random >> 7;
-                random ^= random << 17;
-                (random >> 32) as u8
-            })
-            .collect();
+        let bytes: [u8; Choices::ENOUGH] = random.bytes();
         let kind = [PairKind::VertexFace, PairKind::EdgeEdge][case % 2];
         let pair = PairCase::<f64>::choose_sliding(kind, &mut Choices::new(&bytes));
         let (impact, work) = time_of_impact_and_work(&pair.pair(), &Limits::default());

@@ -4,6 +4,7 @@
 //! Rounding errors are a large part of such numbers, so grids of a few values come close to every bound. The tests assert how
 //! close, and that something is proven at all.
 
+use crate::support::determinant;
 use crate::support::prelude::*;
 use rug::Integer;
 use selvedge_core::elementary::advance::{ROUNDS, time_of_impact_of_points};
@@ -15,22 +16,7 @@ use selvedge_core::kernels::lanes::Rounding;
 use selvedge_core::kernels::points::{EdgeEdge, PairPoints, PairShape, VertexFace};
 use selvedge_verification::altered::{self, Factors};
 use selvedge_verification::minifloat::{DOWNWARD, FLUSHING, Minifloat, TO_NEAREST, TOWARDS_ZERO, UPWARD, every, numbers};
-
-/// Pseudo-random numbers by `SplitMix64`.
-struct Random(u64);
-
-impl Random {
-    fn word(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ self.0 >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ z >> 31
-    }
-
-    fn pick<T: Copy>(&mut self, options: &[T]) -> T {
-        options[(self.word() % options.len() as u64) as usize]
-    }
-}
+use selvedge_verification::random::Random;
 
 type Number<const F: u32, const ENVIRONMENT: u32> = Minifloat<5, F, ENVIRONMENT>;
 type Points<T> = [[[T; 3]; 2]; 4];
@@ -231,10 +217,6 @@ fn random_turning_and_curving_directions_with_9_bits() {
     }
 }
 
-fn determinant([a, b, c]: [[i128; 3]; 3]) -> i128 {
-    a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])
-}
-
 /// Returns a multiple of the volume at the time that is `part` of `whole`, which is a power of two.
 fn exact_volume(corners: &[ExactCorner], part: i128, whole: i128) -> Integer {
     let [k0, k1, k2, k3] = [0, 1, 2, 3].map(|ends: usize| {
@@ -377,7 +359,7 @@ fn late_with_bounds_times<F: Factors, S: Format>() -> u32 {
     let mut random = Random(1);
     let mut late = 0;
     for index in 0..20_000 {
-        let bytes: Vec<u8> = (0..Choices::ENOUGH / 8).flat_map(|_| random.word().to_le_bytes()).collect();
+        let bytes: [u8; Choices::ENOUGH] = random.bytes();
         let kind = [PairKind::VertexFace, PairKind::EdgeEdge][index % 2];
         let moment = Moment::<S>::choose(kind, Meeting::Touching, &mut Choices::new(&bytes));
         let limits = Limits::accurate_to(S::ZERO);

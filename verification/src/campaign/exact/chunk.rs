@@ -1,7 +1,7 @@
 //! One chunk of the run: its pairs, the claims about them, and whether the claims are right.
 
 use super::judge::Judge;
-use super::pairs::{Maker, Random};
+use super::pairs::{Maker, random};
 use super::{Claim, ClaimCounts, Scenes, Source};
 use crate::generator::{Format, PairCase};
 use crate::plain;
@@ -53,7 +53,7 @@ impl Chunk<'_> {
             source(self.index),
             kind(self.index),
             self.scenes,
-            Random::new(self.seed, self.index),
+            random(self.seed, self.index),
         );
         let mut counts = vec![ClaimCounts::default(); self.claims.len()];
         let mut cases = Vec::new();

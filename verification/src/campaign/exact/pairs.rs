@@ -2,6 +2,7 @@
 
 use crate::campaign::Digest;
 use crate::generator::{Choices, Format, PairCase};
+use crate::random::Random;
 use selvedge::broad_phase::MovingBroadPhase;
 use selvedge::{StepError, Topology};
 use selvedge_core::PairKind;
@@ -106,7 +107,7 @@ impl<'a> Maker<'a> {
                 }
                 Source::Adversarial => {
                     if variants == 0 {
-                        base = PairCase::choose(kind, &mut Choices::new(&random.bytes()));
+                        base = PairCase::choose(kind, &mut Choices::new(&random.bytes::<{ Choices::ENOUGH }>()));
                         variants = if is_wide(&base) { 1 } else { 32 };
                     }
                     variants -= 1;
@@ -123,7 +124,7 @@ impl<'a> Maker<'a> {
 /// random ones are returned.
 pub fn sample<S: Format>(source: Source, kind: PairKind, seed: u64, count: usize) -> Vec<PairCase<S>> {
     let (scenes, mut cases) = (Scenes::default(), Vec::new());
-    Maker::new(source, kind, &scenes, Random::new(seed, 0)).make(count, &mut cases);
+    Maker::new(source, kind, &scenes, self::random(seed, 0)).make(count, &mut cases);
     cases
 }
 
@@ -202,38 +203,8 @@ fn nudged<S: Format>(mut case: PairCase<S>, count: u64, random: &mut Random) -> 
     case
 }
 
-/// A small and fast generator of random numbers (`SplitMix64`), since most of the time should go to the tests.
-pub(super) struct Random(u64);
-
-impl Random {
-    pub(super) const fn new(seed: u64, chunk: u64) -> Self {
-        let mut random = Self(seed);
-        let seed = random.next();
-        Self(seed ^ chunk.wrapping_mul(0xd134_2543_de82_ef95))
-    }
-
-    const fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    const fn below(&mut self, count: u64) -> u64 {
-        ((self.next() >> 32) * count) >> 32
-    }
-
-    /// Returns a number from −1 to 1, in steps of 2^-`bits`, at most 52.
-    const fn fraction(&mut self, bits: u32) -> f64 {
-        (self.next().cast_signed() >> (63 - bits)) as f64 * (1.0 / (1_u64 << bits) as f64)
-    }
-
-    fn bytes(&mut self) -> [u8; Choices::ENOUGH] {
-        let mut bytes = [0; Choices::ENOUGH];
-        for word in bytes.chunks_exact_mut(8) {
-            word.copy_from_slice(&self.next().to_le_bytes());
-        }
-        bytes
-    }
+/// Returns the generator of a chunk.
+pub(super) const fn random(seed: u64, chunk: u64) -> Random {
+    let seed = Random(seed).word();
+    Random(seed ^ chunk.wrapping_mul(0xd134_2543_de82_ef95))
 }

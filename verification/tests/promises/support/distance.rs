@@ -5,6 +5,7 @@
 
 use glam::DVec3;
 use selvedge_core::glam;
+use selvedge_verification::generator::points_of_first;
 use selvedge_verification::oracle::{Pair, PairKind};
 
 fn position(pair: &Pair, i: usize, t: f64) -> DVec3 {
@@ -76,10 +77,7 @@ pub(crate) const SLACK: f64 = 1e-9;
 /// which the distance comes down to `separation`.
 pub(crate) fn advance(pair: &Pair, separation: f64) -> Option<f64> {
     let velocity = |i: usize| DVec3::from(pair.end[i]) - DVec3::from(pair.start[i]);
-    let first = match pair.kind {
-        PairKind::VertexFace => 1,
-        PairKind::EdgeEdge => 2,
-    };
+    let first = points_of_first(pair.kind);
     let relative = (0..first).flat_map(|i| (first..4).map(move |j| (velocity(i) - velocity(j)).length()));
     let fastest = relative.fold(0.0, f64::max);
     let mut t = 0.0;

@@ -5,6 +5,7 @@ use proptest::prelude::*;
 use rug::Rational;
 use selvedge_core::PairKind;
 use selvedge_core::separation::geometry::Geometry;
+use selvedge_verification::generator::points_of_first;
 use selvedge_verification::oracle::rational;
 use selvedge_verification::oracle::within_at_rest;
 
@@ -29,10 +30,7 @@ impl Truth<'_> {
     pub(crate) fn is_promised(&self, found: &Geometry) -> Result<bool, TestCaseError> {
         let unit = rational(f64::EPSILON / 2.0);
         let underflow = rational(f64::MIN_POSITIVE) * 512_u32;
-        let first = match self.kind {
-            PairKind::VertexFace => 1,
-            PairKind::EdgeEdge => 2,
-        };
+        let first = points_of_first(self.kind);
 
         let at = (self.at)(self.time);
         for (side, corners) in [0..first, first..4].into_iter().enumerate() {

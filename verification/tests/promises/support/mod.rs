@@ -14,6 +14,10 @@ use rug::Rational;
 
 pub(crate) type Point = [Rational; 3];
 
+pub(crate) fn determinant([a, b, c]: [[i128; 3]; 3]) -> i128 {
+    a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])
+}
+
 pub(crate) fn point(coordinates: [f64; 3]) -> Point {
     coordinates.map(|x| Rational::from_f64(x).expect("finite"))
 }
@@ -24,15 +28,15 @@ pub(crate) fn at(start: [f64; 3], end: [f64; 3], t: &Rational) -> Point {
     std::array::from_fn(|i| Rational::from(&end[i] - &start[i]) * t + &start[i])
 }
 
-fn minus(a: &Point, b: &Point) -> Point {
+pub(crate) fn minus(a: &Point, b: &Point) -> Point {
     std::array::from_fn(|i| Rational::from(&a[i] - &b[i]))
 }
 
-fn dot(a: &Point, b: &Point) -> Rational {
+pub(crate) fn dot(a: &Point, b: &Point) -> Rational {
     a.iter().zip(b).map(|(x, y)| Rational::from(x * y)).sum()
 }
 
-fn cross(a: &Point, b: &Point) -> Point {
+pub(crate) fn cross(a: &Point, b: &Point) -> Point {
     let minor = |i: usize, j: usize| Rational::from(&a[i] * &b[j]) - Rational::from(&a[j] * &b[i]);
     [minor(1, 2), minor(2, 0), minor(0, 1)]
 }
@@ -41,10 +45,11 @@ fn is_zero(v: &Point) -> bool {
     v.iter().all(Rational::is_zero)
 }
 
-/// The half-space `{ x : direction · (x − through) ≥ 0 }`.
-struct HalfSpace {
-    direction: Point,
-    through: Point,
+/// The half-space `{ x : direction · (x − through) ≥ 0 }`, by its direction and `through`.
+type HalfSpace = (Point, Point);
+
+fn height(x: &Point, (direction, through): &HalfSpace) -> Rational {
+    dot(direction, &minus(x, through))
 }
 
 /// Returns half-spaces whose common part is the hull of one, two or three points.
@@ -53,10 +58,7 @@ fn half_spaces(hull: &[Point]) -> Vec<HalfSpace> {
     let mut both_sides = |direction: &Point, through: &Point| {
         let opposite = direction.clone().map(|x| -x);
         for direction in [direction.clone(), opposite] {
-            half_spaces.push(HalfSpace {
-                direction,
-                through: through.clone(),
-            });
+            half_spaces.push((direction, through.clone()));
         }
     };
     let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(point);
@@ -65,11 +67,7 @@ fn half_spaces(hull: &[Point]) -> Vec<HalfSpace> {
         if !is_zero(&normal) {
             both_sides(&normal, a);
             for (p, q) in [(a, b), (b, c), (c, a)] {
-                let direction = cross(&normal, &minus(q, p));
-                half_spaces.push(HalfSpace {
-                    direction,
-                    through: p.clone(),
-                });
+                half_spaces.push((cross(&normal, &minus(q, p)), p.clone()));
             }
             return half_spaces;
         }
@@ -84,14 +82,7 @@ fn half_spaces(hull: &[Point]) -> Vec<HalfSpace> {
         return half_spaces;
     }
     axes.iter().for_each(|axis| both_sides(&cross(&along, axis), p));
-    half_spaces.push(HalfSpace {
-        direction: minus(p, q),
-        through: q.clone(),
-    });
-    half_spaces.push(HalfSpace {
-        direction: along,
-        through: p.clone(),
-    });
+    half_spaces.extend([(minus(p, q), q.clone()), (along, p.clone())]);
     half_spaces
 }
 
@@ -100,11 +91,10 @@ fn half_spaces(hull: &[Point]) -> Vec<HalfSpace> {
 pub(crate) fn common_part(a: &[Point], b: &[Point]) -> Vec<Point> {
     let mut polygon = a.to_vec();
     for half_space in half_spaces(b) {
-        let height = |x: &Point| dot(&half_space.direction, &minus(x, &half_space.through));
         let mut clipped = Vec::new();
         for (i, p) in polygon.iter().enumerate() {
             let q = &polygon[(i + 1) % polygon.len()];
-            let (above_p, above_q) = (height(p), height(q));
+            let (above_p, above_q) = (height(p, &half_space), height(q, &half_space));
             if !above_p.is_negative() {
                 clipped.push(p.clone());
             }
@@ -122,5 +112,5 @@ pub(crate) fn common_part(a: &[Point], b: &[Point]) -> Vec<Point> {
 pub(crate) fn contains(hull: &[Point], x: &Point) -> bool {
     half_spaces(hull)
         .iter()
-        .all(|h| !dot(&h.direction, &minus(x, &h.through)).is_negative())
+        .all(|half_space| !height(x, half_space).is_negative())
 }

@@ -103,7 +103,14 @@ impl About {
     /// Describes a scene without a file, without fabric and settings.
     pub(super) fn test(name: &str, up: DVec3, time_step: f64) -> Self {
         let (name, scene, fabric, knobs) = (name.to_owned(), String::new(), Vec::new(), Vec::new());
-        Self { name, scene, up, time_step, fabric, knobs }
+        Self {
+            name,
+            scene,
+            up,
+            time_step,
+            fabric,
+            knobs,
+        }
     }
 }
 
