@@ -190,6 +190,10 @@ impl FileProblem {
             _ => Self::Read(error),
         }
     }
+
+    pub(crate) const fn at_line(line: usize, reason: String) -> Self {
+        Self::Line { line, reason }
+    }
 }
 
 /// Writes `line 7: `, or nothing in a file without lines.

@@ -324,17 +324,45 @@ fn check(mesh: &Mesh, loose_edges: &[[u32; 2]]) -> Result<(), FileProblem> {
         }
     }
     for (face, triangle) in mesh.triangles.iter().enumerate() {
-        if let Some(&vertex) = triangle.iter().find(|&&v| v as usize >= vertex_count) {
-            return Err(FileProblem::IndexOutOfRange {
-                line: None,
-                face,
-                vertex: i64::from(vertex),
-                first: 0,
-                vertex_count,
-            });
+        for &vertex in triangle {
+            corner(face, vertex.into(), vertex_count, None)?;
         }
     }
     Ok(())
+}
+
+/// Returns a number as that of a vertex, if there is such a vertex.
+fn vertex_index(vertex: i64, vertex_count: usize) -> Option<u32> {
+    u32::try_from(vertex).ok().filter(|&index| (index as usize) < vertex_count)
+}
+
+/// Returns the vertex that a face names by its number from 0 on.
+fn corner(face: usize, vertex: i64, vertex_count: usize, line: Option<usize>) -> Result<u32, FileProblem> {
+    vertex_index(vertex, vertex_count).ok_or(FileProblem::IndexOutOfRange {
+        line,
+        face,
+        vertex,
+        first: 0,
+        vertex_count,
+    })
+}
+
+/// Reads the coordinates of a vertex.
+fn read_vertex<'a>(vertex: usize, line: usize, mut fields: impl Iterator<Item = &'a [u8]>) -> Result<DVec3, FileProblem> {
+    let mut coordinates = [0.0; 3];
+    for (value, name) in coordinates.iter_mut().zip(['x', 'y', 'z']) {
+        let field = fields.next().unwrap_or_default();
+        *value = text::number(field).ok_or_else(|| not_a_number(vertex, line, name, field))?;
+    }
+    let position = DVec3::from_array(coordinates);
+    check_finite(vertex, position, Some(line))?;
+    Ok(position)
+}
+
+fn not_a_number(vertex: usize, line: usize, coordinate: impl std::fmt::Display, field: &[u8]) -> FileProblem {
+    let field = text::quoted(field, 40);
+    let reason = format!("vertex {vertex} has the {coordinate} coordinate '{field}', which is not a number");
+    FileProblem::Line { line, reason }
 }
 
 pub(crate) fn check_finite(vertex: usize, position: DVec3, line: Option<usize>) -> Result<(), FileProblem> {

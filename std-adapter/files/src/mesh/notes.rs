@@ -118,6 +118,19 @@ pub struct LeftOut {
     pub may_have_area: bool,
 }
 
+impl LeftOut {
+    pub(crate) fn new(part: FilePart, name: impl Into<String>, count: usize, line: Option<usize>, may_have_area: bool) -> Self {
+        let name = name.into();
+        Self {
+            part,
+            name,
+            count,
+            line,
+            may_have_area,
+        }
+    }
+}
+
 impl fmt::Display for LeftOut {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [singular, plural] = match self.part {

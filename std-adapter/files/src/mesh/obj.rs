@@ -10,7 +10,7 @@ use super::error::FileProblem;
 use super::notes::{FilePart, LeftOut};
 use super::parsed::Parsed;
 use super::text::{Lines, fields, integer, number, quoted, trim, without_byte_order_mark};
-use super::{ReadOptions, check_finite};
+use super::{ReadOptions, check_finite, not_a_number};
 use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
 use std::io::{self, Write};
@@ -156,13 +156,13 @@ impl<'a> Reader<'a> {
     }
 
     fn leave_out(&mut self, line: usize, keyword: &[u8], may_have_area: bool) {
-        self.parsed.leave_out(LeftOut {
-            part: FilePart::Line,
-            name: quoted(keyword, 40),
-            count: 1,
-            line: Some(line),
+        self.parsed.leave_out(LeftOut::new(
+            FilePart::Line,
+            quoted(keyword, 40),
+            1,
+            Some(line),
             may_have_area,
-        });
+        ));
     }
 
     /// Reads `g a b …` or `o name`.
@@ -192,17 +192,9 @@ impl<'a> Reader<'a> {
         let vertex = self.parsed.positions.len();
         let mut coordinates = [0.0; 3];
         for (value, name) in coordinates.iter_mut().zip(['x', 'y', 'z']) {
-            let wrong = |what: String| FileProblem::Line {
-                line,
-                reason: format!("vertex {vertex} {what}"),
-            };
-            let field = fields.next().ok_or_else(|| wrong(format!("has no {name} coordinate")))?;
-            *value = number(field).ok_or_else(|| {
-                wrong(format!(
-                    "has the {name} coordinate '{}', which is not a number",
-                    quoted(field, 40)
-                ))
-            })?;
+            let missing = || FileProblem::at_line(line, format!("vertex {vertex} has no {name} coordinate"));
+            let field = fields.next().ok_or_else(missing)?;
+            *value = number(field).ok_or_else(|| not_a_number(vertex, line, name, field))?;
         }
         // A backslash has joined two lines by mistake.
         let is_word = |field: &&[u8]| field[0].is_ascii_alphabetic() && number(field).is_none();
@@ -273,13 +265,15 @@ impl<'a> Reader<'a> {
     /// above the face.
     fn corner(&mut self, line: usize, field: &[u8], owner: Owner) -> Result<u32, FileProblem> {
         let name = field.split(|&byte| byte == b'/').next().unwrap_or_default();
-        let vertex = integer(name).ok_or_else(|| FileProblem::Line {
-            line,
-            reason: format!(
-                "{} names a vertex '{}', which is not a whole number",
-                owner.words(),
-                quoted(field, 40)
-            ),
+        let vertex = integer(name).ok_or_else(|| {
+            FileProblem::at_line(
+                line,
+                format!(
+                    "{} names a vertex '{}', which is not a whole number",
+                    owner.words(),
+                    quoted(field, 40)
+                ),
+            )
         })?;
         let count = self.parsed.positions.len();
         let index = if vertex < 0 { vertex + count as i64 } else { vertex - 1 };
@@ -316,13 +310,13 @@ impl<'a> Reader<'a> {
                 first: 1,
                 vertex_count,
             },
-            Owner::Edges | Owner::Points => FileProblem::Line {
+            Owner::Edges | Owner::Points => FileProblem::at_line(
                 line,
-                reason: format!(
+                format!(
                     "{} names vertex {vertex}, but there are {vertex_count} vertices, numbered from 1",
                     owner.words()
                 ),
-            },
+            ),
         }
     }
 }

@@ -6,8 +6,7 @@ use super::error::FileProblem;
 use super::notes::{FilePart, LeftOut};
 use super::parsed::Parsed;
 use super::text::{Lines, fields, integer, number, quoted, trim, without_byte_order_mark};
-use super::{ReadOptions, check_finite};
-use selvedge_core::glam::DVec3;
+use super::{ReadOptions, corner, read_vertex};
 
 pub(super) fn parse(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Parsed, FileProblem> {
     if options.only.is_some() {
@@ -18,21 +17,7 @@ pub(super) fn parse(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Parsed, F
     let mut parsed = Parsed::default();
     for vertex in 0..vertex_count {
         let (line, text) = content.next().ok_or_else(|| truncated("vertex", vertex_count, vertex))?;
-        let mut fields = fields(text);
-        let mut coordinates = [0.0; 3];
-        for (value, name) in coordinates.iter_mut().zip(['x', 'y', 'z']) {
-            let field = fields.next().unwrap_or_default();
-            *value = number(field).ok_or_else(|| FileProblem::Line {
-                line,
-                reason: format!(
-                    "vertex {vertex} has the {name} coordinate '{}', which is not a number",
-                    quoted(field, 40)
-                ),
-            })?;
-        }
-        let position = DVec3::from_array(coordinates);
-        check_finite(vertex, position, Some(line))?;
-        parsed.positions.push(position);
+        parsed.positions.push(read_vertex(vertex, line, fields(text))?);
     }
     let mut corners = Vec::new();
     for face in 0..face_count {
@@ -41,24 +26,18 @@ pub(super) fn parse(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Parsed, F
         match (corners.as_slice(), options.loose_features) {
             (&[point], true) => parsed.points.push(point),
             (&[from, to], true) => parsed.loose_edges.push([from, to]),
-            ([] | [_] | [_, _], _) => parsed.leave_out(LeftOut {
-                part: FilePart::Face,
-                name: String::new(),
-                count: 1,
-                line: Some(line),
-                may_have_area: false,
-            }),
+            ([] | [_] | [_, _], _) => parsed.leave_out(LeftOut::new(FilePart::Face, "", 1, Some(line), false)),
             (corners, _) => parsed.faces.push(corners),
         }
     }
     if let Some((line, _)) = content.next() {
-        parsed.leave_out(LeftOut {
-            part: FilePart::Line,
-            name: "after the last face".to_owned(),
-            count: 1 + content.count(),
-            line: Some(line),
-            may_have_area: true,
-        });
+        parsed.leave_out(LeftOut::new(
+            FilePart::Line,
+            "after the last face",
+            1 + content.count(),
+            Some(line),
+            true,
+        ));
     }
     Ok(parsed)
 }
@@ -136,13 +115,13 @@ fn read_header(content: &mut Content<'_>) -> Result<[usize; 2], FileProblem> {
             }
             Ok([*vertices, *faces])
         }
-        _ => Err(FileProblem::Line {
+        _ => Err(FileProblem::at_line(
             line,
-            reason: format!(
+            format!(
                 "here must be the numbers of vertices, faces and edges, not '{}'",
                 quoted(counts, 60)
             ),
-        }),
+        )),
     }
 }
 
@@ -169,16 +148,7 @@ fn read_face(face: usize, line: usize, text: &[u8], vertex_count: usize, corners
                 quoted(field, 40)
             ))
         })?;
-        let Some(index) = u32::try_from(vertex).ok().filter(|&index| (index as usize) < vertex_count) else {
-            return Err(FileProblem::IndexOutOfRange {
-                line: Some(line),
-                face,
-                vertex,
-                first: 0,
-                vertex_count,
-            });
-        };
-        corners.push(index);
+        corners.push(corner(face, vertex, vertex_count, Some(line))?);
     }
     Ok(())
 }

@@ -7,8 +7,8 @@
 use super::error::FileProblem;
 use super::notes::{FilePart, LeftOut};
 use super::parsed::Parsed;
-use super::text::{Lines, fields, number, quoted, without_byte_order_mark};
-use super::{ReadOptions, check_finite};
+use super::text::{Lines, fields, quoted, without_byte_order_mark};
+use super::{ReadOptions, check_finite, read_vertex};
 use selvedge::first_coincident;
 use selvedge_core::glam::DVec3;
 
@@ -80,13 +80,7 @@ fn read_binary(bytes: &[u8], declared: Option<usize>, parsed: &mut Parsed) -> Re
         parsed.faces.push(&[first, first + 1, first + 2]);
     }
     if rest.iter().any(|&byte| byte != 0) {
-        parsed.leave_out(LeftOut {
-            part: FilePart::TrailingByte,
-            name: String::new(),
-            count: rest.len(),
-            line: None,
-            may_have_area: true,
-        });
+        parsed.leave_out(LeftOut::new(FilePart::TrailingByte, "", rest.len(), None, true));
     }
     Ok(())
 }
@@ -116,19 +110,7 @@ fn read_text(bytes: &[u8], parsed: &mut Parsed) -> Result<(), FileProblem> {
             (State::Facet, b"outer") => State::Loop,
             (State::Loop, b"vertex") => {
                 let vertex = parsed.positions.len();
-                let mut coordinates = [0.0; 3];
-                for (value, name) in coordinates.iter_mut().zip(['x', 'y', 'z']) {
-                    let field = words.next().unwrap_or_default();
-                    *value = number(field).ok_or_else(|| {
-                        wrong(format!(
-                            "vertex {vertex} has the {name} coordinate '{}', which is not a number",
-                            quoted(field, 40)
-                        ))
-                    })?;
-                }
-                let position = DVec3::from_array(coordinates);
-                check_finite(vertex, position, Some(line))?;
-                parsed.positions.push(position);
+                parsed.positions.push(read_vertex(vertex, line, words)?);
                 State::Loop
             }
             (State::Loop, b"endloop") => {

@@ -62,13 +62,7 @@ pub(super) fn reduce(root: &mut Value) -> Result<Vec<LeftOut>, AnimationProblem>
     let mut left_out = Vec::new();
     let mut leave_out = |part, name: &str, count: usize, may_have_area| {
         if count > 0 {
-            left_out.push(LeftOut {
-                part,
-                name: name.to_owned(),
-                count,
-                line: None,
-                may_have_area,
-            });
+            left_out.push(LeftOut::new(part, name, count, None, may_have_area));
         }
     };
     let mut instances = 0;

@@ -29,13 +29,7 @@ impl<'a> File<'a> {
         let what = format!("primitive {} of the mesh", primitive.index());
         let mode = primitive.mode();
         if !matches!(mode, Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
-            left_out.push(LeftOut {
-                part: FilePart::Primitive,
-                name: format!("{mode:?}"),
-                count: 1,
-                line: None,
-                may_have_area: false,
-            });
+            left_out.push(LeftOut::new(FilePart::Primitive, format!("{mode:?}"), 1, None, false));
             return Ok(());
         }
         let positions = primitive

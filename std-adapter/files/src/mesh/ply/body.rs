@@ -1,6 +1,7 @@
 //! The elements of a PLY file.
 
 use super::super::error::FileProblem;
+use super::super::not_a_number;
 use super::super::notes::{FilePart, LeftOut};
 use super::super::parsed::Parsed;
 use super::super::text::{Lines, fields, integer, is_space, number, quoted, trim};
@@ -156,13 +157,13 @@ impl<'a> Body<'a> {
         if rest.iter().all(|byte| is_space(byte) || *byte == 0) {
             return;
         }
-        parsed.leave_out(LeftOut {
-            part: FilePart::TrailingByte,
-            name: String::new(),
-            count: rest.len(),
-            line: (self.encoding == Encoding::Ascii).then_some(self.lines.number + 1),
-            may_have_area: true,
-        });
+        parsed.leave_out(LeftOut::new(
+            FilePart::TrailingByte,
+            "",
+            rest.len(),
+            (self.encoding == Encoding::Ascii).then_some(self.lines.number + 1),
+            true,
+        ));
     }
 }
 
@@ -230,26 +231,19 @@ fn line_problem(element: &Element, index: usize, line: usize, text: &[u8]) -> Fi
                 };
             }
             Some(_) => {}
-            None => {
-                let name = COORDINATES[axis];
-                let reason = format!(
-                    "vertex {index} has the {name} coordinate '{}', which is not a number",
-                    quoted(field, 40)
-                );
-                return FileProblem::Line { line, reason };
-            }
+            None => return not_a_number(index, line, COORDINATES[axis], field),
         }
     }
     let names: Vec<&str> = element.properties.iter().map(|property| property.name.as_str()).collect();
-    FileProblem::Line {
+    FileProblem::at_line(
         line,
-        reason: format!(
+        format!(
             "'{}' element {index} must be the numbers {} that the header declares, not '{}'",
             quoted(element.name.as_bytes(), 60),
             quoted(names.join(", ").as_bytes(), 60),
             quoted(text, 60)
         ),
-    }
+    )
 }
 
 fn truncated(element: &Element, found: usize) -> FileProblem {

@@ -14,7 +14,7 @@ pub(super) use write::write;
 use super::error::FileProblem;
 use super::notes::{FilePart, LeftOut};
 use super::parsed::Parsed;
-use super::{ReadOptions, check_finite};
+use super::{ReadOptions, check_finite, corner, vertex_index};
 use body::Row;
 use header::{Element, Header, Kind, Role};
 use selvedge_core::glam::DVec3;
@@ -91,25 +91,14 @@ impl Reader {
     }
 
     fn is_vertex(&self, vertex: i64) -> Option<u32> {
-        u32::try_from(vertex)
-            .ok()
-            .filter(|&index| (index as usize) < self.vertex_count)
+        vertex_index(vertex, self.vertex_count)
     }
 
     fn push(&mut self, corners: &[i64], line: Option<usize>) -> Result<(), FileProblem> {
         let face = self.face;
         self.corners.clear();
         for &vertex in corners {
-            let Some(index) = self.is_vertex(vertex) else {
-                return Err(FileProblem::IndexOutOfRange {
-                    line,
-                    face,
-                    vertex,
-                    first: 0,
-                    vertex_count: self.vertex_count,
-                });
-            };
-            self.corners.push(index);
+            self.corners.push(corner(face, vertex, self.vertex_count, line)?);
         }
         if self.corners.len() < 3 {
             return Err(FileProblem::TooFewCorners {
@@ -175,23 +164,20 @@ impl Reader {
                 Kind::List(_, number) => !number.is_float(),
                 Kind::Scalar(_) => false,
             });
-            self.parsed.leave_out(LeftOut {
-                part: FilePart::Element,
-                name: element.name.clone(),
-                count: element.count,
-                line: None,
-                may_have_area: has_list,
-            });
+            self.parsed.leave_out(LeftOut::new(
+                FilePart::Element,
+                element.name.clone(),
+                element.count,
+                None,
+                has_list,
+            ));
         }
     }
 }
 
 fn element_problem(element: &str, index: usize, line: Option<usize>, reason: String) -> FileProblem {
     match line {
-        Some(line) => FileProblem::Line {
-            line,
-            reason: format!("'{element}' element {index} {reason}"),
-        },
+        Some(line) => FileProblem::at_line(line, format!("'{element}' element {index} {reason}")),
         None => FileProblem::Element {
             element: element.to_owned(),
             index,
