@@ -40,12 +40,17 @@ impl<S: Scalar> Finder<S> {
     }
 }
 
-pub(crate) enum AnyFinder {
-    F32(Finder<f32>),
-    F64(Finder<f64>),
+/// An object of C that has a finder for one format of positions.
+pub(crate) trait OfFormat {
+    type Finder<S: Format>;
 }
 
-/// Evaluates one expression with a detector of either format.
+pub(crate) enum AnyFinder<T: OfFormat> {
+    F32(T::Finder<f32>),
+    F64(T::Finder<f64>),
+}
+
+/// Evaluates one expression with a finder of either format.
 macro_rules! with_either {
     ($any:expr, $finder:ident => $action:expr) => {
         match $any {
@@ -57,11 +62,11 @@ macro_rules! with_either {
 pub(crate) use with_either;
 
 pub(crate) trait Format: Scalar + Plain {
-    fn of(any: &mut AnyFinder) -> Option<&mut Finder<Self>>;
+    fn of<T: OfFormat>(any: &mut AnyFinder<T>) -> Option<&mut T::Finder<Self>>;
 }
 
 impl Format for f32 {
-    fn of(any: &mut AnyFinder) -> Option<&mut Finder<Self>> {
+    fn of<T: OfFormat>(any: &mut AnyFinder<T>) -> Option<&mut T::Finder<Self>> {
         match any {
             AnyFinder::F32(finder) => Some(finder),
             AnyFinder::F64(_) => None,
@@ -70,7 +75,7 @@ impl Format for f32 {
 }
 
 impl Format for f64 {
-    fn of(any: &mut AnyFinder) -> Option<&mut Finder<Self>> {
+    fn of<T: OfFormat>(any: &mut AnyFinder<T>) -> Option<&mut T::Finder<Self>> {
         match any {
             AnyFinder::F32(_) => None,
             AnyFinder::F64(finder) => Some(finder),
@@ -79,8 +84,12 @@ impl Format for f64 {
 }
 
 pub(crate) struct Detector {
-    pub(crate) finder: AnyFinder,
+    pub(crate) finder: AnyFinder<Self>,
     pub(crate) answers: Answers,
+}
+
+impl OfFormat for Detector {
+    type Finder<S: Format> = Finder<S>;
 }
 
 impl Detector {

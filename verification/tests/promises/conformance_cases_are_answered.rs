@@ -3,7 +3,7 @@
 //! and by a detector.
 
 use crate::support::prelude::*;
-use selvedge_core::batch::{Round, RoundQuestion, advance_from_rows};
+use crate::support::sweeps::side_by_side;
 use selvedge_core::elementary::advance::time_of_impact;
 use selvedge_core::elementary::{ContactVerdict, contact};
 use selvedge_verification::conformance::{Case, Question};
@@ -73,47 +73,6 @@ fn earliest<S: Format>(impacts: &[Impact<S>]) -> Option<S> {
     times.min_by(|a, b| a.partial_cmp(b).expect("times are numbers"))
 }
 
-/// Answers pairs of one kind side by side: rounds in lanes, then each open pair alone.
-fn side_by_side<S: Format>(level: Level, kind: PairKind, pairs: &[PairCase<S>]) -> Vec<Impact<S>> {
-    let limits = Limits::default();
-    let rows: Vec<_> = pairs.iter().flat_map(PairCase::motions).map(VertexRow::new).collect();
-    let mut impacts = vec![Impact::Never; pairs.len()];
-    let mut open: Vec<(usize, S)> = (0..pairs.len()).map(|index| (index, S::ZERO)).collect();
-    for sweep in 0..6 {
-        let question = RoundQuestion {
-            limits,
-            until: S::ONE,
-            with_volume: sweep > 1,
-        };
-        let indices: Vec<_> = open
-            .iter()
-            .map(|&(index, _)| [0, 1, 2, 3].map(|point| 4 * index as u32 + point))
-            .collect();
-        let mut times: Vec<S> = open.iter().map(|&(_, time)| time).collect();
-        let mut rounds = vec![Round::default(); open.len().div_ceil(LANES)];
-        advance_from_rows(level, kind, &question, &rows, &indices, &mut times, &mut rounds);
-        let mut remaining = Vec::new();
-        for (place, &(index, _)) in open.iter().enumerate() {
-            let (round, bit, time) = (rounds[place / LANES], 1 << (place % LANES), times[place]);
-            if round.near & bit != 0 {
-                impacts[index] = Impact::Possible {
-                    time,
-                    reason: Reason::WithinTolerance,
-                };
-            } else if round.stuck & bit != 0 {
-                impacts[index] = time_of_impact_within(&pairs[index].pair(), &limits, time, S::ONE);
-            } else if round.apart & bit == 0 {
-                remaining.push((index, time));
-            }
-        }
-        open = remaining;
-    }
-    for (index, time) in open {
-        impacts[index] = time_of_impact_within(&pairs[index].pair(), &limits, time, S::ONE);
-    }
-    impacts
-}
-
 fn pairs_are_answered<S: Format>(question: Question, kind: PairKind) {
     let cases = cases::<S>(question);
     let all: Vec<_> = cases.iter().map(|case| pairs::<S>(case)[0]).collect();
@@ -128,7 +87,7 @@ fn pairs_are_answered<S: Format>(question: Question, kind: PairKind) {
         is_right(case, time_of_impact(&pair, &Limits::default()).time(), "alone");
     }
     for (name, level) in available_levels() {
-        for (case, impact) in cases.iter().zip(side_by_side(level, kind, &all)) {
+        for (case, impact) in cases.iter().zip(side_by_side(level, kind, &all, &Limits::default())) {
             is_right(case, impact.time(), name);
         }
     }

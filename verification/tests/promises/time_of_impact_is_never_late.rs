@@ -2,7 +2,7 @@
 //! as tight as documented, and does no more work.
 
 use crate::support::prelude::*;
-use selvedge_core::batch::{Round, RoundQuestion, advance_from_rows};
+use crate::support::sweeps::side_by_side;
 use selvedge_core::elementary::advance::certain_contact;
 use selvedge_core::elementary::advance::{
     ROUNDS, ROUNDS_WITH_SEPARATION, TURNS, time_of_impact, time_of_impact_and_work, time_of_impact_of_points,
@@ -71,39 +71,11 @@ fn answer<S: Format>(pair: &PairCase<S>, tolerance: S, separation: S) -> (Impact
     time_of_impact_and_work(&pair.pair(), &limits)
 }
 
-/// Finds the time of impact as for many pairs: in rounds with lanes, then for the pair alone from the time reached. The same pair
-/// occurs three times, so that there are unused lanes, too.
+/// Finds the time of impact as for many pairs. The same pair occurs three times, so that there are unused lanes, too.
 fn answer_in_sweeps<S: Format>(pair: &PairCase<S>, tolerance: S, separation: S, level: Level) -> Impact<S> {
-    let limits = Limits { tolerance, separation };
-    let (kind, rows) = (pair.kind, pair.motions().map(VertexRow::new));
-    let mut times = [S::ZERO; 3];
-    for sweep in 0..6 {
-        let question = RoundQuestion {
-            limits,
-            until: S::ONE,
-            with_volume: sweep > 1,
-        };
-        let mut rounds = [Round::default()];
-        advance_from_rows(level, kind, &question, &rows, &[[0, 1, 2, 3]; 3], &mut times, &mut rounds);
-        let Round { apart, near, stuck } = rounds[0];
-        for mask in [apart, near, stuck] {
-            assert!(mask == 0 || mask == 0b111, "{rounds:?}");
-        }
-        assert_eq!(apart & near | apart & stuck | near & stuck, 0);
-        if apart != 0 {
-            return Impact::Never;
-        }
-        if near != 0 {
-            return Impact::Possible {
-                time: times[0],
-                reason: Reason::WithinTolerance,
-            };
-        }
-        if stuck != 0 {
-            break;
-        }
-    }
-    time_of_impact_within(&pair.pair(), &limits, times[0], S::ONE)
+    let impacts = side_by_side(level, pair.kind, &[*pair; 3], &Limits { tolerance, separation });
+    assert!(impacts.iter().all(|impact| *impact == impacts[0]), "{impacts:?}");
+    impacts[0]
 }
 
 /// Returns the exact largest difference along an axis between points of the two sets.

@@ -11,10 +11,10 @@ pub mod steps;
 mod tests;
 
 use crate::answers::Pair;
-use crate::detector::{ScalarFormat, topology};
+use crate::detector::{AnyFinder, Format, OfFormat, ScalarFormat, topology, with_either};
 use crate::guard::guarded;
 use crate::handles::{self, Handled, Living};
-use crate::input::{Out, OutList, Plain, unknown, view};
+use crate::input::{Out, OutList, unknown, view};
 use crate::settings::{GroupsRow, length};
 use crate::status::{Failure, Status};
 use selvedge::core::elementary::Limits;
@@ -48,47 +48,13 @@ impl<S: Scalar> Finder<S> {
     }
 }
 
-pub(crate) enum AnyFinder {
-    F32(Finder<f32>),
-    F64(Finder<f64>),
-}
-
-/// Evaluates one expression with a world of either format.
-macro_rules! with_either {
-    ($any:expr, $finder:ident => $action:expr) => {
-        match $any {
-            AnyFinder::F32($finder) => $action,
-            AnyFinder::F64($finder) => $action,
-        }
-    };
-}
-use with_either;
-
-pub(crate) trait Format: Scalar + Plain {
-    fn of(any: &mut AnyFinder) -> Option<&mut Finder<Self>>;
-}
-
-impl Format for f32 {
-    fn of(any: &mut AnyFinder) -> Option<&mut Finder<Self>> {
-        match any {
-            AnyFinder::F32(finder) => Some(finder),
-            AnyFinder::F64(_) => None,
-        }
-    }
-}
-
-impl Format for f64 {
-    fn of(any: &mut AnyFinder) -> Option<&mut Finder<Self>> {
-        match any {
-            AnyFinder::F32(_) => None,
-            AnyFinder::F64(finder) => Some(finder),
-        }
-    }
-}
-
 pub(crate) struct HandledWorld {
-    finder: AnyFinder,
+    finder: AnyFinder<Self>,
     answers: Answers,
+}
+
+impl OfFormat for HandledWorld {
+    type Finder<S: Format> = Finder<S>;
 }
 
 /// The lists to which C holds pointers.

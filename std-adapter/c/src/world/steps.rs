@@ -1,6 +1,6 @@
 //! The questions about a step of a world, generic over the format of the positions.
 
-use super::{Answers, AnyFinder, Finder, Format, HandledWorld, Mesh, WorldHandle, mesh, on, on_format, with_either};
+use super::{Answers, Finder, Format, HandledWorld, Mesh, WorldHandle, mesh, on, on_format, with_either};
 use crate::answers::{ContactRow, GeometryRow, Kind};
 use crate::input::{Out, OutList, Plain, view};
 use crate::status::{Failure, Status};

@@ -8,6 +8,7 @@ pub(crate) mod environment;
 pub(crate) mod geometry;
 pub(crate) mod prelude;
 pub(crate) mod rationals;
+pub(crate) mod sweeps;
 pub(crate) mod widths;
 
 use rug::Rational;
