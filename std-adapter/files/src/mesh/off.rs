@@ -5,7 +5,7 @@
 use super::error::FileProblem;
 use super::notes::{FilePart, LeftOut};
 use super::parsed::Parsed;
-use super::text::{Lines, fields, integer, number, quoted, trim, without_byte_order_mark};
+use super::text::{Lines, fields, integer, quoted, trim, without_byte_order_mark};
 use super::{ReadOptions, corner, read_vertex};
 
 pub(super) fn parse(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Parsed, FileProblem> {
