@@ -14,11 +14,13 @@ use super::Choice;
 use super::error::AnimationProblem;
 use super::figure::{Figure, Part, Shape, Skin, Target};
 use crate::bytes::Fingerprint;
+use crate::excerpt::excerpt;
 use crate::mesh::{FileProblem, LeftOut, check_finite};
 use mesh::Parts;
 use selvedge::Mesh;
 use selvedge_core::glam::DAffine3;
 use std::borrow::Cow;
+use std::fmt::Display;
 use std::path::Path;
 
 pub(crate) fn parse(bytes: &[u8], path: &Path, choice: &Choice<'_>) -> Result<Figure, AnimationProblem> {
@@ -26,20 +28,20 @@ pub(crate) fn parse(bytes: &[u8], path: &Path, choice: &Choice<'_>) -> Result<Fi
         return Err(FileProblem::Empty.into());
     }
     trusted::check_length(bytes)?;
-    let invalid = |error: gltf::Error| AnimationProblem::NotGltf(error.to_string());
-    let not_json = |error: serde_json::Error| AnimationProblem::NotGltf(error.to_string());
+    // Messages of serde quote texts of the file whole.
+    let invalid = |error: &dyn Display| AnimationProblem::NotGltf(excerpt(&error.to_string(), 200));
     let (json, blob) = if bytes.starts_with(b"glTF") {
-        let glb = gltf::binary::Glb::from_slice(bytes).map_err(invalid)?;
+        let glb = gltf::binary::Glb::from_slice(bytes).map_err(|error| invalid(&error))?;
         (glb.json, glb.bin.map(Cow::into_owned))
     } else {
         let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         (Cow::Borrowed(text), None)
     };
-    let mut root: serde_json::Value = serde_json::from_slice(&json).map_err(not_json)?;
+    let mut root: serde_json::Value = serde_json::from_slice(&json).map_err(|error| invalid(&error))?;
     let mut left_out = lenient::reduce(&mut root)?;
-    let root: gltf::json::Root = serde_json::from_value(root).map_err(not_json)?;
+    let root: gltf::json::Root = serde_json::from_value(root).map_err(|error| invalid(&error))?;
     trusted::check_indices(&root)?;
-    let document = gltf::Document::from_json(root).map_err(invalid)?;
+    let document = gltf::Document::from_json(root).map_err(|error| invalid(&error))?;
     let buffers = buffers::read(&document, blob, path)?;
     let mut fingerprint = Fingerprint::default();
     fingerprint.take(bytes);
