@@ -13,6 +13,7 @@
 //! | [`scene`] | a built-in motion: a sleeve on a bending arm |
 //! | [`study`] | experiments: methods compared, cost against size, benchmark queries, accuracy against time; they return data |
 //! | [`hard_cases`] | hard cases of the literature by name, with exact answers |
+//! | [`truths`] | the cloth simulation against laws with known answers |
 //! | [`report`] | results of studies and simulations as tables, CSV, JSON, plots, pictures, pages and glTF |
 
 #![allow(clippy::must_use_candidate, reason = "what reports and studies return is all that they do")]
@@ -26,3 +27,4 @@ pub mod queries;
 pub mod report;
 pub mod scene;
 pub mod study;
+pub mod truths;

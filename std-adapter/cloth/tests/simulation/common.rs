@@ -4,7 +4,7 @@ pub(crate) use selvedge::{CollisionDetector, Intersection, Topology};
 pub(crate) use selvedge_cloth::effects::*;
 pub(crate) use selvedge_cloth::glam::DVec3;
 pub(crate) use selvedge_cloth::*;
-pub(crate) use std::f64::consts::{PI, TAU};
+pub(crate) use std::f64::consts::PI;
 pub(crate) use std::path::Path;
 
 use std::ops::Range;

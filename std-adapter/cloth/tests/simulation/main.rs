@@ -6,7 +6,6 @@ mod attachments;
 mod bending;
 mod common;
 mod determinism;
-mod drape;
 mod energy;
 mod files;
 mod from_code;

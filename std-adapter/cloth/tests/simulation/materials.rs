@@ -1,42 +1,6 @@
 //! Materials by name: published properties, and their use in scenes.
 
 use crate::common::*;
-use crate::drape::{drape, of_material};
-
-/// Returns a drape coefficient in percent by Cusick's regression over 130 fabrics (1965; quoted from memory). It takes the
-/// bending length in cm and the angle in degrees by which a small force shears the fabric.
-fn by_cusick(bending_length: f64, angle: f64) -> f64 {
-    35.6 * bending_length - 3.61 * bending_length.powi(2) - 2.59 * angle + 0.0461 * angle.powi(2) + 17.0
-}
-
-/// Drape agrees with published coefficients. Those of cotton and leather are of such fabrics. The others are from Cusick's
-/// regression for fabrics of that stiffness, sheared by 3 to 20 degrees. No drape coefficient of latex was found.
-#[test]
-fn every_material_drapes_as_was_published() {
-    for material in [
-        Material::COTTON,
-        Material::DENIM,
-        Material::SILK,
-        Material::WOOL,
-        Material::LEATHER,
-    ] {
-        let [warp, weft] = material.bending_lengths();
-        let length = 50.0 * (warp + weft);
-        let published = match material.name {
-            "cotton" => 60.0..=76.0,
-            "leather" => 47.35..=69.9,
-            _ => by_cusick(length, 20.0)..=by_cusick(length, 3.0),
-        };
-        for (rings, time_step) in [(10, 1.0), (15, 1.0), (15, 0.5)] {
-            let found = 100.0 * drape(&of_material(material.name), rings, time_step);
-            let name = material.name;
-            assert!(
-                published.contains(&found),
-                "{name}, {rings} rings, {time_step} ms: {found}, not {published:?}"
-            );
-        }
-    }
-}
 
 /// Rigidities in µN m and densities in g/m² agree with cantilever measurements of fabrics of that weight (Feng et al. 2022), and
 /// for wool with Kawabata's means within twice their standard deviations.

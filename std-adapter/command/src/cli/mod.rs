@@ -14,6 +14,7 @@ mod progress;
 mod queries;
 mod scaling;
 mod simulate;
+mod truths;
 mod walker;
 mod witnesses;
 
@@ -64,6 +65,7 @@ enum Command {
     Accuracy(accuracy::Accuracy),
     Arm(arm::Arm),
     Simulate(simulate::Simulate),
+    Truths(truths::Truths),
     Walker(walker::Walker),
 }
 
@@ -82,6 +84,7 @@ pub(crate) fn main() -> ExitCode {
         Some(Command::Accuracy(accuracy)) => accuracy.run(),
         Some(Command::Arm(arm)) => arm.run(),
         Some(Command::Simulate(simulate)) => simulate.run(),
+        Some(Command::Truths(truths)) => truths.run(),
         Some(Command::Walker(walker)) => walker.run(),
     };
     exit(result.map(|()| ExitCode::SUCCESS))

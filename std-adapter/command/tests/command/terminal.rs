@@ -62,12 +62,13 @@ fn help_names_every_subcommand_and_the_exit_status() {
         "queries",
         "scaling",
         "accuracy",
+        "truths",
         "arm",
         "Exit status: 0 done",
     ] {
         assert!(text.contains(part), "{part}");
     }
-    for command in ["cull", "compare", "queries", "scaling", "accuracy", "arm"] {
+    for command in ["cull", "compare", "queries", "scaling", "accuracy", "truths", "arm"] {
         let text = Workplace::new().stdout(&[command, "--help"]);
         assert!(text.contains("Example"), "{command}");
         assert!(text.contains(&format!("  selvedge {command} ")), "{command}");

@@ -15,6 +15,7 @@ use crate::study::elementary::ElementaryAccuracy;
 use crate::study::{Accuracy, AccuracySet};
 use crate::study::{Comparison, ComparisonRow, MeanCounts, ScalingPoint};
 use crate::study::{HardAnswer, HardResult, QueryResult};
+use crate::truths::{ErrorUnit, LawRuns};
 use selvedge::PairCounts;
 use selvedge_cloth::{TangledStart, TornEdge};
 use serde_json::{Value, json};
@@ -280,6 +281,32 @@ pub fn scaling(preset: Preset, threads: usize, points: &[ScalingPoint]) -> Value
         "threads": threads,
         "sizes": sizes.collect::<Vec<_>>(),
     })
+}
+
+/// Returns the simulation's errors against laws, for `selvedge truths`: one row for each law, mesh and time step.
+#[must_use]
+pub fn truths(all: &[LawRuns]) -> Value {
+    let rows = all.iter().flat_map(|LawRuns { law, runs }| {
+        runs.iter().map(|run| {
+            let worst = run.worst();
+            let (of, unit) = match law.error {
+                ErrorUnit::Of(quantity) => (Some(quantity), None),
+                ErrorUnit::In(unit) => (None, Some(unit)),
+            };
+            json!({
+                "law": law.name,
+                "mesh": run.mesh,
+                "time_step": run.step,
+                "error": run.error(),
+                "error_of": of,
+                "error_unit": unit,
+                "unpredicted_error": run.unpredicted(),
+                "worst": {"at": worst.at, "exact": worst.exact, "simulated": worst.simulated, "aside": worst.aside},
+                "seconds": run.seconds,
+            })
+        })
+    });
+    json!({"rows": rows.collect::<Vec<_>>()})
 }
 
 /// Returns filters and their times, for `selvedge accuracy`: one row for each set, format, filter and instruction set.

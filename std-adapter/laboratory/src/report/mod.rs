@@ -20,18 +20,20 @@ mod step;
 pub mod still;
 pub mod tables;
 mod tangles;
+mod truths;
 
 pub use self::csv::{comparison_csv, contacts_csv, pairs_csv};
 pub use comparison::comparison_html;
 pub use figure::{FIGURE_SIZE, figure_3};
 pub use paper::{PaperRow, paper_row};
-pub use plot::{accuracy_svg, elementary_svg, scaling_svg};
+pub use plot::{accuracy_svg, convergence_svg, cost_of_accuracy_svg, elementary_svg, scaling_svg, truth_svg};
 pub use recording::{About, Added, FrameError, Knob, Measure, MeasureKind, Part, PartKind, RecordedFrame};
 pub use recording::{Recorder, Recording, Series, SeriesKind};
 pub use recording::{SimulationRecorder, Subject, costs_of_added_effects};
 pub use step::{StepQuestion, StepSummary};
 pub use tangles::{FileReport, MeshCheck, intersections_csv, intersections_json, mesh_checks, mesh_checks_json};
 pub use tangles::{coloured_ply, crossing_triangles, intersecting_triangles, start_sentences, tangled_start_json};
+pub use truths::truths_html;
 
 use crate::methods::Stage;
 use crate::study::{ComparisonRow, MeanCounts, ScalingPoint};

@@ -1,4 +1,46 @@
-//! Places values on axes of powers of ten.
+//! Places values on axes: of powers of ten, and even ones.
+
+/// An axis on which equal differences are equally far apart.
+pub(super) struct LinearAxis {
+    ends: [f64; 2],
+    length: f64,
+}
+
+impl LinearAxis {
+    /// Makes an axis over all finite values.
+    pub(super) fn over(values: impl Iterator<Item = f64>, length: f64) -> Self {
+        let [low, high] = values
+            .filter(|value| value.is_finite())
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
+                [low.min(value), high.max(value)]
+            });
+        let ends = match high - low {
+            range if range > 1e-12 * high.abs() => [low, high],
+            _ if low.is_finite() => [low - 0.5 * low.abs().max(1e-12), low + 0.5 * low.abs().max(1e-12)],
+            _ => [0.0, 1.0],
+        };
+        Self { ends, length }
+    }
+
+    /// Returns the distance from the axis's beginning.
+    pub(super) fn place(&self, value: f64) -> f64 {
+        let [low, high] = self.ends;
+        (value - low) / (high - low) * self.length
+    }
+
+    /// Returns three to eight places with their values, which are multiples of 1, 2 or 5 times a power of ten.
+    pub(super) fn ticks(&self) -> Vec<(f64, f64)> {
+        let [low, high] = self.ends;
+        let power = 10.0_f64.powf(((high - low) / 3.0).log10().floor());
+        let fits = |stride: &f64| high - low >= 3.0 * stride;
+        let stride = [5.0 * power, 2.0 * power].into_iter().find(fits).unwrap_or(power);
+        let numbers = (low / stride).ceil() as i64..=(high / stride).floor() as i64;
+        numbers
+            .map(|number| number as f64 * stride)
+            .map(|value| (self.place(value), value))
+            .collect()
+    }
+}
 
 /// An axis on which equal factors are equally far apart.
 pub(super) struct LogAxis {
@@ -83,6 +125,22 @@ mod tests {
     fn names(axis: &LogAxis) -> Vec<String> {
         let ticks = axis.ticks(|nanoseconds| round_time(nanoseconds * 1e-9));
         ticks.into_iter().filter_map(|tick| tick.1).collect()
+    }
+
+    #[test]
+    fn even_axes_have_round_ticks() {
+        for (ends, expected) in [
+            ([0.0, 1.0], [0.0, 0.2]),
+            ([-3.1, 4.0], [-2.0, 0.0]),
+            ([1e-9, 1.7e-8], [5e-9, 1e-8]),
+        ] {
+            let axis = LinearAxis::over(ends.into_iter(), 300.0);
+            let ticks = axis.ticks();
+            assert!((3..=8).contains(&ticks.len()), "{ticks:?}");
+            assert!((0..2).all(|k| (ticks[k].1 - expected[k]).abs() < 1e-15), "{ticks:?}");
+        }
+        assert!(LinearAxis::over([2.0].into_iter(), 300.0).place(2.0) == 150.0);
+        assert!(!LinearAxis::over(std::iter::empty(), 300.0).ticks().is_empty());
     }
 
     #[test]

@@ -1,5 +1,5 @@
-//! Plots as SVG pictures with a light background of their own. `accuracy`, `elementary` and `scaling` choose the content;
-//! `picture` draws it.
+//! Plots as SVG pictures with a light background of their own. `accuracy`, `elementary`, `scaling` and `truths` choose the
+//! content; `picture` draws it.
 
 mod accuracy;
 mod axis;
@@ -10,7 +10,9 @@ mod scaling;
 mod svg;
 #[cfg(test)]
 mod texts;
+mod truths;
 
 pub use accuracy::accuracy_svg;
 pub use elementary::elementary_svg;
 pub use scaling::scaling_svg;
+pub use truths::{convergence_svg, cost_of_accuracy_svg, truth_svg};

@@ -8,6 +8,7 @@ mod queries;
 mod scaling;
 mod simulation;
 mod step;
+mod truths;
 
 pub use accuracy::accuracy;
 pub use comparison::comparison;
@@ -17,6 +18,7 @@ pub use queries::queries;
 pub use scaling::scaling;
 pub use simulation::{effects_one_by_one, simulation};
 pub use step::step;
+pub use truths::truths;
 
 use comfy_table::{CellAlignment, LineStyle, Row, Table, TableStyle};
 

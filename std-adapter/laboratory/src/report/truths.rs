@@ -1,0 +1,82 @@
+//! Writes the simulation's errors against laws as a page.
+
+use super::number::{few, share, time};
+use super::page::document;
+use super::plot::{convergence_svg, cost_of_accuracy_svg, truth_svg};
+use crate::truths::{ErrorUnit, Law, LawRuns, Measured};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use maud::{Markup, html};
+
+/// Writes an error of a law: as a share, or with its unit.
+pub(super) fn error(law: &Law, error: f64) -> String {
+    match law.error {
+        ErrorUnit::Of(_) => share(error),
+        ErrorUnit::In(unit) => format!("{} {unit}", few(error)),
+    }
+}
+
+/// Returns a self-contained page: each law with its plots and errors, and all errors against the time of a run.
+#[must_use]
+pub fn truths_html(all: &[LawRuns]) -> String {
+    let body = html! {
+        header {
+            p.kicker { "selvedge truths" }
+            h1 { "The cloth simulation against laws" }
+            p.lead { "Each law has a known answer. Errors are the largest difference from it, at three time steps and on up to three meshes." }
+        }
+        main {
+            @if all.len() > 1 {
+                section {
+                    h2 { "What accuracy costs in time" }
+                    (picture(&cost_of_accuracy_svg(all), "errors of all laws on their finest mesh against the time of a run on one thread"))
+                }
+            }
+            @for runs in all { (law(runs)) }
+        }
+        footer { p { "Written by selvedge " (env!("CARGO_PKG_VERSION")) ". This file is self-contained: it loads nothing." } }
+    };
+    document("The cloth simulation against laws", &body)
+}
+
+fn law(runs: &LawRuns) -> Markup {
+    let law = runs.law;
+    let unit = match law.error {
+        ErrorUnit::Of(quantity) => format!("error over {quantity}"),
+        ErrorUnit::In(unit) => format!("error in {unit}"),
+    };
+    let cell = |run: &Measured| {
+        let beyond = run.unpredicted().map(|own| format!(" ({})", error(law, own)));
+        html! { td { (error(law, run.error())) (beyond.unwrap_or_default()) } td { (time(run.seconds)) } }
+    };
+    html! {
+        section {
+            h2 { (law.name.replace('_', " ")) }
+            p { (law.statement) "." }
+            div.pairs {
+                (picture(&truth_svg(runs), "simulation and law, on the finest mesh"))
+                (picture(&convergence_svg(runs), "error against time step and mesh"))
+                (picture(&cost_of_accuracy_svg(std::slice::from_ref(runs)), "error against the time of a run on one thread"))
+            }
+            div.scroll { table {
+                thead { tr {
+                    th scope="col" { (law.mesh) }
+                    @for run in runs.by_mesh().next().unwrap_or_default() { th scope="col" { (unit) ", " (time(run.step)) } th scope="col" { "time" } }
+                } }
+                tbody { @for own in runs.by_mesh() { tr {
+                    th scope="row" { (own[0].mesh) }
+                    @for run in own { (cell(run)) }
+                } } }
+            } }
+            @if runs.runs.iter().any(|run| run.unpredicted().is_some()) {
+                p.note { "In brackets: the error beyond the time stepping's own, which is known in closed form." }
+            }
+            p.note { (law.remark) }
+        }
+    }
+}
+
+fn picture(svg: &str, meaning: &str) -> Markup {
+    let data = format!("data:image/svg+xml;base64,{}", STANDARD.encode(svg));
+    html! { figure { img src=(data) alt=(meaning); figcaption { (meaning) } } }
+}
