@@ -29,16 +29,25 @@ export CHROMIUM=${CHROMIUM:-/usr/bin/chromium}
 say "tools of Node"
 npm ci --no-audit --no-fund
 
+# The linker has one thread, so lints and the native program run beside it, in a folder that it does not lock.
+out=${CARGO_TARGET_DIR:-$PWD/../../target}/web
+mkdir -p "$out/native"
+out=$(cd "$out" && pwd)
+(
+    export CARGO_TARGET_DIR=$out/native
+    cargo fmt --check
+    cargo clippy --locked --features page --workspace --lib --bins -- -D warnings
+    cargo build --quiet --locked --release --package selvedge-native
+) >"$out/native.log" 2>&1 &
+native=$!
 ./build.sh
-out=$(cd "${CARGO_TARGET_DIR:-$PWD/../../target}/web" && pwd)
 
-say "formatting and lints"
-cargo fmt --check
-CARGO_TARGET_DIR=$out cargo clippy --locked --features page --workspace --lib --bins -- -D warnings
-
-say "native answers"
-CARGO_TARGET_DIR=$out cargo build --quiet --locked --release --package selvedge-native
-export SELVEDGE_WEB=$out SELVEDGE_NATIVE=$out/release/selvedge-native
+say "formatting, lints, native answers"
+wait "$native" || {
+    cat "$out/native.log"
+    exit 1
+}
+export SELVEDGE_WEB=$out SELVEDGE_NATIVE=$out/native/release/selvedge-native
 
 say "the package: pack, types, bundle"
 (cd "$out/package" && npm pack --pack-destination "$out")
