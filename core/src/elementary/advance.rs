@@ -88,7 +88,7 @@ use crate::lanes::Number;
 use crate::motion::PrimitivePair;
 use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
-use rounds::Advance;
+use rounds::{Advance, EASY_ROUNDS};
 pub use witness::{Proof, WITNESS_PARTS, Witness, WitnessPart, witness};
 use witness::{Record, Unrecorded};
 
@@ -120,8 +120,7 @@ pub fn time_of_impact_within<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits
     impact_within(pair, limits, [from, until])
 }
 
-/// It is out of line: a program has one such function of 25 kB for each format, instead of one for each caller.
-#[inline(never)]
+#[inline]
 fn impact_within<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>, span: [S; 2]) -> Impact<S> {
     within(pair, limits, span).0
 }
@@ -145,6 +144,13 @@ pub fn time_of_impact_of_points<P: PairShape, S: Number>(
     advanced::<P, S, _>(points, limits, [S::ZERO, S::ONE], rounds, &mut Unrecorded)
 }
 
+/// Returns the time from which the pair may touch, as far as the first rounds prove. They settle most pairs, and take less time
+/// than whole numbers; later rounds often take more.
+#[inline]
+pub(super) fn easy_impact<S: Scalar>(pair: &PrimitivePair<S>) -> Impact<S> {
+    in_rounds(pair, &Limits::accurate_to(S::ZERO), [S::ZERO, S::ONE], EASY_ROUNDS).0
+}
+
 /// Returns limits with a separation that every thread compares at its value.
 #[inline(always)]
 fn normal<S: Scalar>(limits: &Limits<S>) -> Limits<S> {
@@ -154,12 +160,13 @@ fn normal<S: Scalar>(limits: &Limits<S>) -> Limits<S> {
     }
 }
 
+/// Advances within a span of time, and then by the last resort.
 #[inline(always)]
 fn within<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>, span: [S; 2]) -> (Impact<S>, Work) {
     let limits = normal(limits);
     let is_last = S::FRACTION_BITS == <f64 as Scalar>::FRACTION_BITS && limits.separation > S::ZERO;
     let rounds = if is_last { ROUNDS_WITH_SEPARATION } else { ROUNDS };
-    let (impact, work) = of_kind!(pair.kind, P => advanced::<P, S, _>(&pair.into(), &limits, span, rounds, &mut Unrecorded));
+    let (impact, work) = in_rounds(pair, &limits, span, rounds);
     match impact {
         Impact::Possible {
             time,
@@ -172,6 +179,14 @@ fn within<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>, span: [S; 2]) 
         } if !is_last => (last_resort(pair, &limits, span), work),
         _ => (impact, work),
     }
+}
+
+/// Advances by at most `rounds` rounds.
+///
+/// It is out of line: a program has one such function of 25 kB for each format, instead of one for each caller.
+#[inline(never)]
+fn in_rounds<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>, span: [S; 2], rounds: u32) -> (Impact<S>, Work) {
+    of_kind!(pair.kind, P => advanced::<P, S, _>(&pair.into(), limits, span, rounds, &mut Unrecorded))
 }
 
 /// Decides a pair that advancing in this format left open. For `f32`, advancing continues in `f64`, whose errors are half a

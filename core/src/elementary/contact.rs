@@ -1,11 +1,11 @@
 //! The exact verdict: whether a pair touches at some time in [0, 1].
 //!
 //! [`contact`] errs on neither side, and has no tolerance. It tries in order:
-//! 1. the [certified time of impact](super::advance) with tolerance zero, whose "never" is a proof;
+//! 1. the first three rounds of the [certified time of impact](super::advance) with tolerance zero, whose "never" is a proof;
 //! 2. [`certain_contact`], a proof of contact around the resulting time;
-//! 3. for `f32` positions, which `f64` holds exactly, both again in `f64`, whose errors are half a billion times smaller;
-//! 4. whole numbers, [`exact::touches`], for pairs that floating point leaves open. Examples are contacts at the very start or
-//!    end, touching without passing through, coplanar motion, distances of a rounding error.
+//! 3. whole numbers, [`exact::touches`], for pairs that floating point leaves open. Examples are contacts at the very start or
+//!    end, touching without passing through, coplanar motion, slivers, distances of a rounding error. For everyday
+//!    coordinates they take less time than further rounds.
 //!
 //! ```
 //! use selvedge_core::elementary::{ContactVerdict, contact};
@@ -23,13 +23,13 @@
 //! # Guarantees
 //! * **Exact for every finite input**, `f32` and `f64`, subnormal and largest numbers included, in every floating-point
 //!   environment. NaN and infinity give [`ContactVerdict::Undefined`].
-//! * **Bounded work**: that of the [time of impact](super::advance), at most 18 attempts at confirmation, and in whole numbers
-//!   what `exact::touches` states. Nothing iterates until it converges. Time grows with the square of the number of bits between
-//!   a coordinate's highest and another's lowest along an axis. Everyday coordinates take microseconds. `f64` coordinates of
-//!   1e300 and 1e-300 along one axis take some milliseconds, and up to 100 kB of stack (x86-64, optimised).
+//! * **Bounded work**: three rounds, at most 18 attempts at confirmation, and in whole numbers what `exact::touches` states.
+//!   Nothing iterates until it converges. Time grows with the square of the number of bits between a coordinate's highest and
+//!   another's lowest along an axis. Everyday coordinates take microseconds. `f64` coordinates of 1e300 and 1e-300 along one axis
+//!   take some milliseconds, and up to 100 kB of stack (x86-64, optimised).
 
-use super::advance::{certain_contact, time_of_impact, time_of_impact_within};
-use super::{Impact, Limits};
+use super::Impact;
+use super::advance::{certain_contact, easy_impact};
 use crate::exact::{self, Evidence};
 use crate::motion::PrimitivePair;
 use crate::scalar::Scalar;
@@ -49,14 +49,14 @@ pub enum ContactVerdict {
 /// Returns whether the pair touches at some time in [0, 1]. The result is exact: see the [module](self).
 #[inline]
 pub fn contact<S: Scalar>(pair: &PrimitivePair<S>) -> ContactVerdict {
-    answer(pair, &time_of_impact(pair, &Limits::accurate_to(S::ZERO))).0
+    answer(pair, &easy_impact(pair)).0
 }
 
 /// Returns [`contact`] and the evidence for it.
 #[cfg(feature = "kernels")]
 #[inline]
 pub fn contact_and_evidence<S: Scalar>(pair: &PrimitivePair<S>) -> (ContactVerdict, Evidence) {
-    answer(pair, &time_of_impact(pair, &Limits::accurate_to(S::ZERO)))
+    answer(pair, &easy_impact(pair))
 }
 
 /// Returns [`contact`] of a pair whose time of impact is already known. `impact` must be this pair's, for separation zero and any
@@ -94,25 +94,9 @@ fn settled_from<S: Scalar>(pair: &PrimitivePair<S>, time: S) -> (ContactVerdict,
     if certain_contact(pair, time).is_some() {
         return (ContactVerdict::Happens, Evidence::Crossing);
     }
-    if let Some(answer) = settled_in_f64(pair, time) {
-        return answer;
-    }
     match exact::touches(pair) {
         Some(false) => (ContactVerdict::Never, Evidence::WholeNumbers),
         Some(true) => (ContactVerdict::Happens, Evidence::WholeNumbers),
         None => (ContactVerdict::Undefined, Evidence::Nothing),
     }
-}
-
-/// Decides such a pair of a narrower format in `f64`, if it can.
-fn settled_in_f64<S: Scalar>(pair: &PrimitivePair<S>, time: S) -> Option<(ContactVerdict, Evidence)> {
-    if S::FRACTION_BITS + 1 >= f64::MANTISSA_DIGITS {
-        return None;
-    }
-    let pair = pair.widened();
-    let from = time.to_f64();
-    let Some(time) = time_of_impact_within(&pair, &Limits::accurate_to(0.0), from, 1.0).time() else {
-        return Some((ContactVerdict::Never, Evidence::Separation));
-    };
-    certain_contact(&pair, time).map(|_| (ContactVerdict::Happens, Evidence::Crossing))
 }

@@ -17,7 +17,7 @@ use crate::lanes::Number;
 use crate::vector::Vector;
 
 /// The number of rounds after which a pair is hard: it slides, or its closest points are hard to find.
-const EASY_ROUNDS: u32 = 3;
+pub(super) const EASY_ROUNDS: u32 = 3;
 
 /// The largest number of times that the volume is clipped in one round.
 const CLIPS: u32 = 8;
