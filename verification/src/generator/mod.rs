@@ -26,7 +26,7 @@ pub use moment::{Meeting, Moment};
 pub use numbers::Format;
 pub(crate) use numbers::power_of_two;
 pub use screw::{Screw, vector};
-pub use strategy::{FromChoices, Simplification, Simplify, check, from_choices};
+pub use strategy::{FromChoices, Simplification, Simplify, check, config, from_choices};
 pub use tube::BendingTube;
 
 use proptest::prelude::Strategy;

@@ -108,13 +108,13 @@ impl<T: Simplify> ValueTree for Simplification<T> {
 /// # Panics
 /// Panics if the property fails. The message has the simplest failing case that was found, as Rust to paste into a regression
 /// test. Seeds are not kept.
-pub fn check<T: Simplify>(cases: u32, strategy: impl Strategy<Value = T> + 'static, property: impl Fn(&T) -> TestCaseResult) {
+pub fn check<T: fmt::Debug>(cases: u32, strategy: impl Strategy<Value = T> + 'static, property: impl Fn(&T) -> TestCaseResult) {
     check_dynamically(cases, &strategy.boxed(), &property);
 }
 
 /// This is compiled once for each type of case, not for each property, since proptest's runner takes long to compile.
-fn check_dynamically<T: Simplify>(cases: u32, strategy: &BoxedStrategy<T>, property: &dyn Fn(&T) -> TestCaseResult) {
-    match TestRunner::new(settings(cases)).run(strategy, |case| property(&case)) {
+fn check_dynamically<T: fmt::Debug>(cases: u32, strategy: &BoxedStrategy<T>, property: &dyn Fn(&T) -> TestCaseResult) {
+    match TestRunner::new(config(cases)).run(strategy, |case| property(&case)) {
         Ok(()) => {}
         Err(TestError::Fail(reason, case)) => {
             panic!("{reason}\nThe simplest case found:\n{case:?}")
@@ -123,7 +123,8 @@ fn check_dynamically<T: Simplify>(cases: u32, strategy: &BoxedStrategy<T>, prope
     }
 }
 
-fn settings(cases: u32) -> ProptestConfig {
+/// Returns the settings of [`check`].
+pub fn config(cases: u32) -> ProptestConfig {
     let default = ProptestConfig::default();
     let scaled = u64::from(cases) * u64::from(default.cases) / 256;
     ProptestConfig {

@@ -81,17 +81,9 @@ impl<S: Format> Batch<S> {
     }
 }
 
-fn config() -> ProptestConfig {
-    ProptestConfig {
-        cases: 250,
-        failure_persistence: None,
-        ..ProptestConfig::default()
-    }
-}
-
 fn verdicts_agree<S: Format>() {
     for kind in KINDS {
-        proptest!(config(), |(pairs in some_pairs::<S>(kind), scale in 0..24_i32)| {
+        proptest!(config(250), |(pairs in some_pairs::<S>(kind), scale in 0..24_i32)| {
             let batch = Batch::<S>::new(kind, &pairs);
             for (test, one_by_one) in TESTS {
                 batch.agrees(test, |pair: &PairCase<S>| verdict(one_by_one, pair))?;
@@ -110,7 +102,7 @@ formats!(verdicts_agree);
 
 /// Negative numbers and NaN both mean that there is no stray.
 fn strays_agree(kind: PairKind) {
-    proptest!(config(), |(pairs in some_pairs::<f32>(kind))| {
+    proptest!(config(250), |(pairs in some_pairs::<f32>(kind))| {
         let batch = Batch::<f32>::new(kind, &pairs);
         let clearances =
             [(0.0, 0.0), (0.25, 0.5), (3.0, 2.0)].map(|(distance, margin)| Clearance::new(distance, 4.0, margin));
@@ -145,7 +137,7 @@ fn number_bits(closest: &ClosestPoints) -> [u64; 10] {
 }
 
 fn closest_points_agree(kind: PairKind) {
-    proptest!(config(), |(pairs in some_pairs::<f64>(kind))| {
+    proptest!(config(250), |(pairs in some_pairs::<f64>(kind))| {
         let points: Vec<_> = pairs.iter().map(|pair| pair.points.map(|point| DVec3::from_array(point[0]))).collect();
         let expected: Vec<_> = points.iter().map(|&points| number_bits(&ClosestPoints::from_points(kind, points))).collect();
         for (name, level) in available_levels() {

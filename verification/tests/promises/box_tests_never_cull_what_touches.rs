@@ -140,11 +140,7 @@ fn a_path_through_the_border_of_the_box_is_kept<S: Format>(
 
 /// All of the numbers fit in 24 bits: 18 for the corner, 23 for the path.
 fn paths_through_the_border_of_the_box_are_kept<S: Format>() {
-    let config = ProptestConfig {
-        failure_persistence: None,
-        ..ProptestConfig::with_cases(64 * ProptestConfig::default().cases)
-    };
-    proptest!(config, |(case in any::<PathThroughBox>())| a_path_through_the_border_of_the_box_is_kept::<S>(case)?);
+    proptest!(config(64 * 256), |(case in any::<PathThroughBox>())| a_path_through_the_border_of_the_box_is_kept::<S>(case)?);
 }
 
 formats!(paths_through_the_border_of_the_box_are_kept);

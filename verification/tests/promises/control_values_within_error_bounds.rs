@@ -36,7 +36,7 @@ fn volume_at_third(points: &WholePoints, i: i128) -> i128 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(config(256))]
 
     /// Two cubics that agree at four times are the same.
     #[test]

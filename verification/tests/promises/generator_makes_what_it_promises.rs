@@ -23,11 +23,7 @@ formats!(a_coplanar_pair_is_coplanar is is_coplanar(4000, coplanar_pairs()));
 #[test]
 fn any_bytes_make_a_pair_of_finite_coordinates() {
     let bytes = prop::collection::vec(any::<u8>(), 0..700);
-    let settings = ProptestConfig {
-        failure_persistence: None,
-        ..ProptestConfig::default()
-    };
-    proptest!(settings, |(bytes in bytes)| {
+    proptest!(config(256), |(bytes in bytes)| {
         for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
             prop_assert!(PairCase::<f32>::from_bytes(kind, &bytes).is_finite());
             prop_assert!(PairCase::<f64>::from_bytes(kind, &bytes).is_finite());

@@ -230,8 +230,8 @@ fn largest_stray(pair: &PairCase<f64>, distance: f64) -> f32 {
 /// Returns x + `by`, or the next number nearer to x if that is farther from it.
 fn strayed(x: f64, by: f64) -> f64 {
     let (from, to) = (x, x + by);
-    let way = Rational::from_f64(to).expect("finite") - Rational::from_f64(from).expect("finite");
-    if way.abs() <= Rational::from_f64(by).expect("finite").abs() {
+    let way = rational(to) - rational(from);
+    if way.abs() <= rational(by).abs() {
         to
     } else if to > from {
         to.next_down()
@@ -534,7 +534,7 @@ fn boxes_of_what_is_not_finite_are_not_apart<S: Format>(pair: &PairCase<S>) -> T
 formats!(boxes_of_what_is_not_finite_are_not_apart(800, extraordinary_pairs()));
 
 fn narrowing_makes_nothing_less_or_later_and_hardly_more_or_earlier<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
-    let exact = |x: f64| Rational::from_f64(x).expect("finite");
+    let exact = rational::<f64>;
     let near = Rational::from((1, 1 << 22));
     let least_normal = exact(f32::MIN_POSITIVE.into());
     for value in pair.coordinates().map(|x| x.to_f64().abs()) {

@@ -82,17 +82,14 @@ fn answer_in_sweeps<S: Format>(pair: &PairCase<S>, tolerance: S, separation: S, 
 fn extents<S: Format>(pair: &PairCase<S>) -> [Rational; 3] {
     let [first, second] = pair.sets();
     std::array::from_fn(|axis| {
-        let exact = |x: S| Rational::from_f64(x.to_f64()).expect("finite");
-        let mut largest = Rational::new();
-        for end in 0..2 {
-            for one in first {
-                for other in second {
-                    let difference = exact(one[end][axis]) - exact(other[end][axis]);
-                    largest = largest.max(difference.abs());
-                }
-            }
-        }
-        largest
+        let between = |one: &[[S; 3]; 2], other: &[[S; 3]; 2]| {
+            let at = |end: usize| (rational(one[end][axis]) - rational(other[end][axis])).abs();
+            at(0).max(at(1))
+        };
+        let all = first
+            .iter()
+            .flat_map(|one| second.iter().map(move |other| between(one, other)));
+        all.max().expect("two sets")
     })
 }
 
@@ -269,8 +266,7 @@ fn comes_near<S: Format>(question: &Question<S>) -> TestCaseResult {
     let Impact::Possible { time, reason } = question.answer().0 else {
         return Ok(());
     };
-    let exact = |x: S| Rational::from_f64(x.to_f64()).expect("finite");
-    let (tolerance, separation) = (exact(question.tolerance), exact(question.separation));
+    let (tolerance, separation) = (rational(question.tolerance), rational(question.separation));
     let [x, y, z] = extents(&question.pair);
     let (near, roundoffs) = match reason {
         Reason::WithinTolerance => (tolerance + separation, 64),
@@ -285,7 +281,7 @@ fn comes_near<S: Format>(question: &Question<S>) -> TestCaseResult {
     };
     let bound = with_rounding::<S>(near, roundoffs, x + y + z);
     prop_assert!(
-        within_at(&question.pair.question(), &exact(time), bound),
+        within_at(&question.pair.question(), &rational(time), bound),
         "not within {bound:e} at {time}, {reason:?}"
     );
     Ok(())
@@ -293,8 +289,7 @@ fn comes_near<S: Format>(question: &Question<S>) -> TestCaseResult {
 
 /// Returns a length and the documented rounding, as a floating-point number that is no less.
 fn with_rounding<S: Format>(near: Rational, roundoffs: u32, sizes: Rational) -> f64 {
-    let unit_roundoff = Rational::from_f64(S::UNIT_ROUNDOFF.to_f64()).expect("finite");
-    let rounding = (&near + sizes) * roundoffs * unit_roundoff;
+    let rounding = (&near + sizes) * roundoffs * rational(S::UNIT_ROUNDOFF);
     let vanishing = Rational::from(1) >> if S::NAME == "f32" { 60 } else { 500 };
     let bound: Rational = near + rounding + vanishing;
     bound.to_f64().next_up()
@@ -318,7 +313,7 @@ fn comes_near_at_last<S: Format>(question: &Question<S>, rounds: u32) -> TestCas
     };
     let ways = first.iter().flat_map(|one| second.iter().map(move |other| way(one, other)));
     let part = ways.fold(0.0, f64::max) / f64::from(rounds - CHEAP_ROUNDS) * (1.0 + 0.5_f64.powi(12));
-    let near = [question.separation.to_f64(), part].map(|x| Rational::from_f64(x).expect("finite"));
+    let near = [question.separation.to_f64(), part].map(rational);
     let [x, y, z] = extents(&question.pair);
     let bound = with_rounding::<S>(near.iter().sum(), 192, x + y + z);
     prop_assert!(
@@ -452,11 +447,10 @@ fn confirms_only_contacts<S: Format>(pair: &PairCase<S>, environment: Environmen
         let interval = environment.run(pair, |pair| certain_contact(&pair.pair(), near));
         let Some([from, to]) = interval else { continue };
         confirmed.set(confirmed.get() + 1);
-        let exact = |x: S| Rational::from_f64(x.to_f64()).expect("finite");
         let Some(first) = collides(&pair.question()) else {
             return Err(TestCaseError::fail("confirmed what never touches"));
         };
-        prop_assert!(first.cmp_rational(&exact(to)).is_le(), "[{from}, {to}]");
+        prop_assert!(first.cmp_rational(&rational(to)).is_le(), "[{from}, {to}]");
     }
     Ok(())
 }

@@ -1,7 +1,6 @@
 //! A truncated step is free of contact by exact arithmetic, for any wanted step, and points are held back only if needed.
 
 use crate::support::prelude::*;
-use proptest::test_runner::TestRunner;
 use selvedge_core::glam::DQuat;
 use selvedge_core::separation::carried::{LARGEST_TURN, is_too_near, kept_when_carried};
 use selvedge_core::separation::gap::{GapError, SeparatingDirection, distance_from_below};
@@ -113,48 +112,50 @@ fn a_pair_keeps_its_separation_for_all_smaller_shares() {
         any::<bool>(),
         points(),
     );
-    let mut runner = TestRunner::new(ProptestConfig::with_cases(2000));
-    let result = runner.run(&inputs, |(start, wanted, direction, parts, exponent, is_edges, before)| {
-        let scale = 2_f64.powi(exponent);
-        let points = |of: [[f64; 3]; 4]| of.map(|point| DVec3::from(point) * scale);
-        let (mut start, mut wanted, mut before) = (points(start), points(wanted), points(before));
-        let kind = if is_edges { PairKind::EdgeEdge } else { PairKind::VertexFace };
-        // Most cases start apart.
-        let direction = DVec3::from(direction).normalize_or_zero();
-        for corner in 0..if is_edges { 2 } else { 1 } {
-            start[corner] += direction * scale;
-            wanted[corner] += direction * (0.25 * scale);
-            before[corner] += direction * scale;
-        }
-        let all = [start, wanted, before].concat();
-        let largest = largest_coordinate(&all);
-        let separation = 0.01 * scale;
-        let Some(shares) = shares(
-            kind,
-            [start, wanted],
-            direction,
-            separation,
-            GapError::from_largest_coordinate(largest),
-        ) else {
-            return Ok(());
-        };
-        held.set(held.get() + usize::from(shares.iter().any(|&share| share < 1.0)));
-        let mut ends = wanted;
-        for corner in 0..4 {
-            prop_assert!((0.0..=1.0).contains(&shares[corner]));
-            ends[corner] = Motion::new(start[corner], wanted[corner]).at(shares[corner] * parts[corner]);
-        }
-        let error = GapError::from_largest_coordinate(largest);
-        let others = SeparatingDirection::for_step(kind, direction, [before, start], separation, error).map(|_| before);
-        from_a_base.set(from_a_base.get() + usize::from(others.is_some()));
-        for from in [start].into_iter().chain(others) {
-            let motions = [0, 1, 2, 3].map(|corner| [from[corner].to_array(), ends[corner].to_array()]);
-            let question = PairCase::new(kind, motions).question();
-            prop_assert!(!within(&question, separation));
-        }
-        Ok(())
-    });
-    result.unwrap();
+    check(
+        2000,
+        inputs,
+        |&(start, wanted, direction, parts, exponent, is_edges, before)| {
+            let scale = 2_f64.powi(exponent);
+            let points = |of: [[f64; 3]; 4]| of.map(|point| DVec3::from(point) * scale);
+            let (mut start, mut wanted, mut before) = (points(start), points(wanted), points(before));
+            let kind = if is_edges { PairKind::EdgeEdge } else { PairKind::VertexFace };
+            // Most cases start apart.
+            let direction = DVec3::from(direction).normalize_or_zero();
+            for corner in 0..if is_edges { 2 } else { 1 } {
+                start[corner] += direction * scale;
+                wanted[corner] += direction * (0.25 * scale);
+                before[corner] += direction * scale;
+            }
+            let all = [start, wanted, before].concat();
+            let largest = largest_coordinate(&all);
+            let separation = 0.01 * scale;
+            let Some(shares) = shares(
+                kind,
+                [start, wanted],
+                direction,
+                separation,
+                GapError::from_largest_coordinate(largest),
+            ) else {
+                return Ok(());
+            };
+            held.set(held.get() + usize::from(shares.iter().any(|&share| share < 1.0)));
+            let mut ends = wanted;
+            for corner in 0..4 {
+                prop_assert!((0.0..=1.0).contains(&shares[corner]));
+                ends[corner] = Motion::new(start[corner], wanted[corner]).at(shares[corner] * parts[corner]);
+            }
+            let error = GapError::from_largest_coordinate(largest);
+            let others = SeparatingDirection::for_step(kind, direction, [before, start], separation, error).map(|_| before);
+            from_a_base.set(from_a_base.get() + usize::from(others.is_some()));
+            for from in [start].into_iter().chain(others) {
+                let motions = [0, 1, 2, 3].map(|corner| [from[corner].to_array(), ends[corner].to_array()]);
+                let question = PairCase::new(kind, motions).question();
+                prop_assert!(!within(&question, separation));
+            }
+            Ok(())
+        },
+    );
     assert!(held.get() > 400, "{}", held.get());
     assert!(from_a_base.get() > 100, "{}", from_a_base.get());
 }
@@ -172,8 +173,7 @@ fn a_pair_that_is_carried_along_keeps_its_separation() {
         [-40..40_i32, -45..2],
         any::<bool>(),
     );
-    let mut runner = TestRunner::new(ProptestConfig::with_cases(2000));
-    let result = runner.run(&inputs, |(points, [way, axis], angle, [exponent, apart], is_edges)| {
+    check(2000, inputs, |&(points, [way, axis], angle, [exponent, apart], is_edges)| {
         let kind = if is_edges { PairKind::EdgeEdge } else { PairKind::VertexFace };
         let scale = 2_f64.powi(exponent);
         let mut start = points.map(|point| DVec3::from(point) * scale);
@@ -223,6 +223,5 @@ fn a_pair_that_is_carried_along_keeps_its_separation() {
         }
         Ok(())
     });
-    result.unwrap();
     assert!(kept_any.get() > 1000, "{}", kept_any.get());
 }

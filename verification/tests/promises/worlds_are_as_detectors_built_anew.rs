@@ -365,21 +365,11 @@ where
     Ok(())
 }
 
-fn config(cases: u32) -> ProptestConfig {
-    ProptestConfig {
-        cases,
-        failure_persistence: None,
-        ..ProptestConfig::default()
-    }
-}
-
 fn is_so_in<S: Scalar>(count: &Cell<Count>)
 where
     [S; 3]: Position<Scalar = S>,
 {
-    let mut runner = proptest::test_runner::TestRunner::new(config(120));
-    let result = runner.run(&stories(), |story| is_as_one_detector::<S>(&story, count));
-    result.unwrap_or_else(|error| panic!("{error}"));
+    check(120, stories(), |story| is_as_one_detector::<S>(story, count));
 }
 
 #[test]
@@ -753,10 +743,7 @@ fn turning_bodies_are_not_missed(seed: u64, count: &Cell<[usize; 3]>) -> TestCas
 #[test]
 fn no_contact_of_bodies_that_turn_is_missed() {
     let count = Cell::new([0; 3]);
-    let mut runner = proptest::test_runner::TestRunner::new(config(600));
-    runner
-        .run(&any::<u64>(), |seed| turning_bodies_are_not_missed(seed, &count))
-        .unwrap_or_else(|error| panic!("{error}"));
+    check(600, any::<u64>(), |&seed| turning_bodies_are_not_missed(seed, &count));
     let [apart, near, tight] = count.get();
     assert!(
         apart > 5_000 && near > 2_000 && 100 * tight > 99 * near,

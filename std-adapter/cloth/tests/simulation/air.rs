@@ -105,10 +105,7 @@ fn sheet() -> Cloth {
 fn a_field_that_is_the_same_everywhere_is_wind_to_the_last_bit() {
     let velocity = DVec3::new(1.0, 4.0, 0.5);
     let even = run(sheet(), |scene| _ = scene.add(WindField::new(Even(velocity))), 100);
-    let wind = Wind {
-        velocity,
-        ..Wind::default()
-    };
+    let wind = wind(velocity);
     let wind = run(sheet(), |scene| _ = scene.add(wind), 100);
     assert_eq!(even.positions(), wind.positions());
     assert!(even.velocities()[0].y > 0.01);

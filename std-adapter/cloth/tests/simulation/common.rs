@@ -60,6 +60,13 @@ pub(crate) fn advance(simulation: &mut Simulation, steps: u64) {
     (0..steps).for_each(|_| simulation.step().unwrap());
 }
 
+pub(crate) fn wind(velocity: DVec3) -> Wind {
+    Wind {
+        velocity,
+        ..Wind::default()
+    }
+}
+
 pub(crate) fn resting(vertices: impl Into<Vec<u32>>) -> Pins {
     Pins {
         groups: vec![PinGroup::resting(vertices)],

@@ -15,10 +15,7 @@ fn sheet(height: f64) -> Cloth {
 fn scene_with(body: Body, height: f64) -> Scene {
     let cloth = sheet(height);
     let corners = ["bottom-left", "bottom-right", "top-left", "top-right"];
-    let corners: Vec<u32> = corners
-        .into_iter()
-        .flat_map(|name| cloth.part(name).unwrap().to_vec())
-        .collect();
+    let corners = corners.map(|name| cloth.part(name).unwrap()).concat();
     let mut scene = Scene::new(cloth, 2e-3);
     scene.bodies.push(body);
     scene.add(Gravity::default()).add(Stretch::isotropic(200.0));
@@ -87,18 +84,16 @@ fn code_and_file_make_the_same_scene_to_the_last_bit() {
     scene.add(held);
     scene.add(AirDrag { rate: 0.2 }).add(Gravity::default());
     scene.add(Wind {
-        velocity: 3.0 * DVec3::Y,
         gust: 0.5,
-        ..Wind::default()
+        ..wind(3.0 * DVec3::Y)
     });
 
     let of_file = Scene::parse(include_str!("scenes/arm-in-tube.toml"), Path::new("s.toml")).unwrap();
     assert_eq!(scene.effect_names(), of_file.effect_names());
     let [mut code, mut file] = [scene, of_file].map(|scene| Simulation::new(scene, 1).unwrap());
-    for _ in 0..60 {
-        code.step().unwrap();
-        file.step().unwrap();
-    }
+    [&mut code, &mut file]
+        .into_iter()
+        .for_each(|simulation| advance(simulation, 60));
     assert!(code.contact_counts().unwrap().pushed > 0, "a test of contact, too");
     assert_eq!(bits(&code), bits(&file));
 }
@@ -373,9 +368,7 @@ fn an_effect_of_a_callers_own_acts_is_timed_and_runs_after_ours() {
     scene.add(SelfCollision(Thickness::new(3e-3)));
     assert_eq!(scene.effect_names(), ["gravity", "stretch", "self_collision", "balloon"]);
     let mut simulation = Simulation::new(scene, 1).unwrap();
-    for _ in 0..100 {
-        simulation.step().unwrap();
-    }
+    advance(&mut simulation, 100);
     assert!(simulation.positions().iter().all(|p| p.z > 0.03 && p.z <= 0.05));
     let balloon = simulation.effects().iter().find(|effect| effect.name == "balloon");
     assert!(balloon.unwrap().seconds > 0.0);

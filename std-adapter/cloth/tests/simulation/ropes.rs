@@ -32,9 +32,8 @@ impl Force for Weight {
 
 fn wind(velocity: DVec3, rope_diameter: f64) -> Wind {
     Wind {
-        velocity,
         rope_diameter,
-        ..Wind::default()
+        ..crate::common::wind(velocity)
     }
 }
 
@@ -324,10 +323,9 @@ fn a_scene_file_says_what_code_does() {
     scene.add(Gravity::default()).add(RopeStretch::new(5e3));
     scene.add(RopeBend::straight(1e-4)).add(resting([0]));
     let mut from_code = Simulation::new(scene, 1).unwrap();
-    for _ in 0..50 {
-        from_file.step().unwrap();
-        from_code.step().unwrap();
-    }
+    [&mut from_file, &mut from_code]
+        .into_iter()
+        .for_each(|simulation| advance(simulation, 50));
     assert_eq!(from_file.positions(), from_code.positions());
     assert_eq!(from_file.loose_edges().len(), 20);
     let told: Vec<_> = from_file.effects().iter().map(|effect| effect.name).collect();

@@ -34,10 +34,7 @@ fn from_code() -> Scene {
     scene.add_to("lining", Stretch::isotropic(80.0));
     scene.add_to("lining", SelfCollision(Thickness::new(3e-3)));
     scene.bodies.push(Body::ball("ball", DVec3::ZERO, 0.06, 16).unwrap());
-    let wind = Wind {
-        velocity: DVec3::X,
-        ..Wind::default()
-    };
+    let wind = wind(DVec3::X);
     scene.add(Gravity::default()).add(wind).add(Stretch::isotropic(400.0));
     scene.add(Shear::new(40.0)).add(Friction { coefficient: 0.3 });
     scene.add(BodyContact(Thickness::new(4e-3)));
@@ -85,10 +82,7 @@ fn cloths_that_do_not_meet_go_as_each_goes_alone_to_the_last_bit() {
         scene.cloths.extend(all);
         scene.add(Gravity::default()).add(Stretch::isotropic(60.0));
         if scene.cloths[0].name == "stiff" {
-            let wind = Wind {
-                velocity: DVec3::new(0.0, 2.0, 1.0),
-                ..Wind::default()
-            };
+            let wind = wind(DVec3::new(0.0, 2.0, 1.0));
             scene.add_to("stiff", Stretch::isotropic(900.0)).add_to("stiff", wind);
         }
         let corners = scene.cloths.iter().flat_map(|cloth| scene.part(&cloth.name, "left").unwrap());
@@ -111,7 +105,7 @@ fn two_cloths_keep_the_mean_of_their_thicknesses_from_each_other() {
         // Vertices of one sheet do not stand on vertices of the other.
         let above = sheet("above", DVec3::new(0.011, 0.007, 0.01), 10, 0.1);
         let rim = ["left", "right", "bottom", "top"];
-        let mut rim: Vec<u32> = rim.into_iter().flat_map(|part| below.part(part).unwrap().to_vec()).collect();
+        let mut rim = rim.map(|part| below.part(part).unwrap()).concat();
         rim.sort_unstable();
         rim.dedup();
         let mut scene = Scene::new(below, 2e-3);
@@ -150,10 +144,7 @@ fn a_cloth_of_its_own_stiffness_is_stretched_as_that_says() {
     let mut scene = Scene::new(sheet("first", DVec3::ZERO, 8, 0.2), 2e-3);
     scene.cloths.push(sheet("second", DVec3::new(0.5, 0.0, 0.0), 8, 0.2));
     scene.add_to("second", Stretch::isotropic(20.0));
-    let tops = ["first", "second"]
-        .into_iter()
-        .flat_map(|name| scene.part(name, "top").unwrap());
-    let tops: Vec<u32> = tops.collect();
+    let tops = ["first", "second"].map(|name| scene.part(name, "top").unwrap()).concat();
     scene.add(Gravity {
         acceleration: -9.81 * DVec3::Y,
     });

@@ -111,9 +111,7 @@ fn what_was_untangled_goes_on_as_any_other_scene_and_is_the_same_on_two_threads(
             (simulation.steps_done(), simulation.contact_counts().unwrap().candidates),
             (0, 0)
         );
-        for _ in 0..60 {
-            simulation.step().unwrap();
-        }
+        advance(&mut simulation, 60);
         assert!(simulation.is_certified() && intersections(&simulation).is_empty());
         simulation.positions().to_vec()
     };

@@ -10,7 +10,7 @@ use selvedge_laboratory::baselines::plain::{Plain, non_coplanarity};
 use selvedge_laboratory::methods::Preset;
 use selvedge_laboratory::pipeline::Pipeline;
 use selvedge_verification::formats;
-use selvedge_verification::generator::{Format, PairCase, check, meshes, pairs};
+use selvedge_verification::generator::{Format, PairCase, check, config, meshes, pairs};
 
 fn agrees<S: Format>(
     cases: &[PairCase<S>],
@@ -42,11 +42,7 @@ fn baselines_agree<S: Format>() {
 formats!(baselines_agree);
 
 fn baselines_agree_on<S: Format>(kind: PairKind) {
-    let config = ProptestConfig {
-        failure_persistence: None,
-        ..ProptestConfig::default()
-    };
-    proptest!(config, |(cases in prop::collection::vec(pairs::<S>(kind), 0..40), scale in 0..24_i32)| {
+    proptest!(config(256), |(cases in prop::collection::vec(pairs::<S>(kind), 0..40), scale in 0..24_i32)| {
         agrees(&cases, ByPoints(NineDirections), |pair| nine_directions::separated(pair).is_culled())?;
         agrees(&cases, ByPoints(Plain), |pair| non_coplanarity(pair).is_culled())?;
         let as_computed = AsComputed::<S>::new();

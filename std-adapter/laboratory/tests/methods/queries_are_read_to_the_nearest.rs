@@ -28,7 +28,7 @@ fn distance(x: f64, ratio: &Rational) -> Option<Rational> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(selvedge_verification::generator::config(256))]
 
     #[test]
     fn queries_are_read_to_the_nearest(ratios in prop::collection::vec(ratios(), 24)) {
