@@ -271,9 +271,9 @@ Definition halves (place_ : nat -> Expressions.time -> Expressions.axis -> Z) i 
 Definition is_small place_ := forall i, (Z.abs (halves place_ i) < 256)%Z.
 Hypothesis small_height : (Z.abs height < 256)%Z.
 Lemma small_vertex_and_face : is_small place_of_a_vertex_and_a_face.
-Proof. intros [[[|[|[|[|n]]]] [|] [| |]]|k [| |]|[|[|n]]]; try exact small_height; reflexivity. Qed.
+Proof. intros [l|[[|[|[|[|n]]]] [|] [| |]]|k [| |]|[|[|n]]]; try exact small_height; reflexivity. Qed.
 Lemma small_edges : is_small place_of_two_edges.
-Proof. intros [[[|[|[|[|n]]]] [|] [| |]]|k [| |]|[|[|n]]]; try exact small_height; reflexivity. Qed.
+Proof. intros [l|[[|[|[|[|n]]]] [|] [| |]]|k [| |]|[|[|n]]]; try exact small_height; reflexivity. Qed.
 End Places.
 
 (* An execution of a pair in range, with short directions, from moment 0 to moment 1, the ends of the step. *)
@@ -387,6 +387,7 @@ Theorem clipping_advances_for_some : clipping_advances Advancing.of_a_vertex_and
   clipping_advances Advancing.of_two_edges Advance.binary32.
 Proof.
   split.
-  - apply (in_single clipping_advances_if_computed (small_vertex_and_face (-2) eq_refl)); vm_cast_no_check (eq_refl true).
+  - apply (in_single clipping_advances_if_computed (small_vertex_and_face (-2) eq_refl)); vm_cast_no_check (eq_refl
+    true).
   - apply (in_single clipping_advances_if_computed (small_edges (-2) eq_refl)); vm_cast_no_check (eq_refl true).
 Qed.

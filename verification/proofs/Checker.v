@@ -6,7 +6,8 @@ From Selvedge Require Machine Corners Volume VolumeSteps Advancing.
 Import ListNotations.
 
 (* Rational numbers are not reduced. Numbers with one denominator keep it in sums, so that denominators stay short. *)
-Definition sum (x y : Q) : Q := if (Z.pos (Qden x) =? Z.pos (Qden y))%Z then Qmake (Qnum x + Qnum y) (Qden x) else (x + y)%Q.
+Definition sum (x y : Q) : Q :=
+  if (Z.pos (Qden x) =? Z.pos (Qden y))%Z then Qmake (Qnum x + Qnum y) (Qden x) else (x + y)%Q.
 Definition less (x y : Q) : Q := sum x (- y).
 Definition middle (x y : Q) : Q := let s := sum x y in Qmake (Qnum s) (2 * Qden s).
 Definition doubled (x : Q) : Q := Qmake (2 * Qnum x) (2 * Qden x).
@@ -44,8 +45,8 @@ Definition turning at_ from until v w pair := let e0 := corner_at at_ pair from 
   positive (dot_ v e0) && positive (sum (dot_ v e1) (dot_ w e0)) && positive (dot_ w e1).
 Definition curving at_ from until v m w pair := let e0 := corner_at at_ pair from in let e1 := corner_at at_ pair until
   in
-  positive (dot_ v e0) && positive (sum (dot_ v e1) (dot_ m e0)) && positive (sum (dot_ m e1) (dot_ w e0)) && positive (dot_ w
-    e1).
+  positive (dot_ v e0) && positive (sum (dot_ v e1) (dot_ m e0)) && positive (sum (dot_ m e1) (dot_ w e0)) &&
+  positive (dot_ w e1).
 (* The volume's Bernstein coefficients, those in the middle tripled; then those of halves, at most 2^depth of them. *)
 Fixpoint volume depth at_ p b c from until := let at_time pair t := corner_at at_ pair t in
   let d t0 t1 t2 := det (at_time p t0) (at_time b t1) (at_time c t2) in

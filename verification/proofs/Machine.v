@@ -9,8 +9,11 @@ Open Scope R_scope.
    lengths. *)
 Record constants := Constants { base :> format; extent_underflow : Z; largest_extent : Z }.
 
-(* A coordinate of one of the four points, a component of one of the directions that are tried, a time. *)
+(* A coordinate of one of the four points, a component of one of the directions that are tried, a time, a length or the
+   slack of a gap. *)
+Inductive length := Separation | LargestCoordinate | Slack.
 Inductive input :=
+| Length (l : length)
 | Place (c : Expressions.coordinate)
 | Along (direction : nat) (a : Expressions.axis)
 | Moment (n : nat).

@@ -7,7 +7,7 @@ From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent
   Magnitudes.
 From Selvedge Require Orders Boxes Apart Certificates Nearest Witnesses Integers.
-From Selvedge Require Machine Nearness Corners Advance Advancing Checker Chains Narrowing.
+From Selvedge Require Machine Nearness Corners Advance Advancing Checker Chains Narrowing Gaps Kept.
 From Coq Require QArith_base List.
 Import List.ListNotations.
 Open Scope R_scope.
@@ -281,7 +281,8 @@ Proof.
   - exact (Advancing.ahead_excludes_contact_of_two_edges place given t same ahead).
   - exact (Advancing.volume_excludes_contact_of_two_edges place given t same volume).
 Qed.
-(* None of it is empty. Coq runs the traced code with Flocq's binary numbers: for a pair of each kind, a chain reaches the
+(* None of it is empty. Coq runs the traced code with Flocq's binary numbers: for a pair of each kind, a chain reaches
+the
    end of the step, and each proof of a round holds; for another pair, clipping gives a later time. *)
 Theorem chains_reach_the_end f : f = Advance.binary32 \/ f = Advance.binary64 ->
   (exists place, Advancing.reaches Advancing.of_a_vertex_and_a_face place 0 1) /\
@@ -323,7 +324,8 @@ Theorem the_checker_accepts_some : let one := QArith_base.Qmake 1 1 in
 Proof. split; vm_compute; reflexivity. Qed.
 
 (* 12. Between the formats (core/src/narrowing.rs), times become no later and lengths no smaller; a time keeps its place
-       among others. Numbers are not negative, and stand as encodings. The functions are written after the code, on bits;
+       among others. Numbers are not negative, and stand as encodings. The functions are written after the code, on
+         bits;
        they return what the code does for numbers at and beside all boundaries of the formats. *)
 Theorem times_are_rounded_down a b : (0 <= a <= b)%Z -> (b < Narrowing.infinity Narrowing.double)%Z ->
   (0 <= Narrowing.rounded_down a <= Narrowing.rounded_down b)%Z /\
@@ -342,8 +344,73 @@ Theorem widening_is_exact c : (0 <= c < Narrowing.infinity Narrowing.single)%Z -
   Narrowing.value Narrowing.double (Narrowing.widened c) = Narrowing.value Narrowing.single c.
 Proof. exact (Narrowing.widened_value c). Qed.
 
-(* 13. What the certificates of a separation and of truncation rest on stands in Certificates.v, in exact numbers: a
-       direction held or turning over a part of the step, the volume there, shares of ways. *)
+(* 13. **Certificates of separation** (core/src/separation/gap.rs), by which a simulation and truncation accept a step.
+       A direction keeps a pair if its gap exceeds the threshold at both ends of the step, as the terms of Gaps.v compute
+       them in any environment, and its length passed the test in any format. The terms are written after the code by
+       hand. `Gaps.is_kept` says what is assumed of the inputs: the largest coordinate and the separation are at most
+       2^30 (binary64: 2^250), and no component of the direction exceeds 2^32 (2^252). Then the sets stay farther apart
+       than the separation s throughout the step: the squared distance of any of their points exceeds that of s. *)
+Theorem a_kept_vertex_and_face_stay_apart f place s t i j r : f = Advance.binary32 \/ f = Advance.binary64 ->
+  Gaps.is_kept f Gaps.keeps_a_vertex_and_a_face place s -> 0 <= t <= 1 ->
+  0 <= i -> 0 <= j -> 0 <= r -> i + j + r = 1 -> let at_time n := at_ (path_of place n) t in
+  s ^ 2 < Certificates.length_squared (minus (at_time 0%nat) (plus (scaled i (at_time 1%nat)) (plus (scaled j (at_time
+    2%nat)) (scaled r (at_time 3%nat))))).
+Proof.
+  intro which. assert (fine : Corners.reasonable_constants f).
+  { destruct constants_of_the_time_of_impact. destruct which as [-> | ->]; assumption. }
+  exact (Gaps.a_kept_vertex_and_face_stay_apart f place s t i j r fine).
+Qed.
+Theorem kept_edges_stay_apart f place s t i r : f = Advance.binary32 \/ f = Advance.binary64 ->
+  Gaps.is_kept f Gaps.keeps_edges place s -> 0 <= t <= 1 -> 0 <= i <= 1 -> 0 <= r <= 1 ->
+  let at_time n := at_ (path_of place n) t in
+  s ^ 2 < Certificates.length_squared (minus (plus (scaled (1 - i) (at_time 0%nat)) (scaled i (at_time 1%nat)))
+    (plus (scaled (1 - r) (at_time 2%nat)) (scaled r (at_time 3%nat)))).
+Proof.
+  intro which. assert (fine : Corners.reasonable_constants f).
+  { destruct constants_of_the_time_of_impact. destruct which as [-> | ->]; assumption. }
+  exact (Gaps.kept_edges_stay_apart f place s t i r fine).
+Qed.
+(* Coq runs the gaps: some pairs of both kinds are kept. *)
+Theorem some_pairs_are_kept f : f = Advance.binary32 \/ f = Advance.binary64 ->
+  (exists place, Gaps.is_kept f Gaps.keeps_a_vertex_and_a_face place (1 / 2)) /\
+  (exists place, Gaps.is_kept f Gaps.keeps_edges place (1 / 2)).
+Proof. exact (Kept.some_are_kept f). Qed.
+(* An accepted step: each pair that can touch in it is kept by a direction, or a chain of rounds reaches its end. Then
+no
+   pair touches during it. That all pairs that can touch are asked about is assumed here, and tested as a property. *)
+Definition all_are_apart (vertices_and_faces edges : list (coordinate -> R)) :=
+  (forall place, List.In place vertices_and_faces -> Advancing.reaches Advancing.of_a_vertex_and_a_face place 0 1 \/
+    exists f s, (f = Advance.binary32 \/ f = Advance.binary64) /\ Gaps.is_kept f Gaps.keeps_a_vertex_and_a_face place
+      s) /\
+  (forall place, List.In place edges -> Advancing.reaches Advancing.of_two_edges place 0 1 \/
+    exists f s, (f = Advance.binary32 \/ f = Advance.binary64) /\ Gaps.is_kept f Gaps.keeps_edges place s).
+Lemma apart_is_not_zero s p q : s ^ 2 < Certificates.length_squared (minus p q) -> p <> q.
+Proof.
+  intros far ->. replace (Certificates.length_squared _) with 0 in far; [pose proof (pow2_ge_0 s); lra|].
+  unfold Certificates.length_squared, dot, minus. cbn. ring.
+Qed.
+Theorem an_accepted_step_has_no_contact vertices_and_faces edges t : all_are_apart vertices_and_faces edges -> 0 <= t
+  <= 1 ->
+  (forall place, List.In place vertices_and_faces -> ~ vertex_in_triangle (at_ (path_of place 0) t) (at_ (path_of
+    place 1)
+    t) (at_ (path_of place 2) t) (at_ (path_of place 3) t)) /\
+  (forall place, List.In place edges -> ~ segments_meet (at_ (path_of place 0) t) (at_ (path_of place 1) t) (at_
+    (path_of
+    place 2) t) (at_ (path_of place 3) t)).
+Proof.
+  intros [vf ee] time. split; intros place inside.
+  - destruct (vf place inside) as [chain|(f & s & which & kept)].
+    + apply (no_contact_of_a_vertex_and_a_face_before place 0 1 t chain time); lra.
+    + intros (i & j & r & i0 & j0 & r0 & one & meet). revert meet. apply (apart_is_not_zero s).
+      exact (a_kept_vertex_and_face_stay_apart f place s t i j r which kept time i0 j0 r0 one).
+  - destruct (ee place inside) as [chain|(f & s & which & kept)].
+    + apply (no_contact_of_two_edges_before place 0 1 t chain time); lra.
+    + intros (i & r & i01 & r01 & meet). revert meet. apply (apart_is_not_zero s).
+      exact (kept_edges_stay_apart f place s t i r which kept time i01 r01).
+Qed.
+
+(* 14. Certificates.v has the lemmas about exact numbers that they and truncation rest on: a direction held or turning
+       over a part of the step, the volume there, shares of ways. *)
 
 Print Assumptions formats_are_reasonable.
 Print Assumptions an_operation_is_nearly_exact.
@@ -384,6 +451,10 @@ Print Assumptions times_are_rounded_down.
 Print Assumptions lengths_are_rounded_up.
 Print Assumptions widening_is_exact.
 Print Assumptions Narrowing.the_code_returns_the_same.
+Print Assumptions a_kept_vertex_and_face_stay_apart.
+Print Assumptions kept_edges_stay_apart.
+Print Assumptions some_pairs_are_kept.
+Print Assumptions an_accepted_step_has_no_contact.
 Print Assumptions Certificates.a_product_bounds_the_distance.
 Print Assumptions Certificates.ahead_of_the_triangle.
 Print Assumptions Certificates.between_two_ahead.

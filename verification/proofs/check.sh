@@ -28,13 +28,13 @@ fi
 
 # In the order of their dependencies; the last one prints the axioms of its theorems. mutations.py reads the following lists of the files
 # that build on the ones written from the kernels:
-# above Filter: Permanent Magnitudes Advance Advancing Checker Witnesses Chains Theorems
-# above Boxes: Apart Certificates Volume Clipping VolumeSteps Advancing Checker Witnesses Chains Theorems
-# above Advance: Advancing Checker Chains Theorems
+# above Filter: Permanent Magnitudes Advance Advancing Checker Witnesses Chains Gaps Kept Theorems
+# above Boxes: Apart Certificates Volume Clipping VolumeSteps Advancing Checker Witnesses Chains Gaps Kept Theorems
+# above Advance: Advancing Checker Chains Kept Theorems
 # above Narrowed: Narrowing Theorems
-files=(Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Magnitudes Orders Boxes Apart Certificates Machine
-    Nearness Corners Directions Held Hull Volume Clipping VolumeSteps Advance Advancing Checker Nearest Witnesses Chains Integers
-    Narrowed Narrowing Theorems)
+files=(Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Magnitudes Orders Boxes Apart Certificates
+    Machine Nearness Corners Directions Held Hull Volume Clipping VolumeSteps Advance Advancing Checker Gaps Nearest Witnesses
+    Chains Kept Integers Narrowed Narrowing Theorems)
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cp -r ./*.v extracted "$folder"

@@ -1,0 +1,446 @@
+(* A direction whose gap exceeds the threshold at both ends of a step keeps a pair more than the separation apart
+   throughout. core/src/separation/gap.rs. *)
+From Coq Require Import Reals ZArith Lra Lia Bool List Psatz.
+From Flocq Require Import Core.
+From Selvedge Require Import Arithmetic Machine Nearness Corners Geometry.
+From Selvedge Require Expressions Errors Bounds Certificates Apart Directions.
+Import ListNotations.
+Open Scope R_scope.
+
+(* The code's terms: products of the direction with a point, at the start or at the end; the lowest of the first set and
+   the highest of the second; the gap, its error and the threshold; whether the direction is short. *)
+Definition point n t := each (fun a => Input (Place (Expressions.Coordinate n t a))).
+Definition product n t := dot_ (direction 0) (point n t).
+Definition lowest first t := match first with
+  | [] => one | n :: others => fold_left (fun m n => Smaller m (product n t)) others (product n t) end.
+Definition highest second t := match second with
+  | [] => one | n :: others => fold_left (fun m n => Larger m (product n t)) others (product n t) end.
+Definition gap first second t := Minus (lowest first t) (highest second t).
+Definition slack := Input (Length Slack).
+Definition error_of_gap := Sum (Product (roundoffs 64) (Input (Length LargestCoordinate))) (Constant Underflow).
+Definition threshold := Sum (Product (Input (Length Separation)) (Product slack slack)) error_of_gap.
+Definition keeps first second := Both (Greater (gap first second Expressions.End) threshold)
+  (Greater (gap first second Expressions.Start) threshold).
+Definition short := Not (Greater (dot_ (direction 0) (direction 0)) slack).
+Definition sigma := 1 + / 1048576.
+
+Definition keeps_a_vertex_and_a_face := keeps [0%nat] [1%nat; 2%nat; 3%nat].
+Definition keeps_edges := keeps [0%nat; 1%nat] [2%nat; 3%nat].
+
+Section Gaps.
+Variable f : constants.
+Hypothesis fine : reasonable_constants f.
+Let ok : reasonable f := reasonable_base f fine.
+Variable env : environment f.
+Variable given : input -> R.
+Variable value_of : number -> value.
+Hypothesis run : execution f env value_of given.
+Notation l := (lam f).
+Notation e1 := (eps f).
+Notation q := (Bounds.q f).
+Notation Rd := (rounded env).
+Notation seen := (seen f env).
+Notation holds := (holds f).
+Notation operand := (operand f env).
+Notation G := (Errors.reach f).
+Notation eta := (power (underflow f)).
+Notation u := (unit_roundoff f).
+Notation m := (given (Length Separation)).
+Notation B := (given (Length LargestCoordinate)).
+Hypothesis the_slack : given (Length Slack) = sigma.
+Definition along a := seen (given (Along 0 a)).
+Definition squared := sum3 (fun a => along a * along a).
+Notation dot_holds := (dot_holds f fine env given value_of run).
+Notation constant := (constant f env given value_of run).
+Notation seen_holds := (seen_operand f env _ _ _ _ _).
+Notation product_holds := (holds_product f ok env _ _ _ _ _ _ _ _ _ _ _).
+Notation sum_holds op := (holds_sum f ok env op _ _ _ _ _ _ _ _ _ _ _).
+
+Lemma input_operand i X p n a : value_of (Input i) = Number X -> near f (seen X) X p n a ->
+  operand (value_of (Input i)) X p n a.
+Proof. intros -> h. exists (seen X). split; [reflexivity|exact h]. Qed.
+Lemma along_operand a : operand (value_of (component (direction 0) a)) (along a) (Rabs (along a)) 0 0.
+Proof. unfold direction. rewrite component_each, (run (Input (Along 0 a))). apply operand_exact. Qed.
+Lemma sigma_normal : seen sigma = sigma.
+Proof. unfold sigma. apply seen_of_normal. rewrite Rabs_pos_eq by lra. pose proof (l_small f ok). lra. Qed.
+Lemma slack_operand : operand (value_of slack) sigma sigma 0 0.
+Proof.
+  unfold slack. rewrite (run (Input _)), the_slack. replace sigma with (seen sigma) at 2 by apply sigma_normal.
+  rewrite <- (Rabs_pos_eq sigma) at 3 by (unfold sigma; lra). rewrite <- sigma_normal at 3. apply operand_exact.
+Qed.
+Lemma q_error n : (n <= 8)%nat -> 0 <= q n - 1 <= 1.001 * INR n * e1.
+Proof. intro h. pose proof (q_linear f ok n ltac:(lia)). pose proof (q_ge f n). lra. Qed.
+
+(* A short direction. *)
+Lemma squares a : 0 <= along a * along a. Proof. apply Rle_0_sqr. Qed.
+Lemma short_is_short : (forall a, Rabs (along a) <= G) -> says f env value_of short -> squared <= 1 + 1.5 * / 1048576.
+Proof.
+  intros bounded h. cbn -[dot_ direction] in h.
+  pose proof (G_2 f fine) as G2. pose proof (G_4 f fine) as G4. pose proof (l_pos f). pose proof (l_small f ok) as ls.
+  pose proof (e_pos f). pose proof (e_small f ok).
+  assert (each_ : forall a, 0 <= Rabs (along a) * Rabs (along a) <= G * G).
+  { intro a. pose proof (Rabs_pos (along a)). split; [apply Rmult_le_pos; lra|]. apply Rmult_le_compat; auto. }
+  assert (GG : 16 <= G * G) by (replace 16 with (4 * 4) by ring; apply Rmult_le_compat; lra).
+  assert (small : sum3 (fun a => Rabs (along a) * Rabs (along a)) <= omega f / 4).
+  { unfold sum3. pose proof (each_ Expressions.X). pose proof (each_ Expressions.Y). pose proof (each_
+    Expressions.Z_). lra. }
+  assert (none : sum3 (fun a => Rabs (along a) * 0 + 0 * Rabs (along a) + l * (0 * 0)) <= omega f / 4) by (unfold
+    sum3; lra).
+  pose proof (dot_holds _ _ _ _ _ _ _ _ 0 0 along_operand along_operand ltac:(lia) small none) as (x & Ex & _ & d & _
+    & _).
+  assert (same : sum3 (fun a => Rabs (along a) * Rabs (along a)) = squared).
+  { unfold squared, sum3. rewrite <- !Rabs_mult, !Rabs_pos_eq by apply squares. reflexivity. }
+  rewrite same in d. fold squared in d. rewrite Ex in h. unfold slack in h. rewrite (run (Input _)), the_slack in h.
+  cbn in h. rewrite sigma_normal in h.
+  assert (x1 : x <= sigma). { unfold sigma in *. destruct (Rle_lt_dec x (1 / 2)); [lra|].
+    rewrite (seen_of_normal f env x) in h by (rewrite Rabs_pos_eq; lra). now apply Rnot_lt_le. }
+  apply Rabs_le_inv in d. pose proof (q_error 3 ltac:(lia)) as q3. replace (INR (3 + 0 + 0)) with 3 in * by (simpl;
+    ring).
+  change (3 + 0 + 0)%nat with 3%nat in d. replace (INR 3) with 3 in q3 by (simpl; ring).
+  assert (s0 : 0 <= squared) by (unfold squared, sum3; pose proof squares; repeat apply Rplus_le_le_0_compat; auto).
+  assert ((q 3 - 1) * squared <= 3.003 * e1 * squared) by (apply Rmult_le_compat_r; lra).
+  assert (e1 * squared <= / 8388608 * squared) by (apply Rmult_le_compat_r; lra).
+  unfold sum3 in d. unfold sigma in x1. lra.
+Qed.
+
+(* The pair: coordinates no larger than B, a direction no longer than the slack allows, a separation. *)
+Hypothesis short_ : squared <= 1 + 1.6 * / 1048576.
+Hypothesis coordinates : forall c, Rabs (given (Place c)) <= B.
+Hypothesis within : B <= power (largest_edge f).
+Hypothesis separation : 0 <= m <= power (largest_edge f).
+
+Lemma B_bounds : 0 <= B <= / 4 * G.
+Proof.
+  pose proof (coordinates (Expressions.Coordinate 0 Expressions.Start Expressions.X)).
+  pose proof (Rabs_pos (given (Place (Expressions.Coordinate 0 Expressions.Start Expressions.X)))).
+  unfold Errors.reach. lra.
+Qed.
+Lemma component_bound a : Rabs (along a) <= 1.01.
+Proof.
+  apply Rnot_lt_le. intro h. assert (1.01 * 1.01 < Rabs (along a) * Rabs (along a)) by (apply Rmult_le_0_lt_compat;
+    lra).
+  rewrite <- Rabs_mult, Rabs_pos_eq in H by apply squares. unfold squared, sum3 in short_.
+  pose proof (squares Expressions.X). pose proof (squares Expressions.Y). pose proof (squares Expressions.Z_).
+  destruct a; lra.
+Qed.
+Definition exact n t := sum3 (fun a => along a * given (Place (Expressions.Coordinate n t a))).
+Definition E1 := 9.2 * e1 * B + 14 * l.
+Lemma product_near n t : exists x, value_of (product n t) = Number x /\ Rabs (seen x - exact n t) <= E1 /\
+  Rabs (seen x) <= 2 * G.
+Proof.
+  pose proof B_bounds as [B0 BG]. pose proof (G_2 f fine) as G2. pose proof (G_4 f fine) as G4. pose proof (l_pos f)
+    as l0.
+  pose proof (l_small f ok) as ls. pose proof (e_pos f). pose proof (e_small f ok).
+  assert (GG : 4 * G <= G * G) by (apply Rmult_le_compat_r; lra).
+  assert (places : forall a, operand (value_of (component (point n t) a)) (given (Place (Expressions.Coordinate n t
+    a))) B 0 1).
+  { intro a. unfold point. rewrite component_each. apply (input_operand _ _ _ _ _ (run (Input _))).
+    split; [|split; [apply coordinates|lra]]. unfold Bounds.q. simpl. pose proof (seen_off f env (given (Place
+      (Expressions.Coordinate n t a)))). lra. }
+  assert (x1 : forall a, 0 <= Rabs (along a) * B <= 1.01 * B).
+  { intro a. pose proof (Rabs_pos (along a)). pose proof (component_bound a). split; [apply Rmult_le_pos; lra|].
+    apply Rmult_le_compat_r; lra. }
+  pose proof (x1 Expressions.X). pose proof (x1 Expressions.Y). pose proof (x1 Expressions.Z_).
+  pose proof (component_bound Expressions.X). pose proof (component_bound Expressions.Y).
+  pose proof (component_bound Expressions.Z_).
+  assert (small : sum3 (fun a => Rabs (along a) * B) <= omega f / 4) by (unfold sum3; lra).
+  assert (x : sum3 (fun a => Rabs (along a) * 1 + 0 * B + l * (0 * 1)) <= 3.03) by (unfold sum3; lra).
+  pose proof (dot_holds _ _ _ _ _ _ _ _ 0 0 along_operand places ltac:(lia) small ltac:(lra)) as (y & Ey & _ & d & _ &
+    _).
+  exists y. split; [exact Ey|]. fold (exact n t) in d. change (3 + 0 + 0)%nat with 3%nat in d.
+  pose proof (q_error 3 ltac:(lia)) as q3. replace (INR 3) with 3 in q3 by (simpl; ring).
+  pose proof (seen_off f env y) as off.
+  assert (sum3 (fun a => Rabs (along a) * B) <= 3.03 * B) by (unfold sum3; lra).
+  assert (0 <= sum3 (fun a => Rabs (along a) * B)) by (unfold sum3; lra).
+  assert ((q 3 - 1) * sum3 (fun a => Rabs (along a) * B) <= 3.003 * e1 * (3.03 * B)) by (apply Rmult_le_compat; lra).
+  assert (0 <= e1 * B) by (apply Rmult_le_pos; lra).
+  assert (l * (1.04 * sum3 (fun a => Rabs (along a) * 1 + 0 * B + l * (0 * 1)) + 9.2) <= l * 12.5) by (apply
+    Rmult_le_compat_l; lra).
+  assert (A : Rabs (seen y - exact n t) <= E1).
+  { replace (seen y - exact n t) with ((seen y - y) + (y - exact n t)) by ring.
+    eapply Rle_trans; [apply Rabs_triang|]. unfold E1. lra. }
+  split; [exact A|]. assert (X : Rabs (exact n t) <= 3.03 * B).
+  { eapply Rle_trans; [|exact H7]. unfold exact, sum3. eapply Rle_trans; [apply Rabs_triang|].
+    assert (each_ : forall a, Rabs (along a * given (Place (Expressions.Coordinate n t a))) <= Rabs (along a) * B).
+    { intro a. rewrite Rabs_mult. apply Rmult_le_compat_l; [apply Rabs_pos|apply coordinates]. }
+    pose proof (Rabs_triang (along Expressions.X * given (Place (Expressions.Coordinate n t Expressions.X)))
+      (along Expressions.Y * given (Place (Expressions.Coordinate n t Expressions.Y)))).
+    pose proof (each_ Expressions.X). pose proof (each_ Expressions.Y). pose proof (each_ Expressions.Z_). lra. }
+  replace (seen y) with ((seen y - exact n t) + exact n t) by ring. eapply Rle_trans; [apply Rabs_triang|].
+  assert (e1 * B <= / 8388608 * B) by (apply Rmult_le_compat_r; lra). unfold E1 in A. lra.
+Qed.
+
+(* The lowest and the highest of numbers, as they are seen. *)
+Lemma lowest_below t others : forall e x, value_of e = Number x ->
+  Rabs (seen x) <= 2 * G ->
+  exists y, value_of (fold_left (fun m n => Smaller m (product n t)) others e) = Number y /\ seen y <= seen x /\
+    Rabs (seen y) <= 2 * G /\ forall n, In n others -> seen y <= exact n t + E1.
+Proof.
+  induction others as [|n others IH]; intros e x Ex sx; cbn [fold_left].
+  - exists x. split; [exact Ex|]. split; [lra|]. split; [exact sx|intros n []].
+  - destruct (product_near n t) as (z & Ez & near_ & sz). apply Rabs_le_inv in near_.
+    pose proof (run (Smaller e (product n t))) as h. cbn -[product] in h. rewrite Ex, Ez in h.
+    assert (step : exists y, value_of (Smaller e (product n t)) = Number y /\ seen y <= seen x /\ seen y <= seen z /\
+      Rabs (seen y) <= 2 * G).
+    { unfold smaller, greater, as_it_is in h. cbn in h.
+      destruct h as [[g [-> | ->]]|[g [-> | ->]]]; eexists; (split; [reflexivity|]); rewrite ?seen_twice; repeat
+        split; lra. }
+    destruct step as (y & Ey & yx & yz & sy). destruct (IH _ _ Ey sy) as (w & Ew & wy & sw & all). exists w.
+    split; [exact Ew|]. split; [lra|]. split; [exact sw|]. intros k [<-|inside]; [lra|exact (all k inside)].
+Qed.
+Lemma highest_above t others : forall e x, value_of e = Number x ->
+  Rabs (seen x) <= 2 * G ->
+  exists y, value_of (fold_left (fun m n => Larger m (product n t)) others e) = Number y /\ seen x <= seen y /\
+    Rabs (seen y) <= 2 * G /\ forall n, In n others -> exact n t - E1 <= seen y.
+Proof.
+  induction others as [|n others IH]; intros e x Ex sx; cbn [fold_left].
+  - exists x. split; [exact Ex|]. split; [lra|]. split; [exact sx|intros n []].
+  - destruct (product_near n t) as (z & Ez & near_ & sz). apply Rabs_le_inv in near_.
+    pose proof (run (Larger e (product n t))) as h. cbn -[product] in h. rewrite Ex, Ez in h.
+    assert (step : exists y, value_of (Larger e (product n t)) = Number y /\ seen x <= seen y /\ seen z <= seen y /\
+      Rabs (seen y) <= 2 * G).
+    { unfold larger, greater, as_it_is in h. cbn in h.
+      destruct h as [[g [-> | ->]]|[g [-> | ->]]]; eexists; (split; [reflexivity|]); rewrite ?seen_twice; repeat
+        split; lra. }
+    destruct step as (y & Ey & yx & yz & sy). destruct (IH _ _ Ey sy) as (w & Ew & wy & sw & all). exists w.
+    split; [exact Ew|]. split; [lra|]. split; [exact sw|]. intros k [<-|inside]; [lra|exact (all k inside)].
+Qed.
+
+(* The gap as it is computed is at most every exact one, but for twice that error. *)
+Lemma gap_value first second n k t : In n first -> In k second -> exists low high,
+  value_of (gap first second t) = Number (Rd (low - high)) /\ low - high <= exact n t - exact k t + 2 * E1.
+Proof.
+  pose proof (G_2 f fine). pose proof (G_4 f fine). assert (4 * G <= G * G) by (apply Rmult_le_compat_r; lra).
+  destruct first as [|n0 ns]; [intros []|]. destruct second as [|k0 ks]; [intros _ []|]. intros inside inside'.
+  destruct (product_near n0 t) as (x & Ex & near_ & sx), (product_near k0 t) as (y & Ey & near_' & sy).
+  destruct (lowest_below t ns _ x Ex sx) as (low & El & lx & sl & all).
+  destruct (highest_above t ks _ y Ey sy) as (high & Eh & hy & sh & all').
+  exists (seen low), (seen high). apply Rabs_le_inv in near_. apply Rabs_le_inv in near_'. split.
+  - pose proof (run (gap (n0 :: ns) (k0 :: ks) t)) as h. unfold gap, lowest, highest in h |- *.
+    cbn -[product fold_left] in h. unfold sum in h.
+    change (fold_left (fun m n => Smaller m (product n t)) ns (product n0 t)) with
+      (fold_left (fun m n => Smaller m (product n t)) ns (product n0 t)) in h.
+    rewrite El, Eh in h. cbn [seen_value] in h. apply (result_number f ok env) in h; [exact h|].
+    eapply Rle_trans; [apply Rabs_triang|]. rewrite Rabs_Ropp. lra.
+  - assert (seen low <= exact n t + E1) by (destruct inside as [<-|inside]; [lra|exact (all n inside)]).
+    assert (exact k t - E1 <= seen high) by (destruct inside' as [<-|inside']; [lra|exact (all' k inside')]). lra.
+Qed.
+(* The threshold. *)
+Lemma threshold_value : exists T, value_of threshold = Number T /\
+  (1 - 4.01 * e1) * (m * (sigma * sigma) + 32 * e1 * B + eta) - l * (2.1 * m + 2.2 * B + 11) <= T.
+Proof.
+  pose proof B_bounds as [B0 BG]. pose proof (G_2 f fine) as G2. pose proof (G_4 f fine) as G4. pose proof (l_pos f)
+    as l0.
+  pose proof (l_small f ok) as ls. pose proof (e_pos f) as e0. pose proof (e_small f ok) as es.
+  pose proof (eps_twice f) as eu. pose proof (eta_1 f fine). pose proof (eta_large f fine).
+  assert (GG : 4 * G <= G * G) by (apply Rmult_le_compat_r; lra). destruct separation as [m0 m1].
+  assert (mG : m <= / 4 * G) by (unfold Errors.reach; lra).
+  assert (length_ : forall i, 0 <= given (Length i) -> operand (value_of (Input (Length i))) (given (Length i)) (given
+    (Length i)) 0 1).
+  { intros i pos. apply (input_operand _ _ _ _ _ (run (Input _))). unfold near, Bounds.q. simpl.
+    pose proof (seen_off f env (given (Length i))). rewrite (Rabs_pos_eq (given _)) by exact pos. lra. }
+  assert (ss : 1 <= sigma * sigma <= 1.00001) by (unfold sigma; lra).
+  (* The error. *)
+  pose proof (run (Product (roundoffs 64) (Input (Length LargestCoordinate)))) as h1. cbn -[roundoffs] in h1.
+  assert (uB : 0 <= 64 * u * B <= 0.001 * G) by (split; [repeat apply Rmult_le_pos; lra|]; assert (64 * u * B <= 64 *
+    u * (/ 4 * G)) by (apply Rmult_le_compat_l; lra); assert (u * G <= / 16777216 * G) by (apply Rmult_le_compat_r;
+      lra); lra).
+  pose proof (product_holds h1 (seen_holds (Directions.roundoffs_holds f fine env given value_of run 64%Z ltac:(lia)))
+    (length_ LargestCoordinate B0) ltac:(lia) ltac:(lra) ltac:(lra)) as r1.
+  assert (on : operand (value_of (Constant Underflow)) eta eta 0 0).
+  { rewrite constant. cbn [constant_value]. rewrite <- (Rabs_pos_eq eta) at 3 by lra. apply operand_normal.
+    rewrite Rabs_pos_eq; lra. }
+  pose proof (run error_of_gap) as h2. unfold error_of_gap in h2. cbn -[roundoffs] in h2.
+  pose proof (sum_holds Rplus 2 ltac:(auto) h2 (seen_holds r1) on ltac:(lia) ltac:(lia) ltac:(lia) ltac:(lra)
+    ltac:(lra)) as r2. fold error_of_gap in r2.
+  (* The separation. *)
+  pose proof (run (Product slack slack)) as h3. cbn -[slack] in h3.
+  pose proof (product_holds h3 slack_operand slack_operand ltac:(lia) ltac:(lra) ltac:(lra)) as r3.
+  pose proof (run (Product (Input (Length Separation)) (Product slack slack))) as h4. cbn -[slack] in h4.
+  assert (mss : 0 <= m * (sigma * sigma) <= 1.00001 * (/ 4 * G)) by (split; [apply Rmult_le_pos; lra|];
+    rewrite (Rmult_comm m); apply Rmult_le_compat; lra).
+  pose proof (product_holds h4 (length_ Separation m0) (seen_holds r3) ltac:(lia) ltac:(lra) ltac:(lra)) as r4.
+  pose proof (run threshold) as h5. unfold threshold in h5. cbn -[slack error_of_gap] in h5.
+  pose proof (sum_holds Rplus 3 ltac:(auto) h5 (seen_holds r4) (seen_holds r2) ltac:(lia) ltac:(lia) ltac:(lia)
+    ltac:(lra)
+    ltac:(lra)) as (T & ET & _ & d & _ & _).
+  exists T. split; [exact ET|]. apply Rabs_le_inv in d. destruct d as [d _].
+  replace (64 * u * B) with (32 * e1 * B) in * by (rewrite eu; ring).
+  set (X := m * (sigma * sigma) + (32 * e1 * B + eta)) in *.
+  pose proof (q_error 4 ltac:(lia)) as q4. replace (INR 4) with 4 in q4 by (simpl; ring).
+  assert (X0 : 0 <= X) by (unfold X; lra). assert ((q 4 - 1) * X <= 4.01 * e1 * X) by (apply Rmult_le_compat_r; lra).
+  change (S 3) with 4%nat in d.
+  lazymatch type of d with - (_ + _ * ?a) <= _ => assert (la : l * a <= l * (2.1 * m + 2.2 * B + 11)) end.
+  { apply Rmult_le_compat_l; [lra|]. assert (l * 2 <= 0.001) by lra. lra. }
+  unfold X in *. lra.
+Qed.
+Notation length_ := (sqrt squared).
+Theorem beyond_the_threshold first second n k t : says f env value_of (Greater (gap first second t) threshold) ->
+  In n first -> In k second -> m * length_ < exact n t - exact k t.
+Proof.
+  intros h inside inside'. destruct (gap_value first second n k t inside inside') as (low & high & Eg & bound).
+  destruct threshold_value as (T & ET & big). cbn in h. rewrite Eg, ET in h. cbn in h.
+  pose proof B_bounds as [B0 BG]. pose proof (l_pos f) as l0. pose proof (l_small f ok) as ls. pose proof (e_pos f) as
+    e0.
+  pose proof (e_small f ok) as es. pose proof (eta_large f fine). pose proof (eta_1 f fine). pose proof (l_e f fine)
+    as le.
+  destruct separation as [m0 m1]. set (z := low - high) in *.
+  assert (eB : 0 <= e1 * B <= / 8388608 * B) by (split; [apply Rmult_le_pos; lra|apply Rmult_le_compat_r; lra]).
+  assert (eeB : 0 <= e1 * (e1 * B) <= / 8388608 * (e1 * B)) by (split; [apply Rmult_le_pos; lra|apply
+    Rmult_le_compat_r; lra]).
+  assert (em : 0 <= e1 * m <= / 8388608 * m) by (split; [apply Rmult_le_pos; lra|apply Rmult_le_compat_r; lra]).
+  assert (ee : e1 * eta <= / 8388608 * eta) by (apply Rmult_le_compat_r; lra).
+  assert (lB : 0 <= l * B <= / 1099511627776 * (e1 * B)). { split; [apply Rmult_le_pos; lra|].
+    replace (/ 1099511627776 * (e1 * B)) with (/ 1099511627776 * e1 * B) by ring. apply Rmult_le_compat_r; lra. }
+  assert (lm : 0 <= l * m <= / 1099511627776 * m) by (split; [apply Rmult_le_pos; lra|apply Rmult_le_compat_r; lra]).
+  assert (el : 0 <= e1 * l <= / 8388608 * l) by (split; [apply Rmult_le_pos; lra|apply Rmult_le_compat_r; lra]).
+  unfold sigma in big.
+  assert (Tl : l <= T) by lra. rewrite (seen_of_normal f env T) in h by (rewrite Rabs_pos_eq; lra).
+  rewrite (seen_positive f env (Rd z)) in h by lra.
+  assert (z0 : 0 < z). { apply Rnot_le_lt. intro neg. pose proof (monotone env _ _ neg) as r. rewrite rounded_0 in r.
+    lra. }
+  pose proof (error f ok env z) as er. rewrite (Rabs_pos_eq z) in er by lra. apply Rabs_le_inv in er.
+  assert (L1 : length_ <= 1 + 0.8 * / 1048576).
+  { rewrite <- (sqrt_square (1 + 0.8 * / 1048576)) by lra. apply sqrt_le_1_alt. lra. }
+  assert (mL : m * length_ <= m * (1 + 0.8 * / 1048576)) by (apply Rmult_le_compat_l; lra).
+  apply Rnot_le_lt. intro less. set (D := exact n t - exact k t) in *.
+  assert (zz : z <= m * (1 + 0.8 * / 1048576) + 2 * E1) by lra.
+  assert (e1 * z <= e1 * (m * (1 + 0.8 * / 1048576) + 2 * E1)) by (apply Rmult_le_compat_l; lra).
+  unfold E1 in *. lra.
+Qed.
+
+(* Geometry: sets that are ahead by more than that of each other stay more than the separation apart. *)
+Definition w := Point (along Expressions.X) (along Expressions.Y) (along Expressions.Z_).
+Lemma beyond_is_farther D M : m * length_ < M -> M <= dot w D -> m ^ 2 < Certificates.length_squared D.
+Proof.
+  intros big ahead. destruct separation as [m0 _]. unfold Certificates.length_squared.
+  assert (schwarz : dot w D ^ 2 <= dot w w * dot D D).
+  { unfold dot. pose proof (pow2_ge_0 (x w * y D - y w * x D)). pose proof (pow2_ge_0 (y w * z D - z w * y D)).
+    pose proof (pow2_ge_0 (z w * x D - x w * z D)). nra. }
+  assert (ww : dot w w = squared) by (unfold dot, squared, sum3, w; cbn; ring).
+  assert (s0 : 0 <= squared) by (unfold squared, sum3; pose proof squares; repeat apply Rplus_le_le_0_compat; auto).
+  pose proof (sqrt_pos squared) as L0. pose proof (sqrt_sqrt squared s0) as LL. rewrite ww in schwarz.
+  assert (mL : 0 <= m * length_) by (apply Rmult_le_pos; lra).
+  assert (less : (m * length_) * (m * length_) < dot w D * dot w D) by (apply Rmult_le_0_lt_compat; lra).
+  replace ((m * length_) * (m * length_)) with (squared * m ^ 2) in less by (rewrite <- LL at 1; ring).
+  destruct (Req_dec squared 0) as [none|some]; [rewrite none in *; lra|].
+  apply Rmult_lt_reg_l with squared; lra.
+Qed.
+Lemma common_bound b xs : (forall x, In x xs -> b < x) -> exists M, b < M /\ forall x, In x xs -> M <= x.
+Proof.
+  induction xs as [|x xs IH]; intro all; [exists (b + 1); split; [lra|intros x []]|].
+  destruct IH as (M & bM & below); [intros; apply all; now right|]. exists (Rmin M x). split.
+  - apply Rmin_glb_lt; [exact bM|apply all; now left].
+  - intros y [<-|inside]; [apply Rmin_r|]. eapply Rle_trans; [apply Rmin_l|exact (below y inside)].
+Qed.
+Variable place : Expressions.coordinate -> R.
+Hypothesis same : forall c, given (Place c) = place c.
+Notation path := (Apart.path_of place).
+Lemma ahead_of_each first second : says f env value_of (keeps first second) -> exists M, m * length_ < M /\
+  forall n k t, In n first -> In k second -> 0 <= t <= 1 -> Certificates.ahead_by M w (at_ (path n) t) (at_ (path k) t).
+Proof.
+  intros [late early].
+  set (pairs := list_prod first second). set (difference t (p : nat * nat) := exact (fst p) t - exact (snd p) t).
+  destruct (common_bound (m * length_) (map (difference Expressions.Start) pairs ++ map (difference Expressions.End)
+    pairs)) as (M & bM & below).
+  { intros d inside. apply in_app_or in inside as [inside|inside]; apply in_map_iff in inside as ((n & k) & <- &
+    inside);
+      apply in_prod_iff in inside as [? ?].
+    - apply (beyond_the_threshold first second n k Expressions.Start early); assumption.
+    - apply (beyond_the_threshold first second n k Expressions.End late); assumption. }
+  exists M. split; [exact bM|]. intros n k t inn ink time.
+  assert (inside : In (n, k) pairs) by (apply in_prod; assumption).
+  apply (Certificates.held_direction M w (path n) (path k) 0 1 t time).
+  - pose proof (below (difference Expressions.Start (n, k)) ltac:(apply in_or_app; left; now apply in_map)) as h.
+    unfold Certificates.ahead_by. replace (dot w _) with (difference Expressions.Start (n, k)); [exact h|].
+    unfold difference, exact, sum3, dot, minus, at_, plus, scaled, w; cbn. rewrite !same. ring.
+  - pose proof (below (difference Expressions.End (n, k)) ltac:(apply in_or_app; right; now apply in_map)) as h.
+    unfold Certificates.ahead_by. replace (dot w _) with (difference Expressions.End (n, k)); [exact h|].
+    unfold difference, exact, sum3, dot, minus, at_, plus, scaled, w; cbn. rewrite !same. ring.
+Qed.
+Theorem a_kept_vertex_and_face : says f env value_of (keeps [0%nat] [1%nat; 2%nat; 3%nat]) -> forall t, 0 <= t <= 1 ->
+  forall i j r, 0 <= i -> 0 <= j -> 0 <= r -> i + j + r = 1 -> m ^ 2 < Certificates.length_squared (minus (at_ (path
+    0) t)
+    (plus (scaled i (at_ (path 1) t)) (plus (scaled j (at_ (path 2) t)) (scaled r (at_ (path 3) t))))).
+Proof.
+  intros kept t time i j r i0 j0 r0 one_. destruct (ahead_of_each _ _ kept) as (M & bM & ahead).
+  apply (beyond_is_farther _ M bM). apply Certificates.ahead_of_the_triangle; auto; apply ahead; cbn; auto.
+Qed.
+Theorem kept_edges : says f env value_of (keeps [0%nat; 1%nat] [2%nat; 3%nat]) -> forall t, 0 <= t <= 1 ->
+  forall i r, 0 <= i <= 1 -> 0 <= r <= 1 -> m ^ 2 < Certificates.length_squared (minus
+    (plus (scaled (1 - i) (at_ (path 0) t)) (scaled i (at_ (path 1) t)))
+    (plus (scaled (1 - r) (at_ (path 2) t)) (scaled r (at_ (path 3) t)))).
+Proof.
+  intros kept t time i r i01 r01. destruct (ahead_of_each _ _ kept) as (M & bM & ahead).
+  apply (beyond_is_farther _ M bM). apply Certificates.between_two_ahead; auto; apply ahead; cbn; auto.
+Qed.
+End Gaps.
+
+(* A direction that was tested for its length in any format and environment is short in each. *)
+Lemma short_in_each (f g : constants) env env' given given' value_of : reasonable_constants f -> reasonable_constants
+  g ->
+  execution g env' value_of given' -> given' (Length Slack) = sigma -> (forall a, given' (Along 0 a) = given (Along 0
+    a)) ->
+  (forall a, Rabs (given' (Along 0 a)) <= Errors.reach g) -> says g env' value_of short ->
+  squared f env given <= 1 + 1.6 * / 1048576.
+Proof.
+  intros fine fine' run slack_ same bounded h.
+  assert (bounded' : forall a, Rabs (along g env' given' a) <= Errors.reach g).
+  { intro a. eapply Rle_trans; [apply seen_smaller|apply bounded]. }
+  pose proof (short_is_short g fine' env' given' value_of run slack_ bounded' h) as short_.
+  pose proof (l_pos g). pose proof (l_small g (reasonable_base g fine')).
+  assert (each_ : forall a, along f env given a * along f env given a <=
+    along g env' given' a * along g env' given' a + / 1000000000000).
+  { intro a. unfold along. rewrite same. set (x := given (Along 0 a)).
+    pose proof (seen_smaller f env x) as s. apply Rsqr_le_abs_1 in s. unfold Rsqr in s.
+    unfold Machine.seen at 3 4. destruct (flushes_operands env'); [destruct (Rlt_dec (Rabs x) (lam g)) as [small|]|];
+      try lra.
+    assert (Rabs x * Rabs x <= / 1152921504606846976 * / 1152921504606846976) by (apply Rmult_le_compat; try apply
+      Rabs_pos;
+      lra). rewrite <- Rabs_mult, Rabs_pos_eq in H1 by apply Rle_0_sqr. lra. }
+  unfold squared, sum3 in *. pose proof (each_ Expressions.X). pose proof (each_ Expressions.Y).
+  pose proof (each_ Expressions.Z_). lra.
+Qed.
+
+(* A pair that the code keeps: an execution of the traced terms, and a direction whose length it tested. *)
+Definition is_kept (f : constants) (code : mask) place separation := exists env given value_of,
+  (forall c, given (Place c) = place c) /\ execution f env value_of given /\
+  given (Length Slack) = sigma /\ given (Length Separation) = separation /\ 0 <= separation <= power (largest_edge f) /\
+  (forall c, Rabs (place c) <= given (Length LargestCoordinate)) /\
+  given (Length LargestCoordinate) <= power (largest_edge f) /\
+  (exists (g : constants) env' given' value_of', reasonable_constants g /\ execution g env' value_of' given' /\
+    given' (Length Slack) = sigma /\ (forall a, given' (Along 0 a) = given (Along 0 a)) /\
+    (forall a, Rabs (given' (Along 0 a)) <= Errors.reach g) /\ says g env' value_of' short) /\
+  says f env value_of code.
+Theorem a_kept_vertex_and_face_stay_apart f place s t i j r : reasonable_constants f ->
+  is_kept f keeps_a_vertex_and_a_face place s -> 0 <= t <= 1 -> 0 <= i -> 0 <= j -> 0 <= r -> i + j + r = 1 ->
+  s ^ 2 < Certificates.length_squared (minus (at_ (Apart.path_of place 0) t) (plus (scaled i (at_ (Apart.path_of place
+    1)
+    t)) (plus (scaled j (at_ (Apart.path_of place 2) t)) (scaled r (at_ (Apart.path_of place 3) t))))).
+Proof.
+  intros fine (env & given & value_of & places & run & slack_ &
+    <- &
+    sep & inside & within & (g & env' & given' & value_of' & fine' & run' & slack' & along' & bounded & short_) & kept).
+  pose proof (short_in_each f g env env' given given' value_of' fine fine' run' slack' along' bounded short_) as
+    squares_.
+  assert (coordinates_ : forall c, Rabs (given (Place c)) <= given (Length LargestCoordinate)) by (intro c; rewrite
+    places;
+    apply inside).
+  intros. eapply (a_kept_vertex_and_face f fine env given value_of run slack_); eassumption.
+Qed.
+Theorem kept_edges_stay_apart f place s t i r : reasonable_constants f ->
+  is_kept f keeps_edges place s -> 0 <= t <= 1 -> 0 <= i <= 1 -> 0 <= r <= 1 ->
+  s ^ 2 < Certificates.length_squared (minus
+    (plus (scaled (1 - i) (at_ (Apart.path_of place 0) t)) (scaled i (at_ (Apart.path_of place 1) t)))
+    (plus (scaled (1 - r) (at_ (Apart.path_of place 2) t)) (scaled r (at_ (Apart.path_of place 3) t)))).
+Proof.
+  intros fine (env & given & value_of & places & run & slack_ &
+    <- &
+    sep & inside & within & (g & env' & given' & value_of' & fine' & run' & slack' & along' & bounded & short_) & kept).
+  pose proof (short_in_each f g env env' given given' value_of' fine fine' run' slack' along' bounded short_) as
+    squares_.
+  assert (coordinates_ : forall c, Rabs (given (Place c)) <= given (Length LargestCoordinate)) by (intro c; rewrite
+    places;
+    apply inside).
+  intros. eapply (kept_edges f fine env given value_of run slack_); eassumption.
+Qed.
