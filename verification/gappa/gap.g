@@ -1,4 +1,4 @@
-# The gap along a direction: core/src/separation/gap.rs.
+# The gap along a direction: core/src/separation/gap.rs, core/src/kernels/gap.rs.
 #
 # Everything scales with B, the largest coordinate: B = 1; components of d are at most 1.01.
 # 1. A term of a dot product passes through a product and two additions: 3 roundings, of three terms of 1.01. Two of them, and their
@@ -11,7 +11,7 @@
 # 5. Underflow: 3 components of B and 3 of d flushed, 5 results, all twice; the difference, and three operations of the bound. 64u B covers
 #    the losses times B: lambda / u is far below u.
 
-of_coordinates = 64; #! core/src/separation/gap.rs: Self(S::small(64) * S::UNIT_ROUNDOFF * largest + S::UNDERFLOW)
+of_coordinates = 64; #! core/src/kernels/gap.rs: roundoffs(largest, 64) * largest + largest.splat(L::Scalar::UNDERFLOW)
 #~ core/src/separation/gap.rs: S::from_f64(1.0 + 1.0 / 1_048_576.0)
 #~ core/src/separation/gap.rs: separation * (slack::<S>() * slack::<S>()) + error.0
 #~ core/src/separation/gap.rs: let bound = gap(kind, points, direction) / slack() - error.0;

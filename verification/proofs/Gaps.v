@@ -1,9 +1,9 @@
 (* A direction whose gap exceeds the threshold at both ends of a step keeps a pair more than the separation apart
-   throughout. core/src/separation/gap.rs. *)
+   throughout. core/src/kernels/gap.rs. *)
 From Coq Require Import Reals ZArith Lra Lia Bool List Psatz.
 From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic Machine Nearness Corners Geometry.
-From Selvedge Require Expressions Errors Bounds Certificates Apart Directions.
+From Selvedge Require Expressions Errors Bounds Certificates Apart Directions Gap.
 Import ListNotations.
 Open Scope R_scope.
 
@@ -21,11 +21,14 @@ Definition error_of_gap := Sum (Product (roundoffs 64) (Input (Length LargestCoo
 Definition threshold := Sum (Product (Input (Length Separation)) (Product slack slack)) error_of_gap.
 Definition keeps first second := Both (Greater (gap first second Expressions.End) threshold)
   (Greater (gap first second Expressions.Start) threshold).
-Definition short := Not (Greater (dot_ (direction 0) (direction 0)) slack).
+Definition short := Greater slack (dot_ (direction 0) (direction 0)).
 Definition sigma := 1 + / 1048576.
 
-Definition keeps_a_vertex_and_a_face := keeps [0%nat] [1%nat; 2%nat; 3%nat].
-Definition keeps_edges := keeps [0%nat; 1%nat] [2%nat; 3%nat].
+(* The traced terms are these. *)
+Theorem traced_terms : Gap.a_vertex_and_a_face.keeps = keeps [0%nat] [1%nat; 2%nat; 3%nat] /\
+  Gap.two_edges.keeps = keeps [0%nat; 1%nat] [2%nat; 3%nat] /\
+  Gap.a_vertex_and_a_face.short = short /\ Gap.two_edges.short = short.
+Proof. repeat split; vm_compute; reflexivity. Qed.
 
 Section Gaps.
 Variable f : constants.
@@ -93,7 +96,7 @@ Proof.
   rewrite same in d. fold squared in d. rewrite Ex in h. unfold slack in h. rewrite (run (Input _)), the_slack in h.
   cbn in h. rewrite sigma_normal in h.
   assert (x1 : x <= sigma). { unfold sigma in *. destruct (Rle_lt_dec x (1 / 2)); [lra|].
-    rewrite (seen_of_normal f env x) in h by (rewrite Rabs_pos_eq; lra). now apply Rnot_lt_le. }
+    rewrite (seen_of_normal f env x) in h by (rewrite Rabs_pos_eq; lra). lra. }
   apply Rabs_le_inv in d. pose proof (q_error 3 ltac:(lia)) as q3. replace (INR (3 + 0 + 0)) with 3 in * by (simpl;
     ring).
   change (3 + 0 + 0)%nat with 3%nat in d. replace (INR 3) with 3 in q3 by (simpl; ring).
@@ -410,17 +413,18 @@ Definition is_kept (f : constants) (code : mask) place separation := exists env 
   given (Length LargestCoordinate) <= power (largest_edge f) /\
   (exists (g : constants) env' given' value_of', reasonable_constants g /\ execution g env' value_of' given' /\
     given' (Length Slack) = sigma /\ (forall a, given' (Along 0 a) = given (Along 0 a)) /\
-    (forall a, Rabs (given' (Along 0 a)) <= Errors.reach g) /\ says g env' value_of' short) /\
+    (forall a, Rabs (given' (Along 0 a)) <= Errors.reach g) /\ says g env' value_of' Gap.a_vertex_and_a_face.short) /\
   says f env value_of code.
 Theorem a_kept_vertex_and_face_stay_apart f place s t i j r : reasonable_constants f ->
-  is_kept f keeps_a_vertex_and_a_face place s -> 0 <= t <= 1 -> 0 <= i -> 0 <= j -> 0 <= r -> i + j + r = 1 ->
+  is_kept f Gap.a_vertex_and_a_face.keeps place s -> 0 <= t <= 1 -> 0 <= i -> 0 <= j -> 0 <= r -> i + j + r = 1 ->
   s ^ 2 < Certificates.length_squared (minus (at_ (Apart.path_of place 0) t) (plus (scaled i (at_ (Apart.path_of place
     1)
     t)) (plus (scaled j (at_ (Apart.path_of place 2) t)) (scaled r (at_ (Apart.path_of place 3) t))))).
 Proof.
-  intros fine (env & given & value_of & places & run & slack_ &
+  destruct traced_terms as (same & _ & same_short & _). intros fine (env & given & value_of & places & run & slack_ &
     <- &
     sep & inside & within & (g & env' & given' & value_of' & fine' & run' & slack' & along' & bounded & short_) & kept).
+  rewrite same in kept. rewrite same_short in short_.
   pose proof (short_in_each f g env env' given given' value_of' fine fine' run' slack' along' bounded short_) as
     squares_.
   assert (coordinates_ : forall c, Rabs (given (Place c)) <= given (Length LargestCoordinate)) by (intro c; rewrite
@@ -429,14 +433,15 @@ Proof.
   intros. eapply (a_kept_vertex_and_face f fine env given value_of run slack_); eassumption.
 Qed.
 Theorem kept_edges_stay_apart f place s t i r : reasonable_constants f ->
-  is_kept f keeps_edges place s -> 0 <= t <= 1 -> 0 <= i <= 1 -> 0 <= r <= 1 ->
+  is_kept f Gap.two_edges.keeps place s -> 0 <= t <= 1 -> 0 <= i <= 1 -> 0 <= r <= 1 ->
   s ^ 2 < Certificates.length_squared (minus
     (plus (scaled (1 - i) (at_ (Apart.path_of place 0) t)) (scaled i (at_ (Apart.path_of place 1) t)))
     (plus (scaled (1 - r) (at_ (Apart.path_of place 2) t)) (scaled r (at_ (Apart.path_of place 3) t)))).
 Proof.
-  intros fine (env & given & value_of & places & run & slack_ &
+  destruct traced_terms as (_ & same & same_short & _). intros fine (env & given & value_of & places & run & slack_ &
     <- &
     sep & inside & within & (g & env' & given' & value_of' & fine' & run' & slack' & along' & bounded & short_) & kept).
+  rewrite same in kept. rewrite same_short in short_.
   pose proof (short_in_each f g env env' given given' value_of' fine fine' run' slack' along' bounded short_) as
     squares_.
   assert (coordinates_ : forall c, Rabs (given (Place c)) <= given (Length LargestCoordinate)) by (intro c; rewrite

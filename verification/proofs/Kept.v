@@ -1,8 +1,8 @@
-(* The certificates of separation are not empty: Coq runs the gaps of a pair of each kind, to nearest. *)
+(* The certificates of separation are not empty: Coq runs the traced gaps of a pair of each kind, to nearest. *)
 From Coq Require Import Reals ZArith Lra Lia Bool.
 From Flocq Require Import Core BinarySingleNaN.
 From Selvedge Require Import Arithmetic Machine.
-From Selvedge Require Expressions Nearest Corners Errors Witnesses Advance Chains Gaps.
+From Selvedge Require Expressions Nearest Corners Errors Witnesses Advance Chains Gap Gaps.
 Open Scope R_scope.
 
 Section OfAPair.
@@ -45,7 +45,7 @@ Proof.
 Qed.
 Definition computed m := match Chains.holds prec emax underflow_ extent_ reach_ p0 pe input_ m with
   | Some b => b | None => false end.
-Theorem kept_if_computed code : computed code = true -> computed Gaps.short = true ->
+Theorem kept_if_computed code : computed code = true -> computed Gap.a_vertex_and_a_face.short = true ->
   exists place, Gaps.is_kept f code place (1 / 2).
 Proof.
   intros kept short_. set (given i := B2R (input_ i)).
@@ -84,8 +84,8 @@ Proof. destruct n as [|[|[|[|n]]]], t, a; cbn; lia. Qed.
 Lemma near_edges n t a : (Z.abs (Chains.place_of_two_edges 2 n t a) <= 8)%Z.
 Proof. destruct n as [|[|[|[|n]]]], t, a; cbn; lia. Qed.
 Theorem some_are_kept f : f = Advance.binary32 \/ f = Advance.binary64 ->
-  (exists place, Gaps.is_kept f Gaps.keeps_a_vertex_and_a_face place (1 / 2)) /\
-  (exists place, Gaps.is_kept f Gaps.keeps_edges place (1 / 2)).
+  (exists place, Gaps.is_kept f Gap.a_vertex_and_a_face.keeps place (1 / 2)) /\
+  (exists place, Gaps.is_kept f Gap.two_edges.keeps place (1 / 2)).
 Proof.
   intros [-> | ->]; split.
   - apply (kept_if_computed 24 128 (-117) 30 (-100) 29 _ _ Chains.single_is_fine ltac:(lia) _

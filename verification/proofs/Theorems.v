@@ -7,7 +7,7 @@ From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent
   Magnitudes.
 From Selvedge Require Orders Boxes Apart Certificates Nearest Witnesses Integers.
-From Selvedge Require Machine Nearness Corners Advance Advancing Checker Chains Narrowing Gaps Kept.
+From Selvedge Require Machine Nearness Corners Advance Advancing Checker Chains Narrowing Gap Gaps Kept.
 From Coq Require QArith_base List.
 Import List.ListNotations.
 Open Scope R_scope.
@@ -344,14 +344,15 @@ Theorem widening_is_exact c : (0 <= c < Narrowing.infinity Narrowing.single)%Z -
   Narrowing.value Narrowing.double (Narrowing.widened c) = Narrowing.value Narrowing.single c.
 Proof. exact (Narrowing.widened_value c). Qed.
 
-(* 13. **Certificates of separation** (core/src/separation/gap.rs), by which a simulation and truncation accept a step.
-       A direction keeps a pair if its gap exceeds the threshold at both ends of the step, as the terms of Gaps.v compute
-       them in any environment, and its length passed the test in any format. The terms are written after the code by
-       hand. `Gaps.is_kept` says what is assumed of the inputs: the largest coordinate and the separation are at most
-       2^30 (binary64: 2^250), and no component of the direction exceeds 2^32 (2^252). Then the sets stay farther apart
-       than the separation s throughout the step: the squared distance of any of their points exceeds that of s. *)
+(* 13. **Certificates of separation** (core/src/kernels/gap.rs), by which a simulation and truncation accept a step. A
+       direction keeps a pair if its gap exceeds the threshold at both ends of the step, as the traced terms (Gap.v)
+       compute them in any environment, and its length passed the test in any format. `Gaps.is_kept` says what is
+         assumed
+       of the inputs: the largest coordinate and the separation are at most 2^30 (binary64: 2^250), and no component of
+       the direction exceeds 2^32 (2^252). Then the sets stay farther apart than the separation s throughout the step:
+       the squared distance of any of their points exceeds that of s. *)
 Theorem a_kept_vertex_and_face_stay_apart f place s t i j r : f = Advance.binary32 \/ f = Advance.binary64 ->
-  Gaps.is_kept f Gaps.keeps_a_vertex_and_a_face place s -> 0 <= t <= 1 ->
+  Gaps.is_kept f Gap.a_vertex_and_a_face.keeps place s -> 0 <= t <= 1 ->
   0 <= i -> 0 <= j -> 0 <= r -> i + j + r = 1 -> let at_time n := at_ (path_of place n) t in
   s ^ 2 < Certificates.length_squared (minus (at_time 0%nat) (plus (scaled i (at_time 1%nat)) (plus (scaled j (at_time
     2%nat)) (scaled r (at_time 3%nat))))).
@@ -361,7 +362,7 @@ Proof.
   exact (Gaps.a_kept_vertex_and_face_stay_apart f place s t i j r fine).
 Qed.
 Theorem kept_edges_stay_apart f place s t i r : f = Advance.binary32 \/ f = Advance.binary64 ->
-  Gaps.is_kept f Gaps.keeps_edges place s -> 0 <= t <= 1 -> 0 <= i <= 1 -> 0 <= r <= 1 ->
+  Gaps.is_kept f Gap.two_edges.keeps place s -> 0 <= t <= 1 -> 0 <= i <= 1 -> 0 <= r <= 1 ->
   let at_time n := at_ (path_of place n) t in
   s ^ 2 < Certificates.length_squared (minus (plus (scaled (1 - i) (at_time 0%nat)) (scaled i (at_time 1%nat)))
     (plus (scaled (1 - r) (at_time 2%nat)) (scaled r (at_time 3%nat)))).
@@ -370,20 +371,20 @@ Proof.
   { destruct constants_of_the_time_of_impact. destruct which as [-> | ->]; assumption. }
   exact (Gaps.kept_edges_stay_apart f place s t i r fine).
 Qed.
-(* Coq runs the gaps: some pairs of both kinds are kept. *)
+(* Coq runs the traced gaps: some pairs of both kinds are kept. *)
 Theorem some_pairs_are_kept f : f = Advance.binary32 \/ f = Advance.binary64 ->
-  (exists place, Gaps.is_kept f Gaps.keeps_a_vertex_and_a_face place (1 / 2)) /\
-  (exists place, Gaps.is_kept f Gaps.keeps_edges place (1 / 2)).
+  (exists place, Gaps.is_kept f Gap.a_vertex_and_a_face.keeps place (1 / 2)) /\
+  (exists place, Gaps.is_kept f Gap.two_edges.keeps place (1 / 2)).
 Proof. exact (Kept.some_are_kept f). Qed.
 (* An accepted step: each pair that can touch in it is kept by a direction, or a chain of rounds reaches its end. Then
 no
    pair touches during it. That all pairs that can touch are asked about is assumed here, and tested as a property. *)
 Definition all_are_apart (vertices_and_faces edges : list (coordinate -> R)) :=
   (forall place, List.In place vertices_and_faces -> Advancing.reaches Advancing.of_a_vertex_and_a_face place 0 1 \/
-    exists f s, (f = Advance.binary32 \/ f = Advance.binary64) /\ Gaps.is_kept f Gaps.keeps_a_vertex_and_a_face place
+    exists f s, (f = Advance.binary32 \/ f = Advance.binary64) /\ Gaps.is_kept f Gap.a_vertex_and_a_face.keeps place
       s) /\
   (forall place, List.In place edges -> Advancing.reaches Advancing.of_two_edges place 0 1 \/
-    exists f s, (f = Advance.binary32 \/ f = Advance.binary64) /\ Gaps.is_kept f Gaps.keeps_edges place s).
+    exists f s, (f = Advance.binary32 \/ f = Advance.binary64) /\ Gaps.is_kept f Gap.two_edges.keeps place s).
 Lemma apart_is_not_zero s p q : s ^ 2 < Certificates.length_squared (minus p q) -> p <> q.
 Proof.
   intros far ->. replace (Certificates.length_squared _) with 0 in far; [pose proof (pow2_ge_0 s); lra|].

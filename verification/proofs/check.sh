@@ -31,9 +31,10 @@ fi
 # above Filter: Permanent Magnitudes Advance Advancing Checker Witnesses Chains Gaps Kept Theorems
 # above Boxes: Apart Certificates Volume Clipping VolumeSteps Advancing Checker Witnesses Chains Gaps Kept Theorems
 # above Advance: Advancing Checker Chains Kept Theorems
+# above Gap: Gaps Kept Theorems
 # above Narrowed: Narrowing Theorems
 files=(Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Magnitudes Orders Boxes Apart Certificates
-    Machine Nearness Corners Directions Held Hull Volume Clipping VolumeSteps Advance Advancing Checker Gaps Nearest Witnesses
+    Machine Nearness Corners Directions Held Hull Volume Clipping VolumeSteps Advance Advancing Checker Gap Gaps Nearest Witnesses
     Chains Kept Integers Narrowed Narrowing Theorems)
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

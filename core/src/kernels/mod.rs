@@ -10,6 +10,7 @@ pub mod advance;
 pub mod altered;
 pub mod coplanarity;
 pub mod exact;
+pub mod gap;
 pub mod lanes;
 pub mod vector;
 

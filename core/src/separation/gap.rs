@@ -11,7 +11,7 @@
 //! difference of two of them, itself rounded: 18.2εB + 6.1εB ≤ 49uB. [`GapError`] allows 64u·B.
 //!
 //! **σ = 1 + 2⁻²⁰** (`slack`) covers the length of d and later roundings:
-//! * An accepted length: fl(d·d) ≤ 1 + 2⁻²⁰ shows that |d| ≤ 1 + 2⁻²⁰·0.8 in both formats.
+//! * An accepted length: fl(d·d) < 1 + 2⁻²⁰ shows that |d| ≤ 1 + 2⁻²⁰·0.8 in both formats.
 //! * A lower bound of the distance: fl(gap/σ − 64uB) is at most (gap − 49uB)/|d|.
 //! * A stored gap, fl₃₂((gap − 64uB)/σ), is also a lower bound: `f32` rounds by 2⁻²³. Below 2⁻¹⁰⁰, where it might round up by
 //!   more, zero is stored instead, and 2¹⁰⁰ above that.
@@ -23,9 +23,9 @@
 //! [`largest_coordinate`](super::largest_coordinate) is infinite if a coordinate is NaN or infinite. NaN in a direction or a
 //! separation proves nothing either: comparisons are ordered.
 
+use crate::kernels::gap as kernel;
 use crate::kind::PairKind;
 use crate::lanes::Rounding;
-use crate::points::PairShape;
 use crate::scalar::{Position, Scalar};
 use crate::vector::Vector;
 
@@ -41,7 +41,7 @@ impl<S: Scalar> GapError<S> {
     #[must_use]
     pub fn from_largest_coordinate(largest: S) -> Self {
         if largest <= S::LARGEST_EDGE {
-            Self(S::small(64) * S::UNIT_ROUNDOFF * largest + S::UNDERFLOW)
+            Self(kernel::error(largest))
         } else {
             Self(S::INFINITY)
         }
@@ -71,7 +71,7 @@ fn slack<S: Scalar>() -> S {
 /// Returns the threshold that a gap must exceed to prove that two sets are more than `separation` apart.
 #[inline(always)]
 pub(super) fn threshold<S: Scalar>(separation: S, error: GapError<S>) -> S {
-    separation * (slack::<S>() * slack::<S>()) + error.0
+    kernel::threshold(separation, error.0, slack())
 }
 
 /// Returns the distance by which the first set is ahead of the second along a direction, as computed. It proves nothing by
@@ -79,24 +79,13 @@ pub(super) fn threshold<S: Scalar>(separation: S, error: GapError<S>) -> S {
 #[inline(always)]
 #[must_use]
 pub fn gap<P: Position>(kind: PairKind, points: [P; 4], direction: [P::Scalar; 3]) -> P::Scalar {
-    let direction = Vector::from(direction);
-    let [a, b, c, d] = points;
-    // The calls are written out, since `map` with a closure is not always inlined.
-    let values = [
-        direction.dot(Vector::from(a.into())),
-        direction.dot(Vector::from(b.into())),
-        direction.dot(Vector::from(c.into())),
-        direction.dot(Vector::from(d.into())),
-    ];
-    let [[low, _], [_, high]] = of_kind!(kind, K => K::ranges(values));
-    low - high
+    kernel::gap(kind, points.map(|point| Vector::from(point.into())), Vector::from(direction))
 }
 
 /// Returns whether a direction is no longer than σ allows. It is false with NaN.
 #[inline(always)]
 fn is_short<S: Scalar>(direction: [S; 3]) -> bool {
-    let direction = Vector::from(direction);
-    direction.dot(direction) <= slack()
+    kernel::is_short(Vector::from(direction), slack())
 }
 
 /// Returns a lower bound of the distance of two sets at rest, by a direction of length one from the second to the first. It is

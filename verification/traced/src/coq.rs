@@ -7,12 +7,13 @@ use crate::Text;
 use crate::gappa::tetrahedron;
 use crate::narrowed;
 use crate::symbols::{Mask, MaskStep, Step, Trace, Traced, if_any, trace};
-use selvedge_core::Scalar;
+use selvedge_core::{PairKind, Scalar};
 use selvedge_core::kernels::advance::corners::Corners;
 use selvedge_core::kernels::advance::directions::{are_apart_curving, are_apart_turning};
 use selvedge_core::kernels::advance::volume::SignedVolume;
 use selvedge_core::kernels::coplanarity::MovingTetrahedron;
-use selvedge_core::kernels::lanes::Rounding;
+use selvedge_core::kernels::gap;
+use selvedge_core::kernels::lanes::{Lanes as _, Rounding};
 use selvedge_core::kernels::points::{EdgeEdge, PairPoints, PairShape, VertexFace};
 use selvedge_core::kernels::vector::Vector;
 use std::collections::BTreeMap;
@@ -43,12 +44,21 @@ From Selvedge Require Filter.
 
 ";
 
+const GAPS_HEAD: &str = "\
+(* What the gap along a direction computes: core/src/kernels/gap.rs.
+   Written from the code by verification/traced/src/coq.rs. *)
+From Coq Require Import ZArith.
+From Selvedge Require Import Expressions Machine.
+
+";
+
 /// The files that `verification/proofs` builds on.
 pub fn files() -> Vec<Text> {
     [
         ("Filter.v", filter()),
         ("Boxes.v", boxes()),
         ("Advance.v", advance()),
+        ("Gap.v", gaps()),
         ("Narrowed.v", narrowed::text()),
     ]
     .map(|(name, text)| (name.to_owned(), text))
@@ -102,6 +112,41 @@ fn advance() -> String {
     text
 }
 
+/// Writes whether a direction keeps a pair apart by its gaps at both ends of the step, and whether it is short.
+fn gaps() -> String {
+    let mut text = String::from(GAPS_HEAD);
+    for (of, kind) in [
+        ("a_vertex_and_a_face", PairKind::VertexFace),
+        ("two_edges", PairKind::EdgeEdge),
+    ] {
+        let (masks, steps) = trace(|| {
+            let PairPoints { start, end } = coordinates();
+            let direction = Vector::from(["X", "Y", "Z_"].map(|axis| Traced::input(format!("Along 0 {axis}"))));
+            let [separation, largest, slack] =
+                ["Separation", "LargestCoordinate", "Slack"].map(|name| Traced::input(format!("Length {name}")));
+            let threshold = gap::threshold(separation, gap::error(largest), slack);
+            let [start, end] = [start, end].map(|points| gap::gap(kind, points, direction).greater(threshold));
+            [("keeps", end & start), ("short", gap::is_short(direction, slack))]
+        });
+        let mut terms = Terms::new("number", &steps);
+        terms.input = machine_input;
+        let formulas = masks.map(|(name, mask)| (name, terms.mask(mask)));
+        writeln!(text, "Module {of}.\n{}", terms.text.trim_end()).expect("a string");
+        for (name, formula) in formulas {
+            writeln!(text, "Definition {name} : mask := {formula}.").expect("a string");
+        }
+        writeln!(text, "End {of}.\n").expect("a string");
+    }
+    text
+}
+
+fn machine_input(name: &str) -> String {
+    match name.split(' ').next() {
+        Some("Coordinate") => format!("Input (Place ({name}))"),
+        _ => format!("Input ({name})"),
+    }
+}
+
 /// The exponents of the constants that only the time of impact has.
 fn constants<S: Scalar>(name: &str, text: &mut String) {
     let [underflow, largest] = [S::EXTENT_UNDERFLOW, S::LARGEST_EXTENT].map(|constant| exponent(constant.to_f64()));
@@ -133,10 +178,7 @@ fn proofs_of_advance<const N: usize>(of: &str, corners: fn(&PairPoints<Traced>) 
         (margins, masks, times)
     });
     let mut terms = Terms::new("number", &steps);
-    terms.input = |name| match name.split(' ').next() {
-        Some("Coordinate") => format!("Input (Place ({name}))"),
-        _ => format!("Input ({name})"),
-    };
+    terms.input = machine_input;
     for (index, margin) in margins.into_iter().enumerate() {
         terms.define_for_use(&format!("margin_{index}"), margin);
     }
