@@ -7,7 +7,6 @@ use crate::Text;
 use crate::gappa::tetrahedron;
 use crate::narrowed;
 use crate::symbols::{Mask, MaskStep, Step, Trace, Traced, if_any, trace};
-use selvedge_core::{PairKind, Scalar};
 use selvedge_core::kernels::advance::corners::Corners;
 use selvedge_core::kernels::advance::directions::{are_apart_curving, are_apart_turning};
 use selvedge_core::kernels::advance::volume::SignedVolume;
@@ -16,6 +15,7 @@ use selvedge_core::kernels::gap;
 use selvedge_core::kernels::lanes::{Lanes as _, Rounding};
 use selvedge_core::kernels::points::{EdgeEdge, PairPoints, PairShape, VertexFace};
 use selvedge_core::kernels::vector::Vector;
+use selvedge_core::{PairKind, Scalar};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
