@@ -7,6 +7,8 @@
 //! | [`coq`] | terms for Coq, written from such traces |
 //! | [`accepted`] | the comparison of these texts with the accepted ones |
 
+#![allow(clippy::must_use_candidate, reason = "what traces and texts return is all that they do")]
+
 pub mod accepted;
 pub mod coq;
 pub mod gappa;
