@@ -94,10 +94,10 @@ impl<'a> Called<'a> {
         let mut names = Vec::new();
         for name in self.by_scene.names().chain(own) {
             if !names.contains(&name) {
-                names.push(name);
+                let place = names.partition_point(|known| rank(known) <= rank(name));
+                names.insert(place, name);
             }
         }
-        names.sort_by_key(|name| rank(name));
         names
     }
 

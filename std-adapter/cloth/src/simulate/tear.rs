@@ -244,9 +244,11 @@ fn carried_over(new: &dyn Memory, old: &dyn Memory) -> Vec<f64> {
     if keys.is_empty() {
         return if before.len() == known.len() { before } else { known };
     }
-    let before: BTreeMap<[u32; 4], f64> = old.keys().into_iter().zip(before).collect();
+    // Collecting would add the code of a sort to the program.
+    let mut known_before: BTreeMap<[u32; 4], f64> = BTreeMap::new();
+    known_before.extend(old.keys().into_iter().zip(before));
     for (key, number) in keys.iter().zip(&mut known) {
-        *number = before.get(key).copied().unwrap_or(*number);
+        *number = known_before.get(key).copied().unwrap_or(*number);
     }
     known
 }
