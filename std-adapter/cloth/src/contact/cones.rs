@@ -13,8 +13,12 @@
 //! and non-manifold surfaces. The test looks at edges and faces one by one, and needs no normals and no orientation. It concerns
 //! pushes alone: certificates look at every pair.
 //!
-//! Cones are those of the body at the start of the step, so that it may change its shape. Cloth against cloth has no cones: a
-//! fold lies beside itself, and a cone would drop the pairs that keep it open.
+//! Cones are those of surfaces at the start of the step, so that bodies may change their shape.
+//!
+//! **Cloth against cloth.** Oblique pushes make layers that lie on each other slide and tremble. But a fold lies beside itself, and
+//! cones on both sides would drop the pairs that keep it open, since the way along the cloth leads through the fold. So only the face
+//! of a vertex is asked, which keeps the pairs of vertices whose foot is in a face, and edges are not asked where they cross. Where an
+//! end of an edge is closest, the pair is one of that vertex and of the faces beside the other edge, which are asked.
 
 use selvedge::Topology;
 use selvedge_core::glam::DVec3;
@@ -42,10 +46,10 @@ struct Spoke {
 }
 
 impl Cones {
-    /// Finds the spokes of the vertices from `first` on; other vertices get none.
-    pub(super) fn new(topology: &Topology, first: usize) -> Self {
+    /// Finds the spokes of all vertices.
+    pub(super) fn new(topology: &Topology) -> Self {
         let mut sides: Vec<[u32; 3]> = Vec::new();
-        for &[a, b, c] in topology.triangles().iter().filter(|corners| corners[0] as usize >= first) {
+        for &[a, b, c] in topology.triangles() {
             for [from, to, opposite] in [[a, b, c], [b, c, a], [c, a, b]] {
                 sides.push([from, to, opposite]);
                 sides.push([to, from, opposite]);
@@ -72,6 +76,16 @@ impl Cones {
     fn of(&self, vertex: u32) -> &[Spoke] {
         let vertex = vertex as usize;
         &self.spokes[self.first[vertex] as usize..self.first[vertex + 1] as usize]
+    }
+
+    /// Returns whether all vertices with these weights take part: none of them is only an end.
+    pub(super) fn are_all(weights: &[f64]) -> bool {
+        weights.iter().all(|weight| weight.abs() > LEAST_WEIGHT)
+    }
+
+    /// Returns whether an edge belongs to a face; a loose one does not.
+    pub(super) fn is_beside_a_face(&self, edge: &[u32]) -> bool {
+        self.of(edge[0]).iter().any(|spoke| spoke.to == edge[1])
     }
 
     /// Returns whether a direction is in the normal cone at the point with these weights of these vertices.
@@ -110,7 +124,7 @@ mod tests {
     /// Two triangles beside the edge from 0 to 1, with these other corners.
     fn ridge(left: DVec3, right: DVec3) -> (Cones, Vec<DVec3>) {
         let topology = Topology::new(4, vec![[0, 1, 2], [1, 0, 3]]).unwrap();
-        (Cones::new(&topology, 0), vec![DVec3::ZERO, DVec3::Y, left, right])
+        (Cones::new(&topology), vec![DVec3::ZERO, DVec3::Y, left, right])
     }
 
     fn contains(ridge: &(Cones, Vec<DVec3>), direction: DVec3) -> [bool; 2] {
@@ -137,12 +151,12 @@ mod tests {
     #[test]
     fn an_open_edge_has_a_half_space_and_three_faces_are_all_asked() {
         let open = Topology::new(3, vec![[0, 1, 2]]).unwrap();
-        let cones = Cones::new(&open, 0);
+        let cones = Cones::new(&open);
         let positions = [DVec3::ZERO, DVec3::Y, DVec3::new(1.0, 0.5, 0.0)];
         let contain = |direction: DVec3| cones.contain(&[0, 1, 2], &[0.5, 0.5, 0.0], &positions, direction.normalize());
         assert!(contain(-DVec3::X) && contain(DVec3::Z) && !contain(DVec3::new(0.1, 0.0, 1.0)));
         let three = Topology::new(5, vec![[0, 1, 2], [0, 1, 3], [1, 0, 4]]).unwrap();
-        let cones = Cones::new(&three, 0);
+        let cones = Cones::new(&three);
         let at = |x: f64, z: f64| DVec3::new(x, 0.5, z);
         for last in [at(0.0, 1.0), at(-1.0, 0.2)] {
             let positions = [DVec3::ZERO, DVec3::Y, at(-1.0, -1.0), at(1.0, -1.0), last];

@@ -271,21 +271,25 @@ impl Contacts {
                     };
                 }
                 if let Found::Row(row) = *turn {
-                    pushed += u64::from(rows[row as usize].settle(step, positions));
+                    let row = &mut rows[row as usize];
+                    let had_pushed = row.has_pushed();
+                    row.settle(step, positions);
+                    pushed += u64::from(!had_pushed && row.has_pushed());
                 }
             }
         }
         pushed
     }
 
-    /// Lets each contact push or take back once, in one order and then in the other.
-    pub(super) fn sweep(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3]) {
+    /// Lets each contact push or take back once, in one order and then in the other. Returns the largest change.
+    pub(super) fn sweep(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3]) -> f64 {
         let is_reversed = self.sweeps.is_multiple_of(2);
+        let mut largest = 0.0_f64;
         for with_body in [!is_reversed, is_reversed] {
             let Class { found, rows, .. } = &mut self.of[usize::from(with_body)];
             let mut settle = |turn: &Found| {
                 if let Found::Row(row) = *turn {
-                    rows[row as usize].settle(step, positions);
+                    largest = largest.max(rows[row as usize].settle(step, positions));
                 }
             };
             if is_reversed {
@@ -295,6 +299,7 @@ impl Contacts {
             }
         }
         self.sweeps += 1;
+        largest
     }
 
     /// Moves the rest distances of all contacts with the shift.
@@ -394,7 +399,7 @@ fn near(
         let at_rest = || known.map_or_else(|| pair.closest(rules.rest), |(known, place)| known.at_rest.found()[place]);
         pair.data.aim = Aim::own(thickness_of(pair, at_rest, rules)?);
     }
-    if pair.data.is_with_body() && !is_of_surface(pair, closest, rules, step.start) {
+    if !is_of_surface(pair, closest, rules, step.start) {
         return None;
     }
     let near = ProximityPair {
@@ -406,19 +411,26 @@ fn near(
     Some((near, distance))
 }
 
-/// Returns whether the point of the body is the closest point of its [surface](super::cones), and not only of one of its faces or
-/// edges.
+/// Returns whether a contact is one of [surfaces](super::cones), and not only of faces and edges of theirs: the point of a body is the
+/// closest point of its surface. In cloth that is asked of faces that vertices meet. Edges push where they cross; where an end of one is
+/// closest, its vertex and the other's face push.
 fn is_of_surface(pair: &Candidate, closest: &ClosestPoints, rules: Rules<'_>, positions: &[DVec3]) -> bool {
+    let Rules { cones, .. } = rules;
     let of_first = match pair.kind {
         PairKind::VertexFace => 1,
         PairKind::EdgeEdge => 2,
     };
     let (first, second) = pair.vertices.split_at(of_first);
     let (of_first, of_second) = closest.weights.split_at(of_first);
-    if second[0] >= rules.cloth_vertices {
-        rules.cones.contain(second, of_second, positions, closest.direction)
+    if pair.kind == PairKind::EdgeEdge && !pair.data.is_with_body() {
+        return [(first, of_first), (second, of_second)]
+            .into_iter()
+            .all(|(edge, weights)| Cones::are_all(weights) || !cones.is_beside_a_face(edge));
+    }
+    if pair.data.is_with_body() && second[0] < rules.cloth_vertices {
+        cones.contain(first, of_first, positions, -closest.direction)
     } else {
-        rules.cones.contain(first, of_first, positions, -closest.direction)
+        cones.contain(second, of_second, positions, closest.direction)
     }
 }
 

@@ -125,10 +125,9 @@ impl Row {
         parts.fold(0.0, |sum, (vertex, weight)| sum + weight * normal.dot(at(vertex as usize)))
     }
 
-    /// Pushes its sides apart, or takes pushes back, until they are at its rest distance. Returns whether it pushes for the first
-    /// time.
+    /// Pushes its sides apart, or takes pushes back, until they are at its rest distance. Returns by how much it moves them.
     #[inline]
-    pub(super) fn settle(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3]) -> bool {
+    pub(super) fn settle(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3]) -> f64 {
         let ProximityPair {
             vertices,
             weights,
@@ -144,9 +143,13 @@ impl Row {
         self.push_by(push * self.mobility, step, positions);
     }
 
-    /// Returns whether it pushes for the first time.
+    pub(super) fn has_pushed(&self) -> bool {
+        self.push > 0.0
+    }
+
+    /// Returns by how much it moves its sides.
     #[inline(always)]
-    fn push_by(&mut self, push: f64, step: &TimeStep<'_>, positions: &mut [DVec3]) -> bool {
+    fn push_by(&mut self, push: f64, step: &TimeStep<'_>, positions: &mut [DVec3]) -> f64 {
         let ProximityPair {
             vertices,
             weights,
@@ -155,15 +158,14 @@ impl Row {
         } = self.near;
         // A push that is not a number is skipped.
         if !(push != 0.0 && push.is_finite() && self.mobility > 0.0) {
-            return false;
+            return 0.0;
         }
-        let is_new = self.push == 0.0;
         let way = normal * (push / self.mobility);
         for (vertex, weight) in vertices.into_iter().zip(weights) {
             positions[vertex as usize] += way * (step.inverse_masses[vertex as usize] * weight);
         }
         self.push += push;
-        is_new
+        push.abs()
     }
 
     /// Changes the rest distance by the shift, which may bring neighbours of this contact nearer to it.

@@ -12,6 +12,7 @@ use super::report::{ContactCounts, ContactSeconds};
 use super::rows::ProximityPair;
 use super::settings::ContactSettings;
 use crate::model::step::{Carrier, TimeStep, Touches};
+use crate::model::touches::LEAST_MISSING;
 use selvedge::clock::Clock;
 use selvedge::simd::{Level, best_level};
 use selvedge::{StepError, Topology};
@@ -64,7 +65,7 @@ impl ContactSolver {
         time_step: f64,
     ) -> Self {
         Self {
-            cones: Cones::new(&topology, cloth_vertices),
+            cones: Cones::new(&topology),
             cloth_vertices: cloth_vertices as u32,
             candidates: candidates(&mut settings, topology, rest, carriers, cloth_vertices, time_step),
             settings,
@@ -170,9 +171,21 @@ impl ContactSolver {
         self.contacts.follow_shift(step, positions, touches);
     }
 
-    /// Lets each contact push or take back once.
-    pub(crate) fn sweep(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3]) {
-        self.contacts.sweep(step, positions);
+    /// Lets each contact push or take back once. Returns the largest change, in metres.
+    pub(crate) fn sweep(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3]) -> f64 {
+        self.contacts.sweep(step, positions)
+    }
+
+    /// Returns whether a contact pushed in the last step and is remembered.
+    pub(crate) fn has_memory(&self) -> bool {
+        self.contacts.remembered(1.0).next().is_some()
+    }
+
+    /// The largest change that is not worth another sweep, in metres.
+    pub(crate) fn negligible(&self) -> f64 {
+        let largest = [false, true].map(|with_body| self.settings.largest(with_body));
+        let thickness = largest.into_iter().flatten().map(|largest| largest.thickness);
+        LEAST_MISSING * thickness.fold(0.0, f64::max)
     }
 
     /// Records what pushes now; friction reads this.

@@ -51,6 +51,7 @@ impl Effect for Friction {
 
 impl Constraint for Friction {
     fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], touches: &mut Touches) {
+        let mut largest = 0.0_f64;
         for touch in &mut touches.list {
             let vertices = touch.vertices.map(|v| v as usize);
             let mut sliding = -touch.drift;
@@ -68,10 +69,12 @@ impl Constraint for Friction {
             if !back.is_finite() {
                 continue;
             }
+            largest = largest.max(rubbed.distance_squared(touch.rubbed));
             touch.rubbed = rubbed;
             for (vertex, weight) in vertices.into_iter().zip(touch.weights) {
                 positions[vertex] += back * (step.inverse_masses[vertex] * weight);
             }
         }
+        touches.rubbed = largest.sqrt();
     }
 }

@@ -16,6 +16,10 @@
 //! n/(n + 1) of the missing distance, which would bend a sheet that lies flat. So contacts that are not squeezed then stop
 //! yielding, and lack nothing.
 //!
+//! At the rim of a pad opposed contacts are oblique to each other, and their shifts add up to one that leads out of the gap. Cloth
+//! would be shifted out without end, against its own forces or friction, and those would give it a velocity. So a squeezed vertex
+//! is shifted only along the line on which its contacts oppose each other.
+//!
 //! Squeezes are found among contacts with kinematic sides. Layers of cloth that lie on each other can come apart at the open end.
 //!
 //! Pads that close squeeze a sheet as soon as they touch it. So squeezes are found with the distances that are missing when
@@ -24,6 +28,7 @@
 
 use super::mobility::mobility;
 use selvedge_core::glam::DVec3;
+use std::collections::BTreeMap;
 
 /// The share of the shift that is done per second: a twentieth in a millisecond, so that the cloth's own forces can follow.
 const RATE: f64 = 50.0;
@@ -86,6 +91,8 @@ struct Recovery {
 pub struct Touches {
     pub(crate) wanted: bool,
     pub(crate) list: Vec<Touch>,
+    /// The largest change of a contact's sliding when friction acted last, in metres.
+    pub(crate) rubbed: f64,
     recoveries: Vec<Recovery>,
     /// The shift of each vertex; empty if nothing is too near.
     shift: Vec<DVec3>,
@@ -104,6 +111,7 @@ impl Touches {
 
     pub(crate) fn clear(&mut self) {
         self.list.clear();
+        self.rubbed = 0.0;
         self.recoveries.clear();
         self.shift.clear();
         self.is_shifted = false;
@@ -173,6 +181,7 @@ impl Touches {
             recoveries,
             shift,
             is_shifted,
+            ..
         } = self;
         *is_shifted = true;
         if recoveries.is_empty() {
@@ -206,10 +215,37 @@ impl Touches {
         for sweep in 0..SWEEPS {
             sweep_over(recoveries, sweep, |recovery| recovery.finish(inverse_masses, shift));
         }
+        stay_between(recoveries, shift);
         let share = (RATE * h).min(1.0);
         for own in shift {
             *own = (*own * share).clamp_length_max(FASTEST * h);
         }
+    }
+}
+
+/// Leaves of the shift of squeezed vertices what is along the line of their contacts: the sum of the pushes on the vertex, each
+/// with the sign that it has along the largest.
+fn stay_between(recoveries: &[Recovery], shift: &mut [DVec3]) {
+    let pushes = |recovery: &Recovery| {
+        let Recovery { touch, apart, .. } = *recovery;
+        let parts = touch.vertices.into_iter().zip(touch.weights);
+        parts.map(move |(vertex, weight)| (vertex as usize, touch.normal * (weight * apart)))
+    };
+    let squeezed = || recoveries.iter().filter(|recovery| recovery.squeeze > 0.0).flat_map(pushes);
+    let mut lines: BTreeMap<usize, [DVec3; 2]> = BTreeMap::new();
+    for (vertex, push) in squeezed() {
+        let [largest, _] = lines.entry(vertex).or_default();
+        if push.length_squared() > largest.length_squared() {
+            *largest = push;
+        }
+    }
+    for (vertex, push) in squeezed() {
+        if let Some([largest, line]) = lines.get_mut(&vertex) {
+            *line += push * largest.dot(push).signum();
+        }
+    }
+    for (vertex, [_, line]) in lines {
+        shift[vertex] = shift[vertex].project_onto_normalized(line.normalize_or_zero());
     }
 }
 
@@ -303,5 +339,16 @@ mod tests {
             let (moved, _) = shifted(&[(normal, 2e-4), (-normal, 1e-4)]);
             assert!(moved.dot(normal) > 2e-5 && moved.cross(normal).length() < 1e-12, "{moved}");
         }
+    }
+
+    #[test]
+    fn oblique_contacts_that_squeeze_shift_along_the_line_between_them_and_not_out_of_the_gap() {
+        let [left, right] = [0.96, -0.96].map(|x| DVec3::new(x, 0.0, -0.28));
+        for contacts in [[(left, 1e-4), (right, 1e-4)], [(left, 2e-4), (right, 1e-4)]] {
+            let (shift, squeezed) = shifted(&contacts);
+            assert_eq!(squeezed.len(), 2);
+            assert!(shift.z.abs() < 0.02 * contacts[0].1, "{shift}");
+        }
+        assert!(shifted(&[(left, 1e-4)]).0.z < -2e-5, "one contact alone shifts along itself");
     }
 }

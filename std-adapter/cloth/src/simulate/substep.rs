@@ -14,8 +14,12 @@ use crate::world::Kinematic;
 use selvedge::clock::Clock;
 use selvedge_core::glam::DVec3;
 
-/// The number of sweeps over the contacts that were found.
-const SWEEPS: usize = 4;
+/// The smallest and the largest number of sweeps over the contacts that were found, and over their friction.
+const SWEEPS: [usize; 2] = [4, 64];
+/// The largest number of sweeps if contacts remember no pushes, as after a checkpoint.
+const MOST_WITHOUT_MEMORY: usize = 256;
+/// The change by a sweep that needs no other one, as a share of the largest move in the substep.
+const SMALL_CHANGE: f64 = 0.05;
 /// The largest length of an edge, over its limit, that needs no other round.
 const TOLERANCE: f64 = 1.01;
 /// The largest number of rounds of limits and contacts.
@@ -234,11 +238,7 @@ impl<'a> Substep<'a> {
         }
         self.recover();
         self.push();
-        for _ in 1..SWEEPS {
-            self.act_again(self.among_contacts);
-            self.sweep();
-        }
-        self.rub();
+        self.sweep();
         for _ in 0..ROUNDS {
             if self.holds() {
                 break;
@@ -289,13 +289,39 @@ impl<'a> Substep<'a> {
         }
     }
 
-    /// Lets each contact push or take back again.
+    /// Lets contacts push, or take back, and rub until a sweep changes little.
+    ///
+    /// A sweep passes a push on by one layer, and multiplies the slowest error of n layers by cos²(π/(n + 1)): 0.92 for ten.
+    /// Friction is part of the sweeps, as what it leaves becomes a velocity. What is little follows the motion, so that moving
+    /// cloth costs few sweeps, and cloth that comes to rest does so down to what is [negligible](ContactSolver::negligible).
     fn sweep(&mut self) {
-        let Some(contact) = &mut self.contact else { return };
-        let any = contact.settings.effect(false).or(contact.settings.effect(true));
-        if let Some(effect) = any {
-            timed(self.effects, effect, || contact.sweep(&self.step, self.positions));
+        let [fewest, mut most] = SWEEPS;
+        if self.contact.as_ref().is_some_and(|contact| !contact.has_memory()) {
+            most = MOST_WITHOUT_MEMORY;
         }
+        for sweep in 1..most {
+            self.act_again(self.among_contacts);
+            let mut change = 0.0_f64;
+            if let Some(contact) = &mut self.contact
+                && let Some(effect) = contact.settings.effect(false).or(contact.settings.effect(true))
+            {
+                timed(self.effects, effect, || change = contact.sweep(&self.step, self.positions));
+            }
+            self.rub();
+            change = change.max(self.touches.rubbed);
+            if sweep + 1 >= fewest && self.is_small(change) {
+                break;
+            }
+        }
+    }
+
+    /// Returns whether another sweep is not worth its time after one with this largest change.
+    fn is_small(&self, change: f64) -> bool {
+        let Some(contact) = &self.contact else { return true };
+        let ends = self.positions.iter().zip(self.step.start).zip(self.step.inverse_masses);
+        let free = ends.filter(|(_, inverse_mass)| **inverse_mass > 0.0);
+        let farthest = || free.map(|((end, start), _)| end.distance_squared(*start)).fold(0.0, f64::max);
+        change <= contact.negligible() || change * change <= SMALL_CHANGE.powi(2) * farthest()
     }
 
     /// Applies friction to contacts that have pushed. Sliding does not include the shift.

@@ -82,9 +82,12 @@ fn ten_layers_on_a_table_come_to_rest() {
             "layer {k} at {height} instead of {expected}"
         );
     }
-    println!("{} m/s", speed(&simulation));
-    // The exact speed is zero, but four sweeps do not settle all ten layers in a step.
-    assert!(speed(&simulation) < 1e-2, "{}", speed(&simulation));
+    let fastest = (0..100).fold(0.0_f64, |fastest, _| {
+        simulation.step().unwrap();
+        fastest.max(speed(&simulation))
+    });
+    println!("{fastest} m/s");
+    assert!(fastest < 1e-4, "{fastest} m/s");
 }
 
 #[test]
@@ -183,7 +186,7 @@ fn squeezed_cloth_is_held_by_friction_in_the_middle() {
         .filter(|&v| simulation.positions()[v].z > -0.02)
         .collect();
     let start = simulation.positions().to_vec();
-    (0..1500).for_each(|_| simulation.step().unwrap());
+    (0..2500).for_each(|_| simulation.step().unwrap());
     let count = held.len() as f64;
     let speed = (held.iter().map(|&v| simulation.velocities()[v].length_squared()).sum::<f64>() / count).sqrt();
     let slipped = held
@@ -192,27 +195,30 @@ fn squeezed_cloth_is_held_by_friction_in_the_middle() {
         .fold(0.0, f64::max);
     let aside = held.iter().map(|&v| simulation.positions()[v].y.abs()).fold(0.0, f64::max);
     println!("{speed} m/s, slipped {slipped} m, {aside} m aside");
-    // The exact speed is zero. As the pads close, the cloth creeps by as much as they are thick.
-    assert!(speed < 2e-2, "{speed} m/s");
-    assert!(slipped < 4e-3 && aside < 1e-3, "{slipped} m, {aside} m aside");
+    // It slips a little while the pads close.
+    assert!(speed < 1e-4, "{speed} m/s");
+    assert!(slipped < 1e-3 && aside < 1e-4, "{slipped} m, {aside} m aside");
 }
 
 #[test]
 fn squeezed_cloth_falls_freely_without_friction() {
     let mut simulation = pinched(0.0);
-    let middle = |simulation: &Simulation| {
-        let cloth = &simulation.positions()[..simulation.cloth_vertices()];
-        cloth.iter().map(|p| p.z).sum::<f64>() / cloth.len() as f64
-    };
-    let start = middle(&simulation);
+    let cloth = 0..simulation.cloth_vertices();
+    let mean = |of: &[DVec3]| of[cloth.clone()].iter().map(|v| v.z).sum::<f64>() / cloth.len() as f64;
     // Semi-implicit steps that lose a share of the velocity fall in this way.
-    let (mut velocity, mut expected) = (0.0, 0.0);
-    for _ in 0..150 {
+    let (mut velocity, mut expected, mut start) = (0.0, 0.0, 0.0);
+    for step in 1..=250 {
         simulation.step().unwrap();
         velocity = (velocity - 9.81e-3) * (-1e-3_f64).exp();
         expected += velocity * 1e-3;
+        if step == 50 {
+            // The pads have closed, and their rims have pushed the cloth out a little.
+            let pushed = mean(simulation.velocities()) - velocity;
+            assert!(pushed.abs() < 0.06, "{pushed} m/s");
+            (velocity, expected, start) = (velocity + pushed, 0.0, mean(simulation.positions()));
+        }
     }
-    let fallen = middle(&simulation) - start;
+    let fallen = mean(simulation.positions()) - start;
     println!("{fallen} m for {expected}");
-    assert!((fallen / expected - 1.0).abs() < 0.05, "{fallen} for {expected}");
+    assert!((fallen / expected - 1.0).abs() < 0.01, "{fallen} for {expected}");
 }
