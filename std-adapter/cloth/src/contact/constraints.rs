@@ -117,7 +117,7 @@ pub(super) struct Rules<'a> {
     pub(super) error: GapError<f64>,
     /// The processor instructions that find closest points.
     pub(super) level: Level,
-    /// The normal cones of bodies.
+    /// The normal cones of surfaces.
     pub(super) cones: &'a Cones,
     /// The number of the cloth's vertices; bodies' vertices come after them.
     pub(super) cloth_vertices: u32,

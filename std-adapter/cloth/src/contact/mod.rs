@@ -7,7 +7,7 @@
 //! near each other at rest |
 //! | `candidate` | one pair: the data stored for it, and its certified time of impact |
 //! | `constraints`, `rows` | contacts as constraints of the solver |
-//! | `cones` | the contacts on a body's surface |
+//! | `cones` | the contacts of surfaces |
 //! | `pass` | the certificate of each step |
 //! | `relaxation`, `impact_zones`, `truncation` | repairs of steps that are not free |
 //! | `solver` | contact, in the form that the simulation calls |

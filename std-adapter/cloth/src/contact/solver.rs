@@ -36,7 +36,7 @@ pub(crate) struct ContactSolver {
     contacts: Contacts,
     /// The candidates that begin with a push, and the push; the field exists to use its memory again.
     begun: Vec<(usize, f64)>,
-    /// The normal cones of bodies.
+    /// The normal cones of surfaces.
     cones: Cones,
     cloth_vertices: u32,
     pub(super) moved: Vec<bool>,
