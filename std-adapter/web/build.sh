@@ -16,9 +16,9 @@ target=wasm32-unknown-unknown
 module() { # NAME FOLDER FEATURES...
     local name=$1 folder=$2
     shift 2
-    local flags=(--lib --release --locked --package selvedge-web --target "$target" --features intrinsics "$@")
+    local flags=(--lib --release --locked --package selvedge-web --target "$target" "$@")
     if rustup target list --installed 2>/dev/null | grep -qx "$target"; then
-        RUSTC_BOOTSTRAP=libm RUSTFLAGS="-C target-feature=+simd128" cargo build "${flags[@]}"
+        RUSTFLAGS="-C target-feature=+simd128" cargo build "${flags[@]}"
     elif [ -x /usr/bin/cargo ] && [ -d /usr/lib/rustlib/src ]; then
         # The linker is that of a rustup toolchain where there is one: Debian's lld may be older than this compiler's LLVM.
         local lld

@@ -36,7 +36,7 @@ out=$(cd "$out" && pwd)
 (
     export CARGO_TARGET_DIR=$out/native
     cargo fmt --check
-    cargo clippy --locked --features page --workspace --lib --bins -- -D warnings
+    cargo clippy --locked --all-features --workspace --lib --bins -- -D warnings
     cargo build --quiet --locked --release --package selvedge-native
 ) >"$out/native.log" 2>&1 &
 native=$!

@@ -247,8 +247,29 @@ const DOUBLE: Exponents = Exponents {
     length_underflow: -510,
 };
 
-one_lane!(f32, libm::sqrtf, power_of_two_f32, SINGLE);
-one_lane!(f64, libm::sqrt, power_of_two_f64, DOUBLE);
+#[cfg(not(all(target_arch = "wasm32", target_feature = "simd128")))]
+use libm::{sqrt, sqrtf};
+
+/// Square roots of WebAssembly's vectors: the same bits as `libm`'s, which computes them there without the instruction.
+#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+mod root {
+    use core::arch::wasm32::{f32x4_extract_lane, f32x4_splat, f32x4_sqrt, f64x2_extract_lane, f64x2_splat, f64x2_sqrt};
+
+    #[inline(always)]
+    pub(super) fn sqrtf(square: f32) -> f32 {
+        f32x4_extract_lane::<0>(f32x4_sqrt(f32x4_splat(square)))
+    }
+
+    #[inline(always)]
+    pub(super) fn sqrt(square: f64) -> f64 {
+        f64x2_extract_lane::<0>(f64x2_sqrt(f64x2_splat(square)))
+    }
+}
+#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+use root::{sqrt, sqrtf};
+
+one_lane!(f32, sqrtf, power_of_two_f32, SINGLE);
+one_lane!(f64, sqrt, power_of_two_f64, DOUBLE);
 
 #[cfg(test)]
 mod tests {
