@@ -58,7 +58,7 @@
 //! | [`WithinTolerance`](Reason::WithinTolerance) | at the time returned at most δ + s + 64u(δ + s + M_x + M_y + M_z) + τ |
 //! | [`WithinError`](Reason::WithinError) | at the time returned at most s + 192u(s + M_x + M_y + M_z) + τ |
 //! | [`LastResort`](Reason::LastResort) | zero at that time or later; with a separation, at some time at most V/4093 above the bound of `WithinError` |
-//! | [`OutOfRange`](Reason::OutOfRange) | unknown, in `f64` with a separation: differences or the separation are above 2²⁵⁰ |
+//! | [`OutOfRange`](Reason::OutOfRange) | unknown, in `f64` with a separation: differences or the separation are above 2²⁵⁰, or coordinates above 2¹⁰¹⁹ |
 //! | [`NotFinite`](Reason::NotFinite) | undefined: NaN, an infinity, or a separation that is negative |
 //!
 //! V is the longest way of a corner during the step. A round that ends neither within δ + s nor within rounding of s proves that
@@ -260,7 +260,13 @@ fn decide<S: Number, R: Record<S>, const N: usize>(
 ) -> (Impact<S>, Work) {
     let mut work = Work::default();
     if !(points.is_finite() && limits.separation >= S::ZERO) {
-        return not_excluded(S::ZERO, Reason::NotFinite, work);
+        let is_finite = |number: S| number.abs() < S::INFINITY;
+        let mut corners = points.start.iter().chain(&points.end);
+        // The sum of finite coordinates may overflow.
+        let are_finite = corners.all(|corner| is_finite(corner.x) && is_finite(corner.y) && is_finite(corner.z));
+        let is_known = are_finite && limits.separation >= S::ZERO;
+        let reason = if is_known { Reason::OutOfRange } else { Reason::NotFinite };
+        return not_excluded(S::ZERO, reason, work);
     }
     if !(corners.are_in_range() && limits.separation <= S::LARGEST_EXTENT) {
         return not_excluded(S::ZERO, Reason::OutOfRange, work);

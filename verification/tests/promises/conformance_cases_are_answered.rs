@@ -36,7 +36,7 @@ fn reach<S: Format>(case: &Case) -> f64 {
     let largest = |axis: usize| {
         let axis = start.iter().chain(&end).map(|point| point[axis]);
         let (low, high) = axis.fold((f64::MAX, f64::MIN), |(low, high), x| (low.min(x), high.max(x)));
-        2.0 * (high - low)
+        2.0 * (high - low).min(f64::MAX / 2.0)
     };
     let tolerance = Limits::<S>::default().tolerance.to_f64();
     let (unit, tiny) = if S::PRECISION == 53 {
@@ -44,7 +44,9 @@ fn reach<S: Format>(case: &Case) -> f64 {
     } else {
         (2f64.powi(-24), 2f64.powi(-60))
     };
-    tolerance + 192.0 * unit * (tolerance + largest(0) + largest(1) + largest(2)) + tiny
+    // Each length is multiplied on its own: the largest ones would overflow as a sum.
+    let hidden = |length: f64| 192.0 * unit * length;
+    tolerance + hidden(tolerance) + hidden(largest(0)) + hidden(largest(1)) + hidden(largest(2)) + tiny
 }
 
 /// Checks a time from which contact is not excluded, or `None`.
