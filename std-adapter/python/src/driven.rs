@@ -1,4 +1,4 @@
-//! What a caller names and hands over to move bodies and pins.
+//! Reads the names and positions with which a caller moves bodies and pins.
 
 use crate::arrays::{Frames, with_frames};
 use crate::errors::InputError;

@@ -1,4 +1,4 @@
-//! What core's conversions of times and lengths return for numbers at and beside each boundary of the formats.
+//! Writes the results of core's conversions of times and lengths, for numbers at and beside each boundary of the formats.
 //!
 //! They work on the bits of numbers, which symbols do not have. So `verification/proofs/Narrowing.v` has them as functions of
 //! encodings, proves these right for all numbers, and computes the same results as core for these.

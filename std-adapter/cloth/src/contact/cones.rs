@@ -16,9 +16,9 @@
 //! Cones are those of surfaces at the start of the step, so that bodies may change their shape.
 //!
 //! **Cloth against cloth.** Oblique pushes make layers that lie on each other slide and tremble. But a fold lies beside itself, and
-//! cones on both sides would drop the pairs that keep it open, since the way along the cloth leads through the fold. So only the face
-//! of a vertex is asked, which keeps the pairs of vertices whose foot is in a face, and edges are not asked where they cross. Where an
-//! end of an edge is closest, the pair is one of that vertex and of the faces beside the other edge, which are asked.
+//! cones on both sides would drop the pairs that keep it open, since the way along the cloth leads through the fold. So the
+//! test looks at the face of a vertex-face pair alone, which keeps all pairs whose foot is inside the face. It leaves out edges that
+//! cross, and these push. Where an end of an edge is closest, that vertex pushes against the faces beside the other edge.
 
 use selvedge::Topology;
 use selvedge_core::glam::DVec3;

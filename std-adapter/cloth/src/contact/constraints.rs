@@ -412,8 +412,8 @@ fn near(
 }
 
 /// Returns whether a contact is one of [surfaces](super::cones), and not only of faces and edges of theirs: the point of a body is the
-/// closest point of its surface. In cloth that is asked of faces that vertices meet. Edges push where they cross; where an end of one is
-/// closest, its vertex and the other's face push.
+/// closest point of its surface. Between cloth and cloth this rule holds for the face that a vertex meets. Edges push where they cross.
+/// Where an end of an edge is closest, its vertex and the other edge's face push.
 fn is_of_surface(pair: &Candidate, closest: &ClosestPoints, rules: Rules<'_>, positions: &[DVec3]) -> bool {
     let Rules { cones, .. } = rules;
     let of_first = match pair.kind {
