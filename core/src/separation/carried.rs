@@ -2,8 +2,8 @@
 //!
 //! In a simulation each pair should keep a separation m. A pair that starts nearer must keep less, or no step could be made. It
 //! keeps m_P = min(m, c·d − 3E) with c = 1 − 10⁻⁵. Here d is the [lower bound](super::gap::distance_from_below) of its distance
-//! at the start along a direction w, and E the [error](GapError) of gaps between all positions of the step. Then both rigid
-//! motions are free:
+//! at the start along a direction w, and E the [error](GapError) of gaps between positions at both ends of the step, those of the
+//! pair among them. Then both rigid motions are free:
 //!
 //! * **A translation.** The bound at the end, along the same w, exceeds m_P. *Proof.* Let no coordinate exceed B at either end. A
 //!   translation rounds each coordinate once, by at most 2uB, so the exact gap along w changes by at most 2·3·1.01·2uB ≤ 12.2uB. The two

@@ -107,7 +107,15 @@ pub(super) fn candidates(
     // Pairs of two bodies are not needed.
     let wanted = (0..rest.len()).map(|vertex| vertex < cloth_vertices).collect();
     let candidates = NearPairs::new(topology, interest, wanted, reach);
-    candidates.expect("scenes give a positive thickness")
+    let mut candidates = candidates.expect("scenes give a positive thickness");
+    // The vertices of a body follow each other.
+    let mut end = cloth_vertices;
+    let bodies = carriers[cloth_vertices..].chunk_by(|one, other| one == other).map(|own| {
+        end += own.len();
+        end - own.len()..end
+    });
+    candidates.set_parts(bodies.collect());
+    candidates
 }
 
 impl Interest for OfContact {

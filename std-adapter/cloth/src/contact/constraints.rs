@@ -203,15 +203,15 @@ impl Contacts {
     }
 
     /// Finds the contacts that are too near at the start of the step, and records how much each is too near, before anything
-    /// pushes.
+    /// pushes. No body near the cloth moves by more than `closing`.
     pub(super) fn find_missing(
         &mut self,
         pairs: &mut [Candidate],
         rules: Rules<'_>,
         (step, positions): (&TimeStep<'_>, &[DVec3]),
+        closing: f64,
         touches: &mut Touches,
     ) {
-        let closing = farthest_way(step, positions);
         for class in self.of.iter_mut().rev() {
             class.found.resize(class.open.len(), Found::Kept);
             for (&place, turn) in class.open.iter().zip(&mut class.found) {
@@ -335,14 +335,6 @@ fn is_open(pair: &Candidate, predicted: &[DVec3]) -> bool {
 #[inline(always)]
 fn may_miss(pair: &Candidate, closing: f64) -> bool {
     f64::from(pair.gap()) < (1.0 - LEAST_MISSING) * pair.data.aim.length() + closing
-}
-
-/// The longest way of a kinematic vertex in the step.
-fn farthest_way(step: &TimeStep<'_>, positions: &[DVec3]) -> f64 {
-    let ways = step.start.iter().zip(positions).zip(step.inverse_masses);
-    let kinematic = ways.filter(|(_, inverse_mass)| **inverse_mass == 0.0);
-    let squared = kinematic.map(|((start, end), _)| start.distance_squared(*end));
-    squared.fold(0.0, f64::max).sqrt()
 }
 
 /// Returns whether the direction that a pair stores keeps it at its thickness, up to a difference that is not worth a push.

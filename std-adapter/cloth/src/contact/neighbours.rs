@@ -12,7 +12,7 @@ use selvedge::core::separation::closest::ClosestPoints;
 use selvedge_core::glam::DVec3;
 use std::sync::Arc;
 
-/// Returns whether more pairs of one cloth are [so near](NEIGHBOURS_AT_REST) each other at rest than it has edges. Then it pays
+/// Returns whether more pairs of one cloth are [so near](NEIGHBOURS_AT_REST) each other at rest than cloths have edges. Then it pays
 /// to look them up. The cloth's vertices are those below `cloth_vertices`.
 pub(super) fn are_many(topology: &Arc<Topology>, rest: &[DVec3], cloth_vertices: usize, settings: &ContactSettings) -> bool {
     let Some(distance) = settings.of_cloths().iter().map(|own| at_rest(*own)).reduce(f64::max) else {
@@ -37,7 +37,8 @@ pub(super) fn are_many(topology: &Arc<Topology>, rest: &[DVec3], cloth_vertices:
     let edge_edge = edge_edge.iter().map(|&pair| (PairKind::EdgeEdge, pair));
     let all = vertex_face.chain(edge_edge);
     let found = all.filter(|&(kind, pair)| near(kind, pair));
-    let enough = topology.edges().len() + 1;
+    let is_of_cloth = |edge: &&[u32; 2]| is_cloth(edge[0] as usize);
+    let enough = topology.edges().iter().filter(is_of_cloth).count() + 1;
     found.take(enough).count() == enough
 }
 

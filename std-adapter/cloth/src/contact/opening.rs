@@ -20,7 +20,7 @@ impl ContactSolver {
     pub(crate) fn in_the_way(&mut self, [closed, open]: [&[DVec3]; 2], from: &[u32], h: f64) -> Vec<u32> {
         self.refresh(closed, open, h);
         let mut found = Vec::new();
-        let error = gap_error(closed, open);
+        let error = gap_error(&self.candidates, [closed, open]);
         let separations = Separations::new(&self.settings, &self.exempt);
         let moves = |pair: &Candidate| pair.vertices.iter().any(|&v| closed[v as usize] != open[v as usize]);
         for pair in &mut self.candidates.list {

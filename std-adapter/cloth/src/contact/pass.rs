@@ -63,9 +63,9 @@ impl ContactSolver {
     /// Returns an error if the step has to be cut; then only `end` has changed.
     pub(crate) fn certify(&mut self, step: &TimeStep<'_>, end: &mut [DVec3]) -> Result<(), Blocker> {
         let start = step.start;
-        self.error = gap_error(start, end);
         let begin = Clock::now();
         self.candidates.cover(start, end, step.h);
+        self.error = gap_error(&self.candidates, [start, end]);
         self.stages.candidates += begin.elapsed().as_secs_f64();
         self.counts.candidates += self.candidates.list.len() as u64;
 
@@ -139,13 +139,16 @@ impl ContactSolver {
     /// vertices. Clears the marks.
     pub(super) fn check_moved(&mut self, open: &[usize], step: &TimeStep<'_>, end: &[DVec3]) -> Vec<usize> {
         let start = step.start;
-        // Moved vertices may be farther out than any before.
-        self.error = self.error.larger(gap_error(start, end));
-        let strayed = self.candidates.find_strayed(end, step.h);
+        let strayed = self.candidates.find_strayed([start, end], step.h);
         let mut open = open.to_vec();
-        if strayed > 0 && !self.add_candidates_of_strayed(strayed, &mut open, [start, end], step.h) {
+        let are_listed = strayed == 0 || self.add_candidates_of_strayed(strayed, &mut open, [start, end], step.h);
+        if !are_listed {
             self.candidates.forget_gaps();
             self.candidates.find(start, end, step.h);
+        }
+        // Moved vertices may be farther out than any before.
+        self.error = self.error.larger(gap_error(&self.candidates, [start, end]));
+        if !are_listed {
             self.moved.fill(false);
             return self.check_all(start, end);
         }

@@ -19,7 +19,6 @@ use selvedge::{StepError, Topology};
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::carried::is_too_near;
 use selvedge_core::separation::gap::GapError;
-use selvedge_core::separation::largest_coordinate;
 
 /// The state of contact; it exists only if an effect requests contacts.
 #[derive(Debug)]
@@ -101,7 +100,7 @@ impl ContactSolver {
     /// Returns an error if a position is not finite.
     pub(crate) fn tolerate(&mut self, positions: &[DVec3]) -> Result<Vec<Crossing>, StepError> {
         let mut tangle = Tangle::new(self.candidates.interest(), positions.len());
-        let error = gap_error(positions, positions);
+        let error = gap_error(&self.candidates, [positions; 2]);
         let touches = |pair: &&Candidate| {
             let distance = pair.distance_from_below(positions, error);
             if distance > 0.0 {
@@ -123,7 +122,7 @@ impl ContactSolver {
     /// Sets up the contacts of a step that leads, before contact, from `start` to `predicted`.
     pub(crate) fn prepare(&mut self, start: &[DVec3], predicted: &[DVec3]) {
         let begin = Clock::now();
-        self.error = gap_error(start, predicted);
+        self.error = gap_error(&self.candidates, [start, predicted]);
         if self.pushes {
             let (contacts, pairs, rules) = self.parts();
             contacts.collect(pairs, rules, predicted);
@@ -162,8 +161,14 @@ impl ContactSolver {
 
     /// Records by how much contacts miss their thickness at the start of the step.
     pub(crate) fn find_missing(&mut self, step: &TimeStep<'_>, positions: &[DVec3], touches: &mut Touches) {
+        let ways = step.start.iter().zip(positions).zip(step.inverse_masses);
+        let near = (0..)
+            .zip(ways)
+            .filter(|(vertex, (_, mass))| **mass == 0.0 && self.candidates.may_have(*vertex));
+        let squared = near.map(|(_, ((start, end), _))| start.distance_squared(*end));
+        let closing = squared.fold(0.0, f64::max).sqrt();
         let (contacts, pairs, rules) = self.parts();
-        contacts.find_missing(pairs, rules, (step, positions), touches);
+        contacts.find_missing(pairs, rules, (step, positions), closing, touches);
     }
 
     /// Moves the rest distances of contacts with the shift.
@@ -279,8 +284,8 @@ impl ContactSolver {
     }
 }
 
-/// Returns the error of gaps between these positions. A NaN coordinate gives no bound.
-pub(super) fn gap_error(start: &[DVec3], end: &[DVec3]) -> GapError<f64> {
-    let (first, second) = (largest_coordinate(start), largest_coordinate(end));
-    GapError::from_largest_coordinate(if first > second { first } else { second })
+/// Returns the error of gaps of candidates between these positions. A NaN coordinate gives no bound.
+pub(super) fn gap_error(candidates: &Candidates, motion: [&[DVec3]; 2]) -> GapError<f64> {
+    let [first, second] = motion.map(|positions| candidates.largest_coordinate(positions));
+    GapError::from_largest_coordinate(first.max(second))
 }

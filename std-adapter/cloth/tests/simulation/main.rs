@@ -7,6 +7,7 @@ mod bending;
 mod common;
 mod determinism;
 mod energy;
+mod far_bodies;
 mod files;
 mod from_code;
 mod garments;

@@ -28,11 +28,15 @@ pub(crate) struct AtRest {
 impl Neighbours {
     /// Makes neighbours from positions at rest and parts of consecutive vertices. Each part has the vertex after its last one, and the distance of its
     /// neighbours at rest. Vertices after the last part have no neighbours.
+    ///
+    /// # Panics
+    /// Panics if a part ends beyond the positions.
     #[must_use]
     pub fn new(rest: &[DVec3], parts: impl Iterator<Item = (u32, f64)>) -> Self {
-        let largest = largest_coordinate(rest);
-        let parts: Vec<_> = parts.map(|(end, distance)| (end, nearness(distance, largest))).collect();
+        let parts: Vec<_> = parts.collect();
         let end_of_all = parts.last().map_or(0, |&(end, _)| end);
+        let largest = largest_coordinate(&rest[..end_of_all as usize]);
+        let parts = parts.into_iter().map(|(end, distance)| (end, nearness(distance, largest)));
         let at_rest = |(vertex, rest): (usize, &DVec3)| {
             if vertex < end_of_all as usize {
                 rest.as_vec3a()
@@ -42,7 +46,7 @@ impl Neighbours {
         };
         Self {
             rest: rest.iter().enumerate().map(at_rest).collect(),
-            parts,
+            parts: parts.collect(),
         }
     }
 

@@ -7,9 +7,19 @@
 //! If few vertices leave that room, as in a crease, only they get a [new way](Horizon::lead_back), and only their pairs are found again.
 
 use super::ahead::Ahead;
+use super::parts::Parts;
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::course::{expected, has_room, is_certain, joined, room, time_after};
-use selvedge_core::separation::largest_coordinate;
+
+/// The motion to find pairs for.
+#[derive(Debug)]
+pub(super) struct Expected<'a> {
+    /// The start and the end of each vertex. Vertices of far parts rest.
+    pub(super) motion: [&'a [DVec3]; 2],
+    /// The largest coordinate of vertices of no far part.
+    pub(super) largest: f64,
+    pub(super) parts: &'a Parts,
+}
 
 /// The motion for which near pairs were found.
 #[derive(Debug, Default)]
@@ -20,7 +30,7 @@ pub(super) struct Horizon {
     drift: Vec<DVec3>,
     /// The end of each vertex.
     far: Vec<DVec3>,
-    /// The largest coordinate of `origin` and `far`.
+    /// The largest coordinate of `origin` and `far`, without far parts.
     largest: f64,
     /// The duration; zero if there is no motion.
     span: f64,
@@ -30,6 +40,7 @@ pub(super) struct Horizon {
     pub(super) ahead: Ahead,
     /// The difference between the way of each vertex in a step and its way in the last one; empty if unknown.
     pub(super) bends: Vec<DVec3>,
+    pub(super) parts: Parts,
 }
 
 impl Horizon {
@@ -50,7 +61,8 @@ impl Horizon {
     /// Begins a motion with the step from `start` to `end` in a time of `h`. Returns the motion to find pairs for.
     ///
     /// It looks as many steps [ahead](Ahead) as cost least. Vertices have to stay within `room` of the motion.
-    pub(super) fn begin<'a>(&'a mut self, start: &'a [DVec3], end: &[DVec3], h: f64, room: f64) -> [&'a [DVec3]; 2] {
+    pub(super) fn begin<'a>(&'a mut self, start: &'a [DVec3], end: &[DVec3], h: f64, room: f64) -> Expected<'a> {
+        self.parts.begin([start, end]);
         if self.span > 0.0 {
             let lasted = self.elapsed / self.span * f64::from(self.ahead.steps());
             self.ahead.choose(lasted);
@@ -64,17 +76,22 @@ impl Horizon {
         self.drift.extend(start.iter().zip(end).map(|(&from, &to)| (to - from) / h));
         let ways = self.drift.iter_mut().zip(&self.bends);
         ways.for_each(|(drift, &own)| *drift += bent(own, steps, h, room));
+        self.parts.far().for_each(|part| self.drift[part].fill(DVec3::ZERO));
         self.far.clear();
         let span = self.span;
         let ways = start.iter().zip(&self.drift);
         self.far.extend(ways.map(|(&from, &drift)| expected(from, drift, span)));
-        self.largest = largest_coordinate(start).max(largest_coordinate(&self.far));
+        self.largest = self.parts.largest(start).max(self.parts.largest(&self.far));
         if !is_certain(room, self.largest) {
             // Rounding is too coarse to measure strays, so the motion is exactly this step.
             self.span = h;
             self.far.copy_from_slice(end);
         }
-        [start, &self.far]
+        Expected {
+            motion: [start, &self.far],
+            largest: self.largest,
+            parts: &self.parts,
+        }
     }
 
     /// Returns whether the motion lasts for a time of `h` more, and all vertices are then within `room` of it along each axis.
@@ -88,8 +105,8 @@ impl Horizon {
         time_after(self.elapsed, h, self.span).is_some()
     }
 
-    /// Finds the vertices that are not certainly within `room` of the motion, a time of `h` later. Returns their number. These are all vertices if the
-    /// motion has ended.
+    /// Finds the vertices that are not certainly within `room` of the motion, a time of `h` later. Returns their number. These are all vertices of no
+    /// far part if the motion has ended.
     pub(super) fn find_strayed(&self, end: &[DVec3], h: f64, room: f64, strayed: &mut Vec<bool>) -> usize {
         strayed.clear();
         match time_after(self.elapsed, h, self.span) {
@@ -99,18 +116,13 @@ impl Horizon {
             }
             _ => strayed.resize(end.len(), true),
         }
+        self.parts.correct(strayed);
         strayed.iter().filter(|&&strayed| strayed).count()
     }
 
     /// Gives strayed vertices a new way for the rest of the motion, in the direction from `start` to `end`. Returns the motion of all vertices, with new
     /// ways extended back to its beginning. Returns `None` if rounding is too coarse for that; the motion is then over.
-    pub(super) fn lead_back(
-        &mut self,
-        strayed: &[bool],
-        [start, end]: [&[DVec3]; 2],
-        h: f64,
-        room: f64,
-    ) -> Option<[&[DVec3]; 2]> {
+    pub(super) fn lead_back(&mut self, strayed: &[bool], [start, end]: [&[DVec3]; 2], h: f64, room: f64) -> Option<Expected<'_>> {
         for vertex in (0..strayed.len()).filter(|&vertex| strayed[vertex]) {
             let mut drift = (end[vertex] - start[vertex]) / h;
             if let Some(&own) = self.bends.get(vertex) {
@@ -120,8 +132,12 @@ impl Horizon {
             self.origin[vertex] = joined(start[vertex], drift, self.elapsed);
             self.far[vertex] = expected(start[vertex], drift, self.span - self.elapsed);
         }
-        self.largest = largest_coordinate(&self.origin).max(largest_coordinate(&self.far));
-        is_certain(room, self.largest).then_some([&self.origin, &self.far])
+        self.largest = self.parts.largest(&self.origin).max(self.parts.largest(&self.far));
+        is_certain(room, self.largest).then_some(Expected {
+            motion: [&self.origin, &self.far],
+            largest: self.largest,
+            parts: &self.parts,
+        })
     }
 
     /// Raises the stray of each vertex to that from the motion, a time of `h` later, in the measure of [`Reach::beyond`](super::interest::Reach::beyond). The stray
@@ -195,7 +211,7 @@ mod tests {
         let mut strayed = Vec::new();
         assert_eq!(horizon.find_strayed(&end, 1.0, 0.1, &mut strayed), 1);
         assert_eq!(strayed, [false, true]);
-        let [origin, far] = horizon.lead_back(&strayed, [&start, &end], 1.0, 0.1).unwrap();
+        let [origin, far] = horizon.lead_back(&strayed, [&start, &end], 1.0, 0.1).unwrap().motion;
         assert_eq!(origin, [DVec3::ZERO, DVec3::X]);
         assert_eq!(far, [DVec3::X * 4.0, DVec3::X]);
         assert!(horizon.covers(&end, 1.0, 0.1));
@@ -207,7 +223,7 @@ mod tests {
     fn far_from_the_origin_a_motion_lasts_one_step_and_no_vertex_has_room() {
         let mut horizon = looking(4);
         let (start, end) = ([DVec3::X * 1e12], [DVec3::X * 1e12 + DVec3::Y]);
-        assert_eq!(horizon.begin(&start, &end, 1.0, 0.1), [&start[..], &end[..]]);
+        assert_eq!(horizon.begin(&start, &end, 1.0, 0.1).motion, [&start[..], &end[..]]);
         assert!(horizon.lasts(1.0) && !horizon.covers(&end, 1.0, 0.1));
         horizon.advance(1.0);
         assert!(!horizon.lasts(1.0));

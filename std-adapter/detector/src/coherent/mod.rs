@@ -68,6 +68,7 @@
 //! | `search` | finds near pairs: hierarchies of moving boxes, then the sieve |
 //! | `sieve` | drops pairs that keep apart until the next search |
 //! | `ahead`, `horizon`, `near` | the number of steps to look ahead, the steps for which pairs are good, and their list |
+//! | `parts` | parts of the mesh that are too far from the rest to have pairs |
 //! | `known` | looks up pairs that are found again |
 //! | `pair` | one pair, and the direction that keeps it apart |
 //! | `follow` | the near pairs of a [`CollisionDetector`](crate::CollisionDetector) |
@@ -81,6 +82,7 @@ mod interest;
 mod known;
 mod near;
 mod pair;
+mod parts;
 mod search;
 mod sieve;
 

@@ -11,6 +11,7 @@ use super::horizon::Horizon;
 use super::interest::{Interest, Reach};
 use super::known::Known;
 use super::pair::NearPair;
+use super::parts::Parts;
 use super::search::Search;
 use crate::PairKind;
 use crate::buffer::append_selected;
@@ -18,6 +19,7 @@ use crate::mesh::Topology;
 use crate::step::{CollisionFilter, StepError};
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::course::room;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// The inverse of the share of strayed vertices from which on all pairs are found again.
@@ -85,6 +87,26 @@ impl<I: Interest> NearPairs<I> {
             found: Vec::new(),
             statistics: Default::default(),
         })
+    }
+
+    /// Sets the vertices of [parts](super::parts), such as bodies, that may be far from all else. Far parts change no list and no time of a
+    /// search. The ranges ascend and are disjoint, their vertices are not wanted, and no edge or triangle has vertices of two of them, or of one and others.
+    pub fn set_parts(&mut self, parts: Vec<Range<usize>>) {
+        let largest = self.reach.classes.iter().map(|class| class.distance).fold(0.0, f64::max);
+        let reach = largest + self.reach.beyond;
+        self.horizon.parts = Parts::new(parts, self.search.vertex_count(), reach);
+    }
+
+    /// Returns the largest coordinate of all vertices that listed pairs may have, in the unit of the positions. It is infinite if one is not finite.
+    #[must_use]
+    pub fn largest_coordinate(&self, positions: &[DVec3]) -> f64 {
+        self.horizon.parts.largest(positions)
+    }
+
+    /// Returns whether listed pairs may have a vertex: whether it is of no far part.
+    #[must_use]
+    pub fn may_have(&self, vertex: u32) -> bool {
+        self.horizon.parts.is_near(vertex)
     }
 
     pub(super) fn set_filter(&mut self, filter: Option<Arc<CollisionFilter>>) {
@@ -157,9 +179,10 @@ impl<I: Interest> NearPairs<I> {
         self.horizon.ahead.spend(self.reach.upkeep * self.list.len() as f64);
     }
 
-    /// Finds the vertices that stray too far by `end`, a time of `h` later. Then a pair outside the list may come closer than
-    /// allowed. Returns their number.
-    pub fn find_strayed(&mut self, end: &[DVec3], h: f64) -> usize {
+    /// Finds the vertices that stray too far on the way from `start` to `end`, a time of `h` later. Then a pair outside the list may come
+    /// closer than allowed. Returns their number.
+    pub fn find_strayed(&mut self, [start, end]: [&[DVec3]; 2], h: f64) -> usize {
+        self.horizon.parts.update([start, end]);
         self.horizon.find_strayed(end, h, self.room, &mut self.strayed)
     }
 
@@ -168,7 +191,7 @@ impl<I: Interest> NearPairs<I> {
     /// # Panics
     /// Panics as [`cover`](Self::cover) does.
     pub fn add_of_strayed(&mut self, strayed: usize, [start, end]: [&[DVec3]; 2], h: f64) -> bool {
-        strayed < end.len() / MANY && self.horizon.lasts(h) && self.find_of_strayed(start, end, h)
+        !self.are_many(strayed, end.len()) && self.horizon.lasts(h) && self.find_of_strayed(start, end, h)
     }
 
     /// Makes the list valid for the step from `start`, where the last step ended, to `end`, which takes a time of `h`.
@@ -179,6 +202,7 @@ impl<I: Interest> NearPairs<I> {
         if !self.horizon.lasts(h) {
             return self.find(start, end, h);
         }
+        self.horizon.parts.update([start, end]);
         let strayed = self.horizon.find_strayed(end, h, self.slack, &mut self.strayed);
         self.cover_strayed(strayed, start, end, h);
     }
@@ -197,6 +221,7 @@ impl<I: Interest> NearPairs<I> {
         if !self.horizon.lasts(h) {
             return self.find(start, end, h);
         }
+        self.horizon.parts.update([start, end]);
         let mut at_start = Vec::new();
         self.horizon.find_strayed(start, 0.0, self.slack, &mut at_start);
         self.horizon.find_strayed(end, h, self.slack, &mut self.strayed);
@@ -208,8 +233,13 @@ impl<I: Interest> NearPairs<I> {
         self.cover_strayed(strayed, start, end, h);
     }
 
+    /// Returns whether so many strayed vertices, of all these, are too many to be found alone.
+    fn are_many(&self, strayed: usize, vertices: usize) -> bool {
+        strayed >= self.horizon.parts.count(vertices) / MANY
+    }
+
     fn cover_strayed(&mut self, strayed: usize, start: &[DVec3], end: &[DVec3], h: f64) {
-        if strayed > 0 && strayed >= end.len() / MANY {
+        if strayed > 0 && self.are_many(strayed, end.len()) {
             return self.find(start, end, h);
         }
         self.search.build_if_degraded([start, end]);
@@ -221,7 +251,7 @@ impl<I: Interest> NearPairs<I> {
     /// Adds the pairs of vertices that have strayed. Returns false if it had to find all pairs again.
     fn find_of_strayed(&mut self, start: &[DVec3], end: &[DVec3], h: f64) -> bool {
         self.statistics.joined += 1;
-        let Some(motion) = self.horizon.lead_back(&self.strayed, [start, end], h, self.slack) else {
+        let Some(expected) = self.horizon.lead_back(&self.strayed, [start, end], h, self.slack) else {
             self.find(start, end, h);
             return false;
         };
@@ -234,7 +264,7 @@ impl<I: Interest> NearPairs<I> {
             found,
             ..
         } = self;
-        search.pairs_of(strayed, reach, motion, Known::new(list, *first), found);
+        search.pairs_of(strayed, reach, &expected, Known::new(list, *first), found);
         self.horizon.ahead.spend(self.search.work());
         if self.reach.is_graded {
             self.drop_strayed();
@@ -280,9 +310,9 @@ impl<I: Interest> NearPairs<I> {
         self.statistics.searches += 1;
         self.strays.clear();
         self.strays.resize(end.len(), 0.0);
-        let motion = self.horizon.begin(start, end, h, self.slack);
+        let expected = self.horizon.begin(start, end, h, self.slack);
         let known = Known::new(&self.list, self.first);
-        self.search.pairs(&self.reach, motion, known, &mut self.found);
+        self.search.pairs(&self.reach, &expected, known, &mut self.found);
         self.horizon.ahead.spend(self.search.work());
         std::mem::swap(&mut self.list, &mut self.found);
         self.set_first(self.list.len());

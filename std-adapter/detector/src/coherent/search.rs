@@ -1,8 +1,10 @@
 //! Finds the pairs that may come near each other on a motion, by [hierarchies of moving boxes](crate::broad_phase) and a [sieve](super::sieve).
 
+use super::horizon::Expected;
 use super::interest::{Interest, Reach};
 use super::known::Known;
 use super::pair::NearPair;
+use super::parts::Parts;
 use super::sieve::{Sieve, SievedPair};
 use crate::PairKind;
 use crate::broad_phase::MovingBroadPhase;
@@ -66,6 +68,10 @@ impl<I: Interest> Search<I> {
         self.broad_phase.set_filter(filter);
     }
 
+    pub(super) fn vertex_count(&self) -> usize {
+        self.topology.vertex_count()
+    }
+
     pub(super) const fn interest(&self) -> &I {
         &self.interest
     }
@@ -87,15 +93,15 @@ impl<I: Interest> Search<I> {
     pub(super) fn pairs(
         &mut self,
         reach: &Reach,
-        motion: [&[DVec3]; 2],
+        expected: &Expected<'_>,
         known: Known<'_, I::Data>,
         pairs: &mut Vec<NearPair<I::Data>>,
     ) {
         if std::mem::take(&mut self.is_narrowed) {
             self.broad_phase.set_wanted(self.wanted.clone());
         }
-        self.update(reach, motion, None);
-        self.find(reach, None, known, pairs);
+        self.update(reach, expected, None);
+        self.find(reach, expected.parts, None, known, pairs);
     }
 
     /// Replaces `pairs` by those with a vertex in `only`. The other vertices must have the motion of the last search. Pairs that
@@ -107,14 +113,14 @@ impl<I: Interest> Search<I> {
         &mut self,
         only: &[bool],
         reach: &Reach,
-        motion: [&[DVec3]; 2],
+        expected: &Expected<'_>,
         known: Known<'_, I::Data>,
         pairs: &mut Vec<NearPair<I::Data>>,
     ) {
         self.broad_phase.narrow_to(only.to_vec());
         self.is_narrowed = true;
-        self.update(reach, motion, Some(only));
-        self.find(reach, Some(only), known, pairs);
+        self.update(reach, expected, Some(only));
+        self.find(reach, expected.parts, Some(only), known, pairs);
     }
 
     /// Returns the number of near boxes of the last search, including neighbours that were left out. It is a measure of the cost.
@@ -128,14 +134,22 @@ impl<I: Interest> Search<I> {
         self.broad_phase.build_if_degraded(start, end);
     }
 
-    fn update(&mut self, reach: &Reach, [start, end]: [&[DVec3]; 2], only: Option<&[bool]>) {
-        let certain_gap = self.sieve.set_motion(reach, [start, end], only);
+    fn update(&mut self, reach: &Reach, expected: &Expected<'_>, only: Option<&[bool]>) {
+        let [start, end] = expected.motion;
+        let certain_gap = self.sieve.set_motion(reach, expected.motion, expected.largest, only);
         self.broad_phase.set_separation_of_neighbours(certain_gap);
         let updated = self.broad_phase.update(start, end);
         updated.expect("positions are finite");
     }
 
-    fn find(&mut self, reach: &Reach, only: Option<&[bool]>, mut known: Known<'_, I::Data>, pairs: &mut Vec<NearPair<I::Data>>) {
+    fn find(
+        &mut self,
+        reach: &Reach,
+        parts: &Parts,
+        only: Option<&[bool]>,
+        mut known: Known<'_, I::Data>,
+        pairs: &mut Vec<NearPair<I::Data>>,
+    ) {
         let Self {
             topology,
             interest,
@@ -185,6 +199,8 @@ impl<I: Interest> Search<I> {
                         about.map(|data| NearPair::new(kind, pair, vertices, data))
                     }
                 };
+                // Boxes are too coarse to leave out all pairs of far parts, and the sieve does not count on them.
+                let found = found.filter(|found| found.vertices.iter().all(|&vertex| parts.is_near(vertex)));
                 pairs.extend(found.map(|found| found.with_stray(stray)));
             });
         }
@@ -340,10 +356,12 @@ mod tests {
                 let mut search = Search::new(Arc::clone(&topology), interest, vec![true; count]);
                 search.set_reach(&reach).unwrap();
                 let [mut all, mut of_some] = [Vec::new(), Vec::new()];
-                search.pairs(&reach, [&start, &end], Known::new(&[], 0), &mut all);
+                let parts = Parts::default();
+                let expected = |motion| Expected { motion, largest: 20.0, parts: &parts };
+                search.pairs(&reach, &expected([&start, &end]), Known::new(&[], 0), &mut all);
                 let candidates = search.broad_phase.statistics().candidates;
                 let work = search.work();
-                search.pairs_of(&strayed, &reach, [&other_start, &other_end], Known::new(&[], 0), &mut of_some);
+                search.pairs_of(&strayed, &reach, &expected([&other_start, &other_end]), Known::new(&[], 0), &mut of_some);
                 let keys = [all, of_some].map(|list| list.iter().map(NearPair::key).collect::<Vec<_>>());
                 (keys, candidates, [work, search.work()])
             };

@@ -12,7 +12,6 @@ use selvedge_core::Motion;
 use selvedge_core::batch::{VertexRow, largest_strays_from_rows};
 use selvedge_core::glam::{DVec3, Vec3};
 use selvedge_core::separation::clearance::Clearance;
-use selvedge_core::separation::largest_coordinate;
 
 /// Tests the clearance of pairs that boxes leave, in `f32`.
 #[derive(Debug)]
@@ -43,12 +42,11 @@ impl Sieve {
         }
     }
 
-    /// Sets the motion. If there is an `only`, other vertices keep the last motion.
+    /// Sets the motion. If there is an `only`, other vertices keep the last motion. `largest` is the largest coordinate of the vertices of pairs.
     ///
     /// Returns a gap between boxes: [`leave`](Self::leave) certainly drops a pair of the first class whose boxes keep that gap along one axis throughout the
     /// motion.
-    pub(super) fn set_motion(&mut self, reach: &Reach, [start, end]: [&[DVec3]; 2], only: Option<&[bool]>) -> f64 {
-        let largest = largest_coordinate(start).max(largest_coordinate(end));
+    pub(super) fn set_motion(&mut self, reach: &Reach, [start, end]: [&[DVec3]; 2], largest: f64, only: Option<&[bool]>) -> f64 {
         let clearance = |class: Class| Clearance::new(class.distance, largest, class.margin);
         self.clearances = reach.classes.map(clearance);
         for (vertex, row) in self.rows.iter_mut().enumerate() {
@@ -93,6 +91,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
     use selvedge_core::separation::closest::ClosestPoints;
+    use selvedge_core::separation::largest_coordinate;
 
     fn point() -> impl Strategy<Value = DVec3> {
         prop::array::uniform3(-1.0..1.0_f64).prop_map(DVec3::from)
@@ -120,7 +119,8 @@ mod tests {
     /// Returns whether a pair of all four vertices is dropped, in each class.
     fn left_out(kind: PairKind, reach: &Reach, motion: [&[DVec3]; 2]) -> [bool; CLASSES] {
         let mut sieve = Sieve::new(4);
-        sieve.set_motion(reach, motion, None);
+        let largest = motion.map(largest_coordinate);
+        sieve.set_motion(reach, motion, largest[0].max(largest[1]), None);
         let (triangles, edges, pair): (Vec<_>, &[_], _) = match kind {
             PairKind::VertexFace => (vec![[1, 2, 3]], &[], [0, 0]),
             PairKind::EdgeEdge => (vec![], &[[0, 1], [2, 3]], [0, 1]),
@@ -204,7 +204,7 @@ mod tests {
             };
             let reach = reach([distance, 1.0, 1.0], 0.5, beyond);
             // No coordinate is larger than this.
-            let gap = Sieve::new(4).set_motion(&reach, [&[DVec3::splat(8.0); 4]; 2], None);
+            let gap = Sieve::new(4).set_motion(&reach, [&[DVec3::splat(8.0); 4]; 2], 8.0, None);
             let gap = gap * (1.0 + 1e-14) + 1e-14;
             prop_assert!(gap < (distance + beyond) * 1.0001 + 1e-4);
             prop_assert!(left_out(kind, &reach, [&ahead(start, gap), &ahead(end, gap)])[0]);
