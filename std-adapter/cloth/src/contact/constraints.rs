@@ -147,8 +147,9 @@ impl Contacts {
     }
 
     /// Stores what has pushed, after a step that was accepted.
-    pub(super) fn remember(&mut self, touches: &Touches, h: f64) {
-        self.memory.remember(self.of.iter().flat_map(|class| &class.rows), touches, h);
+    pub(super) fn remember(&mut self, held_together: &[bool], touches: &Touches, h: f64) {
+        let rows = self.of.iter().flat_map(|class| &class.rows);
+        self.memory.remember(rows, held_together, touches, h);
     }
 
     /// The pairs that pushed in the last step, and the push with which each begins a step of `h` seconds.

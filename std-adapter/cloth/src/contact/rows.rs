@@ -5,7 +5,12 @@
 //! it has to.
 //!
 //! Each sweep passes a push on by one layer. So a row that pushed in the last step begins with that push, in proportion to h², as
-//! if the force stayed the same. Squeezed contacts begin without a push: where they push back and forth it would add energy.
+//! if the force stayed the same. Three kinds of rows begin without a push:
+//!
+//! * Squeezed contacts push back and forth, which would add energy.
+//! * Where there is no room for the thickness, a row cannot push its sides apart. So its push would grow from step to step.
+//! * Where stitches hold vertices together, they draw back the push that a row begins with, so that the row never takes it back.
+//!   Its push would grow as well, and stretch the cloth about the seam.
 //!
 //! r is the thickness, but no more than the distance at the start: a push must not become a velocity. The
 //! [shift](crate::model::touches), which r follows, makes up for the difference.
@@ -59,10 +64,22 @@ impl Memory {
         self.pushes.clear();
     }
 
-    /// Replaces the pushes by those of the rows of a step of `h` seconds, except squeezed ones.
-    pub(super) fn remember<'a>(&mut self, rows: impl Iterator<Item = &'a Row>, touches: &Touches, h: f64) {
+    /// Replaces the pushes by those of the rows of a step of `h` seconds, except of rows that begin without a push.
+    pub(super) fn remember<'a>(
+        &mut self,
+        rows: impl Iterator<Item = &'a Row>,
+        held_together: &[bool],
+        touches: &Touches,
+        h: f64,
+    ) {
         self.pushes.clear();
-        let pushed = rows.filter(|row| row.push > LEAST_PUSH * row.near.thickness && !touches.is_squeezed(row.recovery));
+        let begins_with_push = |row: &&Row| {
+            let ProximityPair { vertices, thickness, .. } = row.near;
+            let has_room = row.rest >= LEAST_ROOM * thickness && !touches.is_squeezed(row.recovery);
+            let has_pushed = row.push > LEAST_PUSH * thickness;
+            has_pushed && has_room && vertices.iter().all(|&vertex| !held_together[vertex as usize])
+        };
+        let pushed = rows.filter(begins_with_push);
         self.pushes.extend(pushed.map(|row| (row.key, row.push / row.mobility)));
         self.pushes.sort_unstable_by_key(|push| push.0);
         self.h = h;
@@ -78,6 +95,8 @@ impl Memory {
 const NONE: u32 = u32::MAX;
 /// Pushes of less than this share of the thickness are not stored: they are rounding.
 const LEAST_PUSH: f64 = 1e-9;
+/// The rest distance, as a share of the thickness, below which there is no room. Layers under a load that they can bear keep more.
+const LEAST_ROOM: f64 = 0.9;
 
 impl Row {
     /// Makes the row of a pair that is this far apart at the start of the step.

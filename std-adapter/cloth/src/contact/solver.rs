@@ -38,6 +38,8 @@ pub(crate) struct ContactSolver {
     /// The normal cones of surfaces.
     cones: Cones,
     cloth_vertices: u32,
+    /// True for vertices that constraints hold together among contacts.
+    held_together: Vec<bool>,
     pub(super) moved: Vec<bool>,
     /// The candidates to test after vertices have moved; the field exists to use its memory again.
     pub(super) places: Vec<usize>,
@@ -66,6 +68,7 @@ impl ContactSolver {
         Self {
             cones: Cones::new(&topology),
             cloth_vertices: cloth_vertices as u32,
+            held_together: vec![false; rest.len()],
             candidates: candidates(&mut settings, topology, rest, carriers, cloth_vertices, time_step),
             settings,
             carriers: carriers.to_vec(),
@@ -83,6 +86,11 @@ impl ContactSolver {
             counts: ContactCounts::default(),
             stages: ContactSeconds::default(),
         }
+    }
+
+    /// Names vertices that constraints hold together among contacts.
+    pub(crate) fn hold_together(&mut self, vertices: impl Iterator<Item = u32>) {
+        vertices.for_each(|vertex| self.held_together[vertex as usize] = true);
     }
 
     /// Discards the data of the steps before; the next step is expected to lead from `start` to `end` in `h` seconds.
@@ -156,7 +164,7 @@ impl ContactSolver {
 
     /// Stores what has pushed, after a step that was accepted.
     pub(crate) fn remember(&mut self, touches: &Touches, h: f64) {
-        self.contacts.remember(touches, h);
+        self.contacts.remember(&self.held_together, touches, h);
     }
 
     /// Records by how much contacts miss their thickness at the start of the step.

@@ -99,6 +99,11 @@ impl Assembly {
                 time_step,
             ))
         });
+        let mut contact = contact.transpose()?;
+        if let Some(contact) = &mut contact {
+            let stitches = constraints.iter().filter(|entry| entry.action.acts_among_contacts());
+            contact.hold_together(stitches.flat_map(|entry| entry.action.joints()).flatten());
+        }
         let joints = constraints.iter().flat_map(|entry| entry.action.joints());
         let edges = edges(&triangles[..cloth_triangles])
             .chain(loose_edges.iter().copied())
@@ -107,7 +112,7 @@ impl Assembly {
         let pieces = Pieces::new(&inverse_masses[..cloth_vertices], edges);
         Ok(Self {
             effects,
-            contact: contact.transpose()?,
+            contact,
             vertices_of_cloths,
             body_vertices,
             cloth_vertices,

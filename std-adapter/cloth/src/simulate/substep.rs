@@ -229,8 +229,9 @@ impl<'a> Substep<'a> {
     /// Pushes near pairs apart, applies friction to contacts that push, and shortens edges that this stretches beyond their
     /// limit.
     ///
-    /// Friction and pushes stretch the cloth, and limits pull it into touching surfaces: each acts in rounds until all limits
-    /// hold. Without a limit there is one round.
+    /// Stitches, pushes and friction stretch the cloth, and limits pull it into touching surfaces: each acts in rounds until all
+    /// limits hold. Limits act last: stitches may gape, and contacts have room between thickness and separation. Without a limit
+    /// there is one round.
     fn separate(&mut self) {
         if let Some(contact) = &mut self.contact {
             contact.prepare(self.step.start, self.positions);
@@ -243,10 +244,11 @@ impl<'a> Substep<'a> {
             if self.holds() {
                 break;
             }
-            self.act_again(self.bounding);
             self.act_again(self.among_contacts);
+            self.act_again(self.bounding);
             self.push();
             self.rub();
+            self.act_again(self.bounding);
         }
     }
 
