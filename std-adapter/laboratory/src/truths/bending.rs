@@ -1,8 +1,8 @@
-//! Bending stiffness: a cantilever, and Cusick's drape test.
+//! Bending stiffness: a cantilever, a plate, and Cusick's drape test.
 
 use super::setting::{DENSITY, G, advance_to, elastic, pinned, scene};
 use super::{ErrorUnit, Failure, Law, Outcome, Sample};
-use selvedge_cloth::effects::{AirDrag, Bend, SelfCollision, Shear, Stretch, Thickness};
+use selvedge_cloth::effects::{AirDrag, Bend, Gravity, SelfCollision, Shear, Stretch, Thickness};
 use selvedge_cloth::glam::DVec3;
 use selvedge_cloth::{Cloth, Mesh, Scene, Simulation};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -74,6 +74,51 @@ pub(super) const CANTILEVER: Law = Law {
             });
         }
         Ok(Outcome { samples, scale: LENGTH })
+    },
+};
+
+pub(super) const PLATE: Law = Law {
+    name: "plate",
+    statement: "A square plate that is clamped on all sides sags in the middle by 0.00126532·q·a⁴/D (Timoshenko)",
+    axes: ["bending stiffness D, N·m", "sag of the middle, m"],
+    error: ErrorUnit::Of("the largest sag"),
+    mesh: "cells a side",
+    meshes: &[8, 16, 32],
+    remark: "The load is small enough for stretch not to count. Clamps end within a share of a cell, as those of the cantilever do.",
+    simulate: |cells, step| {
+        let (side, gravity) = (0.1_f64, 1.0);
+        let sag = |rigidity: f64| 1.265_32e-3 * DENSITY * gravity * side.powi(4) / rigidity;
+        let mut samples = Vec::new();
+        for rigidity in [1e-4, 2e-4, 4e-4] {
+            // Two rings of vertices are pinned: the inner one is the plate's border.
+            let edge = side / f64::from(cells);
+            let whole = side + 2.0 * edge;
+            let sides = [whole * DVec3::X, whole * DVec3::Y];
+            let cloth = Cloth::sheet(-0.5 * (sides[0] + sides[1]), sides, [cells + 2; 2], DENSITY)?;
+            let is_pinned = |point: &DVec3| point.x.abs().max(point.y.abs()) > 0.5 * side - 0.1 * edge;
+            let all = (0..).zip(&cloth.mesh().positions);
+            let border: Vec<u32> = all.filter(|(_, point)| is_pinned(point)).map(|(vertex, _)| vertex).collect();
+            let mut scene = Scene::new(cloth, step);
+            let acceleration = -gravity * DVec3::Z;
+            scene.add(Gravity { acceleration }).add(AirDrag { rate: 8.0 }).add(pinned(border));
+            scene.add(Stretch::isotropic(20.0)).add(Bend {
+                stages: 300,
+                ..Bend::isotropic(rigidity)
+            });
+            let mut simulation = Simulation::new(scene, 1)?;
+            advance_to(&mut simulation, 1.0, step)?;
+            let middle = simulation.positions().len() / 2;
+            samples.push(Sample {
+                at: rigidity,
+                exact: sag(rigidity),
+                simulated: -simulation.positions()[middle].z,
+                ..Sample::default()
+            });
+        }
+        Ok(Outcome {
+            samples,
+            scale: sag(1e-4),
+        })
     },
 };
 

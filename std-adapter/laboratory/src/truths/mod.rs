@@ -7,6 +7,7 @@
 mod bending;
 mod falling;
 mod membranes;
+mod pinching;
 mod resting;
 mod setting;
 mod sliding;
@@ -23,7 +24,7 @@ type Failure = Box<dyn Error + Send + Sync>;
 pub const STEPS: [f64; 3] = [1e-3, 2e-3, 4e-3];
 
 /// All laws, in the order of reports.
-pub const LAWS: [&Law; 18] = [
+pub const LAWS: [&Law; 21] = [
     &falling::FREE_FALL,
     &falling::TERMINAL_SPEED,
     &falling::MOMENTUM,
@@ -35,6 +36,7 @@ pub const LAWS: [&Law; 18] = [
     &membranes::OWN_WEIGHT,
     &membranes::BALLOON,
     &bending::CANTILEVER,
+    &bending::PLATE,
     &bending::DRAPE,
     &sliding::INCLINED_PLANE,
     &sliding::COULOMB,
@@ -42,6 +44,8 @@ pub const LAWS: [&Law; 18] = [
     &resting::LANDING,
     &resting::STACK_HEIGHT,
     &resting::STACK_SPEED,
+    &pinching::PINCH,
+    &pinching::PINCH_SPEED,
 ];
 
 /// A law, and the scene that must obey it.

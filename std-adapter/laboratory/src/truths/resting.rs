@@ -1,6 +1,6 @@
 //! Cloth that comes to rest on a table: one sheet that lands, and a stack.
 
-use super::setting::{G, advance_to, contact, elastic, farthest, irregular, over_time, scene, square};
+use super::setting::{G, advance_to, contact, elastic, farthest, irregular, over_time, rms, scene, square};
 use super::{ErrorUnit, Failure, Law, Outcome, Sample};
 use selvedge_cloth::glam::DVec3;
 use selvedge_cloth::{Scene, Simulation};
@@ -97,12 +97,9 @@ pub(super) const STACK_SPEED: Law = Law {
     remark: "Layers tremble, since the sweeps over their contacts do not converge in a step.",
     simulate: |layers, step| {
         let mut simulation = stack(layers, step)?;
-        let samples = over_time(&mut simulation, [0.4, step], |simulation, _, _| {
-            let cloth = &simulation.velocities()[..simulation.cloth_vertices()];
-            Sample {
-                simulated: (cloth.iter().map(|v| v.length_squared()).sum::<f64>() / cloth.len() as f64).sqrt(),
-                ..Sample::default()
-            }
+        let samples = over_time(&mut simulation, [0.4, step], |simulation, _, _| Sample {
+            simulated: rms(simulation.velocities()[..simulation.cloth_vertices()].iter().copied()),
+            ..Sample::default()
         })?;
         Ok(Outcome { samples, scale: 1.0 })
     },

@@ -67,6 +67,12 @@ pub(super) fn middle(simulation: &Simulation) -> DVec3 {
     cloth.iter().sum::<DVec3>() / cloth.len() as f64
 }
 
+/// Returns the root mean square of the lengths of vectors.
+pub(super) fn rms(vectors: impl ExactSizeIterator<Item = DVec3>) -> f64 {
+    let count = vectors.len() as f64;
+    (vectors.map(DVec3::length_squared).sum::<f64>() / count).sqrt()
+}
+
 /// Returns the value that is farthest from the expected one.
 pub(super) fn farthest(values: impl Iterator<Item = f64>, expected: f64) -> f64 {
     let off = |value: f64| (value - expected).abs();

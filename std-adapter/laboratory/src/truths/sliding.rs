@@ -12,7 +12,8 @@ use std::f64::consts::{FRAC_PI_4, PI};
 const THICKNESS: f64 = 3e-3;
 const TIME: f64 = 0.48;
 
-/// Sets up a sheet on a plane of irregular triangles through the origin, `cells` of them across and five times as many along.
+/// Sets up a sheet on a plane of irregular triangles through the origin, `cells` of them across and five times as many along. A plane of
+/// one cell has two triangles.
 fn on_plane(
     [down, normal]: [DVec3; 2],
     acceleration: DVec3,
@@ -25,7 +26,7 @@ fn on_plane(
     let mut scene = Scene::new(Cloth::sheet(corner, [0.3 * down, 0.3 * across], [6; 2], DENSITY)?, step);
     scene
         .bodies
-        .push(irregular("plane", [10.0 * down, 2.0 * across], [5 * cells, cells])?);
+        .push(irregular("plane", [10.0 * down, 2.0 * across], [if cells == 1 { 1 } else { 5 * cells }, cells])?);
     scene.add(Gravity { acceleration });
     elastic(&mut scene, 400.0, 15e-6);
     contact(&mut scene, THICKNESS, friction);
@@ -38,8 +39,8 @@ pub(super) const INCLINED_PLANE: Law = Law {
     axes: ["time, s", "path, m"],
     error: ErrorUnit::Of("the path"),
     mesh: "cells of the plane across",
-    meshes: &[1, 10, 40],
-    remark: "Semi-implicit steps of h give ½·a·t·(t + h). Motion to the side and above the thickness count as errors too.",
+    meshes: &[1, 10, 80],
+    remark: "The planes have 2, 1,000 and 64,000 triangles. Semi-implicit steps of h give ½·a·t·(t + h). Motion to the side and above the thickness count as errors too.",
     simulate: |cells, step| {
         let (sine, cosine) = f64::to_radians(20.0).sin_cos();
         let [down, normal] = [DVec3::new(cosine, 0.0, -sine), DVec3::new(sine, 0.0, cosine)];
@@ -196,12 +197,5 @@ fn tensions_at_cylinder([angle, friction, step]: [f64; 3], segments: u32) -> Res
         }
         Sample::default()
     })?;
-    if std::env::var("SHOW").is_ok() {
-        println!(
-            "{angle} {stretches:?} {:?} {:?}",
-            simulation.positions()[0],
-            simulation.velocities()[0]
-        );
-    }
     Ok(stretches[1] / stretches[0])
 }

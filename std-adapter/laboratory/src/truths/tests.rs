@@ -59,13 +59,16 @@ laws! {
     own_weight: [0.13, 0.55, 0.6], 0.0;
     balloon: [1.3, 6.0, 40.0], 0.0;
     cantilever: [0.085, 0.087, 0.105], 0.0, falls_with_the_edges;
+    plate: [0.37, 0.35, 0.285], 0.0, falls_with_the_edges;
     drape: [0.118; 3], 0.0;
     inclined_plane: [0.0021, 0.0042, 0.0084], 1e-9;
     coulomb: [0.0021, 0.0042, 0.0084], 5e-5;
     capstan: [0.016, 0.018, 0.034], 0.0;
-    landing: [0.0099, 0.0197, 0.0393], 0.02;
-    stack_height: [0.03, 0.15, 0.6], 0.0;
-    stack_speed: [0.016, 0.035, 0.08], 0.0;
+    landing: [0.0099, 0.0197, 0.0393], 1e-3;
+    stack_height: [0.001, 0.002, 0.005], 0.0;
+    stack_speed: [1.5e-4, 1e-4, 2e-4], 0.0;
+    pinch: [0.0045, 0.009, 0.0175], 1e-3;
+    pinch_speed: [1e-4; 3], 0.0;
 }
 
 /// Returns a drape coefficient in percent by Cusick's regression over 130 fabrics (1965; quoted from memory). It takes the
