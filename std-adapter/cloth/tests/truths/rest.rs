@@ -21,7 +21,9 @@ fn cloth_that_starts_too_near_rises_to_its_thickness_and_no_higher_with_gravity_
         let table = jittered(grid([2.0, 2.0], [20, 20]), [20, 20], 0.3);
         scene.bodies.push(Body::from_mesh("table", table));
         elastic(&mut scene, 400.0, 15e-6);
-        scene.add(BodyContact(Thickness::new(thickness))).add(SelfCollision(Thickness::new(thickness)));
+        scene
+            .add(BodyContact(Thickness::new(thickness)))
+            .add(SelfCollision(Thickness::new(thickness)));
         scene.add(Friction { coefficient: 0.3 });
         if has_gravity {
             scene.add(Gravity::default());

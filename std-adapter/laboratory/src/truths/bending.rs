@@ -100,7 +100,10 @@ pub(super) const PLATE: Law = Law {
             let border: Vec<u32> = all.filter(|(_, point)| is_pinned(point)).map(|(vertex, _)| vertex).collect();
             let mut scene = Scene::new(cloth, step);
             let acceleration = -gravity * DVec3::Z;
-            scene.add(Gravity { acceleration }).add(AirDrag { rate: 8.0 }).add(pinned(border));
+            scene
+                .add(Gravity { acceleration })
+                .add(AirDrag { rate: 8.0 })
+                .add(pinned(border));
             scene.add(Stretch::isotropic(20.0)).add(Bend {
                 stages: 300,
                 ..Bend::isotropic(rigidity)

@@ -14,7 +14,14 @@ const CLOSED: f64 = 0.05;
 /// Makes a box with these corners.
 fn cuboid(low: DVec3, high: DVec3) -> Mesh {
     let corner = |k: u32| DVec3::select(BVec3::new(k & 4 != 0, k & 2 != 0, k & 1 != 0), high, low);
-    let sides = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
+    let sides = [
+        [0, 1, 3, 2],
+        [4, 6, 7, 5],
+        [0, 4, 5, 1],
+        [2, 3, 7, 6],
+        [0, 2, 6, 4],
+        [1, 5, 7, 3],
+    ];
     Mesh {
         positions: (0..8).map(corner).collect(),
         triangles: sides.into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]).collect(),
@@ -69,7 +76,11 @@ pub(super) const PINCH: Law = Law {
         let mut samples = Vec::new();
         for friction in [0.0, 0.5, 1.0] {
             let mut simulation = pinched(cells, friction, step)?;
-            let of = if friction > 0.0 { held(&simulation) } else { (0..simulation.cloth_vertices()).collect() };
+            let of = if friction > 0.0 {
+                held(&simulation)
+            } else {
+                (0..simulation.cloth_vertices()).collect()
+            };
             let mean = |all: &[DVec3]| of.iter().map(|&vertex| all[vertex]).sum::<DVec3>() / of.len() as f64;
             let (start, velocity) = (mean(simulation.positions()), -mean(simulation.velocities()).z);
             let begin = simulation.time();
@@ -83,7 +94,11 @@ pub(super) const PINCH: Law = Law {
             let falls = friction == 0.0;
             samples.push(Sample {
                 at: friction,
-                exact: if falls { fall(velocity, simulation.time() - begin) } else { 0.0 },
+                exact: if falls {
+                    fall(velocity, simulation.time() - begin)
+                } else {
+                    0.0
+                },
                 predicted: Some(if falls { predicted } else { 0.0 }),
                 simulated: -way.z,
                 aside: mean(simulation.positions()).y,

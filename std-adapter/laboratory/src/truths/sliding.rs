@@ -24,9 +24,11 @@ fn on_plane(
     let across = normal.cross(down);
     let corner = -0.15 * (down + across) + 1.01 * THICKNESS * normal;
     let mut scene = Scene::new(Cloth::sheet(corner, [0.3 * down, 0.3 * across], [6; 2], DENSITY)?, step);
-    scene
-        .bodies
-        .push(irregular("plane", [10.0 * down, 2.0 * across], [if cells == 1 { 1 } else { 5 * cells }, cells])?);
+    scene.bodies.push(irregular(
+        "plane",
+        [10.0 * down, 2.0 * across],
+        [if cells == 1 { 1 } else { 5 * cells }, cells],
+    )?);
     scene.add(Gravity { acceleration });
     elastic(&mut scene, 400.0, 15e-6);
     contact(&mut scene, THICKNESS, friction);
