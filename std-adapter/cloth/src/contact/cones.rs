@@ -20,6 +20,7 @@
 //! test looks at the face of a vertex-face pair alone, which keeps all pairs whose foot is inside the face. It leaves out edges that
 //! cross, and these push. Where an end of an edge is closest, that vertex pushes against the faces beside the other edge.
 
+use crate::model::length::length;
 use selvedge::Topology;
 use selvedge_core::glam::DVec3;
 
@@ -99,7 +100,7 @@ impl Cones {
             }
         }
         let at = |vertex: u32| positions[vertex as usize];
-        let leads_away = |way: DVec3| direction.dot(way) <= TOLERANCE * way.length();
+        let leads_away = |way: DVec3| direction.dot(way) <= TOLERANCE * length(way);
         match on[..count] {
             [vertex] => self.of(vertex).iter().all(|spoke| leads_away(at(spoke.to) - at(vertex))),
             [from, to] => {

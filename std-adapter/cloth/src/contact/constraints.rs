@@ -53,6 +53,8 @@ struct Class {
     /// The state of each of them.
     found: Vec<Found>,
     rows: Vec<Row>,
+    /// The places of the rows, in the order of the candidates.
+    order: Vec<u32>,
     /// The candidates that begin with a push, and their rows.
     begun: Vec<(u32, u32)>,
     /// The other candidates; the field exists to use its memory again.
@@ -62,6 +64,16 @@ struct Class {
 }
 
 impl Class {
+    /// Finds the order of the rows, unless it is known.
+    fn put_rows_in_order(&mut self) {
+        if self.order.len() == self.rows.len() {
+            return;
+        }
+        self.order.clear();
+        let row = |turn: &Found| if let Found::Row(row) = *turn { Some(row) } else { None };
+        self.order.extend(self.found.iter().filter_map(row));
+    }
+
     /// Gives the candidates that begin with a push their places among those that may need one.
     fn merge(&mut self) {
         let Self {
@@ -135,6 +147,7 @@ impl Contacts {
             class.open.clear();
             class.found.clear();
             class.rows.clear();
+            class.order.clear();
             class.is_found = false;
         }
         self.sweeps = 0;
@@ -287,16 +300,19 @@ impl Contacts {
         let is_reversed = self.sweeps.is_multiple_of(2);
         let mut largest = 0.0_f64;
         for with_body in [!is_reversed, is_reversed] {
-            let Class { found, rows, .. } = &mut self.of[usize::from(with_body)];
-            let mut settle = |turn: &Found| {
-                if let Found::Row(row) = *turn {
-                    largest = largest.max(rows[row as usize].settle(step, positions));
+            let class = &mut self.of[usize::from(with_body)];
+            class.put_rows_in_order();
+            let Class { order, rows, .. } = class;
+            let settle = |&row: &u32| {
+                let change = rows[row as usize].settle(step, positions);
+                if change > largest {
+                    largest = change;
                 }
             };
             if is_reversed {
-                found.iter().rev().for_each(&mut settle);
+                order.iter().rev().for_each(settle);
             } else {
-                found.iter().for_each(&mut settle);
+                order.iter().for_each(settle);
             }
         }
         self.sweeps += 1;

@@ -123,7 +123,7 @@ impl Row {
             thickness,
         } = self.near;
         let missing = [self.rest, self.rest.min(self.left(step, positions))].map(|distance| thickness - distance);
-        let touch = Touch::new(vertices, weights, normal, 0.0);
+        let touch = Touch::new(vertices, weights, normal, self.mobility, 0.0);
         let recovery = touches.record_missing(touch, missing, thickness, step.inverse_masses);
         self.recovery = recovery.unwrap_or(self.recovery);
     }
@@ -154,7 +154,8 @@ impl Row {
             ..
         } = self.near;
         let missing = self.rest - along(positions, vertices, weights, normal);
-        self.push_by(missing.max(-self.push), step, positions)
+        let least = -self.push;
+        self.push_by(if missing > least { missing } else { least }, step, positions)
     }
 
     /// Begins with a push, given over its mobility.
@@ -215,7 +216,7 @@ impl Row {
                     ..
                 } = self.near;
                 self.touch = touches.list.len() as u32;
-                touches.list.push(Touch::new(vertices, weights, normal, self.push));
+                touches.list.push(Touch::new(vertices, weights, normal, self.mobility, self.push));
             }
             None => (),
         }

@@ -8,6 +8,7 @@ use super::thickness;
 use crate::contact::Thickness;
 use crate::effects::plan::Plan;
 use crate::input::ValueError;
+use crate::model::length::length;
 use crate::model::step::{Constraint, TimeStep, Touches};
 use crate::model::touches::Touch;
 use crate::world::{Pose, SceneParts};
@@ -107,18 +108,23 @@ impl Constraint for Push {
             let [from, to] = capsule.ends.map(|end| now.apply(end));
             let axis = to - from;
             let reach = capsule.radius + self.thickness;
+            let surely_beyond = (reach * (1.0 + 1e-9)).powi(2);
             for vertex in self.vertices.clone() {
                 let position = positions[vertex];
                 let way = position - nearest(from, axis, position);
-                let distance = way.length();
-                if !(distance < reach && distance > 0.0 && step.inverse_masses[vertex] > 0.0) {
+                if way.length_squared() > surely_beyond {
+                    continue;
+                }
+                let distance = length(way);
+                let inverse_mass = step.inverse_masses[vertex];
+                if !(distance < reach && distance > 0.0 && inverse_mass > 0.0) {
                     continue;
                 }
                 let normal = way / distance;
                 let start = step.start[vertex];
                 let touch = Touch {
                     drift: before.carry(&now, start) - start,
-                    ..Touch::new([vertex as u32; 4], [1.0, 0.0, 0.0, 0.0], normal, 0.0)
+                    ..Touch::new([vertex as u32; 4], [1.0, 0.0, 0.0, 0.0], normal, inverse_mass, 0.0)
                 };
                 // A vertex that starts too deep is shifted out. A shift gives no velocity.
                 let at_start = outward(capsule, &before, start).length();

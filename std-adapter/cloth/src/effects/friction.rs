@@ -7,7 +7,7 @@
 use super::registration::{Effect, Registration, Scope};
 use crate::effects::plan::Plan;
 use crate::input::{Field, RATIO, ValueError};
-use crate::model::mobility::mobility;
+use crate::model::length::shortened;
 use crate::model::step::{Constraint, TimeStep, Touches};
 use crate::world::SceneParts;
 use selvedge_core::glam::DVec3;
@@ -53,23 +53,25 @@ impl Constraint for Friction {
     fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], touches: &mut Touches) {
         let mut largest = 0.0_f64;
         for touch in &mut touches.list {
+            if !(touch.mobility > 0.0) || touch.push == 0.0 && touch.rubbed == DVec3::ZERO {
+                continue;
+            }
             let vertices = touch.vertices.map(|v| v as usize);
             let mut sliding = -touch.drift;
             for (vertex, weight) in vertices.into_iter().zip(touch.weights) {
                 sliding += (positions[vertex] - step.start[vertex]) * weight;
             }
-            let mobility = mobility(step.inverse_masses, touch.vertices, touch.weights);
-            if !(mobility > 0.0) {
-                continue;
-            }
             sliding -= touch.normal * sliding.dot(touch.normal);
             // The sum is the sliding without friction.
-            let rubbed = (touch.rubbed + sliding).clamp_length_max(self.coefficient * touch.push);
-            let back: DVec3 = (touch.rubbed - rubbed) / mobility;
+            let rubbed = shortened(touch.rubbed + sliding, self.coefficient * touch.push);
+            let back: DVec3 = (touch.rubbed - rubbed) / touch.mobility;
             if !back.is_finite() {
                 continue;
             }
-            largest = largest.max(rubbed.distance_squared(touch.rubbed));
+            let change = rubbed.distance_squared(touch.rubbed);
+            if change > largest {
+                largest = change;
+            }
             touch.rubbed = rubbed;
             for (vertex, weight) in vertices.into_iter().zip(touch.weights) {
                 positions[vertex] += back * (step.inverse_masses[vertex] * weight);

@@ -26,6 +26,7 @@
 use crate::input::{Count, SceneError, Table, ValueError};
 use crate::model::energy::{Configuration, StoredEnergy};
 use crate::model::hierarchy::{CoarseTriangle, Level};
+use crate::model::length::length;
 use crate::model::membrane::{Membrane, SquaredStretch, all, image};
 use crate::model::schedule::{Local, Schedule};
 use crate::model::step::{Constraint, TimeStep, Touches};
@@ -161,7 +162,7 @@ impl Tension {
         let two = [du * a[0] + dv * b[0], du * a[1] + dv * b[1]];
         let c = all(two);
         let stretched = image(two, x);
-        let length = stretched.length();
+        let length = length(stretched);
         let weight = w[0] * c[0] * c[0] + w[1] * c[1] * c[1] + w[2] * c[2] * c[2];
         // The mesh handles values that overflow when squared.
         if !(excess > 0.0 && weight > 0.0 && length.is_finite()) {

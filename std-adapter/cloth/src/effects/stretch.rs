@@ -17,6 +17,7 @@ use super::registration::{ActsOn, Effect, Registration};
 use crate::effects::plan::{Fabric, Plan};
 use crate::input::{Count, Field, MEMBRANE_STIFFNESS, ValueError};
 use crate::model::hierarchy::mesh_spacing;
+use crate::model::length::length;
 use crate::model::membrane::{Membrane, all, image, of_triangles};
 use crate::model::schedule::{Local, Schedule};
 use crate::world::{Material, SceneParts};
@@ -144,7 +145,7 @@ impl Local<3> for Spring {
         let mut moves = [DVec3::ZERO; 3];
         for (which, c) in [self.membrane.a, self.membrane.b].into_iter().enumerate() {
             let stretched = image(c, [x[0] + moves[0], x[1] + moves[1], x[2] + moves[2]]);
-            let length = stretched.length();
+            let length = length(stretched);
             let c = all(c);
             let weight = w[0] * c[0] * c[0] + w[1] * c[1] * c[1] + w[2] * c[2] * c[2];
             // A vector shorter than a millionth has no reliable direction.

@@ -3,6 +3,7 @@
 pub(crate) mod bending;
 pub(crate) mod energy;
 pub(crate) mod hierarchy;
+pub(crate) mod length;
 pub(crate) mod membrane;
 pub(crate) mod mobility;
 pub(crate) mod rope;

@@ -26,7 +26,6 @@
 //! bodies end the step. A contact that is not squeezed is shifted only by the distance missing at the start. Pushes do the rest,
 //! since a moving body does push the cloth.
 
-use super::mobility::mobility;
 use selvedge_core::glam::DVec3;
 use std::collections::BTreeMap;
 
@@ -48,6 +47,8 @@ pub(crate) struct Touch {
     /// The weight of each vertex in the relative motion. The sum over both sides is zero if both are vertices.
     pub(crate) weights: [f64; 4],
     pub(crate) normal: DVec3,
+    /// The [mobility](super::mobility) of its sides; zero if they cannot move.
+    pub(crate) mobility: f64,
     /// The distance by which the contact has moved its two sides apart in this substep.
     pub(crate) push: f64,
     /// The motion of the other side in this step, if it is not a vertex.
@@ -58,11 +59,12 @@ pub(crate) struct Touch {
 
 impl Touch {
     /// Makes a touch of vertices alone, without friction so far.
-    pub(crate) const fn new(vertices: [u32; 4], weights: [f64; 4], normal: DVec3, push: f64) -> Self {
+    pub(crate) const fn new(vertices: [u32; 4], weights: [f64; 4], normal: DVec3, mobility: f64, push: f64) -> Self {
         Self {
             vertices,
             weights,
             normal,
+            mobility,
             push,
             drift: DVec3::ZERO,
             rubbed: DVec3::ZERO,
@@ -74,7 +76,6 @@ impl Touch {
 #[derive(Clone, Copy, Debug)]
 struct Recovery {
     touch: Touch,
-    mobility: f64,
     /// True if a whole side is kinematic.
     is_on_kinematic: bool,
     /// The missing distance at the start of the step, and at its end in `at_end`.
@@ -133,8 +134,7 @@ impl Touches {
         thickness: f64,
         inverse_masses: &[f64],
     ) -> Option<u32> {
-        let mobility = mobility(inverse_masses, touch.vertices, touch.weights);
-        if self.is_shifted || !(at_end > LEAST_MISSING * thickness && mobility > 0.0) {
+        if self.is_shifted || !(at_end > LEAST_MISSING * thickness && touch.mobility > 0.0) {
             return None;
         }
         let is_kinematic = |sign: f64| {
@@ -143,7 +143,6 @@ impl Touches {
         };
         self.recoveries.push(Recovery {
             touch,
-            mobility,
             is_on_kinematic: is_kinematic(1.0) || is_kinematic(-1.0),
             missing: missing.max(0.0),
             at_end,
@@ -282,9 +281,10 @@ impl Recovery {
             vertices,
             weights,
             normal,
+            mobility,
             ..
         } = self.touch;
-        let way = normal * (push / self.mobility);
+        let way = normal * (push / mobility);
         for (vertex, weight) in vertices.into_iter().zip(weights) {
             shift[vertex as usize] += way * (weight * inverse_masses[vertex as usize]);
         }
@@ -312,7 +312,7 @@ mod tests {
         let h = 1e-3;
         let mut touches = Touches::new(true);
         for &(normal, missing) in contacts {
-            touches.record_missing(Touch::new(VERTEX, ALONE, normal, 0.0), [missing; 2], 1e-3, &[2.0]);
+            touches.record_missing(Touch::new(VERTEX, ALONE, normal, 2.0, 0.0), [missing; 2], 1e-3, &[2.0]);
         }
         touches.find_shift(&[2.0], h);
         let shift = touches.shift().first().copied().unwrap_or_default();

@@ -289,6 +289,9 @@ impl<'a> Substep<'a> {
         if let Some(contact) = &mut self.contact {
             contact.follow_shift(&self.step, self.positions, self.touches);
         }
+        self.shifted.clear();
+        let shifted = self.step.start.iter().zip(self.touches.shift());
+        self.shifted.extend(shifted.map(|(start, shift)| *start + *shift));
     }
 
     /// Lets contacts push, or take back, and rub until a sweep changes little.
@@ -321,9 +324,10 @@ impl<'a> Substep<'a> {
     fn is_small(&self, change: f64) -> bool {
         let Some(contact) = &self.contact else { return true };
         let ends = self.positions.iter().zip(self.step.start).zip(self.step.inverse_masses);
-        let free = ends.filter(|(_, inverse_mass)| **inverse_mass > 0.0);
-        let farthest = || free.map(|((end, start), _)| end.distance_squared(*start)).fold(0.0, f64::max);
-        change <= contact.negligible() || change * change <= SMALL_CHANGE.powi(2) * farthest()
+        let mut free = ends.filter(|(_, inverse_mass)| **inverse_mass > 0.0);
+        let mut is_small_beside_a_move =
+            || free.any(|((end, start), _)| change * change <= SMALL_CHANGE.powi(2) * end.distance_squared(*start));
+        change <= contact.negligible() || change == 0.0 || is_small_beside_a_move()
     }
 
     /// Applies friction to contacts that have pushed. Sliding does not include the shift.
@@ -336,9 +340,6 @@ impl<'a> Substep<'a> {
         }
         let mut step = self.step;
         if !self.touches.shift().is_empty() {
-            self.shifted.clear();
-            let shifted = self.step.start.iter().zip(self.touches.shift());
-            self.shifted.extend(shifted.map(|(start, shift)| *start + *shift));
             step.start = self.shifted;
         }
         for Entry { effect, action } in &mut *self.friction {
