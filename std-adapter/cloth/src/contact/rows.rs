@@ -216,7 +216,9 @@ impl Row {
                     ..
                 } = self.near;
                 self.touch = touches.list.len() as u32;
-                touches.list.push(Touch::new(vertices, weights, normal, self.mobility, self.push));
+                touches
+                    .list
+                    .push(Touch::new(vertices, weights, normal, self.mobility, self.push));
             }
             None => (),
         }
