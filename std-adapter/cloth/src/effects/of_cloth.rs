@@ -98,6 +98,10 @@ impl<T: Constraint> Constraint for OfCloth<T> {
         self.action.over_limit(&positions[self.vertices.clone()])
     }
 
+    fn is_undone(&self, positions: &[DVec3]) -> Option<bool> {
+        self.action.is_undone(&positions[self.vertices.clone()])
+    }
+
     fn memory(&self) -> Option<&dyn Memory> {
         self.action.memory().is_some().then_some(self)
     }

@@ -32,6 +32,8 @@ pub struct Fabric {
     pub(crate) stretch: Option<[f64; 2]>,
     /// Stiffness of the angle between warp and weft, in N/m.
     pub(crate) shear: Option<f64>,
+    /// True if the stretch of the cloth is limited.
+    pub(crate) is_limited: bool,
     /// The distance that the cloth keeps from itself, in metres.
     pub(crate) thickness: Option<f64>,
     /// The point at which folds become permanent.

@@ -7,13 +7,13 @@
 
 use super::levels::{self, OnLevels, Tension};
 use super::registration::{ActsOn, Effect, Registration};
-use crate::effects::plan::Plan;
+use crate::effects::plan::{Fabric, Plan};
 use crate::input::{Count, Field, RATIO, ValueError};
+use crate::model::edge_lengths::Lengths;
 use crate::model::membrane::{Membrane, SquaredStretch, all, image, of_triangles};
 use crate::model::schedule::{Local, Schedule};
 use crate::model::step::{Constraint, TimeStep, Touches};
-use crate::world::{Cloth, SceneParts};
-use selvedge::Mesh;
+use crate::world::SceneParts;
 use selvedge_core::glam::DVec3;
 
 const LIMIT: Field = Field::new("limit", RATIO, 1.0, 10.0);
@@ -65,6 +65,10 @@ impl Effect for StrainLimit {
         levels::check(self.levels)
     }
 
+    fn announce(&self, fabric: &mut Fabric) {
+        fabric.is_limited = true;
+    }
+
     fn fabric(&self) -> Vec<(&'static str, String)> {
         vec![("longest over rest", RATIO.written_short(self.limit))]
     }
@@ -84,7 +88,7 @@ impl Effect for StrainLimit {
         let limits = Schedule::in_blocks(limits, &cloth.mesh.positions, self.sweeps.into());
         plan.add_constraint(Limits {
             limits: OnLevels::new(levels, limits, |triangle| Tension::limit(triangle, limit)),
-            longest: longest(cloth, limit),
+            longest: Lengths::new(&cloth.mesh, limit),
         });
     }
 }
@@ -92,21 +96,7 @@ impl Effect for StrainLimit {
 #[derive(Debug)]
 struct Limits {
     limits: OnLevels<Schedule<Limit, 3>>,
-    /// The edges of the triangles, each with the inverse square of its largest length.
-    longest: Vec<([u32; 2], f64)>,
-}
-
-fn longest(cloth: &Cloth, limit: f64) -> Vec<([u32; 2], f64)> {
-    let Mesh { positions, triangles } = &cloth.mesh;
-    let ends = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
-    let mut edges: Vec<[u32; 2]> = ends.map(|[a, b]| [a.min(b), a.max(b)]).collect();
-    edges.sort_unstable();
-    edges.dedup();
-    let longest = |edge: [u32; 2]| {
-        let [a, b] = edge.map(|vertex| positions[vertex as usize]);
-        (edge, (a.distance_squared(b) * limit * limit).recip())
-    };
-    edges.into_iter().map(longest).collect()
+    longest: Lengths,
 }
 
 impl Constraint for Limits {
@@ -119,9 +109,7 @@ impl Constraint for Limits {
     }
 
     fn over_limit(&self, positions: &[DVec3]) -> Option<f64> {
-        let over =
-            |&([a, b], per_square): &([u32; 2], f64)| positions[a as usize].distance_squared(positions[b as usize]) * per_square;
-        Some(self.longest.iter().map(over).fold(0.0, f64::max).sqrt())
+        Some(self.longest.largest(positions))
     }
 }
 

@@ -16,6 +16,7 @@ use super::levels::{self, OnLevels, Tension};
 use super::registration::{ActsOn, Effect, Registration};
 use crate::effects::plan::{Fabric, Plan};
 use crate::input::{Count, Field, MEMBRANE_STIFFNESS, ValueError};
+use crate::model::edge_lengths::Lasting;
 use crate::model::hierarchy::mesh_spacing;
 use crate::model::length::length;
 use crate::model::membrane::{Membrane, all, image, of_triangles};
@@ -125,7 +126,12 @@ impl Effect for Stretch {
         let parts = (levels.len() + 1) as f64;
         let [warp, weft] = stiffness;
         let fabric = [Some(warp), Some(weft), plan.fabric().shear].map(|k| k.map(|k| k / parts));
-        plan.add_constraint(OnLevels::new(levels, springs, |triangle| Tension::stretch(triangle, fabric)));
+        let stretch = OnLevels::new(levels, springs, |triangle| Tension::stretch(triangle, fabric));
+        if plan.fabric().is_limited {
+            plan.add_constraint(stretch);
+        } else {
+            plan.add_constraint(Lasting::new(stretch, &cloth.mesh));
+        }
     }
 }
 

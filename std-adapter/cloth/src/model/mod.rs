@@ -1,6 +1,7 @@
 //! The mechanics of cloth, ropes and seams: the parts that effects put into a step.
 
 pub(crate) mod bending;
+pub(crate) mod edge_lengths;
 pub(crate) mod energy;
 pub(crate) mod hierarchy;
 pub(crate) mod length;

@@ -97,6 +97,12 @@ pub trait Constraint: Debug + Send + Sync {
         None
     }
 
+    /// Returns whether contacts have undone what the constraint did, so that it has to act again. Returns `None` if it never acts
+    /// again for that reason.
+    fn is_undone(&self, _positions: &[DVec3]) -> Option<bool> {
+        None
+    }
+
     /// Returns the state that the constraint keeps from step to step, or `None` if it has none. Its projections depend on this
     /// state as well. A constraint always returns the same variant.
     fn memory(&self) -> Option<&dyn Memory> {

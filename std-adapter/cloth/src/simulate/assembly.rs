@@ -40,6 +40,8 @@ pub(super) struct Assembly {
     pub(super) among_contacts: Vec<usize>,
     /// The indices of constraints that limit lengths.
     pub(super) bounding: Vec<usize>,
+    /// The indices of constraints that act again if contacts have undone what they did.
+    pub(super) lasting: Vec<usize>,
     pub(super) pushes: Vec<Entry<dyn Constraint>>,
     pub(super) friction: Vec<Entry<dyn Constraint>>,
     pub(super) contact: Option<ContactSolver>,
@@ -127,6 +129,7 @@ impl Assembly {
             remembering: those(&constraints, |action| action.memory().is_some()),
             among_contacts: those(&constraints, |action| action.acts_among_contacts()),
             bounding: those(&constraints, |action| action.over_limit(&rest).is_some()),
+            lasting: those(&constraints, |action| action.is_undone(&rest).is_some()),
             constraints,
             pushes,
             friction,

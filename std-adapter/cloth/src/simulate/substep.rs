@@ -40,6 +40,7 @@ pub(super) struct Substep<'a> {
     constraints: &'a mut [Entry<dyn Constraint>],
     among_contacts: &'a [usize],
     bounding: &'a [usize],
+    lasting: &'a [usize],
     pushes: &'a mut [Entry<dyn Constraint>],
     friction: &'a mut [Entry<dyn Constraint>],
     remembering: &'a [usize],
@@ -106,6 +107,7 @@ impl<'a> Substep<'a> {
             constraints,
             among_contacts,
             bounding,
+            lasting,
             pushes,
             friction,
             remembering,
@@ -155,6 +157,7 @@ impl<'a> Substep<'a> {
             constraints,
             among_contacts,
             bounding,
+            lasting,
             pushes,
             friction,
             remembering,
@@ -230,8 +233,8 @@ impl<'a> Substep<'a> {
     /// limit.
     ///
     /// Stitches, pushes and friction stretch the cloth, and limits pull it into touching surfaces: each acts in rounds until all
-    /// limits hold. Limits act last: stitches may gape, and contacts have room between thickness and separation. Without a limit
-    /// there is one round.
+    /// limits hold. Limits act last: stitches may gape, and contacts have room between thickness and separation. Cloth without a
+    /// limit needs rounds only where contacts [undo](Constraint::is_undone) what its elasticity did.
     fn separate(&mut self) {
         if let Some(contact) = &mut self.contact {
             contact.prepare(self.step.start, self.positions);
@@ -240,6 +243,15 @@ impl<'a> Substep<'a> {
         self.recover();
         self.push();
         self.sweep();
+        for _ in 0..ROUNDS {
+            if !self.is_undone() {
+                break;
+            }
+            self.act_again(self.lasting);
+            self.act_again(self.among_contacts);
+            self.push();
+            self.rub();
+        }
         for _ in 0..ROUNDS {
             if self.holds() {
                 break;
@@ -345,6 +357,12 @@ impl<'a> Substep<'a> {
         for Entry { effect, action } in &mut *self.friction {
             timed(self.effects, *effect, || action.project(&step, self.positions, self.touches));
         }
+    }
+
+    /// Returns whether contacts have undone what a constraint did.
+    fn is_undone(&self) -> bool {
+        let mut lasting = self.lasting.iter().filter(|_| self.contact.is_some());
+        lasting.any(|&index| self.constraints[index].action.is_undone(self.positions) == Some(true))
     }
 
     /// Returns whether all lengths that constraints limit are within their limits and the tolerance.

@@ -66,6 +66,23 @@ fn edges_at_the_ends_of_seams_keep_their_limit() {
     assert!(largest < 1.05 && simulation.overstretched_steps() == 0, "{largest}");
 }
 
+/// Attachments draw the sheet taut over a rod, and must feel that it is, to release it.
+#[test]
+fn a_sheet_that_is_drawn_over_a_rod_is_short_again_after_its_release() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/crease.toml");
+    let mut scene = Scene::read(&path).unwrap();
+    scene.time_step = 2e-3;
+    let mut simulation = Simulation::new(scene, 1).unwrap();
+    let mut largest = 0.0_f64;
+    while simulation.time() < 1.4 {
+        simulation.step().unwrap();
+        largest = largest.max(simulation.edge_stretch().largest);
+    }
+    let at_end = simulation.edge_stretch().largest;
+    println!("{largest}, {at_end}");
+    assert!(largest < 2.0 && at_end < 1.1, "{largest} {at_end}");
+}
+
 #[test]
 fn a_step_that_is_too_long_for_the_limit_is_counted() {
     let mut simulation = dropped(1.0 / 60.0);
