@@ -12,6 +12,8 @@ import { Hand } from "./hand.js";
 const find = (id) => document.getElementById(id);
 /** The most seconds that pass in a frame: a machine that is slower shows slow motion. */
 const MOST = 0.05;
+/** The seconds of a frame, and of the longest step in it. */
+const FRAME = 1 / 60, STEP = 1 / 240;
 
 export async function startCloth() {
   const remote = new Remote();
@@ -28,6 +30,7 @@ export async function startCloth() {
   let before = null;
   let owed = 0; // Seconds to simulate.
   let frames = [];
+  let simulated = []; // The simulated times of the last second, and when they were shown.
   let spent = [0, 0]; // Milliseconds of a frame in the worker and on this thread, the mean of about ten frames.
   let run = 0;
 
@@ -49,6 +52,7 @@ export async function startCloth() {
       scene = made;
       last = made;
       owed = 0;
+      simulated = [];
       report = null;
       hand.release();
       strain = new Strain(made);
@@ -89,6 +93,7 @@ export async function startCloth() {
       // The draw is the last frame's.
       const now = [state.milliseconds, performance.now() - begin + view.drawing];
       spent = spent.map((mean, i) => mean + (now[i] - mean) / Math.min(10, state.stepsDone / state.done));
+      if (playing) showPace(state.time);
       find("frame-time").textContent = `${spent[0].toFixed(1)} + ${spent[1].toFixed(1)} ms`;
     }
   }
@@ -108,6 +113,8 @@ export async function startCloth() {
       }
     }
     isBusy = false;
+    // Where drawing is slow, the next frame of the cloth does not wait for the page's.
+    if (playing && !report && own === run) catchUp(FRAME);
   }
 
   function tick(now) {
@@ -115,15 +122,38 @@ export async function startCloth() {
     requestAnimationFrame(tick);
     frames = [...frames.filter((at) => now - at < 1000), now];
     find("frame-rate").textContent = frames.length;
-    const passed = before === null ? 0 : Math.min(0.1, (now - before) / 1000);
+    if (report) return play(passed());
+    catchUp(STEP);
+  }
+
+  /** Returns the seconds since the last call. */
+  function passed() {
+    const now = performance.now();
+    const seconds = before === null ? 0 : Math.min(0.1, (now - before) / 1000);
     before = now;
-    if (report) return play(passed);
-    owed = Math.min(owed + passed * Number(find("speed").value), MOST);
-    if (isBusy || owed < 1e-4) return;
+    return seconds;
+  }
+
+  /** Lets the time pass that the cloth is behind, if it is at least so many seconds at full speed. */
+  function catchUp(least) {
+    const speed = Number(find("speed").value);
+    owed = Math.min(owed + passed() * speed, MOST);
+    if (isBusy || owed < least * speed * (1 - 1e-9)) return;
     const end = scene.steps * scene.timeStep;
     if (find("repeat").checked && last.time > end + 1 && !hand.isHolding) return restart();
-    advance(owed);
-    owed = 0;
+    // The rest of a step is left for later: it would cost as much as a whole one.
+    const steps = Math.floor(owed / STEP + 1e-6);
+    const seconds = steps > 0 ? steps * STEP : owed;
+    owed = Math.max(owed - seconds, 0);
+    advance(seconds);
+  }
+
+  /** Shows how fast time passes in the cloth. */
+  function showPace(time) {
+    const now = performance.now();
+    simulated = [...simulated.filter(({ at }) => now - at < 1000), { at: now, time }];
+    const [first] = simulated;
+    if (now - first.at > 300) find("pace").textContent = `${((time - first.time) / ((now - first.at) / 1000)).toFixed(2)}× real time`;
   }
 
   function restart() {
@@ -135,7 +165,8 @@ export async function startCloth() {
     playing = wanted && Boolean(scene || report);
     find("play").textContent = playing ? "Pause" : "Play";
     before = null;
-    find("frame-rate").textContent = "–";
+    simulated = [];
+    for (const id of ["frame-rate", "pace"]) find(id).textContent = "–";
     if (playing) requestAnimationFrame(tick);
   }
 
