@@ -145,7 +145,8 @@ impl Local<3> for Limit {
         // The length of the direction does not matter: the correction is a product with the direction, divided by its square.
         let (largest, [du, dv]) = stretch.principal();
         // A branch would be unpredictable.
-        let excess = (largest - self.limit).max(0.0);
+        let excess = largest - self.limit;
+        let excess = if excess > 0.0 { excess } else { 0.0 };
         let two = [du * a[0] + dv * b[0], du * a[1] + dv * b[1]];
         let c = all(two);
         let weight = w[0] * c[0] * c[0] + w[1] * c[1] * c[1] + w[2] * c[2] * c[2];

@@ -293,6 +293,7 @@ impl Recovery {
 }
 
 /// Returns n·Σ w·x.
+#[inline(always)]
 pub(crate) fn along(of_vertices: &[DVec3], vertices: [u32; 4], weights: [f64; 4], normal: DVec3) -> f64 {
     let parts = vertices.into_iter().zip(weights);
     parts.fold(0.0, |sum, (vertex, weight)| {
