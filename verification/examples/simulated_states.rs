@@ -1,10 +1,10 @@
-//! Checks the states of a simulation with the exact oracle: none may hold an intersection or a number that is not finite.
+//! Checks the states of simulations with the exact oracle: none may hold an intersection or a number that is not finite.
 //!
-//! `cargo run --release -p selvedge-verification --example simulated_states -- SCENE.toml [--steps N] [--every N]
+//! `cargo run --release -p selvedge-verification --example simulated_states -- SCENE.toml… [--steps N] [--every N]
 //!     [--time-step FACTOR] [--stiffness FACTOR] [--without EFFECT]`
 //!
-//! Runs N steps (10,000 by default; after the scene's end its bodies and pins rest) and checks every state, or one in N with
-//! `--every`. Factors multiply the scene's time step and all its stiffnesses. Two ropes that pass through each other leave no
+//! Runs each scene to its end, or N steps (after the scene's end its bodies and pins rest), and checks every state, or one in N
+//! with `--every`. It leaves out scenes without a contact effect, and reports the largest stretch in the checked states. Factors multiply the scene's time step and all its stiffnesses. Two ropes that pass through each other leave no
 //! trace in a state. So the paths of loose edges are checked as well, in all steps that were not cut into parts, which bend
 //! paths. Without `self_collision` the run must fail, which shows that it can. The exit status is 1 if a state is invalid, a step
 //! failed, or the scene cannot be read.
@@ -14,16 +14,18 @@ use indicatif::{ProgressBar, ProgressIterator, ProgressStyle};
 use selvedge_cloth::glam::DVec3;
 use selvedge_cloth::{Scene, Simulation};
 use selvedge_verification::oracle::{edges_that_meet, intersections_with_loose_edges};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 type Failure = Box<dyn std::error::Error>;
 
 #[derive(Parser)]
 struct Options {
-    scene: PathBuf,
-    #[arg(long, default_value_t = 10_000)]
-    steps: u64,
+    #[arg(required = true)]
+    scenes: Vec<PathBuf>,
+    /// Run this many steps instead of those of the scene.
+    #[arg(long)]
+    steps: Option<u64>,
     /// Check one state in this many.
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
     every: u64,
@@ -39,10 +41,11 @@ struct Options {
 }
 
 impl Options {
-    fn load(&self) -> Result<Simulation, Failure> {
+    /// Sets up a scene. Returns the number of steps to run as well.
+    fn load(&self, path: &Path) -> Result<(Simulation, u64), Failure> {
         let mut table = None;
         let mut text = String::new();
-        for line in std::fs::read_to_string(&self.scene)?.lines() {
+        for line in std::fs::read_to_string(path)?.lines() {
             if let Some(name) = line.strip_prefix('[') {
                 table = name.strip_prefix("effects.").and_then(|name| name.strip_suffix(']'));
             }
@@ -57,7 +60,9 @@ impl Options {
             text += &scaled(line, factor)?;
             text.push('\n');
         }
-        Ok(Simulation::new(Scene::parse(&text, &self.scene)?, 1)?)
+        let scene = Scene::parse(&text, path)?;
+        let steps = self.steps.unwrap_or(scene.steps());
+        Ok((Simulation::new(scene, 1)?, steps))
     }
 }
 
@@ -84,6 +89,8 @@ struct Findings {
     paths: u64,
     /// The largest speed, in metres per second.
     largest_speed: f64,
+    /// The largest stretch of 99 % of the edges, and of the longest one.
+    stretch: [f64; 2],
 }
 
 impl Findings {
@@ -96,6 +103,8 @@ impl Findings {
         let cloth = simulation.cloth_triangles();
         let found = intersections_with_loose_edges(&positions, simulation.triangles(), simulation.loose_edges(), cloth);
         self.states += 1;
+        let stretch = simulation.edge_stretch();
+        self.stretch = [self.stretch[0].max(stretch.percentile_99), self.stretch[1].max(stretch.largest)];
         if !found.is_empty() {
             return Err(format!("after step {step}: these faces and loose edges (a, b, b) intersect: {found:?}").into());
         }
@@ -120,12 +129,13 @@ fn cuts_so_far(simulation: &Simulation) -> u64 {
     simulation.contact_counts().map_or(0, |counts| counts.cuts)
 }
 
-fn run(options: &Options) -> Result<(Simulation, Findings), Failure> {
-    let mut simulation = options.load()?;
+fn run(options: &Options, path: &Path) -> Result<(Simulation, Findings), Failure> {
+    let (mut simulation, steps) = options.load(path)?;
     let mut findings = Findings::default();
     let style = ProgressStyle::with_template("{bar:40} {human_pos}/{human_len} steps, {eta} left{msg}")?;
-    let bar = ProgressBar::new(options.steps).with_style(style);
-    for step in (1..=options.steps).progress_with(bar.clone()) {
+    let bar = ProgressBar::new(steps).with_style(style);
+    let steps = if simulation.contact_counts().is_some() { steps } else { 0 };
+    for step in (1..=steps).progress_with(bar.clone()) {
         let before = simulation.positions().to_vec();
         let cuts = cuts_so_far(&simulation);
         simulation.step()?;
@@ -151,9 +161,13 @@ fn run(options: &Options) -> Result<(Simulation, Findings), Failure> {
 }
 
 fn report(simulation: &Simulation, findings: Findings) {
-    let counts = simulation.contact_counts().copied().unwrap_or_default();
+    let Some(counts) = simulation.contact_counts() else {
+        return println!("{}: left out, since it has no contact effect", simulation.name());
+    };
+    let [most, longest] = findings.stretch;
     println!(
-        "{}: {} states and the paths of {} steps are free of intersections; {} steps were blocked, {} pairs repaired, {:.1} m/s at most",
+        "{}: {} states and the paths of {} steps are free of intersections; {} steps were blocked, {} pairs repaired, {:.1} m/s at most, \
+         stretch {most:.4}/{longest:.4}",
         simulation.name(),
         findings.states,
         findings.paths,
@@ -165,14 +179,15 @@ fn report(simulation: &Simulation, findings: Findings) {
 
 fn main() -> ExitCode {
     let options = Options::parse();
-    match run(&options) {
-        Ok((simulation, findings)) => {
-            report(&simulation, findings);
-            ExitCode::SUCCESS
-        }
-        Err(failure) => {
-            eprintln!("{}: {failure}", options.scene.display());
-            ExitCode::FAILURE
+    let mut status = ExitCode::SUCCESS;
+    for path in &options.scenes {
+        match run(&options, path) {
+            Ok((simulation, findings)) => report(&simulation, findings),
+            Err(failure) => {
+                eprintln!("{}: {failure}", path.display());
+                status = ExitCode::FAILURE;
+            }
         }
     }
+    status
 }
