@@ -104,7 +104,10 @@ impl Findings {
         let found = intersections_with_loose_edges(&positions, simulation.triangles(), simulation.loose_edges(), cloth);
         self.states += 1;
         let stretch = simulation.edge_stretch();
-        self.stretch = [self.stretch[0].max(stretch.percentile_99), self.stretch[1].max(stretch.largest)];
+        self.stretch = [
+            self.stretch[0].max(stretch.percentile_99),
+            self.stretch[1].max(stretch.largest),
+        ];
         if !found.is_empty() {
             return Err(format!("after step {step}: these faces and loose edges (a, b, b) intersect: {found:?}").into());
         }
