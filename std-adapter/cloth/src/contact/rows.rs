@@ -96,7 +96,7 @@ const NONE: u32 = u32::MAX;
 /// Pushes of less than this share of the thickness are not stored: they are rounding.
 const LEAST_PUSH: f64 = 1e-9;
 /// The rest distance, as a share of the thickness, below which there is no room. Layers under a load that they can bear keep more.
-const LEAST_ROOM: f64 = 0.9;
+const LEAST_ROOM: f64 = 0.2;
 
 impl Row {
     /// Makes the row of a pair that is this far apart at the start of the step.
