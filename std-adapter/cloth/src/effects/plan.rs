@@ -34,6 +34,8 @@ pub struct Fabric {
     pub(crate) shear: Option<f64>,
     /// True if the stretch of the cloth is limited.
     pub(crate) is_limited: bool,
+    /// True if stretch and shear are [solved together](crate::model::elasticity).
+    pub(crate) is_solved_together: bool,
     /// The distance that the cloth keeps from itself, in metres.
     pub(crate) thickness: Option<f64>,
     /// The point at which folds become permanent.

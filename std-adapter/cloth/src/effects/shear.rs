@@ -1,11 +1,13 @@
 //! Shear: C = w_u·w_v (Baraff and Witkin 1998) with the compliance 1/(k·A). Like [`stretch`](super::stretch) it runs in one or
-//! several sweeps per step.
+//! several sweeps per step, or is solved together with it.
 
 use super::registration::{ActsOn, Effect, Registration};
 use crate::effects::plan::{Fabric, Plan};
 use crate::input::{Count, Field, MEMBRANE_STIFFNESS, ValueError};
+use crate::model::energy::{Configuration, StoredEnergy};
 use crate::model::membrane::{Membrane, all, image, of_triangles};
 use crate::model::schedule::{Local, Schedule};
+use crate::model::step::{Constraint, TimeStep, Touches};
 use crate::world::{Material, SceneParts};
 use selvedge_core::glam::DVec3;
 
@@ -26,7 +28,8 @@ pub(super) const REGISTRATION: Registration = Registration::new(&["stiffness", "
 pub struct Shear {
     /// The stiffness, in N/m.
     pub stiffness: f64,
-    /// The number of sweeps over all triangles in a step.
+    /// The number of sweeps over all triangles in a step, unless the stretch of the cloth is solved until little
+    /// changes ([`Stretch::sweeps`](super::Stretch::sweeps)). Then shear is solved with it.
     pub sweeps: u32,
 }
 
@@ -77,7 +80,28 @@ impl Effect for Shear {
             membrane,
             compliance: 1.0 / (self.stiffness * area),
         });
-        plan.add_constraint(Schedule::times(angles, &cloth.mesh.positions, self.sweeps));
+        let angles = Schedule::times(angles, &cloth.mesh.positions, self.sweeps);
+        if plan.fabric().is_solved_together {
+            plan.add_constraint(WithStretch(angles));
+        } else {
+            plan.add_constraint(angles);
+        }
+    }
+}
+
+/// Angles that the effect of stretch [moves](crate::model::elasticity).
+#[derive(Debug)]
+struct WithStretch(Schedule<Angle, 3>);
+
+impl Constraint for WithStretch {
+    fn project(&mut self, _: &TimeStep<'_>, _: &mut [DVec3], _: &mut Touches) {}
+
+    fn is_inner(&self) -> bool {
+        true
+    }
+
+    fn energy(&self, now: &Configuration<'_>) -> Option<StoredEnergy> {
+        self.0.energy(now)
     }
 }
 

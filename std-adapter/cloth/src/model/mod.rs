@@ -2,6 +2,7 @@
 
 pub(crate) mod bending;
 pub(crate) mod edge_lengths;
+pub(crate) mod elasticity;
 pub(crate) mod energy;
 pub(crate) mod hierarchy;
 pub(crate) mod length;

@@ -38,7 +38,8 @@ impl<T: Copy + Default> Incidence<T> {
         &mut self.items[range]
     }
 
-    fn range(&self, list: usize) -> std::ops::Range<usize> {
+    /// Returns the places of a list among all items.
+    pub(crate) fn range(&self, list: usize) -> std::ops::Range<usize> {
         self.starts[list] as usize..self.starts[list + 1] as usize
     }
 }

@@ -1,6 +1,6 @@
 //! Bending stiffness: a cantilever, a plate, and Cusick's drape test.
 
-use super::setting::{DENSITY, G, advance_to, elastic, pinned, scene};
+use super::setting::{DENSITY, G, advance_to, elastic, pinned, scene, solved};
 use super::{ErrorUnit, Failure, Law, Outcome, Sample};
 use selvedge_cloth::effects::{AirDrag, Bend, Gravity, SelfCollision, Shear, Stretch, Thickness};
 use selvedge_cloth::glam::DVec3;
@@ -53,7 +53,7 @@ pub(super) const CANTILEVER: Law = Law {
             let sides = [(LENGTH + 2.0 * edge) * DVec3::X, 0.5 * LENGTH * DVec3::Y];
             let mut scene = scene(Cloth::sheet(corner, sides, [columns, cells / 2], DENSITY)?, step);
             elastic(&mut scene, 1000.0, rigidity);
-            scene.add(Bend {
+            scene.add(solved(1000.0)).add(Bend {
                 stages: 300,
                 ..Bend::isotropic(rigidity)
             });

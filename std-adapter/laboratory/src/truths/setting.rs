@@ -25,6 +25,14 @@ pub(super) fn elastic(scene: &mut Scene, stiffness: f64, bending: f64) {
     scene.add(Bend::isotropic(bending));
 }
 
+/// Returns stretch with a stiffness in N/m that each step solves until little changes.
+pub(super) const fn solved(stiffness: f64) -> Stretch {
+    Stretch {
+        sweeps: 0,
+        ..Stretch::isotropic(stiffness)
+    }
+}
+
 /// Adds contact at a thickness in metres, and friction if its coefficient is positive.
 pub(super) fn contact(scene: &mut Scene, thickness: f64, friction: f64) {
     let thickness = Thickness::new(thickness);

@@ -55,10 +55,10 @@ laws! {
     energy: [0.18, 0.33, 0.55], 1e-9;
     pendulum: [0.005; 3], 0.0, falls_with_the_square_of_the_edges;
     hanging_chain: [0.009; 3], 0.0, falls_with_the_square_of_the_edges;
-    catenary: [0.07, 0.07, 0.03], 0.0;
-    own_weight: [0.13, 0.55, 0.6], 0.0;
-    balloon: [1.3, 6.0, 40.0], 0.0;
-    cantilever: [0.085, 0.087, 0.105], 0.0, falls_with_the_edges;
+    catenary: [0.0095; 3], 0.0;
+    own_weight: [0.008, 0.012, 0.018], 0.0;
+    balloon: [0.08, 0.1, 0.15], 0.0;
+    cantilever: [0.07, 0.08, 0.08], 0.0, falls_with_the_edges;
     plate: [0.37, 0.35, 0.285], 0.0, falls_with_the_edges;
     drape: [0.118; 3], 0.0;
     inclined_plane: [0.0021, 0.0042, 0.0084], 1e-9;
