@@ -89,7 +89,7 @@ impl<I: Interest> NearPairs<I> {
         })
     }
 
-    /// Sets the vertices of [parts](super::parts), such as bodies, that may be far from all else. Far parts change no list and no time of a
+    /// Sets the vertices of parts, such as bodies, that may be far from all else. Far parts change no list and no time of a
     /// search. The ranges ascend and are disjoint, their vertices are not wanted, and no edge or triangle has vertices of two of them, or of one and others.
     pub fn set_parts(&mut self, parts: Vec<Range<usize>>) {
         let largest = self.reach.classes.iter().map(|class| class.distance).fold(0.0, f64::max);
