@@ -122,7 +122,6 @@ fn stiff_cloth_that_is_jammed_between_pins_is_free_and_does_not_stop_them() {
     let change = |text: String| {
         let text = text.replace("\"300 N/m\"", "300e3").replace("\"100 N/m\"", "100e3");
         let text = text.replace("\"10 uN m\"", "10e-3");
-        let text = text.replace("\"1 ms\"", "\"3 ms\"");
         text.replace("[20, 20]", "[8, 8]").replace("\"3 mm\"", "\"10 mm\"")
     };
     let mut simulation = load("violent.toml", change);
@@ -131,7 +130,7 @@ fn stiff_cloth_that_is_jammed_between_pins_is_free_and_does_not_stop_them() {
     assert!(counts.violated > 10_000, "it is jammed: {counts:?}");
     assert!(counts.held > 0, "and truncated: {counts:?}");
     assert_eq!(simulation.blocked_steps(), 0, "{counts:?}");
-    assert!(200 * counts.cuts < counts.violated, "{counts:?}");
+    assert!(counts.cuts < 65, "{counts:?}");
 }
 
 /// The same sleeve without the certified effects shows that the tests above can fail.

@@ -49,7 +49,7 @@ fn json_has_energy_and_stretch_at_every_frame_and_the_slowest_step() {
 #[test]
 fn a_scene_without_a_time_step_runs_by_frames_and_steps_that_are_too_long_are_told_when_they_happen() {
     let place = Workplace::new();
-    let limited = SHEET.replace(
+    let limited = SHEET.replace("[8, 8]", "[16, 16]").replace(
         "[effects.gravity]",
         "[effects.gravity]\n[effects.strain_limit]\nlimit = 1.0\n[effects.friction]\ncoefficient = 0.5",
     );
