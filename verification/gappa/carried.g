@@ -10,10 +10,10 @@
 # Underflow: eta in E exceeds 40 lambda (gap.g), and 3 more operations flush at most 4 lambda each.
 
 errors = 3; #! core/src/separation/carried.rs: S::small(3) * error.length()
-#~ core/src/separation/carried.rs: const KEPT: f64 = 1.0 - 1e-5;
+#~ core/src/separation/carried.rs: const KEPT: f64 = 1.0 - 1e-4;
 #~ core/src/separation/carried.rs: let kept = S::from_f64(KEPT) * distance - lost(error);
 #~ core/src/separation/carried.rs: separation.smaller(kept.larger(S::ZERO))
-c = 1 - 1e-5;
+c = 1 - 1e-4;
 eta = 1b@eta@;
 lambda = 1b@lambda@;
 

@@ -3,7 +3,7 @@
 //!
 //! | module | what it bounds | rounding |
 //! |---|---|---|
-//! | [`carried`] | the separation that a pair keeps if it is carried along rigidly | 3 errors of a gap, and 10⁻⁵ of the distance |
+//! | [`carried`] | the separation that a pair keeps if it is carried along rigidly | 3 errors of a gap, and 10⁻⁴ of the distance |
 //! | [`gap`] | the distance along a direction, from below; the direction that a pair remembers | 64u of the largest coordinate, and 2⁻²⁰ for stored values |
 //! | [`clearance`] | the distance that a pair keeps although its points stray from their expected motion | 64u of the largest coordinate and of the distance, 128u of the stray, in `f32` |
 //! | [`closest`] | the closest points of a pair at rest | plain floating point: certifies nothing by itself |
