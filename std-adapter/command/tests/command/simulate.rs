@@ -65,6 +65,8 @@ fn a_scene_without_a_time_step_runs_by_frames_and_steps_that_are_too_long_are_to
     let times = frames["edge_stretch"]["seconds"].as_array().unwrap();
     assert_eq!((times.len(), times[10].as_f64()), (11, Some(1.0)));
     assert_eq!(frames["overstretched_steps"].as_u64(), Some(0));
+    assert!(frames["slowest_step"].is_null(), "what is timed is a frame of several steps");
+    assert!((1..=60).contains(&frames["slowest_frame"]["frame"].as_u64().unwrap()));
     assert!(!warned.contains("above its limit"), "{warned}");
     let (long, warned) = run("long.toml");
     assert!(long["overstretched_steps"].as_u64().unwrap() > 0);

@@ -196,13 +196,17 @@ pub fn simulation(simulation: &selvedge_cloth::Simulation, recording: &Recording
         let edge = vertices.map(|vertex| number(first + vertex as usize) - first_in_file);
         json!({"cloth": cloth, "edge": edge, "seconds": time, "newtons_per_metre": load})
     });
-    let slowest = recording.step_times();
+    let slowest = |unit: &str| {
+        let times = recording.step_times().filter(|_| recording.about.unit == unit);
+        times.map(|steps| json!({unit: steps.largest_step, "seconds": steps.largest}))
+    };
     json!({
         "scene": simulation.name(),
         "steps": steps,
         "seconds": seconds,
         "steps_per_second": steps as f64 / seconds,
-        "slowest_step": slowest.map(|steps| json!({"step": steps.largest_step, "seconds": steps.largest})),
+        "slowest_step": slowest("step"),
+        "slowest_frame": slowest("frame"),
         "simulated_seconds": simulation.time(),
         "edge_stretch_at_end": {"percentile_99": stretch.percentile_99, "largest": stretch.largest},
         "edge_stretch": edge_stretch(recording),

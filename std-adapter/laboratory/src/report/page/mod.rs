@@ -155,7 +155,7 @@ fn summary(recording: &Recording) -> String {
     }
     summary += &format!(
         "; {} of {}.",
-        counted(recording.steps, "step"),
+        counted(recording.steps, recording.about.unit),
         time(recording.about.time_step)
     );
     summary
@@ -178,7 +178,7 @@ fn tiles(recording: &Recording) -> Markup {
         tiles.push((time(seconds), "computed in".to_owned()));
         tiles.push((few(steps / seconds), "steps a second".to_owned()));
     }
-    let step_of = |steps: &Series| format!("slowest step, the {}", ordinal(steps.largest_step));
+    let step_of = |steps: &Series| format!("slowest {}, the {}", recording.about.unit, ordinal(steps.largest_step));
     tiles.extend(recording.step_times().map(|steps| (time(steps.largest), step_of(steps))));
     let longest = recording.measure(LONGEST_EDGE);
     let longest = longest.filter(|longest| longest.largest.is_finite());

@@ -11,6 +11,7 @@
 //!     scene: "duration = \"20 ms\"\n".to_owned(),
 //!     up: DVec3::Z,
 //!     time_step: 0.01,
+//!     unit: "step",
 //!     fabric: vec![Knob::new("weight", "150 g/m²")],
 //!     knobs: vec![Knob::new("time step", "10 ms")],
 //! };
@@ -92,6 +93,8 @@ pub struct About {
     pub up: DVec3,
     /// The time step, in seconds.
     pub time_step: f64,
+    /// The word for what is recorded as a step: "step", or "frame" in a scene whose frames take several steps each.
+    pub unit: &'static str,
     /// The properties of the fabric.
     pub fabric: Vec<Knob>,
     /// The settings that trade time for accuracy.
@@ -108,6 +111,7 @@ impl About {
             scene,
             up,
             time_step,
+            unit: "step",
             fabric,
             knobs,
         }

@@ -35,6 +35,7 @@ impl Subject {
             scene: scene.text.clone(),
             up: scene.up,
             time_step: scene.time_of_run(),
+            unit: if scene.by_frames { "frame" } else { "step" },
             fabric: scene
                 .fabric()
                 .into_iter()

@@ -96,7 +96,7 @@ pub fn simulation(simulation: &Simulation, recording: &Recording) -> String {
     text
 }
 
-/// Names the frame with the longest edges, and the slowest step.
+/// Names the frame with the longest edges, and the slowest step or frame.
 fn at_worst(recording: &Recording) -> String {
     let mut text = String::new();
     if let (Some(most), Some(longest)) = (recording.measure(EDGES_99), recording.measure(LONGEST_EDGE)) {
@@ -104,8 +104,8 @@ fn at_worst(recording: &Recording) -> String {
         text += &format!("over all frames {:.3} and {:.3} (at {when})\n", most.largest, longest.largest);
     }
     if let Some(steps) = recording.step_times() {
-        let step = ordinal(steps.largest_step);
-        text += &format!("the slowest step, the {step}, took {}\n", time(steps.largest));
+        let (unit, place) = (recording.about.unit, ordinal(steps.largest_step));
+        text += &format!("the slowest {unit}, the {place}, took {}\n", time(steps.largest));
     }
     text
 }
