@@ -65,6 +65,11 @@ impl Effect for BodyContact {
     }
 }
 
+/// The share of a distance by which a vertex has to be farther than it, to be beyond it in spite of rounding.
+const SLACK: f64 = 1e-9;
+/// A bound of the rounding of squared distances, as a share of the largest of their terms.
+const ROUNDING: f64 = 1e-12;
+
 #[derive(Debug)]
 struct Capsule {
     carrier: usize,
@@ -107,14 +112,28 @@ impl Constraint for Push {
             }
             let [from, to] = capsule.ends.map(|end| now.apply(end));
             let axis = to - from;
+            let squared = Some(axis.length_squared()).filter(|squared| *squared > 0.0).unwrap_or(1.0);
             let reach = capsule.radius + self.thickness;
-            let surely_beyond = (reach * (1.0 + 1e-9)).powi(2);
+            let surely_beyond = (reach * (1.0 + SLACK)).powi(2) * squared;
             for vertex in self.vertices.clone() {
                 let position = positions[vertex];
-                let way = position - nearest(from, axis, position);
-                if way.length_squared() > surely_beyond {
+                // The squares of the distances from the axis and from its start, and the way along the axis, all times the
+                // axis's square: there is no division. The errors of the first are a few roundings of the second.
+                let way = position - from;
+                let from_start = way.length_squared() * squared;
+                let along = way.dot(axis);
+                let nearest_along = if along < 0.0 {
+                    0.0
+                } else if along > squared {
+                    squared
+                } else {
+                    along
+                };
+                let from_axis = from_start - nearest_along * (2.0 * along - nearest_along);
+                if from_axis > surely_beyond + ROUNDING * from_start {
                     continue;
                 }
+                let way = position - nearest(from, axis, position);
                 let distance = length(way);
                 let inverse_mass = step.inverse_masses[vertex];
                 if !(distance < reach && distance > 0.0 && inverse_mass > 0.0) {

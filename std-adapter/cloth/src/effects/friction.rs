@@ -58,7 +58,8 @@ impl Constraint for Friction {
             }
             let vertices = touch.vertices.map(|v| v as usize);
             let mut sliding = -touch.drift;
-            for (vertex, weight) in vertices.into_iter().zip(touch.weights) {
+            let parts = vertices.into_iter().zip(touch.weights).filter(|(_, weight)| *weight != 0.0);
+            for (vertex, weight) in parts.clone() {
                 sliding += (positions[vertex] - step.start[vertex]) * weight;
             }
             sliding -= touch.normal * sliding.dot(touch.normal);
@@ -73,7 +74,7 @@ impl Constraint for Friction {
                 largest = change;
             }
             touch.rubbed = rubbed;
-            for (vertex, weight) in vertices.into_iter().zip(touch.weights) {
+            for (vertex, weight) in parts {
                 positions[vertex] += back * (step.inverse_masses[vertex] * weight);
             }
         }

@@ -84,7 +84,7 @@ impl Effect for StrainLimit {
         let limit = self.limit;
         // The limit has no compliance, so that a pull crosses the whole cloth at once.
         let levels = plan.levels(f64::INFINITY, self.levels);
-        let limits = of_triangles(cloth, |membrane, _| Limit { membrane, limit });
+        let limits = of_triangles(cloth, |membrane, _| Limit::new(membrane, limit));
         let limits = Schedule::in_blocks(limits, &cloth.mesh.positions, self.sweeps.into());
         plan.add_constraint(Limits {
             limits: OnLevels::new(levels, limits, |triangle| Tension::limit(triangle, limit)),
@@ -117,33 +117,45 @@ impl Constraint for Limits {
 struct Limit {
     membrane: Membrane,
     limit: f64,
+    /// The square of the limit, less what rounding may add to a squared stretch.
+    kept: f64,
+    /// The way of a vertex, in metres, that changes the squared stretch by one near the limit.
+    way: f64,
 }
 
 impl Limit {
-    /// Returns whether the triangle certainly keeps the limit, as most do.
-    #[inline(always)]
-    fn is_far_below(&self, stretch: SquaredStretch) -> bool {
-        stretch.bound() < self.limit * self.limit
+    /// Moves of the vertices by δᵢ change the stretch σ along a direction d by at most Σ|d_u·aᵢ + d_v·bᵢ|·|δᵢ| ≤ K·Σ|δᵢ|, where K
+    /// is the largest length of the vectors (aᵢ, bᵢ). Below the limit L, L − σ = (L² − σ²)/(L + σ) ≥ (L² − σ²)/2L.
+    fn new(membrane: Membrane, limit: f64) -> Self {
+        let [a, b] = [membrane.a, membrane.b].map(all);
+        let steepest = [0, 1, 2].map(|k| a[k].hypot(b[k])).into_iter().fold(0.0, f64::max);
+        Self {
+            membrane,
+            limit,
+            kept: limit * limit * (1.0 - 1e-9),
+            way: 1.0 / (2.0 * limit * steepest),
+        }
     }
 }
 
 impl Local<3> for Limit {
     type Multipliers = ();
 
+    const HAS_ROOM: bool = true;
+
     #[inline(always)]
-    fn moves_nothing(&self, x: [DVec3; 3]) -> bool {
-        self.is_far_below(SquaredStretch::new(self.membrane, x))
+    fn room(&self, x: [DVec3; 3]) -> f64 {
+        let stretch = SquaredStretch::new(self.membrane, x);
+        let bound = stretch.bound();
+        let squared = if bound < self.kept { bound } else { stretch.largest() };
+        (self.kept - squared) * self.way
     }
 
     #[inline(always)]
     fn corrections(&self, x: [DVec3; 3], w: [f64; 3], _: f64, _: &mut ()) -> [DVec3; 3] {
-        let stretch = SquaredStretch::new(self.membrane, x);
-        if self.is_far_below(stretch) {
-            return [DVec3::ZERO; 3];
-        }
         let Membrane { a, b, .. } = self.membrane;
         // The length of the direction does not matter: the correction is a product with the direction, divided by its square.
-        let (largest, [du, dv]) = stretch.principal();
+        let (largest, [du, dv]) = SquaredStretch::new(self.membrane, x).principal();
         // A branch would be unpredictable.
         let excess = largest - self.limit;
         let excess = if excess > 0.0 { excess } else { 0.0 };
@@ -168,7 +180,7 @@ mod tests {
             a: [1.0, 0.0],
             b: [0.0, 1.0],
         };
-        let limit = Limit { membrane, limit: 1.1 };
+        let limit = Limit::new(membrane, 1.1);
         let moves = limit.corrections(x, [1.0; 3], 0.0, &mut ());
         [0, 1, 2].map(|k| x[k] + moves[k])
     }

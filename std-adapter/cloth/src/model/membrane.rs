@@ -122,6 +122,12 @@ impl SquaredStretch {
         self.middle + self.half.abs() + self.shear.abs()
     }
 
+    /// Returns the square of the largest stretch.
+    #[inline(always)]
+    pub(crate) fn largest(self) -> f64 {
+        self.middle + (self.half * self.half + self.shear * self.shear).sqrt()
+    }
+
     /// Returns the largest stretch, not squared, and a vector of some length in its direction, along warp and weft. The vector is
     /// the one of the eigenvector's two forms that does not cancel.
     #[inline(always)]

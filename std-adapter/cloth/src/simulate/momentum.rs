@@ -39,6 +39,7 @@ const LEAST_INERTIA: f64 = 1e-12;
 #[derive(Debug, Default)]
 pub(super) struct Pieces {
     pieces: Vec<Piece>,
+    /// The positions before corrections; empty if pins take up the momentum of every piece.
     before: Vec<DVec3>,
 }
 
@@ -83,15 +84,18 @@ impl Pieces {
         }
     }
 
-    /// Stores the positions before corrections.
-    pub(super) fn begin(&mut self, positions: &[DVec3]) {
+    /// Stores the positions before corrections, unless nothing is projected.
+    pub(super) fn begin(&mut self, step: &TimeStep<'_>, positions: &[DVec3]) {
         self.before.clear();
-        self.before.extend_from_slice(positions);
+        if self.pieces.iter().any(|piece| piece.hinge(step.start).is_some()) {
+            self.before.extend_from_slice(positions);
+        }
     }
 
     /// Removes the sum and the moment of the corrections since [`begin`](Self::begin), except where pins take them up.
     pub(super) fn project(&self, step: &TimeStep<'_>, positions: &mut [DVec3]) {
-        for piece in &self.pieces {
+        let pieces = self.pieces.iter().filter(|_| !self.before.is_empty());
+        for piece in pieces {
             piece.project(step, &self.before, positions);
         }
     }
@@ -192,7 +196,7 @@ mod tests {
     fn left(start: &[DVec3], corrections: &[DVec3], inverse_masses: &[f64]) -> Vec<DVec3> {
         let step = TimeStep::first(1e-3, start, inverse_masses);
         let mut pieces = Pieces::new(inverse_masses, (1..start.len() as u32).map(|vertex| [vertex - 1, vertex]));
-        pieces.begin(start);
+        pieces.begin(&step, start);
         let moved = start.iter().zip(corrections).zip(inverse_masses);
         let mut positions: Vec<DVec3> = moved.map(|((x, d), &w)| if w > 0.0 { *x + *d } else { *x }).collect();
         pieces.project(&step, &mut positions);

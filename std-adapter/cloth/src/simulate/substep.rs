@@ -210,7 +210,7 @@ impl<'a> Substep<'a> {
         for index in 0..self.constraints.len() {
             let is_next_inner = self.constraints[index].action.is_inner();
             match (is_inner, is_next_inner) {
-                (false, true) => self.pieces.begin(self.positions),
+                (false, true) => self.pieces.begin(&self.step, self.positions),
                 (true, false) => self.pieces.project(&self.step, self.positions),
                 _ => (),
             }
@@ -380,7 +380,7 @@ impl<'a> Substep<'a> {
         if constraints.is_empty() {
             return;
         }
-        self.pieces.begin(self.positions);
+        self.pieces.begin(&self.step, self.positions);
         for &index in constraints {
             self.correct(index);
         }

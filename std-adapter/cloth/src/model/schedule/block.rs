@@ -2,6 +2,7 @@
 
 use super::colouring::sort_by_colour;
 use super::local::{Local, On};
+use super::rooms::Rooms;
 use crate::model::step::TimeStep;
 use selvedge::parallel;
 use selvedge_core::glam::DVec3;
@@ -25,6 +26,7 @@ pub(super) struct Block<C: Local<N>, const N: usize> {
     /// The vertices' positions while the block runs, and whether any moved.
     pub(super) positions: Vec<DVec3>,
     pub(super) has_moved: bool,
+    rooms: Rooms,
     inverse_masses: Vec<f64>,
     /// The results of constraints that threads share.
     corrections: Vec<([DVec3; N], C::Multipliers)>,
@@ -52,6 +54,7 @@ impl<C: Local<N>, const N: usize> Block<C, N> {
             neighbours: Vec::new(),
             positions: Vec::new(),
             has_moved: false,
+            rooms: Rooms::default(),
             inverse_masses: Vec::new(),
             corrections: Vec::new(),
         }
@@ -78,8 +81,13 @@ impl<C: Local<N>, const N: usize> Block<C, N> {
 
     /// Runs the constraints on the block's own positions. Returns whether anything moved.
     pub(super) fn run(&mut self, step: &TimeStep<'_>, positions: &[DVec3]) -> bool {
-        self.positions.clear();
-        self.positions.extend(at(&self.vertices, positions));
+        let now = at(&self.vertices, positions);
+        if C::HAS_ROOM {
+            self.rooms.begin(&mut self.positions, now, self.constraints.len());
+        } else {
+            self.positions.clear();
+            self.positions.extend(now);
+        }
         let mut done = 0;
         if parallel::has_many_threads() {
             for index in 0..self.shared.len() {
@@ -90,26 +98,36 @@ impl<C: Local<N>, const N: usize> Block<C, N> {
             }
         }
         self.in_turn(done..self.constraints.len(), step);
+        if C::HAS_ROOM {
+            return self.rooms.has_moved;
+        }
         !at(&self.vertices, positions).eq(self.positions.iter().copied())
     }
 
     fn in_turn(&mut self, range: Range<usize>, step: &TimeStep<'_>) {
         let stiffening = stiffening(step);
         let (own, inverse_masses) = (&mut self.positions[..], &self.inverse_masses[..]);
-        let mut project = |(places, constraint): &On<C, N>, so_far: &mut C::Multipliers| {
+        let rooms = &mut self.rooms;
+        let mut project = |(index, (places, constraint)): (usize, &On<C, N>), so_far: &mut C::Multipliers| {
+            if C::HAS_ROOM && rooms.suffices(index, places) {
+                return;
+            }
             let at = of(places, own);
+            if C::HAS_ROOM && rooms.renew(index, places, constraint.room(at)) {
+                return;
+            }
             if !constraint.moves_nothing(at) {
                 let moves = constraint.corrections(at, of(places, inverse_masses), stiffening, so_far);
                 add(own, places, moves);
+                if C::HAS_ROOM {
+                    rooms.follow(places, moves);
+                }
             }
         };
-        let constraints = &self.constraints[range.clone()];
+        let constraints = (range.start..).zip(&self.constraints[range.clone()]);
         match self.multipliers.get_mut(range) {
-            Some(multipliers) => constraints
-                .iter()
-                .zip(multipliers)
-                .for_each(|(on, so_far)| project(on, so_far)),
-            None => constraints.iter().for_each(|on| project(on, &mut C::Multipliers::default())),
+            Some(multipliers) => constraints.zip(multipliers).for_each(|(on, so_far)| project(on, so_far)),
+            None => constraints.for_each(|on| project(on, &mut C::Multipliers::default())),
         }
     }
 
@@ -122,6 +140,7 @@ impl<C: Local<N>, const N: usize> Block<C, N> {
             positions,
             inverse_masses,
             corrections,
+            rooms,
             ..
         } = self;
         let constraints = &constraints[colour.clone()];
@@ -135,6 +154,9 @@ impl<C: Local<N>, const N: usize> Block<C, N> {
         });
         for ((places, _), &(moves, _)) in constraints.iter().zip(&*corrections) {
             add(positions, places, moves);
+            if C::HAS_ROOM {
+                rooms.follow(places, moves);
+            }
         }
         for (multipliers, &(_, so_far)) in multipliers.iter_mut().zip(&*corrections) {
             *multipliers = so_far;
@@ -147,7 +169,7 @@ fn stiffening(step: &TimeStep<'_>) -> f64 {
     1.0 / (step.h * step.h)
 }
 
-fn at<T: Copy>(vertices: &[u32], all: &[T]) -> impl Iterator<Item = T> {
+fn at<T: Copy>(vertices: &[u32], all: &[T]) -> impl ExactSizeIterator<Item = T> {
     vertices.iter().map(|&vertex| all[vertex as usize])
 }
 

@@ -13,6 +13,15 @@ pub(crate) trait Local<const N: usize>: Debug + Send + Sync {
         false
     }
 
+    /// True if the constraint has [room](Self::room).
+    const HAS_ROOM: bool = false;
+
+    /// Returns a sum of the ways of its vertices, in metres, while which all corrections stay zero. It is not positive if some may
+    /// not be zero already.
+    fn room(&self, _positions: [DVec3; N]) -> f64 {
+        0.0
+    }
+
     /// Returns the correction of each vertex. `stiffening` is 1/h², the factor of compliances.
     ///
     /// `so_far` has the multipliers of earlier sweeps of the step; this sweep adds to them.

@@ -19,6 +19,7 @@
 mod block;
 mod colouring;
 mod local;
+mod rooms;
 
 pub(crate) use local::{Local, On};
 
