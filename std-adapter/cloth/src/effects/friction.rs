@@ -56,11 +56,13 @@ impl Constraint for Friction {
             if !(touch.mobility > 0.0) || touch.push == 0.0 && touch.rubbed == DVec3::ZERO {
                 continue;
             }
-            let vertices = touch.vertices.map(|v| v as usize);
             let mut sliding = -touch.drift;
-            let parts = vertices.into_iter().zip(touch.weights).filter(|(_, weight)| *weight != 0.0);
-            for (vertex, weight) in parts.clone() {
-                sliding += (positions[vertex] - step.start[vertex]) * weight;
+            // A vertex alone, an end of an edge and a corner of a face are frequent.
+            for k in 0..4 {
+                if touch.weights[k] != 0.0 {
+                    let vertex = touch.vertices[k] as usize;
+                    sliding += (positions[vertex] - step.start[vertex]) * touch.weights[k];
+                }
             }
             sliding -= touch.normal * sliding.dot(touch.normal);
             // The sum is the sliding without friction.
@@ -74,8 +76,11 @@ impl Constraint for Friction {
                 largest = change;
             }
             touch.rubbed = rubbed;
-            for (vertex, weight) in parts {
-                positions[vertex] += back * (step.inverse_masses[vertex] * weight);
+            for k in 0..4 {
+                if touch.weights[k] != 0.0 {
+                    let vertex = touch.vertices[k] as usize;
+                    positions[vertex] += back * (step.inverse_masses[vertex] * touch.weights[k]);
+                }
             }
         }
         touches.rubbed = largest.sqrt();

@@ -277,6 +277,9 @@ impl Recovery {
     }
 
     fn push(&mut self, push: f64, inverse_masses: &[f64], shift: &mut [DVec3]) {
+        if push == 0.0 {
+            return;
+        }
         let Touch {
             vertices,
             weights,

@@ -109,13 +109,10 @@ impl<C: Local<N>, const N: usize> Block<C, N> {
         let (own, inverse_masses) = (&mut self.positions[..], &self.inverse_masses[..]);
         let rooms = &mut self.rooms;
         let mut project = |(index, (places, constraint)): (usize, &On<C, N>), so_far: &mut C::Multipliers| {
-            if C::HAS_ROOM && rooms.suffices(index, places) {
+            if C::HAS_ROOM && rooms.suffices(index, places, || constraint.room(of(places, own))) {
                 return;
             }
             let at = of(places, own);
-            if C::HAS_ROOM && rooms.renew(index, places, constraint.room(at)) {
-                return;
-            }
             if !constraint.moves_nothing(at) {
                 let moves = constraint.corrections(at, of(places, inverse_masses), stiffening, so_far);
                 add(own, places, moves);

@@ -58,21 +58,17 @@ impl Rooms {
         sum
     }
 
-    /// Returns whether a constraint certainly moves nothing.
+    /// Returns whether a constraint certainly moves nothing. `room` returns its room if that is not yet known.
     #[inline(always)]
-    pub(super) fn suffices<const N: usize>(&self, index: usize, places: &[u32; N]) -> bool {
-        self.sum(places) <= self.until[index]
-    }
-
-    /// Sets the room of a constraint. Returns whether it has any.
-    #[inline(always)]
-    pub(super) fn renew<const N: usize>(&mut self, index: usize, places: &[u32; N], room: f64) -> bool {
+    pub(super) fn suffices<const N: usize>(&mut self, index: usize, places: &[u32; N], room: impl FnOnce() -> f64) -> bool {
+        let sum = self.sum(places);
+        let until = &mut self.until[index];
+        if sum <= *until {
+            return true;
+        }
+        let room = room();
         let has_room = room > 0.0;
-        self.until[index] = if has_room {
-            (1.0 - ROUNDING) * self.sum(places) + room
-        } else {
-            -1.0
-        };
+        *until = if has_room { (1.0 - ROUNDING) * sum + room } else { -1.0 };
         has_room
     }
 
