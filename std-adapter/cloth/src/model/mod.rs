@@ -9,6 +9,7 @@ pub(crate) mod length;
 pub(crate) mod membrane;
 pub(crate) mod mobility;
 pub(crate) mod rope;
+mod rows;
 pub(crate) mod schedule;
 pub(crate) mod step;
 pub(crate) mod stitches;
