@@ -9,6 +9,7 @@ use crate::contact::Thickness;
 use crate::effects::plan::Plan;
 use crate::input::ValueError;
 use crate::model::length::length;
+use crate::model::schedule::Rooms;
 use crate::model::step::{Constraint, TimeStep, Touches};
 use crate::model::touches::Touch;
 use crate::world::{Pose, SceneParts};
@@ -60,15 +61,15 @@ impl Effect for BodyContact {
                 capsules,
                 vertices,
                 thickness: self.0.thickness,
+                rooms: Rooms::default(),
+                seen: Vec::new(),
             });
         }
     }
 }
 
-/// The share of a distance by which a vertex has to be farther than it, to be beyond it in spite of rounding.
-const SLACK: f64 = 1e-9;
-/// A bound of the rounding of squared distances, as a share of the largest of their terms.
-const ROUNDING: f64 = 1e-12;
+/// The share of lengths that exceeds the rounding of a distance.
+const ROUNDING: f64 = 1e-9;
 
 #[derive(Debug)]
 struct Capsule {
@@ -84,6 +85,10 @@ struct Push {
     /// The cloth's vertices among the scene's.
     vertices: Range<usize>,
     thickness: f64,
+    /// The ways of the vertices and then of the ends of capsules, and the room of each vertex beside each capsule.
+    rooms: Rooms,
+    /// The positions of both when they acted last.
+    seen: Vec<DVec3>,
 }
 
 /// Returns the vector from the nearest point of a capsule's axis to a point, at one pose.
@@ -105,32 +110,35 @@ fn nearest(from: DVec3, axis: DVec3, point: DVec3) -> DVec3 {
 
 impl Constraint for Push {
     fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], touches: &mut Touches) {
-        for capsule in &self.capsules {
+        let Self {
+            capsules,
+            vertices,
+            thickness,
+            rooms,
+            seen,
+        } = self;
+        let count = vertices.len();
+        let ends = |capsule: &Capsule| capsule.ends.map(|end| step.poses[capsule.carrier][1].apply(end));
+        let now = positions[vertices.clone()]
+            .iter()
+            .copied()
+            .chain(capsules.iter().flat_map(ends));
+        rooms.begin(seen, now, count * capsules.len());
+        for (index, capsule) in capsules.iter().enumerate() {
             let [before, now] = step.poses[capsule.carrier];
             if !now.is_rigid() {
                 continue;
             }
-            let [from, to] = capsule.ends.map(|end| now.apply(end));
+            let first = count + 2 * index;
+            let [from, to] = [seen[first], seen[first + 1]];
             let axis = to - from;
-            let squared = Some(axis.length_squared()).filter(|squared| *squared > 0.0).unwrap_or(1.0);
-            let reach = capsule.radius + self.thickness;
-            let surely_beyond = (reach * (1.0 + SLACK)).powi(2) * squared;
-            for vertex in self.vertices.clone() {
+            let reach = capsule.radius + *thickness;
+            let rounding = ROUNDING * (reach + length(from) + length(to));
+            for (place, vertex) in vertices.clone().enumerate() {
                 let position = positions[vertex];
-                // The squares of the distances from the axis and from its start, and the way along the axis, all times the
-                // axis's square: there is no division. The errors of the first are a few roundings of the second.
-                let way = position - from;
-                let from_start = way.length_squared() * squared;
-                let along = way.dot(axis);
-                let nearest_along = if along < 0.0 {
-                    0.0
-                } else if along > squared {
-                    squared
-                } else {
-                    along
-                };
-                let from_axis = from_start - nearest_along * (2.0 * along - nearest_along);
-                if from_axis > surely_beyond + ROUNDING * from_start {
+                let room = || (1.0 - ROUNDING) * length(position - nearest(from, axis, position)) - reach - rounding;
+                let places = [place, first, first + 1].map(|place| place as u32);
+                if rooms.suffices(index * count + place, &places, room) {
                     continue;
                 }
                 let way = position - nearest(from, axis, position);
@@ -157,11 +165,12 @@ impl Constraint for Push {
                 touches.record_missing(
                     touch,
                     [missing, missing.max(reach - start_to_end)],
-                    self.thickness,
+                    *thickness,
                     step.inverse_masses,
                 );
                 if push > 0.0 {
                     positions[vertex] += normal * push;
+                    rooms.follow(&[place as u32], [normal * push]);
                     touches.record(|| Touch { push, ..touch });
                 }
             }

@@ -166,7 +166,7 @@ fn stiffening(step: &TimeStep<'_>) -> f64 {
     1.0 / (step.h * step.h)
 }
 
-fn at<T: Copy>(vertices: &[u32], all: &[T]) -> impl ExactSizeIterator<Item = T> {
+fn at<T: Copy>(vertices: &[u32], all: &[T]) -> impl Iterator<Item = T> {
     vertices.iter().map(|&vertex| all[vertex as usize])
 }
 

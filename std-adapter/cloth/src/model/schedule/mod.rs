@@ -22,6 +22,7 @@ mod local;
 mod rooms;
 
 pub(crate) use local::{Local, On};
+pub(crate) use rooms::Rooms;
 
 use super::energy::{Configuration, StoredEnergy};
 use super::step::{Constraint, TimeStep, Touches};

@@ -8,18 +8,18 @@ use selvedge_core::glam::DVec3;
 /// The number of runs after which all constraints are looked at, and ways start at zero.
 const RUNS: u32 = 256;
 /// The share of ways that is added to them for rounding. A vertex has at most 257 ways in a run: one before it, and one for each
-/// constraint of a block. So a sum has at most 65,792 roundings, each by at most 1.2e-16 of it.
+/// constraint of a block, or each capsule. So a sum has at most 65,792 roundings, each by at most 1.2e-16 of it.
 const ROUNDING: f64 = 1e-10;
 
-/// The ways of a block's vertices, and the rooms of its constraints.
+/// The ways of vertices, and the rooms of their constraints.
 #[derive(Debug, Default)]
-pub(super) struct Rooms {
+pub(crate) struct Rooms {
     ways: Vec<f64>,
     /// The sum of the ways of its vertices up to which each constraint moves nothing.
     until: Vec<f64>,
     runs: u32,
     /// True if a constraint has moved a vertex in this run.
-    pub(super) has_moved: bool,
+    pub(crate) has_moved: bool,
 }
 
 /// Returns a length that is at least that of a vector, without a square root.
@@ -30,17 +30,17 @@ fn way_of(vector: DVec3) -> f64 {
 
 impl Rooms {
     /// Begins a run at these positions; `seen` has those of the end of the last run, and follows.
-    pub(super) fn begin(&mut self, seen: &mut Vec<DVec3>, now: impl ExactSizeIterator<Item = DVec3>, constraints: usize) {
+    pub(crate) fn begin(&mut self, seen: &mut Vec<DVec3>, now: impl Iterator<Item = DVec3>, constraints: usize) {
         self.has_moved = false;
         self.runs += 1;
         if self.ways.is_empty() || self.runs > RUNS {
             self.runs = 0;
-            self.ways.clear();
-            self.ways.resize(now.len(), 0.0);
-            self.until.clear();
-            self.until.resize(constraints, -1.0);
             seen.clear();
             seen.extend(now);
+            self.ways.clear();
+            self.ways.resize(seen.len(), 0.0);
+            self.until.clear();
+            self.until.resize(constraints, -1.0);
             return;
         }
         for ((seen, way), now) in seen.iter_mut().zip(&mut self.ways).zip(now) {
@@ -60,7 +60,7 @@ impl Rooms {
 
     /// Returns whether a constraint certainly moves nothing. `room` returns its room if that is not yet known.
     #[inline(always)]
-    pub(super) fn suffices<const N: usize>(&mut self, index: usize, places: &[u32; N], room: impl FnOnce() -> f64) -> bool {
+    pub(crate) fn suffices<const N: usize>(&mut self, index: usize, places: &[u32; N], room: impl FnOnce() -> f64) -> bool {
         let sum = self.sum(places);
         let until = &mut self.until[index];
         if sum <= *until {
@@ -74,7 +74,7 @@ impl Rooms {
 
     /// Adds the moves of a constraint.
     #[inline(always)]
-    pub(super) fn follow<const N: usize>(&mut self, places: &[u32; N], moves: [DVec3; N]) {
+    pub(crate) fn follow<const N: usize>(&mut self, places: &[u32; N], moves: [DVec3; N]) {
         for k in 0..N {
             let way = way_of(moves[k]);
             self.ways[places[k] as usize] += way;
