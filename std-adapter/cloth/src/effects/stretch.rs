@@ -49,7 +49,7 @@ pub struct Stretch {
     pub weft_stiffness: f64,
     /// The number of sweeps over all triangles of the mesh in a step. With 0 stretch and shear are solved together until little
     /// changes. This is accurate at any time step and on any mesh, and takes up to three times as long for cloth without contact, or
-    /// up to four times with steps of 4 ms. Many layers on each other come to rest better with sweeps.
+    /// up to four and a half times with steps of 4 ms. Many layers on each other come to rest better with sweeps.
     pub sweeps: u32,
     /// The largest number of coarse levels that run before the mesh, from the finest. `None` uses all useful ones.
     pub levels: Option<u32>,
