@@ -20,6 +20,10 @@ const SWEEPS: [usize; 2] = [4, 64];
 const MOST_WITHOUT_MEMORY: usize = 256;
 /// The change by a sweep that needs no other one, as a share of the largest move in the substep.
 const SMALL_CHANGE: f64 = 0.05;
+/// The sweeps over which a change falls by [`STALLED`] if stitches and contacts can hold together.
+const STALL: usize = 4;
+/// The share of the change of [`STALL`] sweeps before that shows that stitches and contacts only undo each other.
+const STALLED: f64 = 0.9;
 /// The largest length of an edge, over its limit, that needs no other round.
 const TOLERANCE: f64 = 1.01;
 /// The largest number of rounds of limits and contacts.
@@ -311,11 +315,15 @@ impl<'a> Substep<'a> {
     /// A sweep passes a push on by one layer, and multiplies the slowest error of n layers by cos²(π/(n + 1)): 0.92 for ten.
     /// Friction is part of the sweeps, as what it leaves becomes a velocity. What is little follows the motion, so that moving
     /// cloth costs few sweeps, and cloth that comes to rest does so down to what is [negligible](ContactSolver::negligible).
+    ///
+    /// Stitches take no part in the accumulated pushes. Where a seam draws together what contacts keep apart, no positions satisfy
+    /// both, and sweeps go back and forth between two states. So with stitches they end when the change no longer falls.
     fn sweep(&mut self) {
         let [fewest, mut most] = SWEEPS;
         if self.contact.as_ref().is_some_and(|contact| !contact.has_memory()) {
             most = MOST_WITHOUT_MEMORY;
         }
+        let mut before = [f64::INFINITY; STALL];
         for sweep in 1..most {
             self.act_again(self.among_contacts);
             let mut change = 0.0_f64;
@@ -326,7 +334,9 @@ impl<'a> Substep<'a> {
             }
             self.rub();
             change = change.max(self.touches.rubbed);
-            if sweep + 1 >= fewest && self.is_small(change) {
+            let has_stalled = !self.among_contacts.is_empty() && change > STALLED * before[sweep % STALL];
+            before[sweep % STALL] = change;
+            if sweep + 1 >= fewest && (has_stalled || self.is_small(change)) {
                 break;
             }
         }
