@@ -82,6 +82,8 @@ pub(super) struct Work {
     pub(super) inverse_masses: Vec<f64>,
     /// The shifted positions at the start of the step, if vertices are shifted.
     pub(super) shifted: Vec<DVec3>,
+    /// The positions before limits act.
+    pub(super) unlimited: Vec<DVec3>,
 }
 
 impl Simulation {
