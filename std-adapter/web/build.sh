@@ -34,7 +34,7 @@ module() { # NAME FOLDER FEATURES...
     "$bindgen" "$out/$target/release/selvedge_web.wasm" "$folder" "$name"
     # The features are those of the compiler; no option changes a result. Debian's binaryen does not know all instructions, npm's does.
     if [ -x node_modules/.bin/wasm-opt ]; then
-        node_modules/.bin/wasm-opt -O2 --enable-simd --enable-bulk-memory --enable-nontrapping-float-to-int --enable-sign-ext \
+        node_modules/.bin/wasm-opt -O2 --gufa -O2 --enable-simd --enable-bulk-memory --enable-nontrapping-float-to-int --enable-sign-ext \
             --enable-mutable-globals --enable-reference-types --enable-multivalue \
             "$folder/${name}_bg.wasm" -o "$folder/${name}_bg.wasm"
     fi
