@@ -22,14 +22,15 @@ const MOST_WITHOUT_MEMORY: usize = 256;
 const SMALL_CHANGE: f64 = 0.05;
 /// The sweeps over which a change falls by [`STALLED`] if stitches and contacts can hold together.
 const STALL: usize = 4;
-/// The share of the change of [`STALL`] sweeps before that shows that stitches and contacts only undo each other.
+/// The share of the change of [`STALL`] sweeps before that shows that stitches and contacts only undo each other. It is fitted: where
+/// they do, the share is 0.95 and more.
 const STALLED: f64 = 0.9;
 /// The largest length of an edge, over its limit, that needs no other round.
 const TOLERANCE: f64 = 1.01;
 /// The largest number of rounds of limits and contacts.
 const ROUNDS: usize = 8;
 /// The first limits of a round move vertices by this multiple of what they need (over-relaxation), since contacts and friction take
-/// some of it back. The last limits of a round do not.
+/// some of it back. The last limits of a round do not. It is fitted: 1.5 needs no fewer rounds by frames.
 const OVER_RELAXATION: f64 = 1.25;
 
 /// A substep in progress. It changes no state before it is accepted.
