@@ -43,6 +43,7 @@ mod input;
 mod model;
 mod scene;
 mod simulate;
+mod solve;
 mod world;
 
 pub use contact::{ContactCounts, ContactSeconds, Crossing, ProximityPair};
@@ -60,6 +61,7 @@ pub use simulate::{
     Blocked, CHECKPOINT_STEPS, CheckpointError, DriveError, EdgeStretch, EffectTime, FASTEST, FrameError, FrameSteps, SetupError,
     Simulation, Tangled, Untangled, UntanglingEnd, UntanglingProgress,
 };
+pub use solve::{Accuracy, SolveCounts};
 pub use world::{Animation, Body, BodyMotion, Cloth, Keyframe, KeyframeMotion, Material, MeshInFiles, Placement, sleeve};
 
 /// The scene of the paper's sleeve on a bending arm, as text for [`Scene::parse`].

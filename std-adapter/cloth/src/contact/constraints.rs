@@ -135,6 +135,9 @@ pub(super) struct Rules<'a> {
     pub(super) cloth_vertices: u32,
 }
 
+/// The distance, in thicknesses, beyond which a pair needs no row at the first guess. A solve moves vertices away from there.
+const ROOM: f64 = 1.25;
+
 /// The distance within which a pair must start if it may come within `aim`.
 fn reach(aim: f64) -> f64 {
     aim * (1.0 + MARGIN)
@@ -213,6 +216,34 @@ impl Contacts {
         for &place in &self.open {
             let with_body = pairs[place as usize].data.is_with_body();
             self.of[usize::from(with_body)].open.push(place);
+        }
+    }
+
+    /// Visits the pairs that may be nearer than their thickness at the end of a step: those that the direction which they store does
+    /// not keep apart at the first guess, with room to spare, and where everything but contact leads.
+    pub(super) fn visit_near(
+        pairs: &mut [Candidate],
+        rules: Rules<'_>,
+        step: &TimeStep<'_>,
+        [guess, goal]: [&[DVec3]; 2],
+        visit: &mut dyn FnMut(&Candidate, ProximityPair, f64),
+    ) {
+        for pair in pairs {
+            let aim = pair.data.aim.length();
+            let wide = ROOM * aim;
+            let gap = f64::from(pair.gap());
+            // No pair beyond the reach of the search is near; most candidates are kept apart by far.
+            if pair.is_kept_at(wide, guess) && pair.is_kept_at(aim, goal) || rules.exempt.is_tangled(pair) {
+                continue;
+            }
+            let moves = pair.vertices.map(|vertex| guess[vertex as usize] - step.start[vertex as usize]);
+            let closing = moves.iter().map(|own| own.distance_squared(moves[0])).fold(0.0, f64::max).sqrt();
+            if gap > wide.max(aim + closing) + 0.25 * closing {
+                continue;
+            }
+            if let Some((near, distance)) = near_within(pair, None, rules, step, aim + closing) {
+                visit(pair, near, distance);
+            }
         }
     }
 
@@ -395,13 +426,24 @@ fn near(
     rules: Rules<'_>,
     step: &TimeStep<'_>,
 ) -> Option<(ProximityPair, f64)> {
+    near_within(pair, known, rules, step, 0.0)
+}
+
+/// As [`near`], for pairs within a distance, or within reach.
+fn near_within(
+    pair: &mut Candidate,
+    known: Option<(&Known, usize)>,
+    rules: Rules<'_>,
+    step: &TimeStep<'_>,
+    within: f64,
+) -> Option<(ProximityPair, f64)> {
     let closest = match known {
         Some((known, place)) => &known.at_start.found()[place],
         None => &pair.closest(step.start),
     };
     pair.refresh(closest.direction, step.start, rules.error);
     let distance = closest.distance();
-    if distance > reach(pair.data.aim.length()) || closest.direction == DVec3::ZERO {
+    if distance > reach(pair.data.aim.length()).max(within) || closest.direction == DVec3::ZERO {
         return None;
     }
     if !pair.data.aim.is_own() {

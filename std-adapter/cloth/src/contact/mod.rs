@@ -7,6 +7,7 @@
 //! near each other at rest |
 //! | `candidate` | one pair: the data stored for it, and its certified time of impact |
 //! | `constraints`, `rows` | contacts as constraints of the solver |
+//! | `smooth_body` | capsules and balls |
 //! | `cones` | the contacts of surfaces |
 //! | `pass` | the certificate of each step |
 //! | `relaxation`, `impact_zones`, `truncation` | repairs of steps that are not free |
@@ -37,6 +38,7 @@ mod rows;
 mod separations;
 mod settings;
 mod sides;
+pub(crate) mod smooth_body;
 mod solver;
 mod truncation;
 mod untangling;

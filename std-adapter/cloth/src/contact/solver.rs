@@ -140,6 +140,25 @@ impl ContactSolver {
         self.stages.constraints += begin.elapsed().as_secs_f64();
     }
 
+    /// Visits the pairs that may be nearer than their thickness at the end of a step, each with its distance at the start: `guess`
+    /// has the positions at which the solve begins, and `goal` those to which everything but contact leads.
+    pub(crate) fn visit_near(
+        &mut self,
+        step: &TimeStep<'_>,
+        [guess, goal]: [&[DVec3]; 2],
+        visit: &mut dyn FnMut(PairKey, bool, ProximityPair, f64),
+    ) {
+        let begin = Clock::now();
+        self.error = gap_error(&self.candidates, [step.start, guess]).larger(gap_error(&self.candidates, [goal, goal]));
+        if self.pushes {
+            let (_, pairs, rules) = self.parts();
+            Contacts::visit_near(pairs, rules, step, [guess, goal], &mut |pair, near, distance| {
+                visit(pair.key(), pair.data.is_with_body(), near, distance);
+            });
+        }
+        self.stages.constraints += begin.elapsed().as_secs_f64();
+    }
+
     /// Pushes pairs apart that are too near: of cloth and bodies, or of cloth and cloth.
     pub(crate) fn push(&mut self, with_body: bool, step: &TimeStep<'_>, positions: &mut [DVec3]) {
         let (contacts, pairs, rules) = self.parts();

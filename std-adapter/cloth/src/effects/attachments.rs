@@ -20,6 +20,7 @@ use crate::effects::plan::Plan;
 use crate::input::{FORCE, Field, LENGTH, ValueError};
 use crate::model::energy::{Configuration, StoredEnergy};
 use crate::model::step::{Constraint, Memory, Release, TimeStep, Touches};
+use crate::solve::springs::{Held, Springs};
 use crate::world::{BodyMotion, KeyframeMotion, SceneParts};
 use selvedge_core::glam::DVec3;
 
@@ -134,7 +135,11 @@ impl Effect for Attachments {
                 released: None,
             }));
         }
-        plan.add_constraint(Holding(all));
+        if plan.solves_at_once() {
+            plan.add_term(Held::new(Holding(all)));
+        } else {
+            plan.add_constraint(Holding(all));
+        }
     }
 }
 
@@ -166,12 +171,7 @@ impl Constraint for Holding {
     }
 
     fn energy(&self, now: &Configuration<'_>) -> Option<StoredEnergy> {
-        let held = self.0.iter().filter(|held| held.released.is_none());
-        let each = held.map(|held| {
-            let distance = held.last.distance_squared(now.positions[held.vertex as usize]);
-            0.5 * held.stiffness * distance
-        });
-        Some(StoredEnergy::Elastic(each.sum()))
+        Some(StoredEnergy::Elastic(Springs::energy(self, now.positions)))
     }
 
     fn memory(&self) -> Option<&dyn Memory> {
@@ -180,6 +180,19 @@ impl Constraint for Holding {
 
     fn memory_mut(&mut self) -> Option<&mut dyn Memory> {
         Some(self)
+    }
+}
+
+impl Springs for Holding {
+    fn springs(&self, step: &TimeStep<'_>, x: &[DVec3], springs: &mut Vec<(u32, DVec3, f64)>) {
+        let holding = self.0.iter().filter(|held| held.released.is_none());
+        springs.extend(holding.map(|held| (held.vertex, held.anchor.at(step, x), held.stiffness)));
+    }
+
+    fn energy(&self, positions: &[DVec3]) -> f64 {
+        let holding = self.0.iter().filter(|held| held.released.is_none());
+        let each = holding.map(|held| 0.5 * held.stiffness * held.last.distance_squared(positions[held.vertex as usize]));
+        each.sum()
     }
 }
 

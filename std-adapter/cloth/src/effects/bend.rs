@@ -90,6 +90,9 @@ impl Effect for Bend {
         let hinges = hinges(plan.scene.cloth, |of_warp| self.along(of_warp));
         let folds = plan.fabric().folds.map(|when| (when, plan.scene.cloth.copied_as_made()));
         let folds = folds.as_ref().map(|(when, copied)| (*when, copied.as_slice()));
+        if plan.solves_at_once() {
+            return plan.add_bending(&hinges, folds);
+        }
         let bending = Bending::new(&hinges, plan.inverse_masses(), self.stages, plan.scene.time_step, folds);
         plan.add_constraint(bending);
     }

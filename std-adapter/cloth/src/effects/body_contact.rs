@@ -6,6 +6,7 @@
 use super::registration::{Effect, Registration, Scope};
 use super::thickness;
 use crate::contact::Thickness;
+use crate::contact::smooth_body::SmoothBody;
 use crate::effects::plan::Plan;
 use crate::input::ValueError;
 use crate::model::length::length;
@@ -56,6 +57,17 @@ impl Effect for BodyContact {
                 Some(Capsule { carrier, ends, radius })
             })
             .collect();
+        if plan.solves_at_once() {
+            let smooth = capsules.into_iter().map(|Capsule { carrier, ends, radius }| SmoothBody {
+                carrier,
+                ends,
+                radius,
+                thickness: self.0.thickness,
+                vertices: vertices.clone(),
+            });
+            plan.smooth_bodies.extend(smooth);
+            return;
+        }
         if !capsules.is_empty() {
             plan.add_push(Push {
                 capsules,

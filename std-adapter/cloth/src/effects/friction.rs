@@ -45,7 +45,11 @@ impl Effect for Friction {
     }
 
     fn register(&self, plan: &mut Plan<'_>) {
-        plan.add_friction(*self);
+        if plan.solves_at_once() {
+            plan.friction_coefficient = self.coefficient;
+        } else {
+            plan.add_friction(*self);
+        }
     }
 }
 

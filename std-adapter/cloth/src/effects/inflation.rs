@@ -7,6 +7,7 @@ use super::registration::{ActsOn, Effect, Registration};
 use crate::effects::plan::Plan;
 use crate::input::{Field, PRESSURE, SceneError, Table, ValueError};
 use crate::model::step::{Force, TimeStep};
+use crate::solve::walls::{Filling, Gas};
 use crate::world::{KEY_TIME, SceneParts, check_key_time};
 use selvedge_core::glam::DVec3;
 
@@ -105,11 +106,28 @@ impl Effect for Inflation {
         let cloth = plan.scene.cloth;
         let walls = Walls::new(cloth);
         let is_inside_out = open_edges(&cloth.topology_as_made()) == 0 && walls.volume(&cloth.mesh.positions) < 0.0;
+        if plan.solves_at_once() {
+            let outward = if is_inside_out { -1.0 } else { 1.0 };
+            return plan.add_walls(Given { inflation: self.clone(), outward });
+        }
         plan.add_force(Inflating {
             inflation: self.clone(),
             outward: if is_inside_out { -1.0 } else { 1.0 },
             walls,
         });
+    }
+}
+
+#[derive(Debug)]
+struct Given {
+    inflation: Inflation,
+    /// The side to which the triangles' normals point.
+    outward: f64,
+}
+
+impl Filling for Given {
+    fn at(&self, time: f64) -> Gas {
+        Gas::Pressure(self.outward * self.inflation.pressure(time))
     }
 }
 

@@ -40,6 +40,7 @@ mod vertices;
 pub use crate::contact::Thickness;
 pub use crate::model::energy::{Configuration, StoredEnergy};
 pub use crate::model::step::{Constraint, Force, Memory, Release, TimeStep, Touches};
+pub use crate::solve::{Matrix, Prediction, Renewed, Term};
 pub use crate::world::SceneParts;
 pub use air::{Air, AirSource, Fan, Vortex, Wind, WindField};
 pub use air_drag::AirDrag;

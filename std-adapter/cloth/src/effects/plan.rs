@@ -6,13 +6,22 @@
 //! An effect that acts on each cloth by itself registers once for each, and [sees](super::of_cloth) the vertices of that cloth
 //! alone. In a scene of one cloth it sees everything, without any indirection.
 
+use super::air::Drag;
 use super::of_cloth::OfCloth;
 use crate::contact::ContactSettings;
-use crate::model::bending::Yield;
+use crate::contact::smooth_body::SmoothBody;
+use crate::model::bending::{Hinge, Yield};
 use crate::model::hierarchy::{Hierarchy, Level};
+use crate::model::schedule::On;
 use crate::model::step::{Carrier, Constraint, FREE, Force};
 use crate::model::stitches::Tie;
 use crate::model::tearing::Tearable;
+use crate::solve::air::{Blowing, InAir};
+use crate::solve::bending::Bending;
+use crate::solve::membranes::Membranes;
+use crate::solve::ropes::Ropes;
+use crate::solve::walls::{Filling, Walls};
+use crate::solve::{Accuracy, Term};
 use crate::world::{BodyMotion, Cloth, Kinematic, SceneParts};
 use selvedge_core::glam::DVec3;
 use std::ops::Range;
@@ -23,6 +32,12 @@ pub(crate) struct Entry<T: ?Sized> {
     /// Index into the scene's effects.
     pub(crate) effect: usize,
     pub(crate) action: Box<T>,
+}
+
+impl<T: ?Sized> Entry<T> {
+    pub(crate) const fn of(effect: usize, action: Box<T>) -> Self {
+        Self { effect, action }
+    }
 }
 
 /// Properties of a cloth that its effects announce before any of them registers.
@@ -40,6 +55,13 @@ pub struct Fabric {
     pub(crate) thickness: Option<f64>,
     /// The point at which folds become permanent.
     pub(crate) folds: Option<Yield>,
+}
+
+/// The terms that several effects of a cloth make together, each with the effect that asked for it first.
+#[derive(Debug, Default)]
+pub(crate) struct OfCloths {
+    pub(crate) membranes: Option<(usize, Membranes)>,
+    pub(crate) ropes: Option<(usize, Ropes)>,
 }
 
 /// The parts of a step, which effects register.
@@ -67,6 +89,16 @@ pub struct Plan<'a> {
     pub(crate) pushes: Vec<Entry<dyn Constraint>>,
     pub(crate) friction: Vec<Entry<dyn Constraint>>,
     pub(crate) tearable: Vec<Tearable>,
+    /// The terms of the solve, besides those of membranes and ropes.
+    pub(crate) terms: Vec<Entry<dyn Term>>,
+    /// The membranes and the ropes of each cloth that has any, and the effect that asked for them first.
+    pub(crate) of_cloths: Vec<OfCloths>,
+    /// The hinges of all cloths: vertices, weights and stiffness.
+    pub(crate) hinges: Vec<([u32; 4], [f64; 4], f64)>,
+    pub(crate) smooth_bodies: Vec<SmoothBody>,
+    /// The coefficient of friction.
+    pub(crate) friction_coefficient: f64,
+    accuracy: Option<Accuracy>,
     /// The hierarchies of levels by cloth, made for the first effect that needs them.
     hierarchies: Vec<Option<Hierarchy<'a>>>,
 }
@@ -98,6 +130,12 @@ impl<'a> Plan<'a> {
             pushes: Vec::new(),
             friction: Vec::new(),
             tearable: Vec::new(),
+            terms: Vec::new(),
+            of_cloths: scene.cloths.iter().map(|_| OfCloths::default()).collect(),
+            hinges: Vec::new(),
+            smooth_bodies: Vec::new(),
+            friction_coefficient: 0.0,
+            accuracy: scene.accuracy,
         }
     }
 
@@ -147,6 +185,59 @@ impl<'a> Plan<'a> {
     #[must_use]
     pub fn masses(&self) -> Vec<f64> {
         self.scene.cloth.masses()
+    }
+
+    /// Returns whether the scene has one solve a step.
+    pub(crate) fn solves_at_once(&self) -> bool {
+        self.accuracy.is_some()
+    }
+
+    /// Adds a term of the energy that a step minimises. It numbers vertices as the scene does.
+    pub fn add_term(&mut self, term: impl Term + 'static) {
+        self.terms.push(self.entry(Box::new(term)));
+    }
+
+    /// Returns the first triangle of the cloth among those of all cloths.
+    fn first_triangle(&self) -> usize {
+        self.scene.cloths[..self.cloth()].iter().map(|cloth| cloth.mesh.triangles.len()).sum()
+    }
+
+    /// Returns the membranes of the cloth.
+    pub(crate) fn membranes(&mut self) -> &mut Membranes {
+        let (effect, cloth, first) = (self.effect, self.scene.cloth, self.first_vertex());
+        let first_triangle = self.first_triangle();
+        let own = self.cloth();
+        let membranes = self.of_cloths[own].membranes.get_or_insert_with(|| (effect, Membranes::new(cloth, first, first_triangle)));
+        &mut membranes.1
+    }
+
+    /// Returns the ropes of the cloth.
+    pub(crate) fn ropes(&mut self) -> &mut Ropes {
+        let (effect, cloth, first) = (self.effect, self.scene.cloth, self.first_vertex());
+        let own = self.cloth();
+        &mut self.of_cloths[own].ropes.get_or_insert_with(|| (effect, Ropes::new(cloth, first))).1
+    }
+
+    /// Adds the bending of the cloth.
+    pub(crate) fn add_bending(&mut self, hinges: &[On<Hinge, 4>], folds: Option<(Yield, &[u32])>) {
+        let bending = Bending::new(hinges, self.first_vertex(), self.scene.cloth.mesh.positions.len(), folds);
+        self.hinges.extend(bending.constant());
+        self.add_term(bending);
+    }
+
+    /// Adds a pressure or a gas inside the cloth.
+    pub(crate) fn add_walls(&mut self, filling: impl Filling + 'static) {
+        let walls = Walls::new(filling, self.scene.cloth, self.first_vertex(), self.first_triangle());
+        self.add_term(walls);
+    }
+
+    /// Adds air that pushes the cloth.
+    pub(crate) fn add_air(&mut self, air: impl Blowing + 'static, drag: Drag) {
+        let (cloth, first) = (self.scene.cloth, self.first_vertex());
+        let triangles = cloth.mesh.triangles.iter().map(|corners| corners.map(|vertex| vertex + first));
+        let edges = cloth.topology.loose_edges().map(|ends| ends.map(|vertex| vertex + first));
+        let triangles = (self.first_triangle(), triangles.collect());
+        self.add_term(InAir::new(air, [drag.over(1.0), drag.rope_diameter], triangles, edges.collect()));
     }
 
     /// Adds a force. Forces run first in a step, in the order of these calls.

@@ -8,6 +8,7 @@ use crate::effects::plan::Plan;
 use crate::input::{Field, PRESSURE, RATIO, ValueError};
 use crate::model::energy::{Configuration, StoredEnergy};
 use crate::model::step::{Constraint, TimeStep, Touches};
+use crate::solve::walls::Gas;
 use crate::world::SceneParts;
 use selvedge_core::glam::DVec3;
 
@@ -68,11 +69,31 @@ impl Effect for InternalPressure {
         }
         let walls = Walls::new(cloth);
         let rest = walls.volume(&cloth.mesh.positions);
+        if plan.solves_at_once() {
+            return plan.add_walls(Given {
+                modulus: self.modulus,
+                volume: self.volume * rest,
+            });
+        }
         plan.add_constraint(Filling {
             goal: self.volume * rest,
             compliance: self.volume * rest.abs() / self.modulus,
             walls,
         });
+    }
+}
+
+/// A gas of this bulk modulus and volume.
+#[derive(Debug)]
+struct Given {
+    modulus: f64,
+    volume: f64,
+}
+
+impl crate::solve::walls::Filling for Given {
+    fn at(&self, _: f64) -> Gas {
+        let Self { modulus, volume } = *self;
+        Gas::Volume { modulus, volume }
     }
 }
 

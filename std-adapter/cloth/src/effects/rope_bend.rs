@@ -69,6 +69,10 @@ impl Effect for RopeBend {
 
     fn register(&self, plan: &mut Plan<'_>) {
         let is_bent_at_rest = self.rest == RopeShape::AsBuilt;
+        if plan.solves_at_once() {
+            let (effect, cloth, first) = (plan.effect, plan.scene.cloth, plan.first_vertex());
+            return plan.ropes().bend(effect, self.stiffness, is_bent_at_rest, cloth, first);
+        }
         plan.add_constraint(Bending::new(plan.scene.cloth, self.stiffness, is_bent_at_rest));
     }
 }

@@ -53,6 +53,10 @@ impl Effect for RopeStretch {
     }
 
     fn register(&self, plan: &mut Plan<'_>) {
+        if plan.solves_at_once() {
+            let effect = plan.effect;
+            return plan.ropes().stretch(effect, self.stiffness);
+        }
         let stretching = Stretching::new(plan.scene.cloth, self.stiffness, plan.first_vertex(), &plan.ties);
         plan.add_constraint_on_scene(stretching);
     }

@@ -12,6 +12,7 @@ use crate::contact::Thickness;
 use crate::effects::plan::{Fabric, Plan};
 use crate::input::{Field, LARGEST_TIME, LENGTH, SPEED, SceneError, TIME, Table, ValueError};
 use crate::model::stitches::{Sewing, Stitch, stitches};
+use crate::solve::stitches::Stitches;
 use crate::world::{FASTEST_VERTEX, SceneParts};
 use selvedge_core::glam::DVec3;
 
@@ -212,6 +213,10 @@ impl Effect for Seams {
                 gap,
                 closing: seam.closing,
             };
+            if plan.solves_at_once() {
+                plan.add_term(Stitches::new(sewing));
+                continue;
+            }
             plan.ties.extend(sewing.tie());
             plan.add_constraint(sewing);
         }

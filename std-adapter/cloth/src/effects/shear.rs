@@ -76,6 +76,10 @@ impl Effect for Shear {
 
     fn register(&self, plan: &mut Plan<'_>) {
         let cloth = plan.scene.cloth;
+        if plan.solves_at_once() {
+            let effect = plan.effect;
+            return plan.membranes().shear(effect, self.stiffness);
+        }
         let angles = of_triangles(cloth, |membrane, area| Angle {
             membrane,
             compliance: 1.0 / (self.stiffness * area),

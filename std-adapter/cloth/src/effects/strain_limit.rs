@@ -82,6 +82,9 @@ impl Effect for StrainLimit {
     fn register(&self, plan: &mut Plan<'_>) {
         let cloth = plan.scene.cloth;
         let limit = self.limit;
+        if plan.solves_at_once() {
+            return plan.membranes().limit(limit, cloth);
+        }
         // The limit has no compliance, so that a pull crosses the whole cloth at once.
         let levels = plan.levels(f64::INFINITY, self.levels);
         let limits = of_triangles(cloth, |membrane, _| Limit::new(membrane, limit));

@@ -120,6 +120,10 @@ impl Effect for Stretch {
     fn register(&self, plan: &mut Plan<'_>) {
         let cloth = plan.scene.cloth;
         let stiffness = [self.stiffness, self.weft_stiffness];
+        if plan.solves_at_once() {
+            let effect = plan.effect;
+            return plan.membranes().stretch(effect, stiffness);
+        }
         let fabric = plan.fabric();
         if fabric.is_solved_together {
             let [warp, weft] = stiffness;

@@ -57,7 +57,7 @@ pub(crate) struct Flat {
     /// The directions of warp and weft.
     directions: [DVec3; 2],
     /// The area, in m².
-    area: f64,
+    pub(crate) area: f64,
 }
 
 impl Flat {

@@ -21,6 +21,11 @@ pub(crate) struct Stitch {
 }
 
 impl Stitch {
+    /// The weights of the vertices in the vector from the point to the vertex.
+    pub(crate) fn weights(&self) -> [f64; 3] {
+        [1.0, self.share - 1.0, -self.share]
+    }
+
     /// Returns the vector from the point to the vertex.
     fn way(&self, positions: &[DVec3]) -> DVec3 {
         let [a, b, c] = self.vertices.map(|vertex| positions[vertex as usize]);
@@ -34,7 +39,7 @@ impl Stitch {
 
     /// Moves vertex and point to within `length` of each other.
     fn draw(&self, length: f64, inverse_masses: &[f64], positions: &mut [DVec3]) {
-        let weights = [1.0, self.share - 1.0, -self.share];
+        let weights = self.weights();
         let mobility = mobility(inverse_masses, self.vertices, weights);
         let way = self.way(positions);
         let distance = way.length();

@@ -5,6 +5,7 @@ use super::{
 };
 use crate::effects::{self, Called, Effects, Gravity, Wrong};
 use crate::input::{SceneError, Source, Table};
+use crate::solve::Accuracy;
 use crate::world::{Body, Cloth, SceneParts};
 use selvedge_core::glam::DVec3;
 use selvedge_files::FileSource;
@@ -62,6 +63,7 @@ impl Scene {
             "frames_per_second",
             "on_blocked",
             START,
+            "accuracy",
             "cloth",
             "body",
             "effects",
@@ -87,6 +89,11 @@ impl Scene {
             ("tolerate", TangledStart::Tolerate),
             ("untangle", TangledStart::Untangle),
         ];
+        let accuracies = [
+            ("game", Accuracy::Game),
+            ("film", Accuracy::Film),
+            ("exact", Accuracy::Exact),
+        ];
         let tangled_start = root.choice(START, &starts)?.unwrap_or_default();
         let called = Called::new(&effects, &cloths, own.clone());
         check_start(tangled_start, &called.names()).map_err(|error| root.placed(&error))?;
@@ -99,6 +106,7 @@ impl Scene {
             by_frames: fixed.is_none(),
             on_blocked: root.choice("on_blocked", &choices)?.unwrap_or_default(),
             tangled_start,
+            accuracy: root.choice("accuracy", &accuracies)?,
             up: gravity.map_or(DVec3::Z, |acceleration| -acceleration),
             text: text.to_owned(),
             remarks,

@@ -30,6 +30,7 @@ mod read_cloth;
 
 use crate::effects::{Called, Effect, Effects};
 use crate::input::{AREA_DENSITY, FREQUENCY, Field, LARGEST_TIME, LINEAR_DENSITY, TIME, ValueError, suggestion};
+use crate::solve::Accuracy;
 use crate::world::{Body, Cloth, SceneParts};
 use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
@@ -113,6 +114,8 @@ pub struct Scene {
     pub on_blocked: OnBlocked,
     /// The response to intersections at the start.
     pub tangled_start: TangledStart,
+    /// The accuracy of each step.
+    pub accuracy: Option<Accuracy>,
     effects: Effects,
     /// Effects that single cloths have instead of the scene's, by the names of the cloths.
     own: Vec<(String, Effects)>,
@@ -160,6 +163,7 @@ impl Scene {
             remarks: Vec::new(),
             on_blocked: OnBlocked::default(),
             tangled_start: TangledStart::default(),
+            accuracy: None,
             effects: Effects::default(),
             own: Vec::new(),
         }
@@ -242,7 +246,11 @@ impl Scene {
     }
 
     pub(crate) fn parts(&self) -> Result<SceneParts<'_>, ValueError> {
-        SceneParts::new(&self.cloths, &self.bodies, self.time_step)
+        let parts = SceneParts::new(&self.cloths, &self.bodies, self.time_step)?;
+        Ok(SceneParts {
+            accuracy: self.accuracy,
+            ..parts
+        })
     }
 
     pub(crate) fn called(&self) -> Called<'_> {

@@ -92,6 +92,7 @@ impl Simulation {
                 if let Some(tearing) = &mut self.tearing {
                     tearing.waiting.clear();
                 }
+                self.forget_motion();
                 self.is_fresh = true;
             }
             result
@@ -149,7 +150,9 @@ impl Simulation {
     pub fn longest_over_limit(&self) -> Option<f64> {
         let limiting = self.made.bounding.iter().map(|&index| &self.made.constraints[index].action);
         let over = limiting.filter_map(|action| action.over_limit(&self.state.positions));
-        over.reduce(f64::max)
+        let terms = self.made.solve.iter().flat_map(|solve| &solve.terms);
+        over.chain(terms.filter_map(|entry| entry.action.over_limit(&self.state.positions)))
+            .reduce(f64::max)
     }
 
     /// Advances by as much of `left` seconds as possible, and returns how much. It tries half of it if that fails, and so on, but

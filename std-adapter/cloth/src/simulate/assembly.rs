@@ -3,10 +3,12 @@
 use super::errors::SetupError;
 use super::momentum::Pieces;
 use crate::contact::ContactSolver;
-use crate::effects::plan::{Entry, Plan};
+use crate::contact::smooth_body::SmoothBody;
+use crate::effects::plan::{Entry, OfCloths, Plan};
 use crate::model::step::{Carrier, Constraint, Force, Memory};
 use crate::model::tearing::Tearable;
 use crate::scene::{Scene, append};
+use crate::solve::{Solve, Term};
 use crate::world::Kinematic;
 use selvedge::{Mesh, Topology};
 use selvedge_core::glam::DVec3;
@@ -46,6 +48,11 @@ pub(super) struct Assembly {
     pub(super) friction: Vec<Entry<dyn Constraint>>,
     pub(super) contact: Option<ContactSolver>,
     pub(super) tearable: Vec<Tearable>,
+    /// The one solve of each step, in scenes that have it.
+    pub(super) solve: Option<Solve>,
+    pub(super) smooth_bodies: Vec<SmoothBody>,
+    /// The coefficient of friction.
+    pub(super) friction_coefficient: f64,
     /// The pieces of all cloths; each keeps its momentum.
     pub(super) pieces: Pieces,
     /// The mean length of the cloths' edges at rest, in metres, each counted once for each triangle.
@@ -71,8 +78,20 @@ impl Assembly {
             pushes,
             friction,
             tearable,
+            mut terms,
+            of_cloths,
+            hinges,
+            smooth_bodies,
+            friction_coefficient,
             ..
         } = plan;
+        let mut rows_of_ropes = Vec::new();
+        for OfCloths { membranes, ropes } in of_cloths {
+            rows_of_ropes.extend(ropes.iter().flat_map(|(_, ropes)| ropes.rows().to_vec()));
+            terms.extend(membranes.map(|(effect, membranes)| Entry::of(effect, Box::new(membranes) as Box<dyn Term>)));
+            terms.extend(ropes.map(|(effect, ropes)| Entry::of(effect, Box::new(ropes) as Box<dyn Term>)));
+        }
+        terms.sort_by_key(|entry| entry.effect);
         let mut all = Mesh::default();
         let vertices_of_cloths: Vec<_> = scene.cloths.iter().map(|cloth| append(&mut all, &cloth.mesh)).collect();
         let (cloth_vertices, cloth_triangles) = (all.positions.len(), all.triangles.len());
@@ -106,11 +125,17 @@ impl Assembly {
             let stitches = constraints.iter().filter(|entry| entry.action.acts_among_contacts());
             contact.hold_together(stitches.flat_map(|entry| entry.action.joints()).flatten());
         }
-        let joints = constraints.iter().flat_map(|entry| entry.action.joints());
+        let joints: Vec<[u32; 2]> = { constraints.iter().flat_map(|entry| entry.action.joints()) }
+            .chain(terms.iter().flat_map(|entry| entry.action.joints()))
+            .collect();
         let edges = edges(&triangles[..cloth_triangles])
             .chain(loose_edges.iter().copied())
             .chain(joints);
         let mean_edge = mean_length(edges.clone(), &rest);
+        let solve = scene.accuracy.map(|accuracy| {
+            let triangles = &triangles[..cloth_triangles];
+            Solve::new(terms, accuracy, triangles, &hinges, &rows_of_ropes, cloth_vertices)
+        });
         let pieces = Pieces::new(&inverse_masses[..cloth_vertices], edges);
         Ok(Self {
             effects,
@@ -134,6 +159,9 @@ impl Assembly {
             pushes,
             friction,
             tearable,
+            solve,
+            smooth_bodies,
+            friction_coefficient,
             pieces,
             mean_edge,
             rest,
@@ -143,7 +171,9 @@ impl Assembly {
     /// The memories of its constraints.
     pub(super) fn memories(&self) -> impl Iterator<Item = &dyn Memory> {
         let all = self.remembering.iter();
+        let terms = self.solve.iter().flat_map(|solve| &solve.terms);
         all.filter_map(|&index| self.constraints[index].action.memory())
+            .chain(terms.filter_map(|entry| entry.action.memory()))
     }
 }
 

@@ -21,6 +21,7 @@ mod momentum;
 mod resume;
 mod set_up;
 mod simulation;
+mod solving;
 mod state;
 mod substep;
 mod tangled;

@@ -28,6 +28,8 @@
 //! **A piece** is what edges and [joints](crate::model::step::Constraint::joints) connect, pinned vertices included.
 
 use crate::model::step::TimeStep;
+use crate::solve::Prediction;
+use crate::solve::prediction::History;
 use selvedge_core::glam::{DMat3, DVec3};
 
 /// Pins are on a line if none is farther from it than this share of their extent, which exceeds rounding to single precision.
@@ -101,6 +103,38 @@ impl Pieces {
     }
 }
 
+/// The forces from outside in a step, and the motion before it.
+pub(super) struct Outer<'a> {
+    /// The gradient of the terms that are not inner forces, at the end of the step, in N.
+    pub(super) gradient: &'a [DVec3],
+    /// The velocities after forces, and those at the start, in m/s.
+    pub(super) forced: &'a [DVec3],
+    pub(super) velocities: &'a [DVec3],
+    pub(super) history: &'a History,
+    pub(super) prediction: &'a Prediction,
+}
+
+impl Pieces {
+    /// Returns whether inner forces could change the momentum of a piece that touches nothing.
+    pub(super) fn are_movable(&self, step: &TimeStep<'_>, is_pressed: &[bool]) -> bool {
+        self.pieces.iter().any(|piece| piece.is_free(is_pressed) && piece.hinge(step.start).is_some())
+    }
+
+    /// Gives each piece that touches nothing the momentum that forces from outside leave it.
+    pub(super) fn keep_momentum(
+        &self,
+        step: &TimeStep<'_>,
+        outer: &Outer<'_>,
+        is_pressed: &[bool],
+        x: &mut [DVec3],
+        velocities: &mut [DVec3],
+    ) {
+        for piece in self.pieces.iter().filter(|piece| piece.is_free(is_pressed)) {
+            piece.keep_momentum(step, outer, x, velocities);
+        }
+    }
+}
+
 /// The smallest vertex known to be connected with this one. Shortens the path to it.
 fn root(parents: &mut [u32], mut vertex: u32) -> u32 {
     while parents[vertex as usize] != vertex {
@@ -164,6 +198,78 @@ impl Piece {
         }
         for vertex in free() {
             positions[vertex] -= shift + turn.cross(step.start[vertex] - centre);
+        }
+    }
+
+    /// Returns whether nothing presses the piece.
+    fn is_free(&self, is_pressed: &[bool]) -> bool {
+        !self.free.iter().any(|&vertex| is_pressed[vertex as usize])
+    }
+
+    /// Gives the piece the momentum that forces from outside leave it, and the angular momentum about its hinge.
+    ///
+    /// A vertex has v′ = (x′ − b)/r with the base b and the rate r of its [prediction](Prediction), so that x′ × v′ = b × v′. The
+    /// equation of motion is m(v′ − w)/r = −g with w = (y − b)/r and the gradient g. Its sum over the piece gives the momentum. The
+    /// angular momentum about a fixed point is L′ = L + h·τ after a step of first order, and L′ = (4L − L₋)/3 + ⅔h·τ after one
+    /// of second order: the same formulas as for v′, with the moment τ of forces from outside. A pinned point is at its place at the
+    /// end of the step, where its force has no moment about it.
+    fn keep_momentum(&self, step: &TimeStep<'_>, outer: &Outer<'_>, x: &mut [DVec3], velocities: &mut [DVec3]) {
+        let Some(hinge) = self.hinge(x) else { return };
+        let Outer {
+            gradient,
+            forced,
+            velocities: before,
+            history,
+            prediction: Prediction { goal, base, rate, .. },
+        } = outer;
+        let (h, start) = (step.h, step.start);
+        let free = || self.free.iter().map(|&vertex| vertex as usize);
+        let mass = |vertex: usize| step.inverse_masses[vertex].recip();
+        let is_second_order = free().all(|vertex| rate[vertex] < h);
+        let mut shift = DVec3::ZERO;
+        let centre = match hinge {
+            Hinge::CentreOfMass => {
+                let (mut total, mut of_rates, mut centre) = (0.0, 0.0, DVec3::ZERO);
+                for vertex in free() {
+                    let (mass, rate) = (mass(vertex), rate[vertex]);
+                    let predicted = (goal[vertex] - base[vertex]) / rate;
+                    shift -= gradient[vertex] + (velocities[vertex] - predicted) * (mass / rate);
+                    of_rates += mass / rate;
+                    centre += base[vertex] * mass;
+                    total += mass;
+                }
+                shift /= of_rates;
+                centre / total
+            }
+            Hinge::Point(point) | Hinge::Axis(point, _) => point,
+        };
+        let mut moment = DVec3::ZERO;
+        // Σ m·q·qᵀ, from which the inertia follows.
+        let (mut squares, mut products) = (DVec3::ZERO, DVec3::ZERO);
+        for vertex in free() {
+            let (mass, arm) = (mass(vertex), base[vertex] - centre);
+            let end = x[vertex] - centre;
+            let angular = |at: DVec3, velocity: DVec3| (at - centre).cross(velocity * mass);
+            moment += if is_second_order {
+                let kept = angular(start[vertex], before[vertex]) * 4.0 - angular(history.positions[vertex], history.velocities[vertex]);
+                let forces = (forced[vertex] - before[vertex]) * mass - gradient[vertex] * h;
+                kept / 3.0 + end.cross(forces) * (2.0 / 3.0)
+            } else {
+                angular(start[vertex], forced[vertex]) - end.cross(gradient[vertex]) * h
+            };
+            moment -= arm.cross((velocities[vertex] + shift) * mass);
+            let weighted = arm * mass;
+            squares += weighted * arm;
+            products += weighted * DVec3::new(arm.y, arm.z, arm.x);
+        }
+        let turn = turn(hinge, moment, squares, products);
+        if !(turn.is_finite() && shift.is_finite()) {
+            return;
+        }
+        for vertex in free() {
+            let change = shift + turn.cross(base[vertex] - centre);
+            velocities[vertex] += change;
+            x[vertex] += change * rate[vertex];
         }
     }
 }

@@ -86,6 +86,14 @@ impl Simulation {
         Ok(())
     }
 
+    /// Forgets the multipliers and the motion before the present state, which a checkpoint does not have.
+    pub(super) fn forget_motion(&mut self) {
+        self.work.solving.history.forget();
+        if let Some(solve) = &mut self.made.solve {
+            solve.forget();
+        }
+    }
+
     /// Returns the memories of all constraints, one after the other.
     pub(super) fn remembered(&self) -> Vec<f64> {
         self.made.memories().flat_map(Memory::numbers).collect()
@@ -100,6 +108,14 @@ impl Simulation {
                 memory.recall(own);
             }
         }
+        for entry in self.made.solve.iter_mut().flat_map(|solve| &mut solve.terms) {
+            if let Some(memory) = entry.action.memory_mut() {
+                let own;
+                (own, numbers) = numbers.split_at(memory.numbers().len());
+                memory.recall(own);
+            }
+        }
+        self.forget_motion();
     }
 
     pub(super) fn driven(&self) -> impl Iterator<Item = &Driven> {

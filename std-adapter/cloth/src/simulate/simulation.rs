@@ -1,6 +1,7 @@
 //! A simulation, and the results that a caller can read between two steps.
 
 use super::assembly::Assembly;
+use super::solving::Solving;
 use super::measures::{EdgeStretch, EffectTime};
 use super::state::State;
 use super::tangled::Untangled;
@@ -8,6 +9,7 @@ use super::tearing::Tearing;
 use crate::contact::{ContactCounts, ContactSeconds, Crossing, ProximityPair};
 use crate::model::energy::{Configuration, Energy};
 use crate::model::step::{Release, Touches};
+use crate::solve::SolveCounts;
 use crate::scene::{OnBlocked, TangledStart};
 use crate::world::{FileNumbering, MeshInFiles, Pose};
 use selvedge::Mesh;
@@ -84,6 +86,7 @@ pub(super) struct Work {
     pub(super) shifted: Vec<DVec3>,
     /// The positions before limits act.
     pub(super) unlimited: Vec<DVec3>,
+    pub(super) solving: Solving,
 }
 
 impl Simulation {
@@ -181,7 +184,13 @@ impl Simulation {
     /// Returns the pairs that came near each other in the last part of the last step, at the start of that part. Pairs that
     /// pushes of others kept apart are left out. Empty without a contact effect.
     pub fn near_pairs(&self) -> impl Iterator<Item = ProximityPair> {
-        self.made.contact.iter().flat_map(|contact| contact.near_pairs())
+        let of_solve = self.made.solve.iter().flat_map(|solve| &solve.rows).map(|row| ProximityPair {
+            vertices: row.vertices,
+            weights: row.weights,
+            normal: row.normal,
+            thickness: row.thickness,
+        });
+        self.made.contact.iter().flat_map(|contact| contact.near_pairs()).chain(of_solve)
     }
 
     /// Returns the number of the cloths' vertices.
@@ -228,13 +237,16 @@ impl Simulation {
             inverse_masses: &self.made.inverse_masses,
         };
         let forces = self.made.forces.iter().map(|entry| (entry.effect, entry.action.energy(&now)));
+        let terms = self.made.solve.iter().flat_map(|solve| &solve.terms);
+        let terms: Vec<_> = terms.flat_map(|entry| entry.action.energy(&now, entry.effect)).collect();
         let constraints = self
             .made
             .constraints
             .iter()
             .map(|entry| (entry.effect, entry.action.energy(&now)));
         let mut energy = Energy::of_motion(&self.made.inverse_masses, &self.state.velocities);
-        for (effect, stored) in forces.chain(constraints) {
+        let terms = terms.into_iter().map(|(effect, stored)| (effect, Some(stored)));
+        for (effect, stored) in forces.chain(constraints).chain(terms) {
             if let Some(stored) = stored {
                 energy.add(self.effects[effect].name, stored);
             }
@@ -253,6 +265,12 @@ impl Simulation {
     #[must_use]
     pub fn effects(&self) -> &[EffectTime] {
         &self.effects
+    }
+
+    /// Returns the counts of the solves so far.
+    #[must_use]
+    pub fn solve_counts(&self) -> Option<SolveCounts> {
+        self.made.solve.as_ref().map(|solve| solve.counts)
     }
 
     /// Returns the counts of contact so far; `None` if the scene has no contact effect.

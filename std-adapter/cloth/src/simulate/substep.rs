@@ -69,6 +69,9 @@ impl Simulation {
     /// # Errors
     /// Returns an error if no motion is found that is certainly free. Then nothing has changed.
     pub(super) fn attempt(&mut self, h: f64, ticks: f64) -> Result<(), Blocker> {
+        if self.made.solve.is_some() {
+            return self.solve_step(h, ticks);
+        }
         let mut substep = Substep::begin(self, h, ticks);
         substep.apply_forces();
         substep.predict();

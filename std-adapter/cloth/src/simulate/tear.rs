@@ -178,6 +178,9 @@ impl Simulation {
             self.made.forces.iter_mut().for_each(|force| {
                 force.action.set_wind(wind);
             });
+            for term in self.made.solve.iter_mut().flat_map(|solve| &mut solve.terms) {
+                term.action.set_wind(wind);
+            }
         }
     }
 

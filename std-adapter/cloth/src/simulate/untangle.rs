@@ -12,6 +12,7 @@
 use super::errors::SetupError;
 use super::simulation::Simulation;
 use super::tangled::{Tangled, Untangled, UntanglingEnd, UntanglingProgress};
+use crate::solve::Solve;
 use selvedge::clock::Clock;
 use selvedge_core::glam::DVec3;
 
@@ -62,6 +63,7 @@ impl Simulation {
     pub(super) fn untangle(&mut self, spacing: f64, tell: &mut (dyn FnMut(UntanglingProgress) + Send)) -> Untangled {
         let begin = Clock::now();
         let forces = std::mem::take(&mut self.made.forces);
+        let loads = self.made.solve.as_mut().map(Solve::take_loads);
         let velocities = self.state.velocities.clone();
         let start = self.state.positions.clone();
         let times = self.effects.clone();
@@ -71,6 +73,9 @@ impl Simulation {
         let (steps, end) = threads.run(|| self.pull_apart(REACH * spacing, tell));
         self.threads = threads;
         (self.made.forces, self.effects) = (forces, times);
+        if let (Some(solve), Some(loads)) = (&mut self.made.solve, loads) {
+            solve.give_loads(loads);
+        }
         self.state.velocities = velocities;
         // No joint breaks, and no fold stays, before the first step.
         self.recall(&remembered);

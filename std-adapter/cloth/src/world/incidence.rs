@@ -1,6 +1,6 @@
 //! Incidence lists: the edges or triangles of each vertex, the triangles of each edge.
 
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Incidence<T> {
     /// The start of each list, and the end of the last.
     starts: Vec<u32>,

@@ -11,13 +11,13 @@ const DRAG: Field = Field::new("drag", RATIO, 0.0, 100.0);
 const ROPE_DIAMETER: Field = Field::new("rope_diameter", LENGTH, 0.0, 1.0);
 
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Drag {
+pub(crate) struct Drag {
     /// The density of the air, in kg/m³.
     pub(super) density: f64,
     /// The drag coefficient for head-on flow.
     pub(super) coefficient: f64,
     /// The diameter of loose edges, in metres. At 0 the air does not push them.
-    pub(super) rope_diameter: f64,
+    pub(in crate::effects) rope_diameter: f64,
 }
 
 impl Drag {
@@ -61,7 +61,7 @@ impl Drag {
     }
 
     /// Returns ½ρc over a density of the cloth.
-    pub(super) fn over(self, density: f64) -> f64 {
+    pub(in crate::effects) fn over(self, density: f64) -> f64 {
         0.5 * self.density * self.coefficient / density
     }
 }

@@ -8,6 +8,7 @@ use crate::effects::plan::Plan;
 use crate::effects::registration::{ActsOn, Effect, Registration};
 use crate::input::{FREQUENCY, Field, RATIO, SPEED, ValueError};
 use crate::model::step::{Force, TimeStep};
+use crate::solve::air::Blowing;
 use crate::world::SceneParts;
 use libm::sin;
 use selvedge_core::glam::DVec3;
@@ -100,6 +101,13 @@ impl Effect for Wind {
     }
 
     fn register(&self, plan: &mut Plan<'_>) {
+        if plan.solves_at_once() {
+            let blowing = Gusts {
+                wind: *self,
+                wave: wave(self.velocity),
+            };
+            return plan.add_air(blowing, self.air());
+        }
         plan.add_force(Blow {
             cloth: InAir::new(plan.scene.cloth, self.air()),
             wave: wave(self.velocity),
@@ -110,6 +118,26 @@ impl Effect for Wind {
 
 fn wave(velocity: DVec3) -> DVec3 {
     velocity.normalize_or_zero() * (TAU / GUST_LENGTH)
+}
+
+#[derive(Debug)]
+struct Gusts {
+    wind: Wind,
+    /// The phase per metre.
+    wave: DVec3,
+}
+
+impl Blowing for Gusts {
+    fn velocity(&self, corners: &[DVec3], time: f64) -> DVec3 {
+        let phase = TAU * self.wind.gust_frequency * time;
+        self.wind.velocity * (1.0 + self.wind.gust * sin(phase - self.wave.dot(corners[0])))
+    }
+
+    fn set(&mut self, velocity: DVec3) -> bool {
+        self.wind.velocity = velocity;
+        self.wave = wave(velocity);
+        true
+    }
 }
 
 #[derive(Debug)]

@@ -110,10 +110,25 @@ impl Effect for WindField {
     }
 
     fn register(&self, plan: &mut Plan<'_>) {
+        if plan.solves_at_once() {
+            return plan.add_air(Field(Arc::clone(&self.air)), self.resistance());
+        }
         plan.add_force(Blowing {
             air: Arc::clone(&self.air),
             cloth: InAir::new(plan.scene.cloth, self.resistance()),
         });
+    }
+}
+
+/// The air at the middle of a triangle or an edge.
+#[derive(Debug)]
+struct Field(Arc<dyn Air>);
+
+impl crate::solve::air::Blowing for Field {
+    fn velocity(&self, corners: &[DVec3], time: f64) -> DVec3 {
+        let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
+        let velocity = self.0.velocity(middle, time);
+        if velocity.is_finite() { velocity } else { DVec3::ZERO }
     }
 }
 

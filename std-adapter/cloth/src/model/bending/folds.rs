@@ -26,9 +26,11 @@ pub(crate) struct Yield {
 }
 
 #[derive(Debug)]
-pub(super) struct Folds {
+pub(crate) struct Folds {
     when: Yield,
     hinges: Vec<Fold>,
+    /// The cloth's first vertex, as its hinges number vertices here.
+    first: u32,
     /// The source vertices of the last vertices, which are copies made by tears.
     copied: Vec<u32>,
     loads: Vec<DVec3>,
@@ -55,14 +57,16 @@ impl Fold {
 
 impl Folds {
     /// Makes flat folds. The last vertices are copies of those in `copied`.
-    pub(super) fn new(hinges: &[On<Hinge, 4>], vertex_count: usize, copied: &[u32], when: Yield) -> Self {
+    /// The cloth's vertices are numbered from `first` on.
+    pub(crate) fn new(hinges: &[On<Hinge, 4>], first: u32, vertex_count: usize, copied: &[u32], when: Yield) -> Self {
         let fold = |&(vertices, hinge): &On<Hinge, 4>| Fold {
-            vertices,
+            vertices: vertices.map(|vertex| vertex + first),
             hinge,
             rest: 0.0,
         };
         Self {
             when,
+            first,
             hinges: hinges.iter().map(fold).collect(),
             copied: copied.to_vec(),
             loads: vec![DVec3::ZERO; vertex_count],
@@ -74,6 +78,7 @@ impl Folds {
     fn as_made(&self, fold: &Fold) -> ([u32; 4], bool) {
         let first_copy = self.loads.len() - self.copied.len();
         let made = |vertex: u32| {
+            let vertex = vertex - self.first;
             let copy = (vertex as usize).checked_sub(first_copy);
             copy.map_or(vertex, |copy| self.copied[copy])
         };
@@ -82,20 +87,20 @@ impl Folds {
     }
 
     /// Returns the loads of the folds on each vertex at these positions, in N.
-    pub(super) fn loads(&mut self, positions: &[DVec3]) -> &[DVec3] {
+    pub(crate) fn loads(&mut self, positions: &[DVec3]) -> &[DVec3] {
         self.loads.fill(DVec3::ZERO);
         for fold in self.hinges.iter().filter(|fold| fold.rest != 0.0) {
             let [_, normal] = fold.bent(positions);
             let pull = normal * (fold.hinge.coefficient * fold.rest);
             for (&vertex, weight) in fold.vertices.iter().zip(fold.hinge.weights) {
-                self.loads[vertex as usize] += pull * weight;
+                self.loads[(vertex - self.first) as usize] += pull * weight;
             }
         }
         &self.loads
     }
 
     /// Returns the energy without the part ½x·Q·x, in J.
-    pub(super) fn energy(&self, positions: &[DVec3]) -> f64 {
+    pub(crate) fn energy(&self, positions: &[DVec3]) -> f64 {
         let of = |fold: &Fold| {
             let [bent, normal] = fold.bent(positions);
             fold.hinge.coefficient * fold.rest * (0.5 * fold.rest - bent.dot(normal))
@@ -155,8 +160,8 @@ mod tests {
             curvature: 1.0,
             creep: 0.0,
         };
-        let mut whole = Folds::new(&[([0, 1, 2, 3], hinge)], 4, &[], when);
-        let mut torn = Folds::new(&[([1, 4, 2, 3], hinge)], 5, &[0], when);
+        let mut whole = Folds::new(&[([0, 1, 2, 3], hinge)], 0, 4, &[], when);
+        let mut torn = Folds::new(&[([1, 4, 2, 3], hinge)], 0, 5, &[0], when);
         assert_eq!(whole.keys(), torn.keys());
         whole.recall(&[0.25]);
         torn.recall(&whole.numbers());

@@ -10,9 +10,9 @@ use selvedge_core::glam::DVec3;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Hinge {
     /// The weights K of the four vertices.
-    pub(super) weights: [f64; 4],
+    pub(crate) weights: [f64; 4],
     /// The factor of |C|² in twice the energy, in N/m.
-    pub(super) coefficient: f64,
+    pub(crate) coefficient: f64,
     /// The area A of both triangles, in m².
     pub(super) area: f64,
 }
@@ -20,7 +20,7 @@ pub(crate) struct Hinge {
 impl Hinge {
     /// Returns the bend C = ΣKᵢxᵢ, in m.
     #[inline(always)]
-    pub(super) fn bent(&self, x: [DVec3; 4]) -> DVec3 {
+    pub(crate) fn bent(&self, x: [DVec3; 4]) -> DVec3 {
         let k = self.weights;
         x[0] * k[0] + x[1] * k[1] + x[2] * k[2] + x[3] * k[3]
     }

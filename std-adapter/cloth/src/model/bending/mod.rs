@@ -43,13 +43,12 @@ mod forces;
 mod hinge;
 mod stages;
 
-pub(crate) use folds::Yield;
+pub(crate) use folds::{Folds, Yield};
 pub(crate) use hinge::{Hinge, hinges};
 
 use crate::model::energy::{Configuration, StoredEnergy};
 use crate::model::schedule::{On, Schedule};
 use crate::model::step::{Constraint, Memory, TimeStep, Touches};
-use folds::Folds;
 use forces::Forces;
 use selvedge_core::glam::DVec3;
 use stages::Stages;
@@ -108,7 +107,7 @@ impl Bending {
         Self {
             fastest,
             forces,
-            folds: folds.map(|(when, copied)| Folds::new(&within, vertex_count, copied, when)),
+            folds: folds.map(|(when, copied)| Folds::new(&within, 0, vertex_count, copied, when)),
             beyond: (!beyond.is_empty() && folds.is_none()).then(|| Schedule::once(beyond, vertex_count)),
             work: Default::default(),
         }

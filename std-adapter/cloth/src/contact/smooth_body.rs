@@ -1,0 +1,45 @@
+//! Capsules and balls, from which cloth keeps its exact distance, so that it slides on a smooth surface.
+
+use crate::model::length::length;
+use crate::world::Pose;
+use selvedge_core::glam::DVec3;
+use std::ops::Range;
+
+/// A capsule or a ball, and the cloth that it meets.
+#[derive(Clone, Debug)]
+pub(crate) struct SmoothBody {
+    pub(crate) carrier: usize,
+    /// The ends of the axis at rest.
+    pub(crate) ends: [DVec3; 2],
+    pub(crate) radius: f64,
+    pub(crate) thickness: f64,
+    /// The vertices of the cloth, as the scene numbers them.
+    pub(crate) vertices: Range<usize>,
+}
+
+impl SmoothBody {
+    /// Returns the ends of the axis at a pose.
+    pub(crate) fn axis(&self, pose: &Pose) -> [DVec3; 2] {
+        self.ends.map(|end| pose.apply(end))
+    }
+}
+
+/// Returns the vector to a point from the nearest point of an axis.
+#[inline(always)]
+pub(crate) fn from_axis([from, to]: [DVec3; 2], point: DVec3) -> DVec3 {
+    let (axis, way) = (to - from, point - from);
+    let squared = axis.length_squared();
+    if squared > 0.0 {
+        way - axis * (way.dot(axis) / squared).clamp(0.0, 1.0)
+    } else {
+        way
+    }
+}
+
+/// Returns the direction of length one away from an axis, and the distance.
+#[inline(always)]
+pub(crate) fn away(axis: [DVec3; 2], point: DVec3) -> (DVec3, f64) {
+    let way = from_axis(axis, point);
+    let distance = length(way);
+    (if distance > 0.0 { way / distance } else { DVec3::ZERO }, distance)
+}

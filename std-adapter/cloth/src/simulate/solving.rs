@@ -1,0 +1,267 @@
+//! A substep: a whole step, or a part of one after a cut.
+//!
+//! ```text
+//! begin ─▶ predict ─▶ rows ─▶ solve ─▶ momentum ─▶ certify ─▶ remember
+//! ```
+
+use super::assembly::Assembly;
+use super::momentum::Outer;
+use super::simulation::{Simulation, Work};
+use super::state::{FASTEST, limited};
+use crate::contact::smooth_body::{SmoothBody, away};
+use crate::contact::{Blocker, ContactSolver, ProximityPair};
+use crate::model::step::{FREE, TimeStep};
+use crate::solve::prediction::{self, History};
+use crate::solve::{ContactRow, Prediction, RECOVERY, RowKey, Solve};
+use crate::world::Kinematic;
+use selvedge::PairKind;
+use selvedge::clock::Clock;
+use selvedge_core::glam::DVec3;
+
+/// A smooth body has rows with vertices that may come within this many thicknesses of it.
+const REACH: f64 = 1.5;
+
+/// Buffers of a substep, and the motion before it.
+#[derive(Debug, Default)]
+pub(super) struct Solving {
+    pub(super) history: History,
+    prediction: Prediction,
+    forced: Vec<DVec3>,
+    /// The positions of kinematic vertices at the end of the step.
+    ends: Vec<DVec3>,
+    free: Vec<DVec3>,
+    x: Vec<DVec3>,
+    outer: Vec<DVec3>,
+    is_pressed: Vec<bool>,
+    is_moved: Vec<bool>,
+    velocities: Vec<DVec3>,
+}
+
+impl Simulation {
+    /// Advances the cloth by `h` seconds, and bodies and pins by `ticks` seconds of their clock.
+    ///
+    /// # Errors
+    /// Returns an error if no motion is found that is certainly free. Then nothing has changed.
+    pub(super) fn solve_step(&mut self, h: f64, ticks: f64) -> Result<(), Blocker> {
+        let Self {
+            state,
+            work,
+            carried,
+            effects,
+            made,
+            time_step,
+            ..
+        } = self;
+        let Assembly {
+            inverse_masses,
+            carriers,
+            contact,
+            motions,
+            forces,
+            pieces,
+            solve,
+            smooth_bodies,
+            friction_coefficient,
+            cloth_vertices,
+            ..
+        } = made;
+        let Work { poses, solving, .. } = work;
+        let Some(solve) = solve else { return Ok(()) };
+        let count = *cloth_vertices;
+        let clock = state.clock;
+        poses.clear();
+        poses.extend(motions.iter().map(|motion| [clock, clock + ticks].map(|time| motion.pose(time))));
+        let step = TimeStep {
+            time: state.time(*time_step),
+            h,
+            start: &state.positions,
+            inverse_masses,
+            held: &[],
+            poses,
+        };
+        let Solving {
+            history,
+            prediction,
+            forced,
+            ends,
+            free,
+            x,
+            outer,
+            is_pressed,
+            is_moved,
+            velocities,
+        } = solving;
+        forced.clone_from(&state.velocities);
+        for entry in forces {
+            let begin = Clock::now();
+            entry.action.apply(&step, forced);
+            effects[entry.effect].seconds += begin.elapsed().as_secs_f64();
+        }
+        forced.iter_mut().for_each(|velocity| *velocity = limited(*velocity, FASTEST));
+        let end = |vertex: usize| match step.poses.get(carriers[vertex] as usize) {
+            Some([_, pose]) if pose.is_rigid() => pose.apply(carried[vertex]),
+            _ => step.start[vertex],
+        };
+        ends.clear();
+        ends.extend((0..step.start.len()).map(end));
+        motions.iter_mut().for_each(|motion: &mut Kinematic| motion.put(clock + ticks, ends));
+
+        let both = [&state.velocities[..], &forced[..]];
+        prediction::predict(prediction, &step, history, both, ends, count);
+        prediction::guess(x, free, &step, history, both, ends, count);
+        collect_rows(solve, smooth_bodies, contact, &step, [x, &prediction.goal], *friction_coefficient);
+        solve.remind_rows();
+        prediction::hold_pressed(&solve.rows, &step, x, count);
+        let follow = |row: &mut ContactRow, x: &[DVec3]| follow_smooth(row, &step, smooth_bodies, x);
+        for row in solve.rows.iter_mut().filter(|row| row.reach > 0.0) {
+            if row.push > 0.0 && row.is_at_bound() {
+                // It slides along the surface, and not off it.
+                let vertex = row.vertices[0] as usize;
+                follow_smooth(row, &step, smooth_bodies, x);
+                let gap = row.gap(x);
+                x[vertex] -= row.normal * gap;
+            }
+            follow_smooth(row, &step, smooth_bodies, x);
+        }
+        solve.run(&step, prediction, free, x, &follow).map_err(|_| not_finite(&step))?;
+
+        is_pressed.clear();
+        is_pressed.resize(count, false);
+        for row in solve.rows.iter().filter(|row| row.push > 0.0) {
+            row.parts().filter(|(vertex, _)| *vertex < count).for_each(|(vertex, _)| is_pressed[vertex] = true);
+        }
+        let farthest = FASTEST * h;
+        for (vertex, position) in x.iter_mut().enumerate().take(count).filter(|(vertex, _)| carriers[*vertex] == FREE) {
+            let start = step.start[vertex];
+            *position = start + limited(*position - start, farthest);
+        }
+        prediction::velocities(prediction, &step, x, is_pressed, velocities);
+        if pieces.are_movable(&step, is_pressed) {
+            outer.clear();
+            outer.resize(count, DVec3::ZERO);
+            solve.outer_gradient(x, outer);
+            let outer = Outer {
+                gradient: outer,
+                forced,
+                velocities: &state.velocities,
+                history,
+                prediction,
+            };
+            pieces.keep_momentum(&step, &outer, is_pressed, x, velocities);
+        }
+        is_moved.clear();
+        is_moved.resize(step.start.len(), false);
+        if let Some(contact) = contact {
+            let wanted = &mut *ends;
+            wanted.clone_from(x);
+            contact.certify(&step, x)?;
+            contact.counts.pushed += solve.rows.iter().filter(|row| row.push > 0.0).count() as u64;
+            for (vertex, is_moved) in is_moved.iter_mut().enumerate() {
+                *is_moved = wanted[vertex] != x[vertex];
+                if *is_moved {
+                    velocities[vertex] = (x[vertex] - step.start[vertex]) / h;
+                }
+            }
+        }
+        solve.accept(is_moved);
+        for entry in &mut solve.terms {
+            if let Some(memory) = entry.action.memory_mut() {
+                memory.settle(&step, x);
+            }
+        }
+        history.is_first_order.clear();
+        history.is_first_order.extend(is_pressed.iter().zip(&*is_moved).map(|(pressed, moved)| *pressed || *moved));
+        history.record(&state.positions, &state.velocities, h);
+        std::mem::swap(&mut state.velocities, velocities);
+        std::mem::swap(&mut state.positions, x);
+        state.clock += ticks;
+        Ok(())
+    }
+}
+
+/// The blocker of a step whose energy is not finite.
+const fn not_finite(step: &TimeStep<'_>) -> Blocker {
+    Blocker {
+        time: step.time,
+        kind: PairKind::VertexFace,
+        vertices: [0; 4],
+        body: None,
+    }
+}
+
+/// Returns the distance at which a contact is at rest in this step. It is the thickness; a pair that starts nearer comes apart at a
+/// [rate](RECOVERY).
+fn rest(thickness: f64, distance: f64, h: f64) -> f64 {
+    thickness - (thickness - distance).max(0.0) * (1.0 - (RECOVERY * h).min(1.0))
+}
+
+/// Makes the rows of a step, whose solve begins at `guess`; everything but contact leads to `goal`.
+fn collect_rows(
+    solve: &mut Solve,
+    smooth_bodies: &[SmoothBody],
+    contact: &mut Option<ContactSolver>,
+    step: &TimeStep<'_>,
+    [guess, goal]: [&[DVec3]; 2],
+    friction: f64,
+) {
+    let rows = &mut solve.rows;
+    rows.clear();
+    for (index, body) in smooth_bodies.iter().enumerate() {
+        let [before, now] = step.poses[body.carrier];
+        if !now.is_rigid() {
+            continue;
+        }
+        let [axis_before, axis] = [&before, &now].map(|pose| body.axis(pose));
+        let reach = body.radius + body.thickness;
+        let far = body.radius + REACH * body.thickness;
+        for vertex in body.vertices.clone().filter(|&vertex| step.inverse_masses[vertex] > 0.0) {
+            let start = step.start[vertex];
+            let [at_start, at_guess, at_goal] = [(axis_before, start), (axis, guess[vertex]), (axis, goal[vertex])]
+                .map(|(axis, point)| away(axis, point).1);
+            if at_start.min(at_guess).min(at_goal) > far {
+                continue;
+            }
+            let (normal, _) = away(axis, guess[vertex]);
+            let key = RowKey::Smooth(vertex as u32, index as u32);
+            rows.push(ContactRow {
+                thickness: body.thickness,
+                is_with_body: true,
+                reach: if at_start < reach { body.radius + rest(body.thickness, at_start - body.radius, step.h) } else { reach },
+                drift: before.carry(&now, start) - start,
+                friction,
+                ..ContactRow::new(key, [vertex as u32; 4], [1.0, 0.0, 0.0, 0.0], normal, step.start)
+            });
+        }
+    }
+    let Some(contact) = contact else { return };
+    contact.visit_near(step, [guess, goal], &mut |key, is_with_body, near, distance| {
+        let ProximityPair {
+            vertices,
+            weights,
+            normal,
+            thickness,
+        } = near;
+        rows.push(ContactRow {
+            thickness,
+            is_with_body,
+            rest: rest(thickness, distance, step.h),
+            friction,
+            ..ContactRow::new(RowKey::Pair(key), vertices, weights, normal, step.start)
+        });
+    });
+}
+
+/// Finds the normal of a smooth body again, and the rest distance along it.
+fn follow_smooth(row: &mut ContactRow, step: &TimeStep<'_>, smooth_bodies: &[SmoothBody], x: &[DVec3]) {
+    let RowKey::Smooth(vertex, body) = row.key else { return };
+    let body = &smooth_bodies[body as usize];
+    let axis = body.axis(&step.poses[body.carrier][1]);
+    let at = x[vertex as usize];
+    let (normal, distance) = away(axis, at);
+    if normal == DVec3::ZERO {
+        return;
+    }
+    row.normal = normal;
+    row.rest = normal.dot(at) - distance + row.reach;
+    row.grip -= normal * row.grip.dot(normal);
+}

@@ -1,0 +1,63 @@
+//! The constants of the solve, each with its meaning and the law that pins it. None depends on a scene.
+
+/// The accuracy of a simulation: one tolerance of the solve in each step.
+///
+/// It is the error of the accelerations that a step may leave, as a share of them. All three come to the same rest.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Accuracy {
+    /// A tenth, for games.
+    Game,
+    /// Three hundredths, for pictures.
+    #[default]
+    Film,
+    /// Three thousandths, for measurements of forces and motion.
+    Exact,
+}
+
+impl Accuracy {
+    /// Returns the error that a solve may leave, as a share of the accelerations.
+    pub(super) const fn share(self) -> f64 {
+        match self {
+            Self::Game => 0.1,
+            Self::Film => 0.03,
+            Self::Exact => 0.003,
+        }
+    }
+}
+
+/// The largest number of Newton steps. What is not finished goes on in the next step of time, as multipliers are kept.
+pub(super) const MOST_NEWTON_STEPS: usize = 12;
+/// The largest number of iterations of conjugate gradients in one Newton step.
+pub(super) const MOST_ITERATIONS: usize = 1000;
+/// The largest number of halvings of a Newton step. Slack foil may fly ten thousand times too far.
+pub(super) const MOST_HALVINGS: usize = 16;
+/// An error of velocity that does not matter, in m/s: a thousandth of a millimetre in half a second. Pinned by the speed of layers at rest.
+pub(super) const STILL: f64 = 2e-6;
+/// The ratio of the square of the remaining force to that of the linear problem below which another Newton step gains little.
+pub(super) const NEARLY_LINEAR: f64 = 4.0;
+
+/// The stiffness of a contact with a body, beside that of its vertices. Larger values need fewer Newton steps and more iterations. The
+/// result does not depend on it.
+pub(super) const STIFFER_THAN_BODIES: f64 = 5.0;
+/// The same for contacts of cloth. Layers pass a load on from one to the next, which takes stiffer contacts: stack laws.
+pub(super) const STIFFER_THAN_CLOTH: f64 = 20.0;
+/// The same for strain limits, stitches and ties.
+pub(super) const STIFFER_THAN_LIMITS: f64 = 3.0;
+/// The depth to which the load of the last step may press a contact within a solve, as a share of its thickness.
+pub(super) const GIVE: f64 = 0.05;
+
+/// The change of a contact's depth that needs no other Newton step, as a share of the largest move in the step.
+pub(super) const SMALL_CHANGE: f64 = 0.05;
+/// The largest value of that change, as a share of the thickness.
+pub(super) const LARGEST_CHANGE: f64 = 0.01;
+/// The change that never needs another Newton step, as a speed in m/s. It is what layers at rest may keep: stack laws.
+pub(super) const SLOWEST_CHANGE: f64 = 5e-4;
+/// The change of a limited stretch that needs no other Newton step.
+pub(super) const LIMIT_CHANGE: f64 = 5e-3;
+
+/// The rate at which contacts that start too near come apart, in 1/s. A layer that was pressed has its height again in a tenth of a second.
+pub(crate) const RECOVERY: f64 = 50.0;
+
+/// The largest stiffness of a rope's edge, as a multiple of the mass of its lighter end over h². Single precision resolves its mass
+/// beside it. A rope of 1,000 vertices stretches by less than a micrometre at 4 ms by its weight.
+pub(super) const STIFFEST: f64 = 1e6;

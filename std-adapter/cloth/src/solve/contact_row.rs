@@ -1,0 +1,270 @@
+//! A contact in the solve: C = n·Σw·x − r ≥ 0, with friction.
+//!
+//! **Contact.** The augmented Lagrangian is t²/2κ with the push t = max(0, λ − κC), and λ ← t after each Newton step. It is exact when it
+//! converges, for any κ. n and w are those of the closest points at the start of the step; on capsules and balls, n follows each Newton
+//! step.
+//!
+//! **Friction** is bounded by μ times the push that the *last* solve found: the depth of something that lands is not yet a force. With
+//! the sliding u since the start of the step and the multiplier f, it sticks with f − κu as long as this is within the bound. Otherwise
+//! it slips with the bound in the direction of f − κu. What turns round sticks again.
+
+use super::matrix::{Matrix, outer};
+use crate::contact::PairKey;
+use crate::model::length::{length, shortened};
+use selvedge_core::glam::{DVec3, Mat3A};
+
+/// The name of a contact from step to step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) enum RowKey {
+    /// A vertex and a smooth body, by its number.
+    Smooth(u32, u32),
+    Pair(PairKey),
+}
+
+/// A contact of a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ContactRow {
+    pub(crate) key: RowKey,
+    /// The cloth's vertices and those of bodies, with their weights in the distance. Positive weights are on one side.
+    pub(crate) vertices: [u32; 4],
+    pub(crate) weights: [f64; 4],
+    /// n: the direction from the second side to the first.
+    pub(crate) normal: DVec3,
+    /// r, in m.
+    pub(crate) rest: f64,
+    /// The thickness, in m.
+    pub(crate) thickness: f64,
+    pub(crate) is_with_body: bool,
+    /// On a smooth body: the distance of the vertex from its axis at which the row is at rest, in m.
+    pub(crate) reach: f64,
+    /// Σw·x at the start of the step, and the motion of a smooth body since then.
+    pub(crate) start: DVec3,
+    pub(crate) drift: DVec3,
+    /// The coefficient of friction.
+    pub(crate) friction: f64,
+    /// The push λ and the friction, in N.
+    pub(crate) push: f64,
+    pub(crate) grip: DVec3,
+    /// κ, in N/m; zero before it is known.
+    pub(crate) stiffness: f64,
+    /// True if the row takes part in the linear problem, and the bound of its friction.
+    pub(crate) is_active: bool,
+    pub(crate) bound: f64,
+    /// The direction in which it slips.
+    pub(crate) slips: Option<DVec3>,
+}
+
+/// The forces of a row: the push, the friction, and the energy.
+struct Forces {
+    push: f64,
+    grip: DVec3,
+    energy: f64,
+}
+
+impl ContactRow {
+    pub(crate) fn new(key: RowKey, vertices: [u32; 4], weights: [f64; 4], normal: DVec3, x: &[DVec3]) -> Self {
+        let mut row = Self {
+            key,
+            vertices,
+            weights,
+            normal,
+            rest: 0.0,
+            thickness: 0.0,
+            is_with_body: false,
+            reach: 0.0,
+            start: DVec3::ZERO,
+            drift: DVec3::ZERO,
+            friction: 0.0,
+            push: 0.0,
+            grip: DVec3::ZERO,
+            stiffness: 0.0,
+            is_active: false,
+            bound: 0.0,
+            slips: None,
+        };
+        row.start = row.image(x);
+        row
+    }
+
+    /// The vertices that take part, with their weights.
+    pub(crate) fn parts(&self) -> impl Iterator<Item = (usize, f64)> + use<> {
+        let all = self.vertices.into_iter().zip(self.weights);
+        all.filter(|(_, weight)| *weight != 0.0).map(|(vertex, weight)| (vertex as usize, weight))
+    }
+
+    /// Returns Σw·x.
+    #[inline(always)]
+    fn image(&self, x: &[DVec3]) -> DVec3 {
+        let mut sum = DVec3::ZERO;
+        for k in 0..4 {
+            if self.weights[k] != 0.0 {
+                sum += x[self.vertices[k] as usize] * self.weights[k];
+            }
+        }
+        sum
+    }
+
+    /// Returns C, in m.
+    #[inline(always)]
+    pub(crate) fn gap(&self, x: &[DVec3]) -> f64 {
+        self.normal.dot(self.image(x)) - self.rest
+    }
+
+    /// Returns the sliding since the start of the step.
+    #[inline(always)]
+    fn sliding(&self, x: &[DVec3]) -> DVec3 {
+        let moved = self.image(x) - self.start - self.drift;
+        moved - self.normal * moved.dot(self.normal)
+    }
+
+    /// Returns whether friction is at its bound.
+    pub(crate) fn is_at_bound(&self) -> bool {
+        length(self.grip) >= 0.999 * self.friction * self.push
+    }
+
+    /// Chooses whether the row takes part in the linear problem. At the start of a solve, `goal` is where everything else wants to
+    /// be; a row that pushes there, or pushed in the last step, takes part as well.
+    pub(super) fn choose(&mut self, x: &[DVec3], goal: Option<&[DVec3]>) {
+        let push = self.push - self.stiffness * self.gap(x);
+        self.is_active = push > 0.0 || goal.is_some_and(|goal| self.push > 0.0 || self.gap(goal) < 0.0);
+        self.bound = if self.is_active { self.friction * self.push } else { 0.0 };
+        if goal.is_some() && self.bound > 0.0 {
+            let wanted = self.wanted(x);
+            self.slips = (length(wanted) > self.bound).then(|| wanted.normalize_or_zero());
+        }
+    }
+
+    /// The friction that would stop all sliding.
+    fn wanted(&self, x: &[DVec3]) -> DVec3 {
+        self.grip - self.sliding(x) * self.stiffness
+    }
+
+    /// Returns the forces at `x`. In the linear problem (`is_linear`) a row that takes part pulls as well.
+    #[inline(always)]
+    fn forces(&self, x: &[DVec3], is_linear: bool) -> Forces {
+        let mut push = self.push - self.stiffness * self.gap(x);
+        if !is_linear && !(push > 0.0) {
+            push = 0.0;
+        }
+        let mut energy = 0.5 * push * push / self.stiffness;
+        let mut grip = DVec3::ZERO;
+        if self.bound > 0.0 {
+            match self.slips {
+                None => {
+                    grip = self.wanted(x);
+                    energy += 0.5 * grip.length_squared() / self.stiffness;
+                }
+                Some(direction) => {
+                    grip = direction * self.bound;
+                    energy -= grip.dot(self.sliding(x));
+                }
+            }
+        }
+        Forces { push, grip, energy }
+    }
+
+    /// Returns the energy at `x`.
+    #[inline]
+    pub(super) fn energy(&self, x: &[DVec3]) -> f64 {
+        if !self.is_active && self.push - self.stiffness * self.gap(x) <= 0.0 {
+            return 0.0;
+        }
+        self.forces(x, false).energy
+    }
+
+    /// Subtracts the force of an active row from the gradient: as it is, or as the linear problem has it.
+    #[inline]
+    pub(super) fn add_gradient(&self, x: &[DVec3], is_linear: bool, gradient: &mut [DVec3]) {
+        if !self.is_active {
+            return;
+        }
+        let Forces { push, grip, .. } = self.forces(x, is_linear);
+        let force = self.normal * push + grip;
+        for k in 0..4 {
+            if let Some(own) = gradient.get_mut(self.vertices[k] as usize)
+                && self.weights[k] != 0.0
+            {
+                *own -= force * self.weights[k];
+            }
+        }
+    }
+
+    /// Adds the second derivative of an active row.
+    pub(super) fn add_curvature(&self, x: &[DVec3], matrix: &mut Matrix) {
+        if !self.is_active {
+            return;
+        }
+        let normal = self.normal.as_vec3a();
+        let mut stiffness = outer(normal * self.stiffness as f32, normal);
+        if self.bound > 0.0 {
+            let plane = Mat3A::IDENTITY - outer(normal, normal);
+            match self.slips {
+                None => stiffness += plane * self.stiffness as f32,
+                Some(direction) => {
+                    let wanted = length(self.wanted(x)).max(self.bound);
+                    let direction = direction.as_vec3a();
+                    let across = plane - outer(direction, direction);
+                    stiffness += across * (self.stiffness * self.bound / wanted) as f32;
+                }
+            }
+        }
+        matrix.add_late(&self.vertices, &self.weights, stiffness);
+    }
+
+    /// Takes the forces at `x` as multipliers. Returns the largest change, in m.
+    pub(super) fn renew(&mut self, x: &[DVec3]) -> f64 {
+        let gap = self.gap(x);
+        if !self.is_active {
+            // Its force comes from the next solve.
+            (self.push, self.grip) = (0.0, DVec3::ZERO);
+            return (-gap).max(0.0);
+        }
+        let push = (self.push - self.stiffness * gap).max(0.0);
+        let mut grip = DVec3::ZERO;
+        if self.friction > 0.0 {
+            let wanted = self.wanted(x);
+            let has_turned = self.slips.is_some_and(|direction| direction.dot(wanted) <= 0.0);
+            let is_slipping = length(wanted) > self.friction * push && !has_turned;
+            self.slips = is_slipping.then(|| wanted.normalize_or_zero());
+            if !has_turned {
+                grip = shortened(wanted, self.friction * push);
+            }
+        }
+        let change = (push - self.push).abs().max(length(grip - self.grip)) / self.stiffness;
+        (self.push, self.grip) = (push, grip);
+        change
+    }
+
+    /// Prepares the line search along `moves`; returns what the row adds to the slope, and its pieces: the push, its fall along the
+    /// whole way in N, and the way in m.
+    pub(super) fn along(&self, x: &[DVec3], moves: &[selvedge_core::glam::Vec3A]) -> Along {
+        let mut moved = DVec3::ZERO;
+        for (vertex, weight) in self.parts() {
+            if let Some(own) = moves.get(vertex) {
+                moved += own.as_dvec3() * weight;
+            }
+        }
+        let way = moved.dot(self.normal);
+        let push = self.push - self.stiffness * self.gap(x);
+        let fall = self.stiffness * way;
+        let mut along = Along {
+            slope: 0.0,
+            bend: if self.is_active { -fall * way } else { 0.0 },
+            piece: (push > 0.0 || push - fall > 0.0).then_some([push, fall, way]),
+        };
+        if self.is_active && self.bound > 0.0 {
+            along.slope = -self.forces(x, true).grip.dot(moved - self.normal * way);
+        }
+        along
+    }
+}
+
+/// What a row adds to the energy along a way.
+pub(super) struct Along {
+    /// To its slope.
+    pub(super) slope: f64,
+    /// To its second derivative: minus what the matrix has of the push.
+    pub(super) bend: f64,
+    /// The push at the start, its fall along the whole way, and the way.
+    pub(super) piece: Option<[f64; 3]>,
+}

@@ -1,0 +1,194 @@
+//! One solve a step: elasticity, loads, limits, contact and friction agree at the end of it.
+//!
+//! ```text
+//! velocities, forces ─▶ prediction y, M ──┐
+//! candidates ─────────▶ contact rows ─────┼─▶ Newton's method ─▶ x ─▶ certificate ─▶ accept: multipliers for the next step
+//! effects ────────────▶ terms ────────────┘
+//! ```
+//!
+//! A step minimises ½Σ M|x − y|² + Σ terms, with contacts, friction, strain limits and stitches as augmented Lagrangians. An effect
+//! registers a [`Term`]: its energy, gradient and second derivative. A term that no effect registers does not exist, and takes no time.
+//!
+//! | file | content |
+//! |---|---|
+//! | [`prediction`] | y and M: implicit Euler for what something presses, second order for the rest; where the solve begins |
+//! | [`newton`] | the loop |
+//! | [`matrix`], [`preconditioner`], [`bands`] | the linear problem |
+//! | [`contact_row`] | contact and friction |
+//! | [`membranes`], [`bending`], [`ropes`], [`stitches`], [`springs`], [`walls`], [`air`] | the terms |
+//! | [`constants`] | all constants, with their meaning |
+//!
+//! Sums run in a fixed order, so that the result has the same bits on any number of threads.
+
+mod bands;
+mod constants;
+mod contact_row;
+mod matrix;
+mod newton;
+mod preconditioner;
+mod term;
+
+pub(crate) mod air;
+pub(crate) mod bending;
+pub(crate) mod membranes;
+pub(crate) mod prediction;
+pub(crate) mod ropes;
+pub(crate) mod springs;
+pub(crate) mod stitches;
+pub(crate) mod walls;
+
+pub use constants::Accuracy;
+pub(crate) use constants::RECOVERY;
+pub(crate) use contact_row::{ContactRow, RowKey};
+pub use matrix::Matrix;
+pub(crate) use newton::{NotFinite, Outcome};
+pub use term::{Prediction, Renewed, Term};
+
+use crate::effects::plan::Entry;
+use crate::model::step::TimeStep;
+use constants::{GIVE, STIFFER_THAN_BODIES, STIFFER_THAN_CLOTH};
+use preconditioner::Preconditioner;
+use rustc_hash::FxHashMap;
+use selvedge_core::glam::DVec3;
+
+/// The counts of the solves so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SolveCounts {
+    /// Solves.
+    pub solves: u64,
+    /// Newton steps.
+    pub newton_steps: u64,
+    /// Iterations of conjugate gradients.
+    pub iterations: u64,
+    /// Solves that had not converged after the most Newton steps; they go on in the next step.
+    pub unfinished: u64,
+    /// Contacts of the solves, and those that pushed.
+    pub contacts: u64,
+    /// Contacts that pushed.
+    pub pushing: u64,
+}
+
+/// The energy of a scene, and what its minimisation keeps from step to step.
+#[derive(Debug)]
+pub(crate) struct Solve {
+    pub(crate) terms: Vec<Entry<dyn Term>>,
+    pub(crate) rows: Vec<ContactRow>,
+    pub(crate) counts: SolveCounts,
+    accuracy: Accuracy,
+    matrix: Matrix,
+    preconditioner: Preconditioner,
+    /// The push and the friction of each contact that pushed in the last accepted step, in N.
+    pushes: FxHashMap<RowKey, (f64, DVec3)>,
+    work: newton::Work,
+}
+
+impl Solve {
+    /// Makes the solve of these terms. `triangles` are those of all cloths, and `ropes` are rows of successive vertices.
+    pub(crate) fn new(
+        terms: Vec<Entry<dyn Term>>,
+        accuracy: Accuracy,
+        triangles: &[[u32; 3]],
+        bending: &[([u32; 4], [f64; 4], f64)],
+        ropes: &[Vec<u32>],
+        vertex_count: usize,
+    ) -> Self {
+        Self {
+            terms,
+            rows: Vec::new(),
+            counts: SolveCounts::default(),
+            accuracy,
+            matrix: Matrix::new(triangles, bending, ropes, vertex_count),
+            preconditioner: Preconditioner::default(),
+            pushes: FxHashMap::default(),
+            work: newton::Work::default(),
+        }
+    }
+
+    /// Gives the rows the forces that they had in the last step.
+    pub(crate) fn remind_rows(&mut self) {
+        for row in &mut self.rows {
+            if let Some(&(push, grip)) = self.pushes.get(&row.key) {
+                row.push = push;
+                row.grip = grip - row.normal * grip.dot(row.normal);
+            }
+        }
+    }
+
+    /// Solves a step from the positions `x`, which it moves. `free` is where each vertex would be without any force; `follow` finds
+    /// the normals of smooth bodies again.
+    ///
+    /// # Errors
+    /// Returns an error if the energy is not finite.
+    pub(crate) fn run(
+        &mut self,
+        step: &TimeStep<'_>,
+        prediction: &Prediction,
+        free: &[DVec3],
+        x: &mut Vec<DVec3>,
+        follow: &dyn Fn(&mut ContactRow, &[DVec3]),
+    ) -> Result<Outcome, NotFinite> {
+        let outcome = self.minimise(step, prediction, free, x, follow)?;
+        let counts = &mut self.counts;
+        counts.solves += 1;
+        counts.newton_steps += u64::from(outcome.newton_steps);
+        counts.iterations += u64::from(outcome.iterations);
+        counts.unfinished += u64::from(!outcome.is_finished);
+        counts.contacts += self.rows.len() as u64;
+        counts.pushing += self.rows.iter().filter(|row| row.push > 0.0).count() as u64;
+        Ok(outcome)
+    }
+
+    /// Stores the multipliers of an accepted step, apart from those of vertices that the certificate has moved.
+    pub(crate) fn accept(&mut self, is_moved: &[bool]) {
+        for Entry { action, .. } in &mut self.terms {
+            action.accept(is_moved);
+        }
+        self.pushes.clear();
+        let pushing = self.rows.iter().filter(|row| row.push > 0.0);
+        let kept = pushing.filter(|row| row.parts().all(|(vertex, _)| !is_moved[vertex]));
+        self.pushes.extend(kept.map(|row| (row.key, (row.push, row.grip))));
+    }
+
+    /// Forgets all multipliers.
+    pub(crate) fn forget(&mut self) {
+        self.pushes.clear();
+        self.rows.clear();
+        self.terms.iter_mut().for_each(|entry| entry.action.forget());
+    }
+
+    /// Removes the terms that push from outside, for untangling.
+    pub(crate) fn take_loads(&mut self) -> Vec<Entry<dyn Term>> {
+        let all = std::mem::take(&mut self.terms);
+        let (loads, terms) = all.into_iter().partition(|entry| entry.action.is_load());
+        self.terms = terms;
+        loads
+    }
+
+    /// Adds them again.
+    pub(crate) fn give_loads(&mut self, loads: Vec<Entry<dyn Term>>) {
+        self.terms.extend(loads);
+        self.terms.sort_by_key(|entry| entry.effect);
+    }
+
+    /// Returns the gradient at `x` of the terms that are not inner forces, in N.
+    pub(crate) fn outer_gradient(&mut self, x: &[DVec3], gradient: &mut [DVec3]) {
+        for Entry { action, .. } in &mut self.terms {
+            if !action.is_inner() {
+                action.gradient(x, gradient);
+            }
+        }
+    }
+}
+
+/// Returns κ of a row, in N/m; zero if neither side moves.
+///
+/// It is stiffer than the vertices by a factor, and stiff enough that the load of the last step presses it by a small share of its
+/// thickness alone.
+fn row_stiffness(row: &ContactRow, matrix: &Matrix) -> f64 {
+    let compliance = matrix.compliance(&row.vertices, &row.weights, row.normal);
+    if !(compliance > 0.0) {
+        return 0.0;
+    }
+    let stiffer = if row.is_with_body { STIFFER_THAN_BODIES } else { STIFFER_THAN_CLOTH };
+    (stiffer / compliance).max(row.push / (GIVE * row.thickness))
+}

@@ -1,0 +1,360 @@
+//! Newton's method on the augmented Lagrangian of a step.
+//!
+//! ```text
+//!            ┌──────────────────────────────────────────────────────────────────────────┐
+//! x ─▶ gradient ─▶ converged? ─▶ matrix ─▶ conjugate gradients ─▶ line search ─▶ renew multipliers
+//!                      └─▶ end
+//! ```
+//!
+//! **The end.** Iteration i of conjugate gradients lowers twice the energy by dᵢ, the square of the energy norm of what it mends
+//! (Hestenes and Stiefel 1952). The error is about that of the next iterations, and those are like the last ones. So it ends when
+//! the last third has mended little: at most the accuracy squared of all that the step has mended, or of the squared accelerations. Newton's
+//! method ends when the remaining force is about what the linear problem left, and the multipliers change little.
+//!
+//! **Not finished** after [`MOST_NEWTON_STEPS`] is no failure. Multipliers go on in the next step, and the certificate guards
+//! the state. A cloth that buckles goes down from a saddle of the energy, which takes many steps, and none of them is wrong.
+
+use super::constants::{
+    LARGEST_CHANGE, MOST_HALVINGS, MOST_ITERATIONS, MOST_NEWTON_STEPS, NEARLY_LINEAR, SLOWEST_CHANGE, SMALL_CHANGE, STILL,
+};
+use super::contact_row::ContactRow;
+use super::matrix::dot;
+use super::term::{Prediction, Term};
+use super::{Solve, row_stiffness};
+use crate::effects::plan::Entry;
+use crate::model::step::TimeStep;
+use selvedge_core::glam::{DVec3, Vec3A};
+
+/// The rounding of the energy, as a share of it, and in J.
+const ROUNDING: [f64; 2] = [1e-9, 1e-13];
+/// A share of a Newton step above which it counts as whole.
+const NEARLY_WHOLE: f64 = 0.9;
+/// A share of a Newton step at which multipliers are renewed.
+const ENOUGH: f64 = 0.7;
+/// The least share of a Newton step that the line search chooses.
+const LEAST_SHARE: f64 = 0.02;
+/// The bisections of the line search, which then knows a share to a four-thousandth.
+const BISECTIONS: usize = 12;
+/// The least number of last iterations that must mend little.
+const FEWEST: usize = 2;
+
+/// Buffers of a solve; their memory is used again.
+#[derive(Debug, Default)]
+pub(super) struct Work {
+    gradient: Vec<DVec3>,
+    next_gradient: Vec<DVec3>,
+    whole: Vec<DVec3>,
+    next: Vec<DVec3>,
+    residual: Vec<Vec3A>,
+    moves: Vec<Vec3A>,
+    image: Vec<Vec3A>,
+    direction: Vec<Vec3A>,
+    product: Vec<Vec3A>,
+    drops: Vec<f64>,
+    pieces: Vec<[f64; 3]>,
+}
+
+/// The tolerances of a solve.
+#[derive(Clone, Copy, Debug)]
+struct Tolerance {
+    /// The square of the accuracy.
+    squared: f64,
+    /// An energy that does not matter, in J.
+    still: f64,
+    /// Twice the energy that the solve has mended so far, and that of the accelerations, in J.
+    mended: f64,
+    accelerated: f64,
+}
+
+impl Tolerance {
+    /// Returns twice the energy that may remain.
+    fn rest(&self) -> f64 {
+        self.still.max(self.squared * self.mended.max(self.accelerated))
+    }
+}
+
+/// How a solve ended.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Outcome {
+    pub(crate) is_finished: bool,
+    pub(crate) newton_steps: u32,
+    pub(crate) iterations: u32,
+}
+
+/// An energy that is not finite.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct NotFinite;
+
+impl Solve {
+    /// Moves `x` to the least energy. `free` is where each vertex would be without any force; `follow` finds the normals of
+    /// smooth bodies again.
+    ///
+    /// # Errors
+    /// Returns an error if the energy is not finite.
+    pub(super) fn minimise(
+        &mut self,
+        step: &TimeStep<'_>,
+        prediction: &Prediction,
+        free: &[DVec3],
+        x: &mut Vec<DVec3>,
+        follow: &dyn Fn(&mut ContactRow, &[DVec3]),
+    ) -> Result<Outcome, NotFinite> {
+        let count = prediction.masses.len();
+        let mut work = std::mem::take(&mut self.work);
+        work.resize(count);
+        let mass = prediction.masses.iter().zip(&prediction.rate).map(|(mass, rate)| mass * rate * rate);
+        let mut tolerance = Tolerance {
+            squared: self.accuracy.share().powi(2),
+            still: mass.sum::<f64>() * STILL * STILL,
+            mended: 0.0,
+            accelerated: 0.0,
+        };
+        let mut outcome = Outcome::default();
+        self.matrix.may_be_indefinite = true;
+        for Entry { action, .. } in &mut self.terms {
+            action.begin(step, prediction, x);
+        }
+        let mut energy = gradient(&mut self.terms, prediction, x, &mut work.gradient);
+        self.begin_rows(prediction, x, &mut energy, &mut work.gradient);
+        let (mut error, mut was_short, mut linear_rest) = (f64::INFINITY, false, f64::INFINITY);
+        let mut result = Ok(());
+        for newton in 0..=MOST_NEWTON_STEPS {
+            if !energy.is_finite() {
+                result = Err(NotFinite);
+                break;
+            }
+            if newton > 0 {
+                for row in self.rows.iter_mut().filter(|row| row.reach > 0.0) {
+                    follow(row, x);
+                }
+            }
+            let goal = (newton == 0).then_some(&prediction.goal[..]);
+            self.rows.iter_mut().for_each(|row| row.choose_at(x, goal));
+            work.whole.clone_from(&work.gradient);
+            self.rows.iter().for_each(|row| row.add_gradient(x, true, &mut work.whole));
+            for ((residual, whole), mass) in work.residual.iter_mut().zip(&work.whole).zip(&prediction.masses) {
+                *residual = if *mass > 0.0 { (-*whole).as_vec3a() } else { Vec3A::ZERO };
+            }
+            tolerance.accelerated = accelerated(prediction, free, x);
+            if newton > 0 {
+                let left = self.preconditioner.measure(&self.matrix, &work.residual, &mut work.image);
+                if left <= tolerance.rest().max(NEARLY_LINEAR * linear_rest) && error <= 1.0 {
+                    outcome.is_finished = true;
+                    break;
+                }
+                if newton == MOST_NEWTON_STEPS {
+                    break;
+                }
+                self.assemble(prediction, x);
+            }
+            self.rows.iter().for_each(|row| row.add_curvature(x, &mut self.matrix));
+            self.preconditioner.prepare(&self.matrix);
+            linear_rest = self.solve_linear(&mut work, &mut tolerance, &mut outcome);
+            outcome.newton_steps += 1;
+            let share = self.advance(prediction, x, &mut energy, &mut work);
+            if share > ENOUGH || std::mem::replace(&mut was_short, true) {
+                was_short = false;
+                error = self.renew(step.h, prediction, x, &mut energy, &mut work.gradient);
+            } else {
+                error = f64::INFINITY;
+            }
+        }
+        self.work = work;
+        result.map(|()| outcome)
+    }
+
+    /// Fills the matrix with the terms at `x`.
+    fn assemble(&mut self, prediction: &Prediction, x: &[DVec3]) {
+        self.matrix.clear(&prediction.masses);
+        for Entry { action, .. } in &mut self.terms {
+            action.curvature(x, &mut self.matrix);
+        }
+        self.matrix.find_diagonal();
+    }
+
+    /// Fills the matrix, and chooses the stiffness of multipliers.
+    fn begin_rows(&mut self, prediction: &Prediction, x: &[DVec3], energy: &mut f64, slope: &mut Vec<DVec3>) {
+        self.assemble(prediction, x);
+        let mut has_changed = false;
+        for Entry { action, .. } in &mut self.terms {
+            has_changed |= action.weigh(&self.matrix);
+        }
+        if has_changed {
+            *energy = gradient(&mut self.terms, prediction, x, slope);
+            self.assemble(prediction, x);
+        }
+        let matrix = &self.matrix;
+        self.rows.retain_mut(|row| {
+            row.stiffness = row_stiffness(row, matrix);
+            row.stiffness > 0.0
+        });
+    }
+
+    /// Finds moves by conjugate gradients. Returns rᵀWr of what remains.
+    fn solve_linear(&mut self, work: &mut Work, tolerance: &mut Tolerance, outcome: &mut Outcome) -> f64 {
+        let Self {
+            matrix, preconditioner, ..
+        } = self;
+        work.moves.fill(Vec3A::ZERO);
+        work.drops.clear();
+        preconditioner.apply(matrix, &work.residual, &mut work.image);
+        work.direction.clone_from(&work.image);
+        let mut rest = dot(&work.residual, &work.image);
+        for _ in 0..MOST_ITERATIONS {
+            // NaN ends the iteration, too.
+            if !(rest > 0.0) {
+                break;
+            }
+            matrix.multiply(&work.direction, &mut work.product);
+            let curvature = dot(&work.direction, &work.product);
+            if !(curvature > 0.0) {
+                matrix.may_be_indefinite = false;
+                if work.drops.is_empty() {
+                    // Along the preconditioned force the energy falls in any case.
+                    work.moves.clone_from(&work.image);
+                }
+                break;
+            }
+            outcome.iterations += 1;
+            let by = rest / curvature;
+            let step = by as f32;
+            for vertex in 0..work.moves.len() {
+                work.moves[vertex] += work.direction[vertex] * step;
+                work.residual[vertex] -= work.product[vertex] * step;
+                if matrix.is_fixed[vertex] {
+                    work.residual[vertex] = Vec3A::ZERO;
+                }
+            }
+            work.drops.push(by * rest);
+            tolerance.mended += by * rest;
+            preconditioner.apply(matrix, &work.residual, &mut work.image);
+            let next = dot(&work.residual, &work.image);
+            let last = FEWEST.max(work.drops.len() / 3);
+            let mended: f64 = work.drops.iter().rev().take(last).sum();
+            let share = (next / rest) as f32;
+            rest = next;
+            if work.drops.len() >= last && mended <= tolerance.rest() {
+                break;
+            }
+            for (direction, image) in work.direction.iter_mut().zip(&work.image) {
+                *direction = *image + *direction * share;
+            }
+        }
+        rest
+    }
+
+    /// Moves `x` by a share of the moves at which the energy is less, and finds energy and gradient there. Returns the share.
+    fn advance(&mut self, prediction: &Prediction, x: &mut Vec<DVec3>, energy: &mut f64, work: &mut Work) -> f64 {
+        let mut share = if self.rows.is_empty() { 1.0 } else { self.best_share(x, work) };
+        let of_rows = |rows: &[ContactRow], x: &[DVec3]| rows.iter().map(|row| row.energy(x)).sum::<f64>();
+        let before = *energy + of_rows(&self.rows, x);
+        work.next.clone_from(x);
+        for _ in 0..MOST_HALVINGS {
+            for ((next, x), moved) in work.next.iter_mut().zip(&*x).zip(&work.moves) {
+                *next = *x + moved.as_dvec3() * share;
+            }
+            let found = gradient(&mut self.terms, prediction, &work.next, &mut work.next_gradient);
+            let [relative, absolute] = ROUNDING;
+            if found + of_rows(&self.rows, &work.next) <= before + relative * before.abs() + absolute {
+                *energy = found;
+                std::mem::swap(x, &mut work.next);
+                std::mem::swap(&mut work.gradient, &mut work.next_gradient);
+                return share;
+            }
+            share *= 0.5;
+        }
+        // Nothing on the way is less: other multipliers may have another way.
+        *energy = gradient(&mut self.terms, prediction, x, &mut work.gradient);
+        0.0
+    }
+
+    /// Returns the share of the moves with the least energy, for the quadratic model of the terms and the exact energy of pushes.
+    fn best_share(&self, x: &[DVec3], work: &mut Work) -> f64 {
+        self.matrix.multiply(&work.moves, &mut work.product);
+        let mut bend = dot(&work.product, &work.moves);
+        let each = work.gradient.iter().zip(&work.moves);
+        let mut slope: f64 = each.map(|(gradient, moved)| gradient.dot(moved.as_dvec3())).sum();
+        work.pieces.clear();
+        for row in &self.rows {
+            let along = row.along(x, &work.moves);
+            slope += along.slope;
+            bend += along.bend;
+            work.pieces.extend(along.piece);
+        }
+        let at = |share: f64| {
+            let pushes = work.pieces.iter().map(|[push, fall, way]| (push - fall * share).max(0.0) * way);
+            slope + share * bend - pushes.sum::<f64>()
+        };
+        if at(1.0) <= 0.0 {
+            return 1.0;
+        }
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (low + high);
+            if at(middle) > 0.0 {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        if high > NEARLY_WHOLE { 1.0 } else { high.max(LEAST_SHARE) }
+    }
+
+    /// Renews all multipliers. Returns the largest change over the one that does not matter.
+    fn renew(&mut self, h: f64, prediction: &Prediction, x: &[DVec3], energy: &mut f64, gradient: &mut [DVec3]) -> f64 {
+        let mut error = 0.0_f64;
+        for Entry { action, .. } in &mut self.terms {
+            let renewed = action.renew(x, gradient);
+            *energy += renewed.energy;
+            error = error.max(renewed.error);
+        }
+        if self.rows.is_empty() {
+            return error;
+        }
+        let farthest = x.iter().zip(&prediction.base).zip(&prediction.masses).filter(|(_, mass)| **mass > 0.0);
+        let farthest = farthest.map(|((x, base), _)| x.distance_squared(*base)).fold(0.0, f64::max).sqrt();
+        for row in &mut self.rows {
+            let change = row.renew(x);
+            let small = (SMALL_CHANGE * farthest).min(LARGEST_CHANGE * row.thickness).max(SLOWEST_CHANGE * h);
+            error = error.max(change / small);
+        }
+        error
+    }
+}
+
+impl Work {
+    fn resize(&mut self, count: usize) {
+        for all in [&mut self.residual, &mut self.moves, &mut self.image, &mut self.direction, &mut self.product] {
+            all.resize(count, Vec3A::ZERO);
+        }
+    }
+}
+
+impl ContactRow {
+    /// Chooses, with a goal for the cloth's vertices alone.
+    fn choose_at(&mut self, x: &[DVec3], goal: Option<&[DVec3]>) {
+        self.choose(x, goal);
+    }
+}
+
+/// Finds the gradient of inertia and all terms at `x`, and returns their energy.
+fn gradient(terms: &mut [Entry<dyn Term>], prediction: &Prediction, x: &[DVec3], gradient: &mut Vec<DVec3>) -> f64 {
+    let Prediction { goal, masses, .. } = prediction;
+    gradient.clear();
+    let mut energy = 0.0;
+    for ((x, goal), mass) in x.iter().zip(goal).zip(masses) {
+        let way = *x - *goal;
+        gradient.push(way * *mass);
+        energy += 0.5 * mass * way.length_squared();
+    }
+    for Entry { action, .. } in terms {
+        energy += action.gradient(x, gradient);
+    }
+    energy
+}
+
+/// Returns Σ M|x − free|², in J.
+fn accelerated(prediction: &Prediction, free: &[DVec3], x: &[DVec3]) -> f64 {
+    let ways = x.iter().zip(free).zip(&prediction.masses);
+    ways.map(|((x, free), mass)| mass * x.distance_squared(*free)).sum()
+}
