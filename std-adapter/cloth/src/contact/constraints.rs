@@ -129,10 +129,24 @@ pub(super) struct Rules<'a> {
     pub(super) error: GapError<f64>,
     /// The processor instructions that find closest points.
     pub(super) level: Level,
+    /// True for vertices that seams hold, in scenes with one solve a step.
+    pub(super) sewn: &'a [bool],
     /// The normal cones of surfaces.
     pub(super) cones: &'a Cones,
     /// The number of the cloth's vertices; bodies' vertices come after them.
     pub(super) cloth_vertices: u32,
+}
+
+impl Rules<'_> {
+    /// Returns whether both sides of a pair have a vertex that a seam holds.
+    fn are_sewn(&self, pair: &Candidate) -> bool {
+        let of_first = match pair.kind {
+            PairKind::VertexFace => 1,
+            PairKind::EdgeEdge => 2,
+        };
+        let (first, second) = pair.vertices.split_at(of_first);
+        [first, second].into_iter().all(|side| side.iter().any(|&vertex| self.sewn[vertex as usize]))
+    }
 }
 
 /// The distance, in thicknesses, beyond which a pair needs no row at the first guess. A solve moves vertices away from there.
@@ -493,7 +507,13 @@ fn thickness_of(pair: &Candidate, closest_at_rest: impl FnOnce() -> ClosestPoint
     let asked = settings.of(pair)?;
     let Thickness { thickness, .. } = asked;
     let [one, .., other] = pair.vertices;
-    if pair.data.is_with_body() || !settings.are_of_one_cloth(one, other) {
+    if pair.data.is_with_body() {
+        return Some(thickness);
+    }
+    if rules.are_sewn(pair) {
+        return Some(asked.of_neighbours());
+    }
+    if !settings.are_of_one_cloth(one, other) {
         return Some(thickness);
     }
     let are_near = || are_neighbours(pair.kind, pair.points(rest), at_rest(asked));

@@ -40,6 +40,8 @@ pub(crate) struct ContactSolver {
     cloth_vertices: u32,
     /// True for vertices that constraints hold together among contacts.
     held_together: Vec<bool>,
+    /// True for vertices that seams hold, in scenes with one solve a step.
+    sewn: Vec<bool>,
     pub(super) moved: Vec<bool>,
     /// The candidates to test after vertices have moved; the field exists to use its memory again.
     pub(super) places: Vec<usize>,
@@ -69,6 +71,7 @@ impl ContactSolver {
             cones: Cones::new(&topology),
             cloth_vertices: cloth_vertices as u32,
             held_together: vec![false; rest.len()],
+            sewn: vec![false; rest.len()],
             candidates: candidates(&mut settings, topology, rest, carriers, cloth_vertices, time_step),
             settings,
             carriers: carriers.to_vec(),
@@ -86,6 +89,11 @@ impl ContactSolver {
             counts: ContactCounts::default(),
             stages: ContactSeconds::default(),
         }
+    }
+
+    /// Names vertices that seams hold.
+    pub(crate) fn sew(&mut self, vertices: impl Iterator<Item = u32>) {
+        vertices.for_each(|vertex| self.sewn[vertex as usize] = true);
     }
 
     /// Names vertices that constraints hold together among contacts.
@@ -233,6 +241,7 @@ impl ContactSolver {
             rest: &self.rest,
             error: self.error,
             level: self.level,
+            sewn: &self.sewn,
             cones: &self.cones,
             cloth_vertices: self.cloth_vertices,
         };

@@ -32,7 +32,11 @@ impl Effect for AirDrag {
     }
 
     fn register(&self, plan: &mut Plan<'_>) {
-        plan.add_force(*self);
+        if plan.solves_at_once() {
+            plan.add_drag(self.rate);
+        } else {
+            plan.add_force(*self);
+        }
     }
 }
 

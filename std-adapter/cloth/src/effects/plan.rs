@@ -96,6 +96,8 @@ pub struct Plan<'a> {
     /// The hinges of all cloths: vertices, weights and stiffness.
     pub(crate) hinges: Vec<([u32; 4], [f64; 4], f64)>,
     pub(crate) smooth_bodies: Vec<SmoothBody>,
+    /// The rate at which still air slows each vertex, in 1/s; empty without air.
+    pub(crate) drag: Vec<f64>,
     /// The coefficient of friction.
     pub(crate) friction_coefficient: f64,
     accuracy: Option<Accuracy>,
@@ -134,6 +136,7 @@ impl<'a> Plan<'a> {
             of_cloths: scene.cloths.iter().map(|_| OfCloths::default()).collect(),
             hinges: Vec::new(),
             smooth_bodies: Vec::new(),
+            drag: Vec::new(),
             friction_coefficient: 0.0,
             accuracy: scene.accuracy,
         }
@@ -238,6 +241,14 @@ impl<'a> Plan<'a> {
         let edges = cloth.topology.loose_edges().map(|ends| ends.map(|vertex| vertex + first));
         let triangles = (self.first_triangle(), triangles.collect());
         self.add_term(InAir::new(air, [drag.over(1.0), drag.rope_diameter], triangles, edges.collect()));
+    }
+
+    /// Adds a rate, in 1/s, at which still air slows the cloth.
+    pub(crate) fn add_drag(&mut self, rate: f64) {
+        let all = 0..self.inverse_masses.len();
+        self.drag.resize(all.len(), 0.0);
+        let own = self.part().unwrap_or(all);
+        self.drag[own].iter_mut().for_each(|drag| *drag += rate);
     }
 
     /// Adds a force. Forces run first in a step, in the order of these calls.

@@ -11,7 +11,7 @@ use super::vertices::{no_vertex, of_cloth};
 use crate::contact::Thickness;
 use crate::effects::plan::{Fabric, Plan};
 use crate::input::{Field, LARGEST_TIME, LENGTH, SPEED, SceneError, TIME, Table, ValueError};
-use crate::model::stitches::{Sewing, Stitch, stitches};
+use crate::model::stitches::{Sewing, Stitch, TIED, stitches};
 use crate::solve::stitches::Stitches;
 use crate::world::{FASTEST_VERTEX, SceneParts};
 use selvedge_core::glam::DVec3;
@@ -26,10 +26,6 @@ pub(super) const REGISTRATION: Registration = Registration::new(&["seam"], |tabl
         .collect::<Result<_, _>>()?;
     Ok(Box::new(Seams { seams }))
 });
-
-/// The distance of two vertices that are tied without a gap, in metres. A tie without length would have no direction along which
-/// a rope could pull.
-const TIED: f64 = 1e-6;
 
 /// Rows of vertices of one cloth or of two that are sewn together.
 ///
@@ -214,6 +210,7 @@ impl Effect for Seams {
                 closing: seam.closing,
             };
             if plan.solves_at_once() {
+                plan.ties.extend(sewing.tie());
                 plan.add_term(Stitches::new(sewing));
                 continue;
             }

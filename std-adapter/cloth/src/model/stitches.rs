@@ -90,6 +90,9 @@ fn shares(row: &[u32], rest: &[DVec3]) -> Vec<f64> {
     ways.into_iter().map(|way| way / all).collect()
 }
 
+/// The distance of two vertices that are tied without a gap, in metres.
+pub(crate) const TIED: f64 = 1e-6;
+
 #[derive(Debug)]
 pub(crate) struct Sewing {
     /// The stitches, each with the initial distance of its points, in metres.
@@ -101,6 +104,12 @@ pub(crate) struct Sewing {
 }
 
 impl Sewing {
+    /// Returns whether the seam joins two single vertices without a gap, and is closed at the end of a step.
+    pub(crate) fn is_closed_tie(&self, step: &TimeStep<'_>) -> bool {
+        let is_closed = |(_, start): &(Stitch, f64)| length_at_end(step, *start, self.gap, self.closing) <= TIED;
+        self.tie().is_some() && self.stitches.iter().all(is_closed)
+    }
+
     /// Returns the tie, if the seam consists of one stitch between two vertices.
     pub(crate) fn tie(&self) -> Option<Tie> {
         let &[

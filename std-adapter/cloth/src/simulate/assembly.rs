@@ -6,6 +6,7 @@ use crate::contact::ContactSolver;
 use crate::contact::smooth_body::SmoothBody;
 use crate::effects::plan::{Entry, OfCloths, Plan};
 use crate::model::step::{Carrier, Constraint, Force, Memory};
+use crate::model::stitches::Tie;
 use crate::model::tearing::Tearable;
 use crate::scene::{Scene, append};
 use crate::solve::{Solve, Term};
@@ -51,6 +52,8 @@ pub(super) struct Assembly {
     /// The one solve of each step, in scenes that have it.
     pub(super) solve: Option<Solve>,
     pub(super) smooth_bodies: Vec<SmoothBody>,
+    /// The rate at which still air slows each vertex, in 1/s; empty without air.
+    pub(super) drag: Vec<f64>,
     /// The coefficient of friction.
     pub(super) friction_coefficient: f64,
     /// The pieces of all cloths; each keeps its momentum.
@@ -78,10 +81,12 @@ impl Assembly {
             pushes,
             friction,
             tearable,
+            ties,
             mut terms,
             of_cloths,
             hinges,
             smooth_bodies,
+            drag,
             friction_coefficient,
             ..
         } = plan;
@@ -90,6 +95,9 @@ impl Assembly {
             rows_of_ropes.extend(ropes.iter().flat_map(|(_, ropes)| ropes.rows().to_vec()));
             terms.extend(membranes.map(|(effect, membranes)| Entry::of(effect, Box::new(membranes) as Box<dyn Term>)));
             terms.extend(ropes.map(|(effect, ropes)| Entry::of(effect, Box::new(ropes) as Box<dyn Term>)));
+        }
+        for row in &mut rows_of_ropes {
+            extend_to_ties(row, &ties);
         }
         terms.sort_by_key(|entry| entry.effect);
         let mut all = Mesh::default();
@@ -124,6 +132,7 @@ impl Assembly {
         if let Some(contact) = &mut contact {
             let stitches = constraints.iter().filter(|entry| entry.action.acts_among_contacts());
             contact.hold_together(stitches.flat_map(|entry| entry.action.joints()).flatten());
+            contact.sew(terms.iter().flat_map(|entry| entry.action.joints()).flatten());
         }
         let joints: Vec<[u32; 2]> = { constraints.iter().flat_map(|entry| entry.action.joints()) }
             .chain(terms.iter().flat_map(|entry| entry.action.joints()))
@@ -161,6 +170,7 @@ impl Assembly {
             tearable,
             solve,
             smooth_bodies,
+            drag,
             friction_coefficient,
             pieces,
             mean_edge,
@@ -174,6 +184,20 @@ impl Assembly {
         let terms = self.solve.iter().flat_map(|solve| &solve.terms);
         all.filter_map(|&index| self.constraints[index].action.memory())
             .chain(terms.filter_map(|entry| entry.action.memory()))
+    }
+}
+
+/// Adds the vertices to which the ends of a rope are tied.
+fn extend_to_ties(row: &mut Vec<u32>, ties: &[Tie]) {
+    let partner = |end: u32, row: &[u32]| {
+        let others = ties.iter().filter(|tie| tie.vertices.contains(&end)).flat_map(|tie| tie.vertices);
+        { others }.find(|other| !row.contains(other))
+    };
+    if let Some(other) = row.last().and_then(|&end| partner(end, row)) {
+        row.push(other);
+    }
+    if let Some(other) = row.first().and_then(|&end| partner(end, row)) {
+        row.insert(0, other);
     }
 }
 

@@ -220,11 +220,13 @@ impl Piece {
             forced,
             velocities: before,
             history,
-            prediction: Prediction { goal, base, rate, .. },
+            prediction: Prediction { goal, masses, base, rate },
         } = outer;
         let (h, start) = (step.h, step.start);
         let free = || self.free.iter().map(|&vertex| vertex as usize);
         let mass = |vertex: usize| step.inverse_masses[vertex].recip();
+        // What still air adds to the weight of a vertex.
+        let slowing = |vertex: usize| masses[vertex] * rate[vertex] * rate[vertex] * step.inverse_masses[vertex];
         let is_second_order = free().all(|vertex| rate[vertex] < h);
         let mut shift = DVec3::ZERO;
         let centre = match hinge {
@@ -233,8 +235,9 @@ impl Piece {
                 for vertex in free() {
                     let (mass, rate) = (mass(vertex), rate[vertex]);
                     let predicted = (goal[vertex] - base[vertex]) / rate;
-                    shift -= gradient[vertex] + (velocities[vertex] - predicted) * (mass / rate);
-                    of_rates += mass / rate;
+                    let weight = slowing(vertex) * mass / rate;
+                    shift -= gradient[vertex] + (velocities[vertex] - predicted) * weight;
+                    of_rates += weight;
                     centre += base[vertex] * mass;
                     total += mass;
                 }
@@ -250,13 +253,14 @@ impl Piece {
             let (mass, arm) = (mass(vertex), base[vertex] - centre);
             let end = x[vertex] - centre;
             let angular = |at: DVec3, velocity: DVec3| (at - centre).cross(velocity * mass);
-            moment += if is_second_order {
+            let kept = if is_second_order {
                 let kept = angular(start[vertex], before[vertex]) * 4.0 - angular(history.positions[vertex], history.velocities[vertex]);
                 let forces = (forced[vertex] - before[vertex]) * mass - gradient[vertex] * h;
                 kept / 3.0 + end.cross(forces) * (2.0 / 3.0)
             } else {
                 angular(start[vertex], forced[vertex]) - end.cross(gradient[vertex]) * h
             };
+            moment += kept / slowing(vertex);
             moment -= arm.cross((velocities[vertex] + shift) * mass);
             let weighted = arm * mass;
             squares += weighted * arm;

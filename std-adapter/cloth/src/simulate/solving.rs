@@ -12,7 +12,7 @@ use crate::contact::smooth_body::{SmoothBody, away};
 use crate::contact::{Blocker, ContactSolver, ProximityPair};
 use crate::model::step::{FREE, TimeStep};
 use crate::solve::prediction::{self, History};
-use crate::solve::{ContactRow, Prediction, RECOVERY, RowKey, Solve};
+use crate::solve::{ContactRow, Prediction, RowKey, Solve};
 use crate::world::Kinematic;
 use selvedge::PairKind;
 use selvedge::clock::Clock;
@@ -61,6 +61,7 @@ impl Simulation {
             pieces,
             solve,
             smooth_bodies,
+            drag,
             friction_coefficient,
             cloth_vertices,
             ..
@@ -107,10 +108,10 @@ impl Simulation {
         motions.iter_mut().for_each(|motion: &mut Kinematic| motion.put(clock + ticks, ends));
 
         let both = [&state.velocities[..], &forced[..]];
-        prediction::predict(prediction, &step, history, both, ends, count);
+        prediction::predict(prediction, &step, history, both, drag, ends, count);
         prediction::guess(x, free, &step, history, both, ends, count);
         collect_rows(solve, smooth_bodies, contact, &step, [x, &prediction.goal], *friction_coefficient);
-        solve.remind_rows();
+        solve.remind_rows(h);
         prediction::hold_pressed(&solve.rows, &step, x, count);
         let follow = |row: &mut ContactRow, x: &[DVec3]| follow_smooth(row, &step, smooth_bodies, x);
         for row in solve.rows.iter_mut().filter(|row| row.reach > 0.0) {
@@ -163,7 +164,7 @@ impl Simulation {
                 }
             }
         }
-        solve.accept(is_moved);
+        solve.accept(is_moved, h);
         for entry in &mut solve.terms {
             if let Some(memory) = entry.action.memory_mut() {
                 memory.settle(&step, x);
@@ -189,12 +190,6 @@ const fn not_finite(step: &TimeStep<'_>) -> Blocker {
     }
 }
 
-/// Returns the distance at which a contact is at rest in this step. It is the thickness; a pair that starts nearer comes apart at a
-/// [rate](RECOVERY).
-fn rest(thickness: f64, distance: f64, h: f64) -> f64 {
-    thickness - (thickness - distance).max(0.0) * (1.0 - (RECOVERY * h).min(1.0))
-}
-
 /// Makes the rows of a step, whose solve begins at `guess`; everything but contact leads to `goal`.
 fn collect_rows(
     solve: &mut Solve,
@@ -212,7 +207,6 @@ fn collect_rows(
             continue;
         }
         let [axis_before, axis] = [&before, &now].map(|pose| body.axis(pose));
-        let reach = body.radius + body.thickness;
         let far = body.radius + REACH * body.thickness;
         for vertex in body.vertices.clone().filter(|&vertex| step.inverse_masses[vertex] > 0.0) {
             let start = step.start[vertex];
@@ -226,7 +220,9 @@ fn collect_rows(
             rows.push(ContactRow {
                 thickness: body.thickness,
                 is_with_body: true,
-                reach: if at_start < reach { body.radius + rest(body.thickness, at_start - body.radius, step.h) } else { reach },
+                distance: at_start - body.radius,
+                left: away(axis, start).1 - body.radius,
+                radius: body.radius,
                 drift: before.carry(&now, start) - start,
                 friction,
                 ..ContactRow::new(key, [vertex as u32; 4], [1.0, 0.0, 0.0, 0.0], normal, step.start)
@@ -241,10 +237,14 @@ fn collect_rows(
             normal,
             thickness,
         } = near;
+        // Bodies are at their ends in the guess, and the cloth at the start.
+        let at = |vertex: u32| if step.inverse_masses[vertex as usize] > 0.0 { step.start[vertex as usize] } else { guess[vertex as usize] };
+        let left = vertices.into_iter().zip(weights).map(|(vertex, weight)| weight * normal.dot(at(vertex))).sum();
         rows.push(ContactRow {
             thickness,
             is_with_body,
-            rest: rest(thickness, distance, step.h),
+            distance,
+            left,
             friction,
             ..ContactRow::new(RowKey::Pair(key), vertices, weights, normal, step.start)
         });

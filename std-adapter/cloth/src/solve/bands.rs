@@ -61,6 +61,12 @@ impl Bands {
         }
     }
 
+    /// Returns whether all these vertices belong to bands.
+    pub(super) fn have(&self, vertices: &[u32]) -> bool {
+        let place = |vertex: &u32| self.places.get(*vertex as usize).copied();
+        vertices.iter().all(|vertex| place(vertex).is_some_and(|place| place != NONE))
+    }
+
     /// Adds JᵀKJ, without the blocks between vertices that are not near in one band.
     pub(super) fn add(&mut self, vertices: &[u32], weights: &[f64], stiffness: DMat3) {
         for (i, (&vertex, weight)) in vertices.iter().zip(weights).enumerate() {

@@ -8,6 +8,7 @@
 //! the sliding u since the start of the step and the multiplier f, it sticks with f − κu as long as this is within the bound. Otherwise
 //! it slips with the bound in the direction of f − κu. What turns round sticks again.
 
+use super::constants::RECOVERY;
 use super::matrix::{Matrix, outer};
 use crate::contact::PairKey;
 use crate::model::length::{length, shortened};
@@ -20,6 +21,24 @@ pub(crate) enum RowKey {
     Smooth(u32, u32),
     Pair(PairKey),
 }
+
+/// What a contact that pushed leaves for the next step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Remembered {
+    push: f64,
+    grip: DVec3,
+    /// The distance at the start, and by how much it was to grow.
+    distance: f64,
+    asked: f64,
+    share: f64,
+}
+
+/// The share of what a row asks for that it has to gain. A heavy pile comes apart more slowly than a layer alone.
+const LEAST_GAIN: f64 = 0.1;
+/// The least share of the recovery, with which a row tries again.
+const LEAST_RECOVERY: f64 = 1.0 / 64.0;
+/// The share at which a row counts as jammed.
+const JAMMED: f64 = 1.0 / 8.0;
 
 /// A contact of a step.
 #[derive(Clone, Copy, Debug)]
@@ -35,7 +54,13 @@ pub(crate) struct ContactRow {
     /// The thickness, in m.
     pub(crate) thickness: f64,
     pub(crate) is_with_body: bool,
-    /// On a smooth body: the distance of the vertex from its axis at which the row is at rest, in m.
+    /// The distance of both sides at the start of the step, in m: with bodies at the start, and at the end of the step.
+    pub(crate) distance: f64,
+    pub(crate) left: f64,
+    /// The share of the [recovery](super::RECOVERY) that a row that starts too near asks for.
+    pub(crate) share: f64,
+    /// On a smooth body: the radius, and the distance of the vertex from its axis at which the row is at rest, in m.
+    pub(crate) radius: f64,
     pub(crate) reach: f64,
     /// Σw·x at the start of the step, and the motion of a smooth body since then.
     pub(crate) start: DVec3,
@@ -71,6 +96,10 @@ impl ContactRow {
             rest: 0.0,
             thickness: 0.0,
             is_with_body: false,
+            distance: f64::INFINITY,
+            left: f64::INFINITY,
+            share: 1.0,
+            radius: 0.0,
             reach: 0.0,
             start: DVec3::ZERO,
             drift: DVec3::ZERO,
@@ -84,6 +113,39 @@ impl ContactRow {
         };
         row.start = row.image(x);
         row
+    }
+
+    /// Chooses r for a step of `h` seconds, and `reach` from it.
+    ///
+    /// It is the thickness. A pair that starts nearer comes apart at a [rate](super::RECOVERY), as long as it gains something by that.
+    /// Where there is no room, as between two pads, it asks for less and less, down to the distance that it has: no position satisfies
+    /// both sides, and their forces would grow without end. Nor does it then resist bodies that come nearer.
+    pub(crate) fn choose_rest(&mut self, before: Option<&Remembered>, h: f64) {
+        let rate = (RECOVERY * h).min(1.0);
+        if let Some(before) = before {
+            (self.push, self.grip) = (before.push, before.grip - self.normal * before.grip.dot(self.normal));
+            let asked = before.asked;
+            let has_gained = !(asked > 0.0) || self.distance - before.distance >= LEAST_GAIN * asked;
+            self.share = if has_gained { (2.0 * before.share).min(1.0) } else { (0.5 * before.share).max(LEAST_RECOVERY) };
+        }
+        let missing = (self.thickness - self.distance).max(0.0);
+        self.rest = self.thickness - missing * (1.0 - rate * self.share);
+        if self.share <= JAMMED {
+            self.rest = self.rest.min(self.left).max(0.0);
+        }
+        self.reach = self.radius + self.rest;
+    }
+
+    /// Returns what the next step needs to know of the row.
+    pub(crate) fn remembered(&self, h: f64) -> Remembered {
+        let missing = (self.thickness - self.distance).max(0.0);
+        Remembered {
+            push: self.push,
+            grip: self.grip,
+            distance: self.distance,
+            asked: missing * (RECOVERY * h).min(1.0) * self.share,
+            share: self.share,
+        }
     }
 
     /// The vertices that take part, with their weights.

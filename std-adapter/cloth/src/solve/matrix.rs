@@ -169,6 +169,15 @@ impl Matrix {
         self.bands.add(vertices, weights, stiffness);
     }
 
+    /// Adds a link between two vertices that is part of the [bands](Bands) if both are.
+    pub(super) fn add_tie(&mut self, vertices: &[u32], weights: &[f64], stiffness: DMat3) {
+        if self.bands.have(vertices) {
+            self.add_of_rope(vertices, weights, stiffness);
+        } else {
+            self.add_late(vertices, weights, single(&stiffness));
+        }
+    }
+
     /// Makes a link of the free vertices; `None` if there are none.
     #[inline]
     fn link(&self, vertices: &[u32], weights: &[f64], stiffness: Mat3A) -> Option<Link> {

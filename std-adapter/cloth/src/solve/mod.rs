@@ -38,7 +38,8 @@ pub(crate) mod stitches;
 pub(crate) mod walls;
 
 pub use constants::Accuracy;
-pub(crate) use constants::RECOVERY;
+#[cfg(doc)]
+use constants::RECOVERY;
 pub(crate) use contact_row::{ContactRow, RowKey};
 pub use matrix::Matrix;
 pub(crate) use newton::{NotFinite, Outcome};
@@ -47,6 +48,7 @@ pub use term::{Prediction, Renewed, Term};
 use crate::effects::plan::Entry;
 use crate::model::step::TimeStep;
 use constants::{GIVE, STIFFER_THAN_BODIES, STIFFER_THAN_CLOTH};
+use contact_row::Remembered;
 use preconditioner::Preconditioner;
 use rustc_hash::FxHashMap;
 use selvedge_core::glam::DVec3;
@@ -77,8 +79,8 @@ pub(crate) struct Solve {
     accuracy: Accuracy,
     matrix: Matrix,
     preconditioner: Preconditioner,
-    /// The push and the friction of each contact that pushed in the last accepted step, in N.
-    pushes: FxHashMap<RowKey, (f64, DVec3)>,
+    /// The contacts that pushed in the last accepted step.
+    pushes: FxHashMap<RowKey, Remembered>,
     work: newton::Work,
 }
 
@@ -104,13 +106,10 @@ impl Solve {
         }
     }
 
-    /// Gives the rows the forces that they had in the last step.
-    pub(crate) fn remind_rows(&mut self) {
+    /// Gives the rows the forces that they had in the last step, and chooses where they are at rest in one of `h` seconds.
+    pub(crate) fn remind_rows(&mut self, h: f64) {
         for row in &mut self.rows {
-            if let Some(&(push, grip)) = self.pushes.get(&row.key) {
-                row.push = push;
-                row.grip = grip - row.normal * grip.dot(row.normal);
-            }
+            row.choose_rest(self.pushes.get(&row.key), h);
         }
     }
 
@@ -139,14 +138,14 @@ impl Solve {
     }
 
     /// Stores the multipliers of an accepted step, apart from those of vertices that the certificate has moved.
-    pub(crate) fn accept(&mut self, is_moved: &[bool]) {
+    pub(crate) fn accept(&mut self, is_moved: &[bool], h: f64) {
         for Entry { action, .. } in &mut self.terms {
             action.accept(is_moved);
         }
         self.pushes.clear();
         let pushing = self.rows.iter().filter(|row| row.push > 0.0);
         let kept = pushing.filter(|row| row.parts().all(|(vertex, _)| !is_moved[vertex]));
-        self.pushes.extend(kept.map(|row| (row.key, (row.push, row.grip))));
+        self.pushes.extend(kept.map(|row| (row.key, row.remembered(h))));
     }
 
     /// Forgets all multipliers.

@@ -147,7 +147,7 @@ impl Solve {
                 }
                 self.assemble(prediction, x);
             }
-            self.rows.iter().for_each(|row| row.add_curvature(x, &mut self.matrix));
+            self.add_multipliers(x);
             self.preconditioner.prepare(&self.matrix);
             linear_rest = self.solve_linear(&mut work, &mut tolerance, &mut outcome);
             outcome.newton_steps += 1;
@@ -172,16 +172,23 @@ impl Solve {
         self.matrix.find_diagonal();
     }
 
+    /// Adds the multipliers to the matrix.
+    fn add_multipliers(&mut self, x: &[DVec3]) {
+        for Entry { action, .. } in &mut self.terms {
+            action.curvature_of_multipliers(x, &mut self.matrix);
+        }
+        self.rows.iter().for_each(|row| row.add_curvature(x, &mut self.matrix));
+    }
+
     /// Fills the matrix, and chooses the stiffness of multipliers.
     fn begin_rows(&mut self, prediction: &Prediction, x: &[DVec3], energy: &mut f64, slope: &mut Vec<DVec3>) {
         self.assemble(prediction, x);
         let mut has_changed = false;
         for Entry { action, .. } in &mut self.terms {
-            has_changed |= action.weigh(&self.matrix);
+            has_changed |= action.weigh(&self.matrix, x);
         }
         if has_changed {
             *energy = gradient(&mut self.terms, prediction, x, slope);
-            self.assemble(prediction, x);
         }
         let matrix = &self.matrix;
         self.rows.retain_mut(|row| {

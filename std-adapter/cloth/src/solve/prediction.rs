@@ -10,6 +10,9 @@
 //! x′ = x gives v′ = −v₀/2. So a vertex that a contact presses takes steps of first order, and so does a vertex that the certificate
 //! has moved. The others take steps of second order, if the step is as long as the last one.
 //!
+//! **Drag.** Still air that slows a vertex at the rate k adds ½k·r·M|x − b|² with b and r of v′ = (x′ − b)/r. So cloth at rest does not
+//! feel it, and any rate is stable.
+//!
 //! **The first guess.** Cloth at rest should have no force left at the first guess, or conjugate gradients that end early would
 //! leave some of it as speed. Cloth in motion should begin where it goes. So the guess is x + h·v, with as much of the constant force
 //! as the last step let the vertex follow. What something presses begins where it is, moved with what presses it; what slides begins
@@ -55,13 +58,23 @@ impl History {
     }
 }
 
+/// The prediction of one vertex: its base, the way from there without drag, k·r for a drag of the rate k, and the rate r.
+struct Own {
+    base: DVec3,
+    way: DVec3,
+    slowing: f64,
+    rate: f64,
+}
+
 /// Fills the prediction for `count` vertices of cloth. `velocities` are those at the start of the step, `forced` those after forces;
-/// `ends` has the positions of kinematic vertices at the end of the step.
+/// `drag` is the rate at which still air slows each vertex, in 1/s, or empty; `ends` has the positions of kinematic vertices at the end
+/// of the step.
 pub(crate) fn predict(
     prediction: &mut Prediction,
     step: &TimeStep<'_>,
     history: &History,
     [velocities, forced]: [&[DVec3]; 2],
+    drag: &[f64],
     ends: &[DVec3],
     count: usize,
 ) {
@@ -83,20 +96,29 @@ pub(crate) fn predict(
             continue;
         }
         let mass = (inverse_mass * h * h).recip();
-        if is_second && !history.is_first_order[vertex] {
+        let slowing = drag.get(vertex).map_or(0.0, |rate| rate * h);
+        let own = if is_second && !history.is_first_order[vertex] {
             let (before, v, v_before) = (history.positions[vertex], velocities[vertex], history.velocities[vertex]);
             let change = forced[vertex] - v;
-            let of_velocities = (v * 8.0 - v_before * 2.0 + change * 4.0) * (h / 9.0);
-            goal.push((x * 4.0 - before) / 3.0 + of_velocities);
-            masses.push(2.25 * mass);
-            base.push((x * 4.0 - before) / 3.0);
-            rate.push(h * 2.0 / 3.0);
+            Own {
+                base: (x * 4.0 - before) / 3.0,
+                way: (v * 8.0 - v_before * 2.0 + change * 4.0) * (h / 9.0),
+                slowing: slowing * 2.0 / 3.0,
+                rate: h * 2.0 / 3.0,
+            }
         } else {
-            goal.push(x + forced[vertex] * h);
-            masses.push(mass);
-            base.push(x);
-            rate.push(h);
-        }
+            Own {
+                base: x,
+                way: forced[vertex] * h,
+                slowing,
+                rate: h,
+            }
+        };
+        // Drag pulls towards the base: m/r²·(|x − base − way|² + k·r·|x − base|²)/2.
+        goal.push(own.base + own.way / (1.0 + own.slowing));
+        masses.push(mass * (h / own.rate).powi(2) * (1.0 + own.slowing));
+        base.push(own.base);
+        rate.push(own.rate);
     }
     goal.extend_from_slice(&ends[count..]);
 }

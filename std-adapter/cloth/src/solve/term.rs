@@ -45,8 +45,13 @@ pub trait Term: Debug + Send + Sync {
     /// solve down and does not change its result.
     fn curvature(&mut self, x: &[DVec3], matrix: &mut Matrix);
 
-    /// Chooses the stiffness of multipliers from that of everything else. Returns true if it has changed.
-    fn weigh(&mut self, _matrix: &Matrix) -> bool {
+    /// Adds the second derivative of multipliers, after [`weigh`](Self::weigh) has seen everything else.
+    #[doc(hidden)]
+    fn curvature_of_multipliers(&mut self, _x: &[DVec3], _matrix: &mut Matrix) {}
+
+    /// Chooses the stiffness of multipliers at `x` from that of everything else. Returns true if it has changed.
+    #[doc(hidden)]
+    fn weigh(&mut self, _matrix: &Matrix, _x: &[DVec3]) -> bool {
         false
     }
 
