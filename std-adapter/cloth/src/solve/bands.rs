@@ -54,6 +54,10 @@ impl Bands {
         bands
     }
 
+    pub(super) fn is_empty(&self) -> bool {
+        self.vertices.is_empty()
+    }
+
     pub(super) fn clear(&mut self) {
         for blocks in [&mut self.own].into_iter().chain(&mut self.next) {
             blocks.clear();

@@ -2,7 +2,8 @@
 
 /// The accuracy of a simulation: one tolerance of the solve in each step.
 ///
-/// It is the error of the accelerations that a step may leave, as a share of them. All three come to the same rest.
+/// It is the error of the accelerations that a step may leave, as a share of them. The depth of contacts follows it. All three come to
+/// the same rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Accuracy {
     /// A tenth, for games.
@@ -23,10 +24,22 @@ impl Accuracy {
             Self::Exact => 0.003,
         }
     }
+
+    /// Returns the largest number of Newton steps. What is not finished goes on in the next step of time, as multipliers are kept.
+    pub(super) const fn most_newton_steps(self) -> u32 {
+        match self {
+            Self::Game => 6,
+            Self::Film => 12,
+            Self::Exact => 40,
+        }
+    }
+
+    /// Returns the largest change of a contact's depth that needs no other Newton step, as a share of the thickness.
+    pub(super) const fn largest_change(self) -> f64 {
+        0.3 * self.share()
+    }
 }
 
-/// The largest number of Newton steps. What is not finished goes on in the next step of time, as multipliers are kept.
-pub(super) const MOST_NEWTON_STEPS: usize = 12;
 /// The largest number of iterations of conjugate gradients in one Newton step.
 pub(super) const MOST_ITERATIONS: usize = 1000;
 /// The largest number of halvings of a Newton step. Slack foil may fly ten thousand times too far.
@@ -48,8 +61,6 @@ pub(super) const GIVE: f64 = 0.05;
 
 /// The change of a contact's depth that needs no other Newton step, as a share of the largest move in the step.
 pub(super) const SMALL_CHANGE: f64 = 0.05;
-/// The largest value of that change, as a share of the thickness.
-pub(super) const LARGEST_CHANGE: f64 = 0.01;
 /// The change that never needs another Newton step, as a speed in m/s. It is what layers at rest may keep: stack laws.
 pub(super) const SLOWEST_CHANGE: f64 = 5e-4;
 /// The change of a limited stretch that needs no other Newton step.

@@ -5,7 +5,7 @@
 //! * a block for each vertex: its mass over h², and springs to fixed points;
 //! * blocks between the corners of triangles, whose rows sum to zero with the vertex's block, since inner energies do not change when
 //!   all vertices move alike;
-//! * one number for each pair of vertices of a hinge: bending is the same along all axes, and constant;
+//! * one number for the two vertices of a hinge that share no triangle. Bending is the same along all axes, and constant;
 //! * [links](Link) JᵀKJ of up to four vertices: contacts, ropes, stitches;
 //! * [products](RankOne) β·g·gᵀ of whole cloths: a gas in a closed cloth.
 
@@ -51,14 +51,13 @@ pub(super) struct RankOne {
 pub struct Matrix {
     /// The vertices that share a triangle with each vertex.
     neighbours: Incidence<u32>,
-    /// The block between a vertex and each of its neighbours.
+    /// The block between a vertex and each of its neighbours, and the part of it that bending has, which is constant.
     blocks: Vec<Mat3A>,
+    of_bending: Vec<f32>,
     /// The places of the blocks of each triangle's [`PAIRS`], from the first to the second corner and back.
     places: Vec<[[u32; 2]; 3]>,
-    /// The other vertices of each vertex's hinges, and the number between them.
+    /// The vertices that share a hinge with each vertex, but no triangle, and the number between them.
     bent: Incidence<(u32, f32)>,
-    /// Minus the sum of these numbers.
-    of_bending: Vec<f32>,
     /// The block of each vertex besides those that the rows of `blocks` and `bent` imply.
     own: Vec<Mat3A>,
     pub(super) links: Vec<Link>,
@@ -99,17 +98,20 @@ impl Matrix {
             }
         }
         bent.sort_by_key(|(pair, _)| *pair);
-        let bent: Vec<(u32, (u32, f32))> = bent
-            .chunk_by(|one, other| one.0 == other.0)
-            .map(|own| (own[0].0[0], (own[0].0[1], own.iter().map(|(_, k)| k).sum::<f64>() as f32)))
-            .collect();
-        let mut of_bending = vec![0.0; vertex_count];
-        bent.iter().for_each(|&(vertex, (_, k))| of_bending[vertex as usize] -= k);
+        let mut of_bending = vec![0.0; both.len()];
+        let mut apart: Vec<(u32, (u32, f32))> = Vec::new();
+        for own in bent.chunk_by(|one, other| one.0 == other.0) {
+            let (pair, number) = (own[0].0, own.iter().map(|(_, k)| k).sum::<f64>() as f32);
+            match both.binary_search(&pair) {
+                Ok(place) => of_bending[place] = number,
+                Err(_) => apart.push((pair[0], (pair[1], number))),
+            }
+        }
         Self {
             neighbours: Incidence::new(vertex_count, || both.iter().map(|&[vertex, other]| (vertex, other))),
             blocks: vec![Mat3A::ZERO; both.len()],
             places: places.as_chunks().0.to_vec(),
-            bent: Incidence::new(vertex_count, || bent.iter().copied()),
+            bent: Incidence::new(vertex_count, || apart.iter().copied()),
             of_bending,
             own: vec![Mat3A::ZERO; vertex_count],
             diagonal: vec![Mat3A::ZERO; vertex_count],
@@ -122,7 +124,9 @@ impl Matrix {
 
     /// Starts again, with these masses over h² on the diagonal. A mass of zero fixes a vertex.
     pub(super) fn clear(&mut self, masses: &[f64]) {
-        self.blocks.fill(Mat3A::ZERO);
+        for (block, bent) in self.blocks.iter_mut().zip(&self.of_bending) {
+            *block = Mat3A::from_diagonal(Vec3::splat(*bent));
+        }
         self.links.clear();
         self.of_ropes.clear();
         self.bands.clear();
@@ -228,7 +232,8 @@ impl Matrix {
     /// Finds the whole block of each vertex, with the links so far.
     pub(super) fn find_diagonal(&mut self) {
         for vertex in 0..self.own.len() {
-            let mut sum = self.own[vertex] + Mat3A::from_diagonal(Vec3::splat(self.of_bending[vertex]));
+            let bent: f32 = self.bent.of(vertex).iter().map(|(_, number)| number).sum();
+            let mut sum = self.own[vertex] - Mat3A::from_diagonal(Vec3::splat(bent));
             for block in &self.blocks[self.neighbours.range(vertex)] {
                 sum -= *block;
             }

@@ -11,12 +11,10 @@
 //! the last third has mended little: at most the accuracy squared of all that the step has mended, or of the squared accelerations. Newton's
 //! method ends when the remaining force is about what the linear problem left, and the multipliers change little.
 //!
-//! **Not finished** after [`MOST_NEWTON_STEPS`] is no failure. Multipliers go on in the next step, and the certificate guards
+//! **Not finished** after the most Newton steps is not a failure. Multipliers go on in the next step, and the certificate guards
 //! the state. A cloth that buckles goes down from a saddle of the energy, which takes many steps, and none of them is wrong.
 
-use super::constants::{
-    LARGEST_CHANGE, MOST_HALVINGS, MOST_ITERATIONS, MOST_NEWTON_STEPS, NEARLY_LINEAR, SLOWEST_CHANGE, SMALL_CHANGE, STILL,
-};
+use super::constants::{MOST_HALVINGS, MOST_ITERATIONS, NEARLY_LINEAR, SLOWEST_CHANGE, SMALL_CHANGE, STILL};
 use super::contact_row::ContactRow;
 use super::matrix::dot;
 use super::term::{Prediction, Term};
@@ -118,7 +116,8 @@ impl Solve {
         self.begin_rows(prediction, x, &mut energy, &mut work.gradient);
         let (mut error, mut was_short, mut linear_rest) = (f64::INFINITY, false, f64::INFINITY);
         let mut result = Ok(());
-        for newton in 0..=MOST_NEWTON_STEPS {
+        let most = self.accuracy.most_newton_steps();
+        for newton in 0..=most {
             if !energy.is_finite() {
                 result = Err(NotFinite);
                 break;
@@ -142,7 +141,7 @@ impl Solve {
                     outcome.is_finished = true;
                     break;
                 }
-                if newton == MOST_NEWTON_STEPS {
+                if newton == most {
                     break;
                 }
                 self.assemble(prediction, x);
@@ -225,17 +224,15 @@ impl Solve {
             outcome.iterations += 1;
             let by = rest / curvature;
             let step = by as f32;
-            for vertex in 0..work.moves.len() {
-                work.moves[vertex] += work.direction[vertex] * step;
-                work.residual[vertex] -= work.product[vertex] * step;
-                if matrix.is_fixed[vertex] {
-                    work.residual[vertex] = Vec3A::ZERO;
-                }
+            for (moved, direction) in work.moves.iter_mut().zip(&work.direction) {
+                *moved += *direction * step;
+            }
+            for (residual, product) in work.residual.iter_mut().zip(&work.product) {
+                *residual -= *product * step;
             }
             work.drops.push(by * rest);
             tolerance.mended += by * rest;
-            preconditioner.apply(matrix, &work.residual, &mut work.image);
-            let next = dot(&work.residual, &work.image);
+            let next = preconditioner.measure(matrix, &work.residual, &mut work.image);
             let last = FEWEST.max(work.drops.len() / 3);
             let mended: f64 = work.drops.iter().rev().take(last).sum();
             let share = (next / rest) as f32;
@@ -320,9 +317,10 @@ impl Solve {
         }
         let farthest = x.iter().zip(&prediction.base).zip(&prediction.masses).filter(|(_, mass)| **mass > 0.0);
         let farthest = farthest.map(|((x, base), _)| x.distance_squared(*base)).fold(0.0, f64::max).sqrt();
+        let largest = self.accuracy.largest_change();
         for row in &mut self.rows {
             let change = row.renew(x);
-            let small = (SMALL_CHANGE * farthest).min(LARGEST_CHANGE * row.thickness).max(SLOWEST_CHANGE * h);
+            let small = (SMALL_CHANGE * farthest).min(largest * row.thickness).max(SLOWEST_CHANGE * h);
             error = error.max(change / small);
         }
         error
