@@ -5,25 +5,32 @@ use super::output::{self, OutputFiles};
 use super::progress::Progress;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use selvedge_laboratory::report::{json, tables, truths_html};
-use selvedge_laboratory::truths::{LAWS, Law, LawRuns};
+use selvedge_laboratory::truths::{Extent, LAWS, Law, LawRuns, PACES, Pace};
 use std::path::PathBuf;
 
 /// Compares the cloth simulation with laws whose answers are known
 ///
-/// Runs scenes with an exact answer, such as free fall, catenaries, friction and stacks, each at time steps of 1, 2 and 4 ms and on up to three
-/// meshes. The table has the largest error of each.
+/// Runs scenes with an exact answer, such as free fall, catenaries, balloons, friction and stacks. All settings are the defaults. Each scene
+/// runs in time steps of 1 and 4 ms and by frames of 1/60 s, on up to four meshes. The table has the largest error of each.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   selvedge truths
   selvedge truths --law capstan,inclined_plane
+  selvedge truths --pace frames --coarse
   selvedge truths --output out
 
-All laws take a few minutes. Other load on the machine disturbs the times.")]
+All laws take many minutes. Other load on the machine disturbs the times.")]
 pub(crate) struct Truths {
     /// Measure only these laws, separated by commas
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = law_parser())]
     law: Vec<&'static Law>,
+    /// Measure only at these paces, separated by commas
+    #[arg(long, value_name = "PACE,…", value_delimiter = ',', value_parser = parse_pace)]
+    pace: Vec<Pace>,
+    /// Measure each law on its coarsest mesh only
+    #[arg(long)]
+    coarse: bool,
     /// Print one JSON document instead of a table
     #[arg(long)]
     json: bool,
@@ -34,8 +41,27 @@ pub(crate) struct Truths {
 
 /// Parses a law's name. The error lists the known ones.
 fn law_parser() -> impl TypedValueParser<Value = &'static Law> {
-    let known = PossibleValuesParser::new(LAWS.map(|law| law.name));
-    known.try_map(|name| LAWS.into_iter().find(|law| law.name == name).ok_or("there is no such law"))
+    let known = PossibleValuesParser::new(LAWS.iter().map(|law| law.name));
+    known.try_map(|name| {
+        LAWS.iter()
+            .copied()
+            .find(|law| law.name == name)
+            .ok_or("there is no such law")
+    })
+}
+
+/// Returns a pace's name on the command line: `1ms` or `frames`.
+fn name_of(pace: Pace) -> String {
+    pace.to_string().replace(' ', "")
+}
+
+/// Parses a pace's name. The error lists the known ones.
+fn parse_pace(name: &str) -> Result<Pace, String> {
+    let known = PACES.map(name_of).join(", ");
+    PACES
+        .into_iter()
+        .find(|pace| name_of(*pace) == name)
+        .ok_or_else(|| format!("the paces are {known}"))
 }
 
 impl Truths {
@@ -44,15 +70,20 @@ impl Truths {
             OutputFiles::check_folder(folder)?;
         }
         let is_meant = |law: &&Law| self.law.is_empty() || self.law.iter().any(|own| own.name == law.name);
-        let laws: Vec<&'static Law> = LAWS.into_iter().filter(is_meant).collect();
-        let count: usize = laws.iter().map(|law| law.runs()).sum();
+        let laws: Vec<&'static Law> = LAWS.iter().copied().filter(is_meant).collect();
+        let is_asked = |pace: &Pace| self.pace.is_empty() || self.pace.contains(pace);
+        let extent = Extent {
+            paces: PACES.into_iter().filter(is_asked).collect(),
+            is_coarse: self.coarse,
+        };
+        let count: usize = laws.iter().map(|law| extent.runs(law)).sum();
         let (progress, mut before) = (Progress::bar("measuring"), 0);
         let mut all = Vec::with_capacity(laws.len());
         for law in laws {
-            all.push(LawRuns::measure(law, &mut |done| {
+            all.push(LawRuns::measure(law, &extent, &mut |done| {
                 progress.set((before + done) as f64 / count as f64);
-            })?);
-            before += law.runs();
+            }));
+            before += extent.runs(law);
         }
         drop(progress);
         let mut files = OutputFiles::default();

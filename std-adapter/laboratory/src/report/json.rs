@@ -287,10 +287,11 @@ pub fn scaling(preset: Preset, threads: usize, points: &[ScalingPoint]) -> Value
     })
 }
 
-/// Returns the simulation's errors against laws, for `selvedge truths`: one row for each law, mesh and time step.
+/// Returns the simulation's errors against laws, for `selvedge truths`: one row for each law, mesh, accuracy and pace. Errors that are not
+/// numbers are null.
 #[must_use]
 pub fn truths(all: &[LawRuns]) -> Value {
-    let rows = all.iter().flat_map(|LawRuns { law, runs }| {
+    let rows = all.iter().flat_map(|LawRuns { law, runs, .. }| {
         runs.iter().map(|run| {
             let worst = run.worst();
             let (of, unit) = match law.error {
@@ -299,12 +300,15 @@ pub fn truths(all: &[LawRuns]) -> Value {
             };
             json!({
                 "law": law.name,
-                "mesh": run.mesh,
-                "time_step": run.step,
+                "mesh": run.conditions.grid.number,
+                "irregular": run.conditions.grid.is_irregular,
+                "accuracy": run.conditions.accuracy.name,
+                "pace": run.conditions.pace.to_string(),
                 "error": run.error(),
                 "error_of": of,
                 "error_unit": unit,
                 "unpredicted_error": run.unpredicted(),
+                "failure": run.failure,
                 "worst": {"at": worst.at, "exact": worst.exact, "simulated": worst.simulated, "aside": worst.aside},
                 "seconds": run.seconds,
             })

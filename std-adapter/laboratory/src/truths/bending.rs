@@ -1,6 +1,8 @@
 //! Bending stiffness: a cantilever, a plate, and Cusick's drape test.
 
-use super::setting::{DENSITY, G, advance_to, elastic, pinned, scene, solved};
+use super::conditions::{Conditions, irregular, regular};
+use super::run::Run;
+use super::setting::{DENSITY, G, elastic, membrane, pinned, scene, sheet, vertices_where, weightless};
 use super::{ErrorUnit, Failure, Law, Outcome, Sample};
 use selvedge_cloth::effects::{AirDrag, Bend, Gravity, SelfCollision, Shear, Stretch, Thickness};
 use selvedge_cloth::glam::DVec3;
@@ -42,34 +44,29 @@ pub(super) const CANTILEVER: Law = Law {
     axes: ["bending stiffness D, N·m", "sinking of the tip, m"],
     error: ErrorUnit::Of("the length"),
     mesh: "cells along",
-    meshes: &[8, 16, 32],
-    remark: "Free borders are softer than the theory of the strip, by a share of a cell. Long steps do not carry the load of fine meshes.",
-    simulate: |cells, step| {
+    meshes: &[regular(8), regular(16), irregular(16), regular(32)],
+    remark: "Free borders are softer than the theory of the strip, by a share of a cell.",
+    simulate: |conditions| {
+        let cells = conditions.grid.number;
         let mut samples = Vec::new();
         for rigidity in [1e-5, 2e-5, 4e-5] {
             let edge = LENGTH / f64::from(cells);
             let columns = cells + 2;
             let corner = DVec3::new(-2.0 * edge, 0.0, 0.0);
             let sides = [(LENGTH + 2.0 * edge) * DVec3::X, 0.5 * LENGTH * DVec3::Y];
-            let mut scene = scene(Cloth::sheet(corner, sides, [columns, cells / 2], DENSITY)?, step);
+            let is_clamped = |point: DVec3| point.x < 0.1 * edge;
+            let cloth = sheet(corner, sides, [columns, cells / 2], DENSITY, conditions.grid, is_clamped)?;
+            let clamp = pinned(vertices_where(cloth.mesh(), is_clamped));
+            let mut scene = scene(cloth);
             elastic(&mut scene, 1000.0, rigidity);
-            scene.add(solved(1000.0)).add(Bend {
-                stages: 300,
-                ..Bend::isotropic(rigidity)
-            });
-            let row = |row: u32| row * (columns + 1);
-            scene.add(pinned(
-                (0..=cells / 2)
-                    .flat_map(|k| [row(k), row(k) + 1, row(k) + 2])
-                    .collect::<Vec<_>>(),
-            ));
-            scene.add(AirDrag { rate: 8.0 });
-            let mut simulation = Simulation::new(scene, 1)?;
-            advance_to(&mut simulation, 1.5, step)?;
+            scene.add(clamp).add(AirDrag { rate: 8.0 });
+            let tip = cells / 4 * (columns + 1) + columns;
+            let mut run = Run::new(scene, conditions)?;
+            run.advance_to(1.5)?;
             samples.push(Sample {
                 at: rigidity,
                 exact: sinking(rigidity),
-                simulated: -simulation.positions()[(row(cells / 4) + columns) as usize].z,
+                simulated: -run.positions()[tip as usize].z,
                 ..Sample::default()
             });
         }
@@ -83,10 +80,10 @@ pub(super) const PLATE: Law = Law {
     axes: ["bending stiffness D, N·m", "sag of the middle, m"],
     error: ErrorUnit::Of("the largest sag"),
     mesh: "cells a side",
-    meshes: &[8, 16, 32],
+    meshes: &[regular(8), regular(16), irregular(16), regular(32)],
     remark: "The load is small enough for stretch not to count. Clamps end within a share of a cell, as those of the cantilever do.",
-    simulate: |cells, step| {
-        let (side, gravity) = (0.1_f64, 1.0);
+    simulate: |conditions| {
+        let (side, gravity, cells) = (0.1_f64, 1.0, conditions.grid.number);
         let sag = |rigidity: f64| 1.265_32e-3 * DENSITY * gravity * side.powi(4) / rigidity;
         let mut samples = Vec::new();
         for rigidity in [1e-4, 2e-4, 4e-4] {
@@ -94,27 +91,25 @@ pub(super) const PLATE: Law = Law {
             let edge = side / f64::from(cells);
             let whole = side + 2.0 * edge;
             let sides = [whole * DVec3::X, whole * DVec3::Y];
-            let cloth = Cloth::sheet(-0.5 * (sides[0] + sides[1]), sides, [cells + 2; 2], DENSITY)?;
-            let is_pinned = |point: &DVec3| point.x.abs().max(point.y.abs()) > 0.5 * side - 0.1 * edge;
-            let all = (0..).zip(&cloth.mesh().positions);
-            let border: Vec<u32> = all.filter(|(_, point)| is_pinned(point)).map(|(vertex, _)| vertex).collect();
-            let mut scene = Scene::new(cloth, step);
+            let is_pinned = |point: DVec3| point.x.abs().max(point.y.abs()) > 0.5 * side - 0.1 * edge;
+            let corner = -0.5 * (sides[0] + sides[1]);
+            let cloth = sheet(corner, sides, [cells + 2; 2], DENSITY, conditions.grid, is_pinned)?;
+            let border = vertices_where(cloth.mesh(), is_pinned);
+            let mut scene = weightless(cloth);
             let acceleration = -gravity * DVec3::Z;
             scene
                 .add(Gravity { acceleration })
                 .add(AirDrag { rate: 8.0 })
                 .add(pinned(border));
-            scene.add(Stretch::isotropic(20.0)).add(Bend {
-                stages: 300,
-                ..Bend::isotropic(rigidity)
-            });
-            let mut simulation = Simulation::new(scene, 1)?;
-            advance_to(&mut simulation, 1.0, step)?;
-            let middle = simulation.positions().len() / 2;
+            membrane(&mut scene, 20.0);
+            scene.add(Bend::isotropic(rigidity));
+            let mut run = Run::new(scene, conditions)?;
+            run.advance_to(1.0)?;
+            let middle = run.positions().iter().map(|point| point.z).fold(0.0, f64::min);
             samples.push(Sample {
                 at: rigidity,
                 exact: sag(rigidity),
-                simulated: -simulation.positions()[middle].z,
+                simulated: -middle,
                 ..Sample::default()
             });
         }
@@ -131,25 +126,19 @@ pub(super) const DRAPE: Law = Law {
     axes: ["rings of triangles", "drape coefficient"],
     error: ErrorUnit::Of("the mean of the published values"),
     mesh: "rings of triangles",
-    meshes: &[10, 15, 20],
-    remark: "Fabrics differ: an error up to 12 % is within the published values. Longer steps leave more of the folds undone.",
-    simulate: |rings, step| {
+    meshes: &[regular(10), regular(15), regular(20)],
+    remark: "Fabrics differ: an error up to 12 % is within the published values.",
+    simulate: |conditions| {
+        let rings = conditions.grid.number;
         let published = 0.5 * (0.60 + 0.76);
-        let mut scene = Scene::new(Cloth::from_mesh(specimen(rings), DVec3::X, DENSITY)?, step);
+        let mut scene = weightless(Cloth::from_mesh(specimen(rings), DVec3::X, DENSITY)?);
         scene.add(Bend::isotropic(25e-6));
-        scene.add(Stretch {
-            sweeps: 4,
-            ..Stretch::isotropic(260.0)
-        });
-        scene.add(Shear {
-            sweeps: 4,
-            ..Shear::new(65.0)
-        });
+        scene.add(Stretch::isotropic(260.0)).add(Shear::new(65.0));
         Ok(Outcome {
             samples: vec![Sample {
                 at: f64::from(rings),
                 exact: published,
-                simulated: drape_coefficient(scene)?,
+                simulated: drape_coefficient(scene, conditions)?,
                 ..Sample::default()
             }],
             scale: published,
@@ -192,15 +181,13 @@ pub(super) fn specimen(rings: u32) -> Mesh {
 ///
 /// # Errors
 /// Returns an error if the scene cannot be set up, or if a step is blocked.
-pub(super) fn drape_coefficient(mut scene: Scene) -> Result<f64, Failure> {
-    let step = scene.time_step;
-    let held = { (0..).zip(&scene.cloths[0].mesh().positions) }.filter(|(_, p)| p.length() <= DISC + 1e-4);
-    let held: Vec<u32> = held.map(|(vertex, _)| vertex).collect();
-    scene.add(selvedge_cloth::effects::Gravity::default()).add(pinned(held));
+pub(super) fn drape_coefficient(mut scene: Scene, conditions: &Conditions) -> Result<f64, Failure> {
+    let held = vertices_where(scene.cloths[0].mesh(), |point| point.length() <= DISC + 1e-4);
+    scene.add(Gravity::default()).add(pinned(held));
     scene.add(AirDrag { rate: 8.0 }).add(SelfCollision(Thickness::new(1e-3)));
-    let mut simulation = Simulation::new(scene, 1)?;
-    advance_to(&mut simulation, 1.5, step)?;
-    Ok(shadow(&simulation))
+    let mut run = Run::new(scene, conditions)?;
+    run.advance_to(1.5)?;
+    Ok(shadow(&run))
 }
 
 /// Returns the share of the ring in the shadow, which is taken to be star-shaped: in each direction it reaches the farthest point

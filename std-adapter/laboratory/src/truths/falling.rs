@@ -1,10 +1,13 @@
 //! Motion without contact: free fall, drag, and momenta.
 
-use super::setting::{DENSITY, G, elastic, farthest, over_time, scene, square};
+use super::conditions::{irregular, regular};
+use super::run::Run;
+use super::setting::{DENSITY, G, elastic, farthest, scene, square, weightless};
+use super::stepping::{fallen, slowed};
 use super::{ErrorUnit, Law, Outcome, Sample};
 use selvedge_cloth::effects::{AirDrag, StrainLimit};
 use selvedge_cloth::glam::DVec3;
-use selvedge_cloth::{Cloth, Scene, Simulation};
+use selvedge_cloth::{Cloth, Simulation};
 
 pub(super) const FREE_FALL: Law = Law {
     name: "free_fall",
@@ -12,19 +15,19 @@ pub(super) const FREE_FALL: Law = Law {
     axes: ["time, s", "fall, m"],
     error: ErrorUnit::Of("the fall"),
     mesh: "cells a side",
-    meshes: &[1, 4, 16],
+    meshes: &[regular(1), regular(4), irregular(4), regular(16)],
     remark: "Semi-implicit steps of h give ½·g·t·(t + h) on any mesh.",
-    simulate: |cells, step| {
-        let mut scene = scene(square(0.5, 0.0, cells)?, step);
+    simulate: |conditions| {
+        let mut scene = scene(square(0.5, 0.0, conditions.grid)?);
         elastic(&mut scene, 400.0, 1e-2);
-        let mut simulation = Simulation::new(scene, 1)?;
+        let mut run = Run::new(scene, conditions)?;
         let span = 0.24;
-        let samples = over_time(&mut simulation, [span, step], |simulation, time, _| {
-            let predicted = 0.5 * G * time * (time + step);
+        let samples = run.over_time(span, |run, time| {
+            let predicted = fallen(run.steps(), G);
             Sample {
                 exact: 0.5 * G * time * time,
                 predicted: Some(predicted),
-                simulated: farthest(simulation.positions().iter().map(|p| -p.z), predicted),
+                simulated: farthest(run.positions().iter().map(|p| -p.z), predicted),
                 ..Sample::default()
             }
         })?;
@@ -41,21 +44,21 @@ pub(super) const TERMINAL_SPEED: Law = Law {
     axes: ["time, s", "speed, m/s"],
     error: ErrorUnit::Of("the terminal speed"),
     mesh: "cells a side",
-    meshes: &[1, 4, 16],
+    meshes: &[regular(1), regular(4), irregular(4), regular(16)],
     remark: "A step takes gravity first and then exact drag, so that it ends at g·h/(exp(k·h) − 1), which is ½·k·h below g/k.",
-    simulate: |cells, step| {
+    simulate: |conditions| {
         let rate = 4.0;
-        let mut scene = scene(square(0.5, 0.0, cells)?, step);
+        let mut scene = scene(square(0.5, 0.0, conditions.grid)?);
         scene.add(AirDrag { rate });
         elastic(&mut scene, 400.0, 1e-2);
-        let mut simulation = Simulation::new(scene, 1)?;
-        let samples = over_time(&mut simulation, [1.6, step], |simulation, time, _| {
+        let mut run = Run::new(scene, conditions)?;
+        let samples = run.over_time(1.6, |run, time| {
             let share = -(-rate * time).exp_m1();
-            let predicted = G * step / (rate * step).exp_m1() * share;
+            let [_, predicted] = slowed([0.0, G, rate], run.steps());
             Sample {
                 exact: G / rate * share,
                 predicted: Some(predicted),
-                simulated: farthest(simulation.velocities().iter().map(|v| -v.z), predicted),
+                simulated: farthest(run.velocities().iter().map(|v| -v.z), predicted),
                 ..Sample::default()
             }
         })?;
@@ -72,10 +75,10 @@ pub(super) const MOMENTUM: Law = Law {
     axes: ["time, s", "change of L over Σ m·|x|·|v|"],
     error: ErrorUnit::Of("Σ m·|x|·|v| and Σ m·|v|"),
     mesh: "cells a side",
-    meshes: &[5, 10, 20],
+    meshes: &[regular(5), regular(10), irregular(10), regular(20)],
     remark: "Inner forces and strain limits leave both momenta, up to rounding.",
-    simulate: |cells, step| {
-        let flat = square(0.5, 0.0, cells)?;
+    simulate: |conditions| {
+        let flat = square(0.5, 0.0, conditions.grid)?;
         let mut mesh = flat.mesh().clone();
         for p in &mut mesh.positions {
             *p += DVec3::new(0.25, 0.25 + 0.01 * (9.0 * p.x).sin(), 0.05 * (11.0 * p.x + 5.0 * p.y).sin());
@@ -86,15 +89,15 @@ pub(super) const MOMENTUM: Law = Law {
             let third = DENSITY * (b - a).cross(c - a).length() / 6.0;
             triangle.iter().for_each(|&vertex| masses[vertex as usize] += third);
         }
-        let mut scene = Scene::new(Cloth::from_mesh(mesh.clone(), DVec3::X, DENSITY)?, step);
+        let mut scene = weightless(Cloth::from_mesh(mesh.clone(), DVec3::X, DENSITY)?);
         elastic(&mut scene, 400.0, 1e-2);
         scene.add(StrainLimit::at(1.02));
-        let mut simulation = Simulation::new(scene, 1)?;
+        let mut run = Run::new(scene, conditions)?;
         let spin = DVec3::new(3.0, -2.0, 5.0);
         for (vertex, position) in (0..).zip(&mesh.positions) {
-            simulation.set_velocity(&[vertex], spin.cross(*position))?;
+            run.set_velocity(&[vertex], spin.cross(*position))?;
         }
-        simulation.step()?;
+        run.tick()?;
         let momenta = |simulation: &Simulation| {
             let all = simulation.positions().iter().zip(simulation.velocities()).zip(&masses);
             let zero = ([DVec3::ZERO; 2], [0.0; 2]);
@@ -103,9 +106,9 @@ pub(super) const MOMENTUM: Law = Law {
                 ([turn + *m * x.cross(*v), push + *m * *v], sizes)
             })
         };
-        let (before, _) = momenta(&simulation);
-        let samples = over_time(&mut simulation, [0.96, step], |simulation, _, _| {
-            let (now, sizes) = momenta(simulation);
+        let (before, _) = momenta(&run);
+        let samples = run.over_time(0.96, |run, _| {
+            let (now, sizes) = momenta(run);
             let change = |k: usize| (now[k] - before[k]).length() / sizes[k];
             Sample {
                 simulated: change(0),

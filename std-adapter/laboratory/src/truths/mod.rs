@@ -5,26 +5,33 @@
 //! the error shows.
 
 mod bending;
+mod blowing;
+mod carrying;
+mod conditions;
 mod falling;
+mod forms;
+mod inflating;
+mod limiting;
 mod membranes;
 mod pinching;
 mod resting;
+mod run;
 mod setting;
 mod sliding;
+mod stepping;
 mod swinging;
 #[cfg(test)]
 mod tests;
+
+pub use conditions::{ACCURACIES, Accuracy, Conditions, Grid, PACES, Pace};
 
 use std::error::Error;
 use std::time::Instant;
 
 type Failure = Box<dyn Error + Send + Sync>;
 
-/// The time steps at which laws are measured, in seconds.
-pub const STEPS: [f64; 3] = [1e-3, 2e-3, 4e-3];
-
 /// All laws, in the order of reports.
-pub const LAWS: [&Law; 21] = [
+pub const LAWS: &[&Law] = &[
     &falling::FREE_FALL,
     &falling::TERMINAL_SPEED,
     &falling::MOMENTUM,
@@ -34,7 +41,26 @@ pub const LAWS: [&Law; 21] = [
     &membranes::HANGING_CHAIN,
     &membranes::CATENARY,
     &membranes::OWN_WEIGHT,
-    &membranes::BALLOON,
+    &inflating::BALLOON,
+    &inflating::LIGHT_BALLOON,
+    &inflating::FOIL_BALLOON,
+    &inflating::LATEX_BALLOON,
+    &inflating::BALLOON_SPEED,
+    &inflating::GAS,
+    &inflating::PILLOW,
+    &inflating::HALF_BALLOON,
+    &blowing::SAIL,
+    &blowing::AIR_SPEED,
+    &carrying::CORD_LOAD,
+    &carrying::CORD_SWING,
+    &carrying::CORD_PERIOD,
+    &carrying::HEAVY_STRIP,
+    &carrying::HEAVY_PATCH,
+    &limiting::STRAIN_LIMIT,
+    &limiting::LONGEST_EDGE,
+    &limiting::JERK,
+    &limiting::TAUT,
+    &limiting::JERK_ON_LIMIT,
     &bending::CANTILEVER,
     &bending::PLATE,
     &bending::DRAPE,
@@ -44,11 +70,14 @@ pub const LAWS: [&Law; 21] = [
     &resting::LANDING,
     &resting::STACK_HEIGHT,
     &resting::STACK_SPEED,
+    &resting::TALL_STACK_HEIGHT,
+    &resting::TALL_STACK_SPEED,
+    &resting::BAG_SPEED,
     &pinching::PINCH,
     &pinching::PINCH_SPEED,
 ];
 
-/// A law, and the scene that must obey it.
+/// A law, and the scene that must obey it. Scenes use default settings.
 #[derive(Debug)]
 pub struct Law {
     /// The name on the command line: lower case with underscores.
@@ -59,13 +88,13 @@ pub struct Law {
     pub axes: [&'static str; 2],
     /// The quantity that errors are a share of, or the unit of absolute errors.
     pub error: ErrorUnit,
-    /// The meaning of the mesh's number.
+    /// The meaning of a mesh's number.
     pub mesh: &'static str,
     /// The meshes at which the law is measured, from coarse to fine.
-    pub meshes: &'static [u32],
+    pub meshes: &'static [Grid],
     /// The reason for the error, as far as it is known.
     pub remark: &'static str,
-    simulate: fn(u32, f64) -> Result<Outcome, Failure>,
+    simulate: fn(&Conditions) -> Result<Outcome, Failure>,
 }
 
 /// The meaning of an error.
@@ -102,19 +131,20 @@ struct Outcome {
 /// One run of a law.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
-    /// The mesh's number.
-    pub mesh: u32,
-    /// The time step in seconds.
-    pub step: f64,
-    /// The samples, in the order of the first axis.
+    /// The conditions of the run.
+    pub conditions: Conditions,
+    /// The samples, in the order of the first axis. There are none if the run failed.
     pub samples: Vec<Sample>,
+    /// The reason why the run did not reach its end, if it did not.
+    pub failure: Option<String>,
     /// The time of the run on one thread, in seconds.
     pub seconds: f64,
     scale: f64,
 }
 
 impl Measured {
-    /// Returns the largest difference between the simulation and the law, in the law's [unit](Law::error).
+    /// Returns the largest difference between the simulation and the law, in the law's [unit](Law::error). It is NaN if the run failed, or if its
+    /// result is not a number.
     #[must_use]
     pub fn error(&self) -> f64 {
         self.largest(|sample| Some(sample.exact)).unwrap_or(f64::NAN)
@@ -139,61 +169,89 @@ impl Measured {
             let along = sample.simulated - expected(sample)?;
             Some(along.hypot(sample.aside) / self.scale)
         });
-        errors.reduce(|a, b| if a >= b { a } else { b })
+        errors.reduce(|a, b| if a >= b || a.is_nan() { a } else { b })
     }
 }
 
-/// Runs a law on one mesh with one time step, in seconds, on one thread.
-///
-/// # Errors
-/// Returns an error if the law's scene cannot be set up, or if a step is blocked.
-pub fn measure(law: &Law, mesh: u32, step: f64) -> Result<Measured, Failure> {
+/// Runs a law under conditions on one thread.
+#[must_use]
+pub fn measure(law: &Law, conditions: Conditions) -> Measured {
     let begin = Instant::now();
-    let Outcome { samples, scale } = (law.simulate)(mesh, step)?;
-    Ok(Measured {
-        mesh,
-        step,
-        samples,
+    let (outcome, failure) = match (law.simulate)(&conditions) {
+        Ok(outcome) => (outcome, None),
+        Err(failure) => {
+            let (samples, scale) = (Vec::new(), 1.0);
+            (Outcome { samples, scale }, Some(failure.to_string()))
+        }
+    };
+    Measured {
+        conditions,
+        samples: outcome.samples,
+        failure,
         seconds: begin.elapsed().as_secs_f64(),
-        scale,
-    })
+        scale: outcome.scale,
+    }
 }
 
-/// A law, and its runs: for each mesh, from coarse to fine, each of [`STEPS`].
+/// The runs to make of each law.
+#[derive(Clone, Debug)]
+pub struct Extent {
+    /// The paces.
+    pub paces: Vec<Pace>,
+    /// Whether each law has its coarsest mesh only.
+    pub is_coarse: bool,
+}
+
+impl Extent {
+    /// Returns the meshes of a law, from coarse to fine.
+    #[must_use]
+    pub fn meshes(&self, law: &Law) -> &'static [Grid] {
+        &law.meshes[..if self.is_coarse { 1 } else { law.meshes.len() }]
+    }
+
+    /// Returns the number of runs of a law.
+    #[must_use]
+    pub fn runs(&self, law: &Law) -> usize {
+        self.meshes(law).len() * ACCURACIES.len() * self.paces.len()
+    }
+}
+
+/// A law, and its runs: for each mesh, from coarse to fine, each of [`ACCURACIES`] at each pace.
 #[derive(Clone, Debug)]
 pub struct LawRuns {
     /// The law.
     pub law: &'static Law,
     /// The runs.
     pub runs: Vec<Measured>,
+    paces: usize,
 }
 
 impl LawRuns {
-    /// Runs a law on all its meshes with all [`STEPS`]. Calls `progress` with the number of finished runs after each.
-    ///
-    /// # Errors
-    /// As [`measure`].
-    pub fn measure(law: &'static Law, progress: &mut dyn FnMut(usize)) -> Result<Self, Failure> {
-        let mut runs = Vec::with_capacity(law.runs());
-        for &mesh in law.meshes {
-            for step in STEPS {
-                runs.push(measure(law, mesh, step).map_err(|error| format!("{}: {error}", law.name))?);
-                progress(runs.len());
+    /// Runs a law. Calls `progress` with the number of finished runs after each.
+    pub fn measure(law: &'static Law, extent: &Extent, progress: &mut dyn FnMut(usize)) -> Self {
+        let mut runs = Vec::with_capacity(extent.runs(law));
+        for &grid in extent.meshes(law) {
+            for accuracy in ACCURACIES {
+                for &pace in &extent.paces {
+                    runs.push(measure(law, Conditions { grid, accuracy, pace }));
+                    progress(runs.len());
+                }
             }
         }
-        Ok(Self { law, runs })
+        Self {
+            law,
+            runs,
+            paces: extent.paces.len(),
+        }
     }
 
     /// Returns the runs on each mesh, from coarse to fine.
     pub fn by_mesh(&self) -> impl DoubleEndedIterator<Item = &[Measured]> {
-        self.runs.chunks(STEPS.len())
+        self.runs.chunks(self.paces * ACCURACIES.len())
     }
-}
 
-impl Law {
-    /// Returns the number of runs of [`LawRuns::measure`].
-    #[must_use]
-    pub const fn runs(&self) -> usize {
-        self.meshes.len() * STEPS.len()
+    /// Returns the runs on each mesh at each accuracy: one at each pace.
+    pub fn by_accuracy(&self) -> impl Iterator<Item = &[Measured]> {
+        self.runs.chunks(self.paces)
     }
 }

@@ -1,6 +1,9 @@
 //! Cloth that hangs between two pads, which leave less room than its thickness on both sides.
 
-use super::setting::{DENSITY, G, advance_to, contact, elastic, over_time, rms, scene};
+use super::conditions::{Conditions, regular};
+use super::run::Run;
+use super::setting::{DENSITY, G, contact, elastic, rms, scene};
+use super::stepping::slowed;
 use super::{ErrorUnit, Failure, Law, Outcome, Sample};
 use selvedge_cloth::effects::AirDrag;
 use selvedge_cloth::glam::{BVec3, DVec3};
@@ -29,10 +32,11 @@ fn cuboid(low: DVec3, high: DVec3) -> Mesh {
 }
 
 /// Sets up a sheet of 0.3 m whose upper edge is between the pads, and lets them close.
-fn pinched(cells: u32, friction: f64, step: f64) -> Result<Simulation, Failure> {
+fn pinched(conditions: &Conditions, friction: f64) -> Result<Run, Failure> {
+    let cells = conditions.grid.number;
     let sides = [0.3 * DVec3::X, 0.3 * DVec3::Z];
     let cloth = Cloth::sheet(DVec3::new(-0.15, 0.0, -0.27), sides, [cells; 2], DENSITY)?;
-    let mut scene = scene(cloth, step);
+    let mut scene = scene(cloth);
     scene.on_blocked = OnBlocked::Hold;
     for (name, side) in [("left", -1.0), ("right", 1.0)] {
         let mut pad = Body::from_mesh(name, cuboid(DVec3::new(-0.5, -0.01, -0.03), DVec3::new(0.5, 0.01, 0.06)));
@@ -48,9 +52,9 @@ fn pinched(cells: u32, friction: f64, step: f64) -> Result<Simulation, Failure> 
     scene.add(AirDrag { rate: DRAG });
     elastic(&mut scene, 400.0, 15e-6);
     contact(&mut scene, 3e-3, friction);
-    let mut simulation = Simulation::new(scene, 1)?;
-    advance_to(&mut simulation, CLOSED, step)?;
-    Ok(simulation)
+    let mut run = Run::new(scene, conditions)?;
+    run.advance_to(CLOSED)?;
+    Ok(run)
 }
 
 /// Returns the vertices well within the pads.
@@ -65,9 +69,9 @@ pub(super) const PINCH: Law = Law {
     axes: ["coefficient of friction μ", "fall or slip, m"],
     error: ErrorUnit::Of("the free fall of 0.2 s"),
     mesh: "cells a side",
-    meshes: &[10, 20, 40],
+    meshes: &[regular(10), regular(20), regular(40)],
     remark: "The pads leave 4 mm for cloth that keeps 3 mm from each. Falls begin with the velocity that the closed pads leave. Slips are those of 2 s.",
-    simulate: |cells, step| {
+    simulate: |conditions| {
         let span = 0.2;
         let fall = |velocity: f64, time: f64| {
             let decayed = (1.0 - (-DRAG * time).exp()) / DRAG;
@@ -75,33 +79,25 @@ pub(super) const PINCH: Law = Law {
         };
         let mut samples = Vec::new();
         for friction in [0.0, 0.5, 1.0] {
-            let mut simulation = pinched(cells, friction, step)?;
+            let mut run = pinched(conditions, friction)?;
             let of = if friction > 0.0 {
-                held(&simulation)
+                held(&run)
             } else {
-                (0..simulation.cloth_vertices()).collect()
+                (0..run.cloth_vertices()).collect()
             };
             let mean = |all: &[DVec3]| of.iter().map(|&vertex| all[vertex]).sum::<DVec3>() / of.len() as f64;
-            let (start, velocity) = (mean(simulation.positions()), -mean(simulation.velocities()).z);
-            let begin = simulation.time();
-            advance_to(&mut simulation, begin + if friction > 0.0 { 2.0 } else { span }, step)?;
-            let way = mean(simulation.positions()) - start;
-            let (mut now, mut predicted) = (velocity, 0.0);
-            for _ in 0..((simulation.time() - begin) / step).round() as u32 {
-                now = (now + G * step) * (-DRAG * step).exp();
-                predicted += now * step;
-            }
+            let (start, velocity) = (mean(run.positions()), -mean(run.velocities()).z);
+            let (begin, first) = (run.time(), run.steps().len());
+            run.advance_to(begin + if friction > 0.0 { 2.0 } else { span })?;
+            let way = mean(run.positions()) - start;
+            let [predicted, _] = slowed([velocity, G, DRAG], &run.steps()[first..]);
             let falls = friction == 0.0;
             samples.push(Sample {
                 at: friction,
-                exact: if falls {
-                    fall(velocity, simulation.time() - begin)
-                } else {
-                    0.0
-                },
+                exact: if falls { fall(velocity, run.time() - begin) } else { 0.0 },
                 predicted: Some(if falls { predicted } else { 0.0 }),
                 simulated: -way.z,
-                aside: mean(simulation.positions()).y,
+                aside: mean(run.positions()).y,
             });
         }
         Ok(Outcome {
@@ -117,14 +113,14 @@ pub(super) const PINCH_SPEED: Law = Law {
     axes: ["time, s", "root mean square of the speed, m/s"],
     error: ErrorUnit::In("m/s"),
     mesh: "cells a side",
-    meshes: &[10, 20, 40],
+    meshes: &[regular(10), regular(20), regular(40)],
     remark: "The speed is that of the vertices well within the pads. The cloth below them swings.",
-    simulate: |cells, step| {
-        let mut simulation = pinched(cells, 0.5, step)?;
-        let of = held(&simulation);
-        advance_to(&mut simulation, 1.0 + CLOSED, step)?;
-        let samples = over_time(&mut simulation, [0.4, step], |simulation, _, _| Sample {
-            simulated: rms(of.iter().map(|&vertex| simulation.velocities()[vertex])),
+    simulate: |conditions| {
+        let mut run = pinched(conditions, 0.5)?;
+        let of = held(&run);
+        run.advance_to(1.0 + CLOSED)?;
+        let samples = run.over_time(0.4, |run, _| Sample {
+            simulated: rms(of.iter().map(|&vertex| run.velocities()[vertex])),
             ..Sample::default()
         })?;
         Ok(Outcome { samples, scale: 1.0 })

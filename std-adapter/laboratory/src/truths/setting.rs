@@ -1,6 +1,7 @@
-//! Parts of the laws' scenes, and samples over time.
+//! Parts of the laws' scenes, and measures of states.
 
-use super::{Failure, Sample};
+use super::Failure;
+use super::conditions::Grid;
 use fastrand::Rng;
 use selvedge_cloth::effects::{Bend, BodyContact, Friction, Gravity, PinGroup, Pins, SelfCollision, Shear, Stretch, Thickness};
 use selvedge_cloth::glam::DVec3;
@@ -10,27 +11,30 @@ use selvedge_cloth::{Body, Cloth, Mesh, Scene, Simulation};
 pub(super) const G: f64 = 9.81;
 /// The mass of cloth, in kg/m².
 pub(super) const DENSITY: f64 = 0.15;
-const SAMPLES: u32 = 20;
+/// A scene needs a time step. The [run](super::run) replaces it.
+const ANY_STEP: f64 = 1e-3;
+
+/// Makes a scene without gravity.
+pub(super) fn weightless(cloth: Cloth) -> Scene {
+    Scene::new(cloth, ANY_STEP)
+}
 
 /// Makes a scene with gravity.
-pub(super) fn scene(cloth: Cloth, step: f64) -> Scene {
-    let mut scene = Scene::new(cloth, step);
+pub(super) fn scene(cloth: Cloth) -> Scene {
+    let mut scene = weightless(cloth);
     scene.add(Gravity::default());
     scene
 }
 
-/// Adds the elastic effects of a fabric with these stiffnesses, in N/m and N·m.
-pub(super) fn elastic(scene: &mut Scene, stiffness: f64, bending: f64) {
+/// Adds the elastic effects of a membrane, with a stiffness in N/m.
+pub(super) fn membrane(scene: &mut Scene, stiffness: f64) {
     scene.add(Stretch::isotropic(stiffness)).add(Shear::new(0.2 * stiffness));
-    scene.add(Bend::isotropic(bending));
 }
 
-/// Returns stretch with a stiffness in N/m that each step solves until little changes.
-pub(super) const fn solved(stiffness: f64) -> Stretch {
-    Stretch {
-        sweeps: 0,
-        ..Stretch::isotropic(stiffness)
-    }
+/// Adds the elastic effects of a fabric with these stiffnesses, in N/m and N·m.
+pub(super) fn elastic(scene: &mut Scene, stiffness: f64, bending: f64) {
+    membrane(scene, stiffness);
+    scene.add(Bend::isotropic(bending));
 }
 
 /// Adds contact at a thickness in metres, and friction if its coefficient is positive.
@@ -48,25 +52,58 @@ pub(super) fn pinned(vertices: impl Into<Vec<u32>>) -> Pins {
     }
 }
 
-/// Makes a horizontal square around the z axis with this side, at this height.
-pub(super) fn square(side: f64, height: f64, cells: u32) -> Result<Cloth, Failure> {
-    let corner = DVec3::new(-0.5 * side, -0.5 * side, height);
-    Ok(Cloth::sheet(corner, [side * DVec3::X, side * DVec3::Y], [cells; 2], DENSITY)?)
+/// Returns the vertices of a mesh for which `is_meant` holds.
+pub(super) fn vertices_where(mesh: &Mesh, is_meant: impl Fn(DVec3) -> bool) -> Vec<u32> {
+    let all = (0..).zip(&mesh.positions);
+    all.filter(|(_, point)| is_meant(**point)).map(|(vertex, _)| vertex).collect()
 }
 
-/// Makes a rectangle in the plane of two sides, around the origin, whose inner vertices are moved by up to 0.3 of a cell. Its
-/// triangles have no direction that the law could depend on.
-pub(super) fn irregular(name: &str, sides: [DVec3; 2], cells: [u32; 2]) -> Result<Body, Failure> {
-    let grid = Cloth::sheet(-0.5 * (sides[0] + sides[1]), sides, cells, DENSITY)?;
-    let mut mesh: Mesh = grid.mesh().clone();
+/// Makes a horizontal square around the z axis with this side, at this height.
+pub(super) fn square(side: f64, height: f64, grid: Grid) -> Result<Cloth, Failure> {
+    let corner = DVec3::new(-0.5 * side, -0.5 * side, height);
+    let cells = [grid.number; 2];
+    sheet(corner, [side * DVec3::X, side * DVec3::Y], cells, DENSITY, grid, |_| false)
+}
+
+/// Makes a parallelogram as [`Cloth::sheet`], whose warp follows the first side. On an irregular grid it moves the inner vertices, but not those
+/// for which `stays` holds.
+pub(super) fn sheet(
+    corner: DVec3,
+    sides: [DVec3; 2],
+    cells: [u32; 2],
+    density: f64,
+    grid: Grid,
+    stays: impl Fn(DVec3) -> bool,
+) -> Result<Cloth, Failure> {
+    let cloth = Cloth::sheet(corner, sides, cells, density)?;
+    if !grid.is_irregular {
+        return Ok(cloth);
+    }
+    let mesh = jittered(cloth.mesh(), sides, cells, stays);
+    Ok(Cloth::from_mesh(mesh, sides[0], density)?)
+}
+
+/// Returns a mesh of [`Cloth::sheet`] whose inner vertices are moved in its plane by up to 0.3 of a cell, except those for which `stays` holds.
+fn jittered(regular: &Mesh, sides: [DVec3; 2], cells: [u32; 2], stays: impl Fn(DVec3) -> bool) -> Mesh {
+    let mut mesh = regular.clone();
     let mut random = Rng::with_seed(7);
     for row in 1..cells[1] {
         for column in 1..cells[0] {
             let mut share = |axis: usize| sides[axis] * (0.6 * random.f64() - 0.3) / f64::from(cells[axis]);
-            mesh.positions[(row * (cells[0] + 1) + column) as usize] += share(0) + share(1);
+            let point = &mut mesh.positions[(row * (cells[0] + 1) + column) as usize];
+            let way = share(0) + share(1);
+            if !stays(*point) {
+                *point += way;
+            }
         }
     }
-    Ok(Body::from_mesh(name, mesh))
+    mesh
+}
+
+/// Makes a rectangle in the plane of two sides, around the origin, with irregular triangles. They have no direction that the law could depend on.
+pub(super) fn irregular_body(name: &str, sides: [DVec3; 2], cells: [u32; 2]) -> Result<Body, Failure> {
+    let grid = Cloth::sheet(-0.5 * (sides[0] + sides[1]), sides, cells, DENSITY)?;
+    Ok(Body::from_mesh(name, jittered(grid.mesh(), sides, cells, |_| false)))
 }
 
 /// Returns the mean position of all cloth.
@@ -81,34 +118,13 @@ pub(super) fn rms(vectors: impl ExactSizeIterator<Item = DVec3>) -> f64 {
     (vectors.map(DVec3::length_squared).sum::<f64>() / count).sqrt()
 }
 
+/// Returns the root mean square of the speeds of all cloth, in m/s.
+pub(super) fn speed(simulation: &Simulation) -> f64 {
+    rms(simulation.velocities()[..simulation.cloth_vertices()].iter().copied())
+}
+
 /// Returns the value that is farthest from the expected one.
 pub(super) fn farthest(values: impl Iterator<Item = f64>, expected: f64) -> f64 {
     let off = |value: f64| (value - expected).abs();
     values.fold(expected, |worst, value| if off(value) < off(worst) { worst } else { value })
-}
-
-/// Advances to a time, in seconds.
-pub(super) fn advance_to(simulation: &mut Simulation, time: f64, step: f64) -> Result<(), Failure> {
-    while simulation.time() < time - 0.5 * step {
-        simulation.step()?;
-    }
-    Ok(())
-}
-
-/// Advances by `span` seconds, and returns twenty samples. `answer` takes the simulation, the time and the number of steps since
-/// the call.
-pub(super) fn over_time(
-    simulation: &mut Simulation,
-    [span, step]: [f64; 2],
-    mut answer: impl FnMut(&Simulation, f64, f64) -> Sample,
-) -> Result<Vec<Sample>, Failure> {
-    let start = simulation.time();
-    let mut samples = Vec::with_capacity(SAMPLES as usize);
-    for k in 1..=SAMPLES {
-        advance_to(simulation, start + span * f64::from(k) / f64::from(SAMPLES), step)?;
-        let time = simulation.time() - start;
-        let sample = answer(simulation, time, (time / step).round());
-        samples.push(Sample { at: time, ..sample });
-    }
-    Ok(samples)
 }

@@ -1,12 +1,15 @@
 //! Friction: an inclined plane, Coulomb's law in all directions, and a rope around a cylinder.
 
-use super::setting::{DENSITY, G, advance_to, contact, elastic, irregular, middle, over_time};
+use super::conditions::{Conditions, regular};
+use super::run::Run;
+use super::setting::{DENSITY, G, contact, elastic, irregular_body, middle, weightless};
+use super::stepping::fallen;
 use super::{ErrorUnit, Failure, Law, Outcome, Sample};
 use selvedge_cloth::effects::{
     AirDrag, BodyContact, Effect, Force, Friction, Gravity, PinGroup, PinMotion, Pins, Plan, RopeStretch, Thickness, TimeStep,
 };
 use selvedge_cloth::glam::DVec3;
-use selvedge_cloth::{Body, Cloth, Keyframe, KeyframeMotion, Scene, Simulation};
+use selvedge_cloth::{Body, Cloth, Keyframe, KeyframeMotion};
 use std::f64::consts::{FRAC_PI_4, PI};
 
 const THICKNESS: f64 = 3e-3;
@@ -14,17 +17,12 @@ const TIME: f64 = 0.48;
 
 /// Sets up a sheet on a plane of irregular triangles through the origin, `cells` of them across and five times as many along. A plane of
 /// one cell has two triangles.
-fn on_plane(
-    [down, normal]: [DVec3; 2],
-    acceleration: DVec3,
-    cells: u32,
-    friction: f64,
-    step: f64,
-) -> Result<Simulation, Failure> {
+fn on_plane([down, normal]: [DVec3; 2], acceleration: DVec3, friction: f64, conditions: &Conditions) -> Result<Run, Failure> {
+    let cells = conditions.grid.number;
     let across = normal.cross(down);
     let corner = -0.15 * (down + across) + 1.01 * THICKNESS * normal;
-    let mut scene = Scene::new(Cloth::sheet(corner, [0.3 * down, 0.3 * across], [6; 2], DENSITY)?, step);
-    scene.bodies.push(irregular(
+    let mut scene = weightless(Cloth::sheet(corner, [0.3 * down, 0.3 * across], [6; 2], DENSITY)?);
+    scene.bodies.push(irregular_body(
         "plane",
         [10.0 * down, 2.0 * across],
         [if cells == 1 { 1 } else { 5 * cells }, cells],
@@ -32,7 +30,7 @@ fn on_plane(
     scene.add(Gravity { acceleration });
     elastic(&mut scene, 400.0, 15e-6);
     contact(&mut scene, THICKNESS, friction);
-    Ok(Simulation::new(scene, 1)?)
+    Run::new(scene, conditions)
 }
 
 pub(super) const INCLINED_PLANE: Law = Law {
@@ -41,20 +39,20 @@ pub(super) const INCLINED_PLANE: Law = Law {
     axes: ["time, s", "path, m"],
     error: ErrorUnit::Of("the path"),
     mesh: "cells of the plane across",
-    meshes: &[1, 10, 80],
+    meshes: &[regular(1), regular(10), regular(80)],
     remark: "The planes have 2, 1,000 and 64,000 triangles. Semi-implicit steps of h give ½·a·t·(t + h). Motion to the side and above the thickness count as errors too.",
-    simulate: |cells, step| {
+    simulate: |conditions| {
         let (sine, cosine) = f64::to_radians(20.0).sin_cos();
         let [down, normal] = [DVec3::new(cosine, 0.0, -sine), DVec3::new(sine, 0.0, cosine)];
-        let mut simulation = on_plane([down, normal], -G * DVec3::Z, cells, 0.0, step)?;
-        let start = middle(&simulation);
-        let samples = over_time(&mut simulation, [TIME, step], |simulation, time, _| {
-            let way = middle(simulation) - start;
+        let mut run = on_plane([down, normal], -G * DVec3::Z, 0.0, conditions)?;
+        let start = middle(&run);
+        let samples = run.over_time(TIME, |run, time| {
+            let way = middle(run) - start;
             Sample {
                 exact: 0.5 * G * sine * time * time,
-                predicted: Some(0.5 * G * sine * time * (time + step)),
+                predicted: Some(fallen(run.steps(), G * sine)),
                 simulated: way.dot(down),
-                aside: way.y.hypot(middle(simulation).dot(normal) - THICKNESS),
+                aside: way.y.hypot(middle(run).dot(normal) - THICKNESS),
                 ..Sample::default()
             }
         })?;
@@ -71,9 +69,9 @@ pub(super) const COULOMB: Law = Law {
     axes: ["coefficient of friction μ", "path, m"],
     error: ErrorUnit::Of("the path without friction"),
     mesh: "cells of the plane across",
-    meshes: &[1, 10, 40],
+    meshes: &[regular(1), regular(10), regular(40)],
     remark: "Each coefficient has a direction of its own. Semi-implicit steps of h give ½·a·t·(t + h).",
-    simulate: |cells, step| {
+    simulate: |conditions| {
         let (sine, cosine) = 0.3_f64.sin_cos();
         let mut samples = Vec::new();
         for k in 0..8 {
@@ -81,15 +79,15 @@ pub(super) const COULOMB: Law = Law {
             let direction = 0.1 + FRAC_PI_4 * f64::from(k);
             let along = DVec3::new(direction.cos(), direction.sin(), 0.0);
             let acceleration = G * (along * sine - DVec3::Z * cosine);
-            let mut simulation = on_plane([DVec3::X, DVec3::Z], acceleration, cells, friction, step)?;
-            let start = middle(&simulation);
-            advance_to(&mut simulation, TIME, step)?;
-            let way = middle(&simulation) - start;
+            let mut run = on_plane([DVec3::X, DVec3::Z], acceleration, friction, conditions)?;
+            let start = middle(&run);
+            run.advance_to(TIME)?;
+            let way = middle(&run) - start;
             let pull = G * (sine - friction * cosine).max(0.0);
             samples.push(Sample {
                 at: friction,
-                exact: 0.5 * pull * TIME * TIME,
-                predicted: Some(0.5 * pull * TIME * (TIME + step)),
+                exact: 0.5 * pull * run.time().powi(2),
+                predicted: Some(fallen(run.steps(), pull)),
                 simulated: way.dot(along),
                 aside: way.cross(along).z,
             });
@@ -107,9 +105,9 @@ pub(super) const CAPSTAN: Law = Law {
     axes: ["angle φ, rad", "tension T₂ over T₁"],
     error: ErrorUnit::Of("T₂ at 180°"),
     mesh: "segments",
-    meshes: &[40, 80, 160],
+    meshes: &[regular(40), regular(80), regular(160)],
     remark: "Only a plate of 24 g at one end has weight, the other end moves at 5 cm/s, and stretches give the tensions.",
-    simulate: |segments, step| {
+    simulate: |conditions| {
         let friction = 0.3;
         let law = |angle: f64| (friction * angle).exp();
         let mut samples = Vec::new();
@@ -117,7 +115,7 @@ pub(super) const CAPSTAN: Law = Law {
             samples.push(Sample {
                 at: angle,
                 exact: law(angle),
-                simulated: tensions_at_cylinder([angle, friction, step], segments)?,
+                simulated: tensions_at_cylinder([angle, friction], conditions)?,
                 ..Sample::default()
             });
         }
@@ -146,7 +144,8 @@ impl Force for Load {
 }
 
 /// Returns the tension of a rope that is pulled over a cylinder, over that of its other end, from which a plate hangs.
-fn tensions_at_cylinder([angle, friction, step]: [f64; 3], segments: u32) -> Result<f64, Failure> {
+fn tensions_at_cylinder([angle, friction]: [f64; 2], conditions: &Conditions) -> Result<f64, Failure> {
+    let segments = conditions.grid.number;
     let (radius, straight, stiffness, speed) = (0.1, 0.15, 500.0, 0.05);
     let (rope_density, plate_density, half) = (0.1, 10.0, 0.035);
     // The rope starts a little outside of its thickness, as its segments are chords.
@@ -162,7 +161,7 @@ fn tensions_at_cylinder([angle, friction, step]: [f64; 3], segments: u32) -> Res
     mesh.triangles = vec![[0, segments + 1, segments + 2], [segments + 1, segments + 3, segments + 2]];
     let edges: Vec<[u32; 2]> = (0..segments).map(|k| [k, k + 1]).collect();
     let cloth = Cloth::from_mesh_with_loose_edges(mesh, &edges, DVec3::Y, [plate_density, rope_density])?;
-    let mut scene = Scene::new(cloth, step);
+    let mut scene = weightless(cloth);
     scene
         .bodies
         .push(Body::capsule("cylinder", [-0.3 * DVec3::Y, 0.3 * DVec3::Y], radius, 64)?);
@@ -185,15 +184,15 @@ fn tensions_at_cylinder([angle, friction, step]: [f64; 3], segments: u32) -> Res
     scene
         .add(BodyContact(Thickness::new(THICKNESS)))
         .add(Friction { coefficient: friction });
-    let mut simulation = Simulation::new(scene, 1)?;
-    let length_at_rest = simulation.positions()[0].distance(simulation.positions()[1]);
-    advance_to(&mut simulation, 0.5 * time, step)?;
+    let mut run = Run::new(scene, conditions)?;
+    let length_at_rest = run.positions()[0].distance(run.positions()[1]);
+    run.advance_to(0.5 * time)?;
     // Tensions tremble, so that their means over the second half count.
     let some = segments as usize / 8;
     let mean = |points: &[DVec3]| points.windows(2).map(|two| two[0].distance(two[1])).sum::<f64>() / some as f64;
     let mut stretches = [0.0; 2];
-    over_time(&mut simulation, [0.5 * time, step], |simulation, _, _| {
-        let rope = &simulation.positions()[..=segments as usize];
+    run.over_time(0.5 * time, |run, _| {
+        let rope = &run.positions()[..=segments as usize];
         for (sum, points) in stretches.iter_mut().zip([&rope[..=some], &rope[rope.len() - 1 - some..]]) {
             *sum += mean(points) / length_at_rest - 1.0;
         }

@@ -1,10 +1,13 @@
 //! Oscillations: an elastic rod, its energy, and a hanging chain.
 
-use super::setting::{G, over_time, pinned, scene};
+use super::conditions::{Conditions, regular};
+use super::run::Run;
+use super::setting::{G, pinned, scene, weightless};
+use super::stepping::swung;
 use super::{ErrorUnit, Failure, Law, Outcome, Sample};
+use selvedge_cloth::Cloth;
 use selvedge_cloth::effects::RopeStretch;
 use selvedge_cloth::glam::DVec3;
-use selvedge_cloth::{Cloth, Scene, Simulation};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 const LENGTH: f64 = 0.5;
@@ -15,39 +18,32 @@ const SPEED: f64 = 0.05;
 
 /// A rod that is held at one end, and moves in its slowest mode.
 struct Rod {
-    simulation: Simulation,
+    run: Run,
     /// The frequency of the mode, in rad/s: of a smooth rod, and of the segments.
     exact: f64,
     frequency: f64,
-    step: f64,
 }
 
 impl Rod {
-    fn new(segments: u32, step: f64) -> Result<Self, Failure> {
+    fn new(conditions: &Conditions) -> Result<Self, Failure> {
+        let segments = conditions.grid.number;
         // A smooth rod has the frequency ½π/l·√(EA/μ).
         let exact = TAU / PERIOD;
         let stiffness = ROPE * (exact * LENGTH / FRAC_PI_2).powi(2);
-        let mut scene = Scene::new(Cloth::rope(&[DVec3::ZERO, LENGTH * DVec3::X], segments, ROPE)?, step);
+        let mut scene = weightless(Cloth::rope(&[DVec3::ZERO, LENGTH * DVec3::X], segments, ROPE)?);
         scene.add(RopeStretch::new(stiffness)).add(pinned([0]));
-        let mut simulation = Simulation::new(scene, 1)?;
+        let mut run = Run::new(scene, conditions)?;
         let phase = FRAC_PI_2 / f64::from(segments);
         for vertex in 1..=segments {
             let speed = SPEED * (phase * f64::from(vertex)).sin();
-            simulation.set_velocity(&[vertex], speed * DVec3::X)?;
+            run.set_velocity(&[vertex], speed * DVec3::X)?;
         }
         Ok(Self {
-            simulation,
+            run,
             exact,
             // Masses μ·l/n between springs of EA·n/l, half a mass at the end.
             frequency: 2.0 * (stiffness / ROPE).sqrt() * f64::from(segments) / LENGTH * (0.5 * phase).sin(),
-            step,
         })
-    }
-
-    /// Returns by what an implicit Euler step multiplies the amplitude of the segments' mode, and by how much it turns its phase.
-    fn implicit(&self) -> [f64; 2] {
-        let turn = self.frequency * self.step;
-        [1.0 / turn.hypot(1.0), turn.atan()]
     }
 }
 
@@ -57,17 +53,23 @@ pub(super) const SPRING: Law = Law {
     axes: ["time, s", "displacement of the end, m"],
     error: ErrorUnit::Of("the amplitude"),
     mesh: "segments",
-    meshes: &[4, 16, 64],
+    meshes: &[regular(4), regular(16), regular(64)],
     remark: "An implicit Euler step turns the phase by atan(ω·h) instead of ω·h, and divides the amplitude by √(1 + ω²h²).",
-    simulate: |segments, step| {
-        let mut rod = Rod::new(segments, step)?;
-        let [factor, turn] = rod.implicit();
-        let (exact, frequency) = (rod.exact, rod.frequency);
-        let samples = over_time(&mut rod.simulation, [2.0 * PERIOD, step], |simulation, time, steps| Sample {
-            exact: SPEED / exact * (exact * time).sin(),
-            predicted: Some(SPEED / frequency * factor.powf(steps) * (turn * steps).sin()),
-            simulated: simulation.positions()[segments as usize].x - LENGTH,
-            ..Sample::default()
+    simulate: |conditions| {
+        let Rod {
+            mut run,
+            exact,
+            frequency,
+        } = Rod::new(conditions)?;
+        let end = conditions.grid.number as usize;
+        let samples = run.over_time(2.0 * PERIOD, |run, time| {
+            let [amplitude, phase] = swung(run.steps(), frequency);
+            Sample {
+                exact: SPEED / exact * (exact * time).sin(),
+                predicted: Some(SPEED / frequency * amplitude * phase.sin()),
+                simulated: run.positions()[end].x - LENGTH,
+                ..Sample::default()
+            }
         })?;
         Ok(Outcome {
             samples,
@@ -82,16 +84,15 @@ pub(super) const ENERGY: Law = Law {
     axes: ["time, s", "energy over that at the start"],
     error: ErrorUnit::Of("the energy"),
     mesh: "segments",
-    meshes: &[4, 16, 64],
+    meshes: &[regular(4), regular(16), regular(64)],
     remark: "An implicit Euler step divides the energy of a mode by 1 + ω²h². This is the integrator's dissipation, and all of it.",
-    simulate: |segments, step| {
-        let mut rod = Rod::new(segments, step)?;
-        let [factor, _] = rod.implicit();
-        let start = rod.simulation.energy().total();
-        let samples = over_time(&mut rod.simulation, [2.0 * PERIOD, step], |simulation, _, steps| Sample {
+    simulate: |conditions| {
+        let Rod { mut run, frequency, .. } = Rod::new(conditions)?;
+        let start = run.energy().total();
+        let samples = run.over_time(2.0 * PERIOD, |run, _| Sample {
             exact: 1.0,
-            predicted: Some(factor.powf(2.0 * steps)),
-            simulated: simulation.energy().total() / start,
+            predicted: Some(swung(run.steps(), frequency)[0].powi(2)),
+            simulated: run.energy().total() / start,
             ..Sample::default()
         })?;
         Ok(Outcome { samples, scale: 1.0 })
@@ -104,28 +105,29 @@ pub(super) const PENDULUM: Law = Law {
     axes: ["crossing", "time since the first crossing, s"],
     error: ErrorUnit::Of("the time"),
     mesh: "segments",
-    meshes: &[8, 16, 32],
+    meshes: &[regular(8), regular(16), regular(32)],
     remark: "Segments are straight and have their mass at their ends; the time step hardly matters.",
-    simulate: |segments, step| {
+    simulate: |conditions| {
         /// The first zero of J₀.
         const ZERO: f64 = 2.404_825_557_695_773;
+        let segments = conditions.grid.number;
         let half = 0.5 * 4.0 * std::f64::consts::PI / ZERO * (LENGTH / G).sqrt();
-        let mut scene = scene(Cloth::rope(&[DVec3::ZERO, -LENGTH * DVec3::Z], segments, ROPE)?, step);
+        let mut scene = scene(Cloth::rope(&[DVec3::ZERO, -LENGTH * DVec3::Z], segments, ROPE)?);
         scene.add(RopeStretch::new(1e5)).add(pinned([0]));
-        let mut simulation = Simulation::new(scene, 1)?;
+        let mut run = Run::new(scene, conditions)?;
         for vertex in 1..=segments {
             let from_end = 1.0 - f64::from(vertex) / f64::from(segments);
-            simulation.set_velocity(&[vertex], SPEED * libm::j0(ZERO * from_end.sqrt()) * DVec3::X)?;
+            run.set_velocity(&[vertex], SPEED * libm::j0(ZERO * from_end.sqrt()) * DVec3::X)?;
         }
         let mut crossings = Vec::new();
         while crossings.len() < 9 {
-            let before = simulation.positions()[segments as usize].x;
-            simulation.step()?;
-            let after = simulation.positions()[segments as usize].x;
+            let before = run.positions()[segments as usize].x;
+            run.tick()?;
+            let after = run.positions()[segments as usize].x;
             if before * after < 0.0 {
-                crossings.push(simulation.time() - step * after / (after - before));
+                crossings.push(run.time() - conditions.pace.seconds() * after / (after - before));
             }
-            if simulation.time() > 100.0 * half {
+            if run.time() > 100.0 * half {
                 return Err("the chain does not swing".into());
             }
         }

@@ -4,7 +4,7 @@ use super::axis::{LinearAxis, LogAxis};
 use super::look::{Look, Shape};
 use super::picture::{Curve, Mark, Panel, Plot};
 use super::svg::INK;
-use crate::report::number::{few, magnitude, round_time, time};
+use crate::report::number::{few, magnitude, round_time};
 use crate::truths::{LawRuns, Measured, Sample};
 
 const SIZE: [f64; 2] = [330.0, 260.0];
@@ -29,7 +29,7 @@ pub fn truth_svg(runs: &LawRuns) -> String {
         .iter()
         .zip(COLOURS)
         .map(|(run, colour)| Line {
-            name: Some(time(run.step)),
+            name: Some(run.conditions.pace.to_string()),
             colour,
             points: points(run, |own| own.simulated),
         })
@@ -59,7 +59,12 @@ pub fn truth_svg(runs: &LawRuns) -> String {
 #[must_use]
 pub fn convergence_svg(runs: &LawRuns) -> String {
     let title = "Error against time step and mesh";
-    errors_svg(title, ["time step", "error"], SIZE, &by_mesh(runs, |run| run.step))
+    errors_svg(
+        title,
+        ["time step", "error"],
+        SIZE,
+        &by_mesh(runs, |run| run.conditions.pace.seconds()),
+    )
 }
 
 /// Plots the errors of laws against the time of a run, a line for each law on its finest mesh, at each time step. If there is one law,
@@ -82,8 +87,15 @@ pub fn cost_of_accuracy_svg(all: &[LawRuns]) -> String {
 
 fn by_mesh(runs: &LawRuns, at: fn(&Measured) -> f64) -> Vec<Line> {
     let own = runs.by_mesh().zip(COLOURS);
-    own.filter_map(|(runs_on, colour)| line(format!("{} {}", runs_on.first()?.mesh, runs.law.mesh), colour, runs_on, at))
-        .collect()
+    own.filter_map(|(runs_on, colour)| {
+        line(
+            format!("{} {}", runs_on.first()?.conditions.grid, runs.law.mesh),
+            colour,
+            runs_on,
+            at,
+        )
+    })
+    .collect()
 }
 
 /// Returns the errors of runs that are not zero, if there are any.

@@ -1,30 +1,48 @@
 use super::table;
 use crate::report::number::few;
 use crate::report::truths::error;
-use crate::truths::LawRuns;
+use crate::truths::{ACCURACIES, LawRuns};
 
-/// Returns a table of laws with the simulation's errors at each time step. The exact and the simulated value are those of the largest error on
-/// the finest mesh with the shortest step.
+/// Returns a table of laws with the simulation's errors at each pace: a row for each mesh and accuracy. The exact and the simulated value are
+/// those of the largest error in the first column.
 #[must_use]
 pub fn truths(all: &[LawRuns]) -> String {
-    let header = ["law", "mesh", "exact", "simulated", "error at\n1 ms", "at\n2 ms", "at\n4 ms"];
+    let Some(first) = all.first().and_then(|runs| runs.by_accuracy().next()) else {
+        return String::new();
+    };
+    let paces = first.iter().map(|run| format!("error,\n{}", run.conditions.pace));
+    let mut header: Vec<String> = ["law", "mesh", "exact", "simulated"].map(str::to_owned).into();
+    header.extend(paces);
     let rows = all.iter().flat_map(|runs| {
-        runs.by_mesh().enumerate().filter_map(|(index, own)| {
-            let worst = own.first()?.worst();
+        runs.by_accuracy().enumerate().filter_map(|(index, own)| {
+            let first = own.first()?;
+            let worst = first.worst();
             let name = if index == 0 { runs.law.name } else { "" };
-            let mut row = vec![
-                name.to_owned(),
-                own[0].mesh.to_string(),
-                few(worst.exact),
-                few(worst.simulated),
-            ];
+            let accuracy = if ACCURACIES.len() > 1 {
+                format!(", {}", first.conditions.accuracy.name)
+            } else {
+                String::new()
+            };
+            let mesh = format!("{}{accuracy}", first.conditions.grid);
+            let mut row = vec![name.to_owned(), mesh, few(worst.exact), few(worst.simulated)];
             row.extend(own.iter().map(|run| error(runs.law, run.error())));
             Some(row)
         })
     });
+    let failures = all.iter().flat_map(|runs| {
+        runs.runs.iter().filter_map(|run| {
+            let conditions = &run.conditions;
+            let failure = run.failure.as_ref()?;
+            Some(format!(
+                "{}, {}, {}: {failure}\n",
+                runs.law.name, conditions.grid, conditions.pace
+            ))
+        })
+    });
     format!(
-        "{}\nexact and simulated: at the place of the largest error at 1 ms.\n\
-         `selvedge truths --output DIR` writes the laws, meshes and reasons.\n",
-        table(header, rows)
+        "{}\nexact and simulated: at the place of the largest error in the first column of errors.\n\
+         `selvedge truths --output DIR` writes the laws, meshes and reasons.\n{}",
+        table(header, rows),
+        failures.collect::<String>()
     )
 }
