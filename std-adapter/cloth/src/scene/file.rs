@@ -106,7 +106,7 @@ impl Scene {
             by_frames: fixed.is_none(),
             on_blocked: root.choice("on_blocked", &choices)?.unwrap_or_default(),
             tangled_start,
-            accuracy: root.choice("accuracy", &accuracies)?,
+            accuracy: Some(root.choice("accuracy", &accuracies)?.unwrap_or_default()),
             up: gravity.map_or(DVec3::Z, |acceleration| -acceleration),
             text: text.to_owned(),
             remarks,

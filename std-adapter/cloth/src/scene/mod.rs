@@ -163,7 +163,7 @@ impl Scene {
             remarks: Vec::new(),
             on_blocked: OnBlocked::default(),
             tangled_start: TangledStart::default(),
-            accuracy: None,
+            accuracy: Some(Accuracy::default()),
             effects: Effects::default(),
             own: Vec::new(),
         }

@@ -184,7 +184,7 @@ impl Simulation {
     /// Returns the pairs that came near each other in the last part of the last step, at the start of that part. Pairs that
     /// pushes of others kept apart are left out. Empty without a contact effect.
     pub fn near_pairs(&self) -> impl Iterator<Item = ProximityPair> {
-        let of_solve = self.made.solve.iter().flat_map(|solve| &solve.rows).map(|row| ProximityPair {
+        let of_solve = self.made.solve.iter().flat_map(|solve| &solve.rows).filter(|row| !row.is_smooth()).map(|row| ProximityPair {
             vertices: row.vertices,
             weights: row.weights,
             normal: row.normal,

@@ -114,7 +114,7 @@ impl Simulation {
         solve.remind_rows(h);
         prediction::hold_pressed(&solve.rows, &step, x, count);
         let follow = |row: &mut ContactRow, x: &[DVec3]| follow_smooth(row, &step, smooth_bodies, x);
-        for row in solve.rows.iter_mut().filter(|row| row.reach > 0.0) {
+        for row in solve.rows.iter_mut().filter(|row| row.is_smooth()) {
             if row.push > 0.0 && row.is_at_bound() {
                 // It slides along the surface, and not off it.
                 let vertex = row.vertices[0] as usize;

@@ -148,6 +148,11 @@ impl ContactRow {
         }
     }
 
+    /// Returns whether the row is one of a vertex and a smooth body, whose normal follows the solve.
+    pub(crate) const fn is_smooth(&self) -> bool {
+        matches!(self.key, RowKey::Smooth(..))
+    }
+
     /// The vertices that take part, with their weights.
     pub(crate) fn parts(&self) -> impl Iterator<Item = (usize, f64)> + use<> {
         let all = self.vertices.into_iter().zip(self.weights);

@@ -123,7 +123,7 @@ impl Solve {
                 break;
             }
             if newton > 0 {
-                for row in self.rows.iter_mut().filter(|row| row.reach > 0.0) {
+                for row in self.rows.iter_mut().filter(|row| row.is_smooth()) {
                     follow(row, x);
                 }
             }

@@ -58,7 +58,7 @@ impl<'a> SceneParts<'a> {
             cloths,
             bodies,
             time_step,
-            accuracy: None,
+            accuracy: Some(Accuracy::default()),
         })
     }
 

@@ -55,12 +55,19 @@ pub struct Accuracy {
     pub name: &'static str,
 }
 
-/// The accuracies at which laws are measured. Scenes have no such setting yet.
-pub const ACCURACIES: [Accuracy; 1] = [Accuracy { name: "default" }];
+/// The accuracies at which laws are measured.
+pub const ACCURACIES: [Accuracy; 3] = [Accuracy { name: "film" }, Accuracy { name: "game" }, Accuracy { name: "exact" }];
 
 impl Accuracy {
     /// Gives a scene this accuracy.
-    pub(super) const fn set(self, _scene: &mut Scene) {}
+    pub(super) fn set(self, scene: &mut Scene) {
+        use selvedge_cloth::Accuracy;
+        scene.accuracy = Some(match self.name {
+            "game" => Accuracy::Game,
+            "exact" => Accuracy::Exact,
+            _ => Accuracy::Film,
+        });
+    }
 }
 
 /// A mesh of a law.
