@@ -103,10 +103,8 @@ impl Pieces {
     }
 }
 
-/// The forces from outside in a step, and the motion before it.
-pub(super) struct Outer<'a> {
-    /// The gradient of the terms that are not inner forces, at the end of the step, in N.
-    pub(super) gradient: &'a [DVec3],
+/// The motion before a step, and what forces make of it.
+pub(super) struct Motion<'a> {
     /// The velocities after forces, and those at the start, in m/s.
     pub(super) forced: &'a [DVec3],
     pub(super) velocities: &'a [DVec3],
@@ -120,17 +118,17 @@ impl Pieces {
         self.pieces.iter().any(|piece| piece.is_free(is_pressed) && piece.hinge(step.start).is_some())
     }
 
-    /// Gives each piece that touches nothing the momentum that forces from outside leave it.
+    /// Gives each piece that touches nothing the momentum that forces leave it; all terms are inner forces.
     pub(super) fn keep_momentum(
         &self,
         step: &TimeStep<'_>,
-        outer: &Outer<'_>,
+        motion: &Motion<'_>,
         is_pressed: &[bool],
         x: &mut [DVec3],
         velocities: &mut [DVec3],
     ) {
         for piece in self.pieces.iter().filter(|piece| piece.is_free(is_pressed)) {
-            piece.keep_momentum(step, outer, x, velocities);
+            piece.keep_momentum(step, motion, x, velocities);
         }
     }
 }
@@ -206,22 +204,21 @@ impl Piece {
         !self.free.iter().any(|&vertex| is_pressed[vertex as usize])
     }
 
-    /// Gives the piece the momentum that forces from outside leave it, and the angular momentum about its hinge.
+    /// Gives the piece the momentum that forces leave it, and the angular momentum about its hinge.
     ///
     /// A vertex has v′ = (x′ − b)/r with the base b and the rate r of its [prediction](Prediction), so that x′ × v′ = b × v′. The
-    /// equation of motion is m(v′ − w)/r = −g with w = (y − b)/r and the gradient g. Its sum over the piece gives the momentum. The
+    /// equation of motion is m(v′ − w)/r = −g with w = (y − b)/r, and the gradient g of inner forces has no sum. The
     /// angular momentum about a fixed point is L′ = L + h·τ after a step of first order, and L′ = (4L − L₋)/3 + ⅔h·τ after one
     /// of second order: the same formulas as for v′, with the moment τ of forces from outside. A pinned point is at its place at the
     /// end of the step, where its force has no moment about it.
-    fn keep_momentum(&self, step: &TimeStep<'_>, outer: &Outer<'_>, x: &mut [DVec3], velocities: &mut [DVec3]) {
+    fn keep_momentum(&self, step: &TimeStep<'_>, motion: &Motion<'_>, x: &mut [DVec3], velocities: &mut [DVec3]) {
         let Some(hinge) = self.hinge(x) else { return };
-        let Outer {
-            gradient,
+        let Motion {
             forced,
             velocities: before,
             history,
             prediction: Prediction { goal, masses, base, rate },
-        } = outer;
+        } = motion;
         let (h, start) = (step.h, step.start);
         let free = || self.free.iter().map(|&vertex| vertex as usize);
         let mass = |vertex: usize| step.inverse_masses[vertex].recip();
@@ -236,7 +233,7 @@ impl Piece {
                     let (mass, rate) = (mass(vertex), rate[vertex]);
                     let predicted = (goal[vertex] - base[vertex]) / rate;
                     let weight = slowing(vertex) * mass / rate;
-                    shift -= gradient[vertex] + (velocities[vertex] - predicted) * weight;
+                    shift -= (velocities[vertex] - predicted) * weight;
                     of_rates += weight;
                     centre += base[vertex] * mass;
                     total += mass;
@@ -255,10 +252,10 @@ impl Piece {
             let angular = |at: DVec3, velocity: DVec3| (at - centre).cross(velocity * mass);
             let kept = if is_second_order {
                 let kept = angular(start[vertex], before[vertex]) * 4.0 - angular(history.positions[vertex], history.velocities[vertex]);
-                let forces = (forced[vertex] - before[vertex]) * mass - gradient[vertex] * h;
+                let forces = (forced[vertex] - before[vertex]) * mass;
                 kept / 3.0 + end.cross(forces) * (2.0 / 3.0)
             } else {
-                angular(start[vertex], forced[vertex]) - end.cross(gradient[vertex]) * h
+                angular(start[vertex], forced[vertex])
             };
             moment += kept / slowing(vertex);
             moment -= arm.cross((velocities[vertex] + shift) * mass);

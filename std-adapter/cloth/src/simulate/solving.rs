@@ -5,7 +5,7 @@
 //! ```
 
 use super::assembly::Assembly;
-use super::momentum::Outer;
+use super::momentum::Motion;
 use super::simulation::{Simulation, Work};
 use super::state::{FASTEST, limited};
 use crate::contact::smooth_body::{SmoothBody, away};
@@ -29,9 +29,7 @@ pub(super) struct Solving {
     forced: Vec<DVec3>,
     /// The positions of kinematic vertices at the end of the step.
     ends: Vec<DVec3>,
-    free: Vec<DVec3>,
     x: Vec<DVec3>,
-    outer: Vec<DVec3>,
     is_pressed: Vec<bool>,
     is_moved: Vec<bool>,
     velocities: Vec<DVec3>,
@@ -85,9 +83,7 @@ impl Simulation {
             prediction,
             forced,
             ends,
-            free,
             x,
-            outer,
             is_pressed,
             is_moved,
             velocities,
@@ -108,8 +104,9 @@ impl Simulation {
         motions.iter_mut().for_each(|motion: &mut Kinematic| motion.put(clock + ticks, ends));
 
         let both = [&state.velocities[..], &forced[..]];
-        prediction::predict(prediction, &step, history, both, drag, ends, count);
-        prediction::guess(x, free, &step, history, both, ends, count);
+        let order = (&drag[..], solve.accuracy.is_of_second_order());
+        prediction::predict(prediction, &step, history, both, order, ends, count);
+        prediction::guess(x, &step, history, both, ends, count);
         collect_rows(solve, smooth_bodies, contact, &step, [x, &prediction.goal], *friction_coefficient);
         solve.remind_rows(h);
         prediction::hold_pressed(&solve.rows, &step, x, count);
@@ -124,7 +121,7 @@ impl Simulation {
             }
             follow_smooth(row, &step, smooth_bodies, x);
         }
-        solve.run(&step, prediction, free, x, &follow).map_err(|_| not_finite(&step))?;
+        solve.run(&step, prediction, x, &follow).map_err(|_| not_finite(&step))?;
 
         is_pressed.clear();
         is_pressed.resize(count, false);
@@ -137,18 +134,14 @@ impl Simulation {
             *position = start + limited(*position - start, farthest);
         }
         prediction::velocities(prediction, &step, x, is_pressed, velocities);
-        if pieces.are_movable(&step, is_pressed) {
-            outer.clear();
-            outer.resize(count, DVec3::ZERO);
-            solve.outer_gradient(x, outer);
-            let outer = Outer {
-                gradient: outer,
+        if solve.is_inner() && pieces.are_movable(&step, is_pressed) {
+            let motion = Motion {
                 forced,
                 velocities: &state.velocities,
                 history,
                 prediction,
             };
-            pieces.keep_momentum(&step, &outer, is_pressed, x, velocities);
+            pieces.keep_momentum(&step, &motion, is_pressed, x, velocities);
         }
         is_moved.clear();
         is_moved.resize(step.start.len(), false);

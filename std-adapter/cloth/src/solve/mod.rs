@@ -76,7 +76,7 @@ pub(crate) struct Solve {
     pub(crate) terms: Vec<Entry<dyn Term>>,
     pub(crate) rows: Vec<ContactRow>,
     pub(crate) counts: SolveCounts,
-    accuracy: Accuracy,
+    pub(crate) accuracy: Accuracy,
     matrix: Matrix,
     preconditioner: Preconditioner,
     /// The contacts that pushed in the last accepted step.
@@ -113,8 +113,7 @@ impl Solve {
         }
     }
 
-    /// Solves a step from the positions `x`, which it moves. `free` is where each vertex would be without any force; `follow` finds
-    /// the normals of smooth bodies again.
+    /// Solves a step from the positions `x`, which it moves. `follow` finds the normals of smooth bodies again.
     ///
     /// # Errors
     /// Returns an error if the energy is not finite.
@@ -122,11 +121,10 @@ impl Solve {
         &mut self,
         step: &TimeStep<'_>,
         prediction: &Prediction,
-        free: &[DVec3],
         x: &mut Vec<DVec3>,
         follow: &dyn Fn(&mut ContactRow, &[DVec3]),
     ) -> Result<Outcome, NotFinite> {
-        let outcome = self.minimise(step, prediction, free, x, follow)?;
+        let outcome = self.minimise(step, prediction, x, follow)?;
         let counts = &mut self.counts;
         counts.solves += 1;
         counts.newton_steps += u64::from(outcome.newton_steps);
@@ -169,13 +167,9 @@ impl Solve {
         self.terms.sort_by_key(|entry| entry.effect);
     }
 
-    /// Returns the gradient at `x` of the terms that are not inner forces, in N.
-    pub(crate) fn outer_gradient(&mut self, x: &[DVec3], gradient: &mut [DVec3]) {
-        for Entry { action, .. } in &mut self.terms {
-            if !action.is_inner() {
-                action.gradient(x, gradient);
-            }
-        }
+    /// Returns whether all terms are inner forces, so that a piece of cloth that touches nothing keeps its momentum.
+    pub(crate) fn is_inner(&self) -> bool {
+        self.terms.iter().all(|entry| entry.action.is_inner())
     }
 }
 

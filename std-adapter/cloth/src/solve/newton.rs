@@ -8,8 +8,7 @@
 //!
 //! **The end.** Iteration i of conjugate gradients lowers twice the energy by dᵢ, the square of the energy norm of what it mends
 //! (Hestenes and Stiefel 1952). The error is about that of the next iterations, and those are like the last ones. So it ends when
-//! the last third has mended little: at most the accuracy squared of all that the step has mended, or of the squared accelerations. Newton's
-//! method ends when the remaining force is about what the linear problem left, and the multipliers change little.
+//! the last third has mended little: at most the accuracy squared of all that the step has mended. Newton's method ends when the remaining force is about what the linear problem left, and the multipliers change little.
 //!
 //! **Not finished** after the most Newton steps is not a failure. Multipliers go on in the next step, and the certificate guards
 //! the state. A cloth that buckles goes down from a saddle of the energy, which takes many steps, and none of them is wrong.
@@ -59,15 +58,14 @@ struct Tolerance {
     squared: f64,
     /// An energy that does not matter, in J.
     still: f64,
-    /// Twice the energy that the solve has mended so far, and that of the accelerations, in J.
+    /// Twice the energy that the solve has mended so far, in J.
     mended: f64,
-    accelerated: f64,
 }
 
 impl Tolerance {
     /// Returns twice the energy that may remain.
     fn rest(&self) -> f64 {
-        self.still.max(self.squared * self.mended.max(self.accelerated))
+        self.still.max(self.squared * self.mended)
     }
 }
 
@@ -84,7 +82,7 @@ pub(crate) struct Outcome {
 pub(crate) struct NotFinite;
 
 impl Solve {
-    /// Moves `x` to the least energy. `free` is where each vertex would be without any force; `follow` finds the normals of
+    /// Moves `x` to the least energy. `follow` finds the normals of
     /// smooth bodies again.
     ///
     /// # Errors
@@ -93,19 +91,18 @@ impl Solve {
         &mut self,
         step: &TimeStep<'_>,
         prediction: &Prediction,
-        free: &[DVec3],
         x: &mut Vec<DVec3>,
         follow: &dyn Fn(&mut ContactRow, &[DVec3]),
     ) -> Result<Outcome, NotFinite> {
         let count = prediction.masses.len();
         let mut work = std::mem::take(&mut self.work);
         work.resize(count);
+        work.drops.reserve(MOST_ITERATIONS);
         let mass = prediction.masses.iter().zip(&prediction.rate).map(|(mass, rate)| mass * rate * rate);
         let mut tolerance = Tolerance {
             squared: self.accuracy.share().powi(2),
             still: mass.sum::<f64>() * STILL * STILL,
             mended: 0.0,
-            accelerated: 0.0,
         };
         let mut outcome = Outcome::default();
         self.matrix.may_be_indefinite = true;
@@ -134,7 +131,6 @@ impl Solve {
             for ((residual, whole), mass) in work.residual.iter_mut().zip(&work.whole).zip(&prediction.masses) {
                 *residual = if *mass > 0.0 { (-*whole).as_vec3a() } else { Vec3A::ZERO };
             }
-            tolerance.accelerated = accelerated(prediction, free, x);
             if newton > 0 {
                 let left = self.preconditioner.measure(&self.matrix, &work.residual, &mut work.image);
                 if left <= tolerance.rest().max(NEARLY_LINEAR * linear_rest) && error <= 1.0 {
@@ -356,10 +352,4 @@ fn gradient(terms: &mut [Entry<dyn Term>], prediction: &Prediction, x: &[DVec3],
         energy += action.gradient(x, gradient);
     }
     energy
-}
-
-/// Returns Σ M|x − free|², in J.
-fn accelerated(prediction: &Prediction, free: &[DVec3], x: &[DVec3]) -> f64 {
-    let ways = x.iter().zip(free).zip(&prediction.masses);
-    ways.map(|((x, free), mass)| mass * x.distance_squared(*free)).sum()
 }

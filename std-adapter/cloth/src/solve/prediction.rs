@@ -67,14 +67,14 @@ struct Own {
 }
 
 /// Fills the prediction for `count` vertices of cloth. `velocities` are those at the start of the step, `forced` those after forces;
-/// `drag` is the rate at which still air slows each vertex, in 1/s, or empty; `ends` has the positions of kinematic vertices at the end
+/// `drag` is the rate at which still air slows each vertex, in 1/s, or empty, and comes with whether steps may be of second order; `ends` has the positions of kinematic vertices at the end
 /// of the step.
 pub(crate) fn predict(
     prediction: &mut Prediction,
     step: &TimeStep<'_>,
     history: &History,
     [velocities, forced]: [&[DVec3]; 2],
-    drag: &[f64],
+    (drag, may_be_second): (&[f64], bool),
     ends: &[DVec3],
     count: usize,
 ) {
@@ -85,7 +85,7 @@ pub(crate) fn predict(
     masses.clear();
     rate.clear();
     let h = step.h;
-    let is_second = history.is_known() && (history.h - h).abs() <= EQUAL * h;
+    let is_second = may_be_second && history.is_known() && (history.h - h).abs() <= EQUAL * h;
     for vertex in 0..count {
         let (x, inverse_mass) = (step.start[vertex], step.inverse_masses[vertex]);
         if !(inverse_mass > 0.0) {
@@ -123,10 +123,9 @@ pub(crate) fn predict(
     goal.extend_from_slice(&ends[count..]);
 }
 
-/// Fills the first guess, and where each vertex would be without any force.
+/// Fills the first guess.
 pub(crate) fn guess(
     x: &mut Vec<DVec3>,
-    free: &mut Vec<DVec3>,
     step: &TimeStep<'_>,
     history: &History,
     [velocities, forced]: [&[DVec3]; 2],
@@ -135,11 +134,9 @@ pub(crate) fn guess(
 ) {
     let h = step.h;
     x.clear();
-    free.clear();
     for vertex in 0..count {
         if !(step.inverse_masses[vertex] > 0.0) {
             x.push(ends[vertex]);
-            free.push(ends[vertex]);
             continue;
         }
         let v = velocities[vertex];
@@ -152,7 +149,6 @@ pub(crate) fn guess(
         } else {
             0.0
         };
-        free.push(straight);
         x.push(straight + pull * (h * followed));
     }
     x.extend_from_slice(&ends[count..]);

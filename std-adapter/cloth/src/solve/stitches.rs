@@ -1,7 +1,7 @@
-//! Stitches: points that a seam keeps within a length L of each other, and ties, which keep two vertices in one place.
+//! Stitches: points that a seam draws to within a length L of each other, and ties, which keep two vertices in one place.
 //!
-//! With p the vector between the points, the augmented Lagrangian of a stitch is t²/2κ with the pull t = max(0, λ + κ(|p| − L)), and λ ← t
-//! after each Newton step. Its second derivative is κ along p and t/|p| across. Contact keeps the rows of a seam apart.
+//! With p the vector between the points, the augmented Lagrangian of a stitch is t²/2κ with the pull t = λ + κ(|p| − L), at least zero until
+//! the seam is closed, and λ ← t after each Newton step. Its second derivative is κ along p and t/|p| across. Contact keeps the rows of a seam apart.
 //!
 //! A tie has no direction: its multiplier is a vector, its pull λ + κp, and its second derivative κ along all axes. κ is that of its
 //! stiffer side, so that a light cord carries a heavy load within a few Newton steps.
@@ -35,6 +35,8 @@ struct Pull {
     stiffness: f64,
     /// L at the end of the step, in m; zero for a tie.
     length: f64,
+    /// True if the seam is closed: the points are then at the distance L, and no nearer.
+    is_closed: bool,
     /// λ in this solve, and at the end of the last accepted step, in N. Of a stitch, x is the pull.
     multiplier: DVec3,
     accepted: DVec3,
@@ -47,6 +49,7 @@ impl Stitches {
             weights: stitch.weights(),
             stiffness: 0.0,
             length: 0.0,
+            is_closed: false,
             multiplier: DVec3::ZERO,
             accepted: DVec3::ZERO,
         };
@@ -86,7 +89,10 @@ impl Pull {
             self.multiplier + between * self.stiffness
         } else {
             let distance = length(between);
-            let pull = (self.multiplier.x + self.stiffness * (distance - self.length)).max(0.0);
+            let mut pull = self.multiplier.x + self.stiffness * (distance - self.length);
+            if !self.is_closed && !(pull > 0.0) {
+                pull = 0.0;
+            }
             if distance > 0.0 { between * (pull / distance) } else { DVec3::ZERO }
         };
         Force {
@@ -130,6 +136,7 @@ impl Term for Stitches {
             // What is too long comes together at the rate at which contacts come apart.
             let late = (pull.between(step.start).length() - length).max(0.0);
             let late = if length > 0.0 { late } else { 0.0 };
+            pull.is_closed = length == *gap;
             pull.length = length + late * (1.0 - (RECOVERY * step.h).min(1.0));
             pull.multiplier = pull.accepted;
         }
@@ -156,9 +163,9 @@ impl Term for Stitches {
                 continue;
             }
             let distance = length(between);
-            let force = length(pull.force(between).along);
-            if force > 0.0 {
-                let across = (force / distance).min(pull.stiffness);
+            let force = pull.force(between).along.dot(between);
+            if force != 0.0 {
+                let across = (force / (distance * distance)).clamp(0.0, pull.stiffness);
                 matrix.add_late(&pull.vertices, &pull.weights, directed(between / distance, pull.stiffness, across));
             }
         }
@@ -184,7 +191,7 @@ impl Term for Stitches {
             let multiplier = if pull.is_tie() {
                 before.along
             } else {
-                DVec3::X * length(before.along)
+                DVec3::X * before.along.dot(between.normalize_or_zero())
             };
             let change = length(multiplier - pull.multiplier) / pull.stiffness;
             renewed.error = renewed.error.max(change / (SLOWEST_CHANGE * self.h).max(SHARE * pull.length));
