@@ -113,22 +113,31 @@ pub(super) struct Motion<'a> {
 }
 
 impl Pieces {
-    /// Returns whether inner forces could change the momentum of a piece that touches nothing.
-    pub(super) fn are_movable(&self, step: &TimeStep<'_>, is_pressed: &[bool]) -> bool {
-        self.pieces.iter().any(|piece| piece.is_free(is_pressed) && piece.hinge(step.start).is_some())
+    /// Returns whether pins do not take up the momentum of every piece.
+    pub(super) fn may_move(&self, step: &TimeStep<'_>) -> bool {
+        self.pieces.iter().any(|piece| piece.hinge(step.start).is_some())
     }
 
-    /// Gives each piece that touches nothing the momentum that forces leave it; all terms are inner forces.
+    /// Gives each piece that touches nothing the momentum that forces leave it; all terms are inner forces. If no body presses
+    /// (`is_body_near`), the free pieces that press each other keep theirs together.
     pub(super) fn keep_momentum(
         &self,
         step: &TimeStep<'_>,
         motion: &Motion<'_>,
-        is_pressed: &[bool],
+        (is_pressed, is_body_near): (&[bool], bool),
         x: &mut [DVec3],
         velocities: &mut [DVec3],
     ) {
-        for piece in self.pieces.iter().filter(|piece| piece.is_free(is_pressed)) {
+        let (alone, pressed): (Vec<&Piece>, Vec<_>) = self.pieces.iter().partition(|piece| piece.is_free(is_pressed));
+        for piece in alone {
             piece.keep_momentum(step, motion, x, velocities);
+        }
+        if !pressed.is_empty() && !is_body_near && pressed.iter().all(|piece| piece.pinned.is_empty()) {
+            let together = Piece {
+                free: pressed.iter().flat_map(|piece| piece.free.iter().copied()).collect(),
+                pinned: Vec::new(),
+            };
+            together.keep_momentum(step, motion, x, velocities);
         }
     }
 }

@@ -134,14 +134,18 @@ impl Simulation {
             *position = start + limited(*position - start, farthest);
         }
         prediction::velocities(prediction, &step, x, is_pressed, velocities);
-        if solve.is_inner() && pieces.are_movable(&step, is_pressed) {
+        for row in &solve.rows {
+            row.remove_recovery(h, step.inverse_masses, velocities);
+        }
+        if solve.is_inner() && pieces.may_move(&step) {
+            let is_body_near = solve.rows.iter().any(|row| row.push > 0.0 && row.is_with_body);
             let motion = Motion {
                 forced,
                 velocities: &state.velocities,
                 history,
                 prediction,
             };
-            pieces.keep_momentum(&step, &motion, is_pressed, x, velocities);
+            pieces.keep_momentum(&step, &motion, (is_pressed, is_body_near), x, velocities);
         }
         is_moved.clear();
         is_moved.resize(step.start.len(), false);

@@ -58,6 +58,9 @@ pub(super) const MOST_ITERATIONS: usize = 1000;
 pub(super) const MOST_HALVINGS: usize = 16;
 /// An error of velocity that does not matter, in m/s: a thousandth of a millimetre in half a second. Pinned by the speed of layers at rest.
 pub(super) const STILL: f64 = 2e-6;
+/// A speed that is hardly visible, in m/s. What changes by less is solved more accurately, since the error of many layers that rest on each
+/// other would keep them in motion: the speed of ten layers.
+pub(super) const QUIET: f64 = 1e-3;
 /// The ratio of the square of the remaining force to that of the linear problem below which another Newton step gains little.
 pub(super) const NEARLY_LINEAR: f64 = 4.0;
 

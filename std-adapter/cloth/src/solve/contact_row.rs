@@ -121,30 +121,56 @@ impl ContactRow {
     /// Where there is no room, as between two pads, it asks for less and less, down to the distance that it has: no position satisfies
     /// both sides, and their forces would grow without end. Nor does it then resist bodies that come nearer.
     pub(crate) fn choose_rest(&mut self, before: Option<&Remembered>, h: f64) {
-        let rate = (RECOVERY * h).min(1.0);
         if let Some(before) = before {
             (self.push, self.grip) = (before.push, before.grip - self.normal * before.grip.dot(self.normal));
             let asked = before.asked;
             let has_gained = !(asked > 0.0) || self.distance - before.distance >= LEAST_GAIN * asked;
             self.share = if has_gained { (2.0 * before.share).min(1.0) } else { (0.5 * before.share).max(LEAST_RECOVERY) };
         }
-        let missing = (self.thickness - self.distance).max(0.0);
-        self.rest = self.thickness - missing * (1.0 - rate * self.share);
+        self.rest = self.thickness.min(self.distance) + self.asked(h);
         if self.share <= JAMMED {
             self.rest = self.rest.min(self.left).max(0.0);
         }
         self.reach = self.radius + self.rest;
     }
 
+    /// The distance by which a pair that starts too near is to come apart in a step of `h` seconds.
+    fn asked(&self, h: f64) -> f64 {
+        (self.thickness - self.distance).max(0.0) * (RECOVERY * h).min(1.0) * self.share
+    }
+
     /// Returns what the next step needs to know of the row.
     pub(crate) fn remembered(&self, h: f64) -> Remembered {
-        let missing = (self.thickness - self.distance).max(0.0);
         Remembered {
             push: self.push,
             grip: self.grip,
             distance: self.distance,
-            asked: missing * (RECOVERY * h).min(1.0) * self.share,
+            asked: self.asked(h),
             share: self.share,
+        }
+    }
+
+    /// Removes from velocities the speed at which the row has taken its sides apart because they started too near: a step of `h`
+    /// seconds has moved them, but that is not motion (Guendelman, Bridson and Fedkiw 2003 separate the two in the same way).
+    pub(crate) fn remove_recovery(&self, h: f64, inverse_masses: &[f64], velocities: &mut [DVec3]) {
+        let asked = self.asked(h);
+        if !(self.push > 0.0 && asked > 0.0) {
+            return;
+        }
+        let parts = || self.parts().map(|(vertex, weight)| (vertex, weight, inverse_masses[vertex]));
+        let mut moved = -self.drift / h;
+        let mut mobility = 0.0;
+        for (vertex, weight, inverse_mass) in parts() {
+            moved += velocities[vertex] * weight;
+            mobility += weight * weight * inverse_mass;
+        }
+        let apart = moved.dot(self.normal);
+        if !(apart > 0.0 && mobility > 0.0) {
+            return;
+        }
+        let by = self.normal * (apart.min(asked / h) / mobility);
+        for (vertex, weight, inverse_mass) in parts() {
+            velocities[vertex] -= by * (weight * inverse_mass);
         }
     }
 

@@ -13,7 +13,7 @@
 //! **Not finished** after the most Newton steps is not a failure. Multipliers go on in the next step, and the certificate guards
 //! the state. A cloth that buckles goes down from a saddle of the energy, which takes many steps, and none of them is wrong.
 
-use super::constants::{MOST_HALVINGS, MOST_ITERATIONS, NEARLY_LINEAR, SLOWEST_CHANGE, SMALL_CHANGE, STILL};
+use super::constants::{MOST_HALVINGS, MOST_ITERATIONS, NEARLY_LINEAR, QUIET, SLOWEST_CHANGE, SMALL_CHANGE, STILL};
 use super::contact_row::ContactRow;
 use super::matrix::dot;
 use super::term::{Prediction, Term};
@@ -58,6 +58,8 @@ struct Tolerance {
     squared: f64,
     /// An energy that does not matter, in J.
     still: f64,
+    /// Twice the energy of motion that is hardly visible, in J.
+    quiet: f64,
     /// Twice the energy that the solve has mended so far, in J.
     mended: f64,
 }
@@ -65,7 +67,9 @@ struct Tolerance {
 impl Tolerance {
     /// Returns twice the energy that may remain.
     fn rest(&self) -> f64 {
-        self.still.max(self.squared * self.mended)
+        // Below the quiet energy the error fades faster than what causes it, so that layers come to rest.
+        let fading = if self.mended < self.quiet { self.mended / self.quiet } else { 1.0 };
+        self.still.max(self.squared * self.mended * fading)
     }
 }
 
@@ -97,11 +101,14 @@ impl Solve {
         let count = prediction.masses.len();
         let mut work = std::mem::take(&mut self.work);
         work.resize(count);
+        work.drops.clear();
         work.drops.reserve(MOST_ITERATIONS);
         let mass = prediction.masses.iter().zip(&prediction.rate).map(|(mass, rate)| mass * rate * rate);
+        let mass: f64 = mass.sum();
         let mut tolerance = Tolerance {
             squared: self.accuracy.share().powi(2),
-            still: mass.sum::<f64>() * STILL * STILL,
+            still: mass * STILL * STILL,
+            quiet: mass * QUIET * QUIET,
             mended: 0.0,
         };
         let mut outcome = Outcome::default();

@@ -211,7 +211,9 @@ impl Term for Stitches {
     }
 
     fn forget(&mut self) {
-        self.stitches.iter_mut().for_each(|pull| pull.accepted = DVec3::ZERO);
+        for pull in &mut self.stitches {
+            (pull.accepted, pull.stiffness) = (DVec3::ZERO, 0.0);
+        }
     }
 
     fn is_inner(&self) -> bool {

@@ -313,13 +313,13 @@ fn refined((mut positions, triangles): (Vec<DVec3>, Vec<[u32; 3]>)) -> (Vec<DVec
     (positions, finer)
 }
 
-/// Makes cloth of decimetre cells between a groove and a wedge, 40 µm from each. An opening of a thousandth of an edge would go
+/// Makes cloth of decimetre cells between a groove and a wedge, 27 µm from each. An opening of a thousandth of an edge would go
 /// 50 µm into the walls. The cloth's ends are drawn up along the walls, and the groove moves away after 0.35 s.
 fn in_a_groove() -> Scene {
     let cloth = Cloth::from_mesh(folded(2, 0..4, 0.0), DVec3::X, 0.2).unwrap();
     let mut scene = Scene::new(cloth, 1e-3);
     let away = along([(0.35, DVec3::ZERO), (0.4, DVec3::Z * -0.02)]);
-    let gap = 40e-6 * std::f64::consts::SQRT_2;
+    let gap = 27e-6 * std::f64::consts::SQRT_2;
     let mut groove = Body::from_mesh("groove", folded(3, -1..5, -gap));
     groove.motion = away;
     scene.bodies = vec![groove, Body::from_mesh("wedge", folded(3, -1..5, gap))];
