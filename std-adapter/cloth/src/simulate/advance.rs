@@ -92,7 +92,6 @@ impl Simulation {
                 if let Some(tearing) = &mut self.tearing {
                     tearing.waiting.clear();
                 }
-                self.forget_motion();
                 self.is_fresh = true;
             }
             result

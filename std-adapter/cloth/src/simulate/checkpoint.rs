@@ -6,13 +6,13 @@ use crate::model::tearing::TornEdge;
 use crate::world::{Cloth, Placement};
 use selvedge::PairKind;
 use selvedge_core::glam::{DQuat, DVec3};
-use selvedge_files::bytes::Reader;
+use selvedge_files::bytes::{Reader, put_block};
 
 /// A simulation can be saved as a checkpoint after this many steps, and again after each further so many. Contact then discards
 /// its data besides the state, which a resumed simulation does not have either.
 pub const CHECKPOINT_STEPS: u64 = 200;
 
-const MAGIC: &[u8; 16] = b"selvedge state 4";
+const MAGIC: &[u8; 16] = b"selvedge state 5";
 
 /// Bytes from which a simulation cannot continue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -125,6 +125,8 @@ pub(super) struct Checkpoint {
     pub(super) counts: ContactCounts,
     /// The times of contact; all zero without contact.
     pub(super) stages: ContactSeconds,
+    /// What the solve keeps from step to step.
+    pub(super) kept: Vec<u8>,
 }
 
 /// The lengths of the lists in a checkpoint of the scene.
@@ -184,6 +186,7 @@ impl Checkpoint {
         bytes.extend(counts.flat_map(u64::to_le_bytes));
         let stages = self.stages.stages().map(|(_, seconds)| seconds);
         bytes.extend(stages.into_iter().flat_map(f64::to_le_bytes));
+        put_block(&mut bytes, &self.kept);
         bytes
     }
 
@@ -279,6 +282,7 @@ impl Checkpoint {
                 certificates: reader.f64()?,
                 repairs: reader.f64()?,
             },
+            kept: reader.block()?.to_vec(),
         })
     }
 }

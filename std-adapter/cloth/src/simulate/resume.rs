@@ -3,6 +3,7 @@
 use super::checkpoint::{Checkpoint, CheckpointError, Sizes};
 use super::simulation::Simulation;
 use crate::model::step::Memory;
+use crate::solve::Solve;
 use crate::world::{Driven, Kinematic};
 
 impl Simulation {
@@ -19,6 +20,9 @@ impl Simulation {
             placements: self.driven().map(|driven| driven.placement).collect(),
             torn: self.torn_cloths(),
             memories: self.remembered(),
+            kept: { self.made.solve.iter() }
+                .flat_map(|solve| solve.write_kept(&self.work.solving.history))
+                .collect(),
             ..Checkpoint::default()
         };
         if let Some(contact) = &self.made.contact {
@@ -65,6 +69,10 @@ impl Simulation {
         {
             return Err(CheckpointError::Damaged);
         }
+        let made = torn.as_ref().map_or(&self.made, |(retorn, _)| &retorn.made);
+        let counts = [vertices, made.cloth_vertices];
+        let read = |solve: &Solve| solve.read_kept(&checkpoint.kept, counts).ok_or(CheckpointError::Damaged);
+        let kept = made.solve.as_ref().map(read).transpose()?;
         if let Some((retorn, edges)) = torn {
             self.adopt_torn(retorn, edges);
         }
@@ -81,6 +89,9 @@ impl Simulation {
             driven.placement = placement;
         }
         self.recall(&checkpoint.memories);
+        if let (Some(solve), Some(kept)) = (&mut self.made.solve, kept) {
+            solve.keep(kept, &mut self.work.solving.history);
+        }
         self.state = checkpoint.state;
         self.is_fresh = true;
         Ok(())

@@ -33,6 +33,23 @@ pub(crate) struct Remembered {
     share: f64,
 }
 
+impl Remembered {
+    pub(super) fn numbers(&self) -> [f64; 7] {
+        let [x, y, z] = self.grip.to_array();
+        [self.push, x, y, z, self.distance, self.asked, self.share]
+    }
+
+    pub(super) const fn from_numbers([push, x, y, z, distance, asked, share]: [f64; 7]) -> Self {
+        Self {
+            push,
+            grip: DVec3::new(x, y, z),
+            distance,
+            asked,
+            share,
+        }
+    }
+}
+
 /// The share of what a row asks for that it has to gain. A heavy pile comes apart more slowly than a layer alone.
 const LEAST_GAIN: f64 = 0.1;
 /// The least share of the recovery, with which a row tries again.

@@ -340,6 +340,16 @@ impl Term for Membranes {
         }
     }
 
+    fn multipliers(&self) -> Vec<f64> {
+        self.limit.iter().flat_map(|limit| limit.accepted.as_flattened().to_vec()).collect()
+    }
+
+    fn set_multipliers(&mut self, numbers: &[f64]) {
+        if let Some(limit) = &mut self.limit {
+            limit.accepted.as_flattened_mut().copy_from_slice(numbers);
+        }
+    }
+
     fn forget(&mut self) {
         if let Some(limit) = &mut self.limit {
             limit.accepted.fill([0.0; 3]);

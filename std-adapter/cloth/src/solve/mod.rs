@@ -16,6 +16,7 @@
 //! | [`matrix`], [`preconditioner`], [`bands`] | the linear problem |
 //! | [`contact_row`] | contact and friction |
 //! | [`membranes`], [`bending`], [`ropes`], [`stitches`], [`springs`], [`walls`], [`air`] | the terms |
+//! | [`kept`] | what goes on from step to step, for checkpoints |
 //! | [`constants`] | all constants, with their meaning |
 //!
 //! Sums run in a fixed order, so that the result has the same bits on any number of threads.
@@ -23,6 +24,7 @@
 mod bands;
 mod constants;
 mod contact_row;
+mod kept;
 mod matrix;
 mod newton;
 mod preconditioner;

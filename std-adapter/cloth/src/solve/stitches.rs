@@ -210,6 +210,22 @@ impl Term for Stitches {
         }
     }
 
+    /// Returns λ, κ and L of each stitch.
+    fn multipliers(&self) -> Vec<f64> {
+        let numbers = |pull: &Pull| {
+            let [x, y, z] = pull.accepted.to_array();
+            [x, y, z, pull.stiffness, pull.length]
+        };
+        self.stitches.iter().flat_map(numbers).collect()
+    }
+
+    fn set_multipliers(&mut self, numbers: &[f64]) {
+        for (pull, own) in self.stitches.iter_mut().zip(numbers.as_chunks::<5>().0) {
+            pull.accepted = DVec3::new(own[0], own[1], own[2]);
+            (pull.stiffness, pull.length) = (own[3], own[4]);
+        }
+    }
+
     fn forget(&mut self) {
         for pull in &mut self.stitches {
             (pull.accepted, pull.stiffness) = (DVec3::ZERO, 0.0);

@@ -64,6 +64,16 @@ pub trait Term: Debug + Send + Sync {
     /// Forgets all multipliers, as after a checkpoint.
     fn forget(&mut self) {}
 
+    /// Returns the multipliers after the last accepted step, for checkpoints. Their number never changes.
+    #[doc(hidden)]
+    fn multipliers(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// Sets the multipliers that [`multipliers`](Self::multipliers) returned.
+    #[doc(hidden)]
+    fn set_multipliers(&mut self, _numbers: &[f64]) {}
+
     /// Takes note of an accepted step. `is_moved` says of each vertex of the scene whether the certificate has moved it away from
     /// where the solve left it.
     fn accept(&mut self, _is_moved: &[bool]) {}
