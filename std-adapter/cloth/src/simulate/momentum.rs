@@ -128,13 +128,13 @@ impl Pieces {
         x: &mut [DVec3],
         velocities: &mut [DVec3],
     ) {
-        let (alone, pressed): (Vec<&Piece>, Vec<_>) = self.pieces.iter().partition(|piece| piece.is_free(is_pressed));
-        for piece in alone {
+        for piece in self.pieces.iter().filter(|piece| piece.is_free(is_pressed)) {
             piece.keep_momentum(step, motion, x, velocities);
         }
-        if !pressed.is_empty() && !is_body_near && pressed.iter().all(|piece| piece.pinned.is_empty()) {
+        let pressed = || self.pieces.iter().filter(|piece| !piece.is_free(is_pressed));
+        if !is_body_near && pressed().next().is_some() && pressed().all(|piece| piece.pinned.is_empty()) {
             let together = Piece {
-                free: pressed.iter().flat_map(|piece| piece.free.iter().copied()).collect(),
+                free: pressed().flat_map(|piece| piece.free.iter().copied()).collect(),
                 pinned: Vec::new(),
             };
             together.keep_momentum(step, motion, x, velocities);

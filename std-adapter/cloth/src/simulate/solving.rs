@@ -157,7 +157,7 @@ impl Simulation {
             for (vertex, is_moved) in is_moved.iter_mut().enumerate() {
                 *is_moved = wanted[vertex] != x[vertex];
                 if *is_moved {
-                    velocities[vertex] = (x[vertex] - step.start[vertex]) / h;
+                    velocities[vertex] += (x[vertex] - wanted[vertex]) / h;
                 }
             }
         }

@@ -133,8 +133,9 @@ impl Term for Stitches {
             if (length == 0.0) != pull.is_tie() {
                 pull.accepted = DVec3::ZERO;
             }
-            // What is too long comes together at the rate at which contacts come apart.
-            let late = (pull.between(step.start).length() - length).max(0.0);
+            // The seam closes by its schedule. What is too long besides comes together at the rate at which contacts come apart.
+            let before = length_at_end(&TimeStep { h: 0.0, ..*step }, *start, *gap, *closing);
+            let late = (pull.between(step.start).length() - before.max(length)).max(0.0);
             let late = if length > 0.0 { late } else { 0.0 };
             pull.is_closed = length == *gap;
             pull.length = length + late * (1.0 - (RECOVERY * step.h).min(1.0));
