@@ -5,7 +5,7 @@ use super::output::{self, OutputFiles};
 use super::progress::Progress;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use selvedge_laboratory::report::{PriorRuns, json, tables, truths_html};
-use selvedge_laboratory::truths::{Extent, LAWS, Law, LawRuns, PACES, Pace};
+use selvedge_laboratory::truths::{ACCURACIES, Accuracy, Extent, LAWS, Law, LawRuns, PACES, Pace};
 use std::path::{Path, PathBuf};
 
 /// Compares the cloth simulation with laws whose answers are known
@@ -30,6 +30,9 @@ pub(crate) struct Truths {
     /// Measure only at these paces, separated by commas
     #[arg(long, value_name = "PACE,…", value_delimiter = ',', value_parser = parse_pace)]
     pace: Vec<Pace>,
+    /// Measure only with these accuracies, separated by commas
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = parse_accuracy)]
+    accuracy: Vec<Accuracy>,
     /// Measure each law on its coarsest mesh only
     #[arg(long)]
     coarse: bool,
@@ -69,6 +72,14 @@ fn parse_pace(name: &str) -> Result<Pace, String> {
         .ok_or_else(|| format!("the paces are {known}"))
 }
 
+/// Parses an accuracy's name. The error lists the known ones.
+fn parse_accuracy(name: &str) -> Result<Accuracy, String> {
+    let known = ACCURACIES.map(|accuracy| accuracy.name).join(", ");
+    { ACCURACIES.into_iter() }
+        .find(|accuracy| accuracy.name == name)
+        .ok_or_else(|| format!("the accuracies are {known}"))
+}
+
 /// Reads the runs of another revision.
 fn read_prior(file: &Path) -> Result<PriorRuns, Failure> {
     let named = |error: &dyn std::fmt::Display| format!("{}: {error}", file.display());
@@ -87,6 +98,9 @@ impl Truths {
         let is_asked = |pace: &Pace| self.pace.is_empty() || self.pace.contains(pace);
         let extent = Extent {
             paces: PACES.into_iter().filter(is_asked).collect(),
+            accuracies: { ACCURACIES.into_iter() }
+                .filter(|accuracy| self.accuracy.is_empty() || self.accuracy.contains(accuracy))
+                .collect(),
             is_coarse: self.coarse,
         };
         let count: usize = laws.iter().map(|law| extent.runs(law)).sum();
