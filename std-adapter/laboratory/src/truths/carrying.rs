@@ -254,7 +254,7 @@ fn carrying([bed, load]: [Cloth; 2], held: Pins, thickness: f64) -> Scene {
     scene.cloths.push(load.named("load"));
     membrane(&mut scene, BED);
     scene.add_to("load", Stretch::isotropic(3.0)).add_to("load", Shear::new(1.0));
-    scene.add(held).add(AirDrag { rate: 6.0 });
+    scene.add(held).add(AirDrag { rate: 10.0 });
     scene.add(SelfCollision(Thickness::new(thickness)));
     scene.add(Friction { coefficient: 0.5 });
     scene

@@ -258,7 +258,7 @@ pub(super) const PILLOW: Law = Law {
             let held = pinned(vertices_where(cloth.mesh(), |point| (point.x - 0.5).abs() > 0.5 - 1e-9));
             let mut scene = weightless(cloth);
             membrane(&mut scene, stiffness);
-            scene.add(held).add(AirDrag { rate: 8.0 }).add(Inflation::at(pressure));
+            scene.add(held).add(AirDrag { rate: 20.0 }).add(Inflation::at(pressure));
             let mut run = Run::new(scene, conditions)?;
             run.advance_to(1.5)?;
             let lack = |radius: f64| 1.0 + pressure * radius / stiffness - 2.0 * radius * (0.5 / radius).asin();
