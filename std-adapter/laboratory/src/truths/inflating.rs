@@ -174,7 +174,7 @@ pub(super) const BALLOON: Law = Law {
 pub(super) const LIGHT_BALLOON: Law = Law {
     name: "light_balloon",
     statement: "A balloon of 20 g/m² and k = 2 kN/m grows by the factor l, 2k(l − 1) = p·R·l², and stays in its place",
-    remark: "In a step of 1 ms the pressure would carry the free skin by 10 to 50 mm, a hundred times as far as it grows.",
+    remark: "In a step of 1 ms the pressure would carry the free skin by 10 and 50 mm. The radius grows by 0.5 and 2.6 mm.",
     simulate: |conditions| balloons(LIGHT, &[200.0, 1000.0], conditions),
     ..BALLOON
 };
