@@ -4,9 +4,9 @@ use super::Failure;
 use super::output::{self, OutputFiles};
 use super::progress::Progress;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use selvedge_laboratory::report::{json, tables, truths_html};
-use selvedge_laboratory::truths::{Extent, LAWS, Law, LawRuns, PACES, Pace};
-use std::path::PathBuf;
+use selvedge_laboratory::report::{PriorRuns, json, tables, truths_html};
+use selvedge_laboratory::truths::{ACCURACIES, Accuracy, Extent, LAWS, Law, LawRuns, PACES, Pace};
+use std::path::{Path, PathBuf};
 
 /// Compares the cloth simulation with laws whose answers are known
 ///
@@ -19,6 +19,8 @@ Examples:
   selvedge truths --law capstan,inclined_plane
   selvedge truths --pace frames --coarse
   selvedge truths --output out
+  selvedge-before truths --json > before.json
+  selvedge truths --output out --against before.json
 
 All laws take many minutes. Other load on the machine disturbs the times.")]
 pub(crate) struct Truths {
@@ -28,6 +30,9 @@ pub(crate) struct Truths {
     /// Measure only at these paces, separated by commas
     #[arg(long, value_name = "PACE,…", value_delimiter = ',', value_parser = parse_pace)]
     pace: Vec<Pace>,
+    /// Measure only with these accuracies, separated by commas
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = parse_accuracy)]
+    accuracy: Vec<Accuracy>,
     /// Measure each law on its coarsest mesh only
     #[arg(long)]
     coarse: bool,
@@ -37,6 +42,9 @@ pub(crate) struct Truths {
     /// Write a page with plots (truths.html) to this folder
     #[arg(long, value_name = "DIR")]
     output: Option<PathBuf>,
+    /// Draw the errors of another revision beside, from the output of its `selvedge truths --json`
+    #[arg(long, value_name = "FILE", requires = "output")]
+    against: Option<PathBuf>,
 }
 
 /// Parses a law's name. The error lists the known ones.
@@ -64,16 +72,35 @@ fn parse_pace(name: &str) -> Result<Pace, String> {
         .ok_or_else(|| format!("the paces are {known}"))
 }
 
+/// Parses an accuracy's name. The error lists the known ones.
+fn parse_accuracy(name: &str) -> Result<Accuracy, String> {
+    let known = ACCURACIES.map(|accuracy| accuracy.name).join(", ");
+    { ACCURACIES.into_iter() }
+        .find(|accuracy| accuracy.name == name)
+        .ok_or_else(|| format!("the accuracies are {known}"))
+}
+
+/// Reads the runs of another revision.
+fn read_prior(file: &Path) -> Result<PriorRuns, Failure> {
+    let named = |error: &dyn std::fmt::Display| format!("{}: {error}", file.display());
+    let text = std::fs::read_to_string(file).map_err(|error| named(&error))?;
+    Ok(PriorRuns::parse(&text).map_err(|error| named(&error))?)
+}
+
 impl Truths {
     pub(crate) fn run(&self) -> Result<(), Failure> {
         if let Some(folder) = &self.output {
             OutputFiles::check_folder(folder)?;
         }
+        let prior = self.against.as_deref().map(read_prior).transpose()?;
         let is_meant = |law: &&Law| self.law.is_empty() || self.law.iter().any(|own| own.name == law.name);
         let laws: Vec<&'static Law> = LAWS.iter().copied().filter(is_meant).collect();
         let is_asked = |pace: &Pace| self.pace.is_empty() || self.pace.contains(pace);
         let extent = Extent {
             paces: PACES.into_iter().filter(is_asked).collect(),
+            accuracies: { ACCURACIES.into_iter() }
+                .filter(|accuracy| self.accuracy.is_empty() || self.accuracy.contains(accuracy))
+                .collect(),
             is_coarse: self.coarse,
         };
         let count: usize = laws.iter().map(|law| extent.runs(law)).sum();
@@ -88,7 +115,7 @@ impl Truths {
         drop(progress);
         let mut files = OutputFiles::default();
         if let Some(folder) = &self.output {
-            files.add_bytes(folder.join("truths.html"), truths_html(&all).as_bytes())?;
+            files.add_bytes(folder.join("truths.html"), truths_html(&all, prior.as_ref()).as_bytes())?;
         }
         files.publish()?;
         output::answer(self.json, || json::truths(&all), || tables::truths(&all))

@@ -2,7 +2,8 @@
 
 use super::number::{few, share, time};
 use super::page::document;
-use super::plot::{convergence_svg, cost_of_accuracy_svg, truth_svg};
+use super::plot::{convergence_svg, cost_of_accuracy_svg, cost_of_law_svg, truth_svg};
+use super::prior::PriorRuns;
 use crate::truths::{ErrorUnit, Law, LawRuns, Measured};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -16,9 +17,10 @@ pub(super) fn error(law: &Law, error: f64) -> String {
     }
 }
 
-/// Returns a self-contained page: each law with its plots and errors, and all errors against the time of a run.
+/// Returns a self-contained page: each law with its plots and errors, and all errors against the time of a run. The runs of another revision have
+/// lines of their own, and a table.
 #[must_use]
-pub fn truths_html(all: &[LawRuns]) -> String {
+pub fn truths_html(all: &[LawRuns], prior: Option<&PriorRuns>) -> String {
     let body = html! {
         header {
             p.kicker { "selvedge truths" }
@@ -32,14 +34,15 @@ pub fn truths_html(all: &[LawRuns]) -> String {
                     (picture(&cost_of_accuracy_svg(all), "errors of all laws on their finest mesh against the time of a run on one thread"))
                 }
             }
-            @for runs in all { (law(runs)) }
+            @if let Some(prior) = prior { (beside(all, prior)) }
+            @for runs in all { (law(runs, prior)) }
         }
         footer { p { "Written by selvedge " (env!("CARGO_PKG_VERSION")) ". This file is self-contained: it loads nothing." } }
     };
     document("The cloth simulation against laws", &body)
 }
 
-fn law(runs: &LawRuns) -> Markup {
+fn law(runs: &LawRuns, prior: Option<&PriorRuns>) -> Markup {
     let law = runs.law;
     let unit = match law.error {
         ErrorUnit::Of(quantity) => format!("error over {quantity}"),
@@ -56,8 +59,8 @@ fn law(runs: &LawRuns) -> Markup {
             div.pairs {
                 (picture(&truth_svg(runs), "simulation and law, on the finest mesh"))
                 (picture(&convergence_svg(runs), "error against time step and mesh"))
-                (picture(&cost_of_accuracy_svg(std::slice::from_ref(runs)), "error against the time of a run on one thread"))
             }
+            (picture(&cost_of_law_svg(runs, prior), "error against the time of a run on one thread, at each pace, on regular meshes from coarse to fine"))
             div.scroll { table {
                 thead { tr {
                     th scope="col" { (law.mesh) } th scope="col" { "accuracy" }
@@ -74,6 +77,43 @@ fn law(runs: &LawRuns) -> Markup {
                 p.note { "In brackets: the error beyond the time stepping's own, which is known in closed form." }
             }
             p.note { (law.remark) }
+        }
+    }
+}
+
+/// Returns a table of the errors and times of another revision, and those of this one, on the finest mesh of each law.
+fn beside(all: &[LawRuns], prior: &PriorRuns) -> Markup {
+    let rows = all.iter().flat_map(|runs| {
+        let own = runs.by_mesh().next_back().unwrap_or_default().iter();
+        own.filter_map(|run| {
+            let grid = run.conditions.grid;
+            let pace = run.conditions.pace.to_string();
+            let before = { prior.on(runs.law.name, grid.number, grid.is_irregular) }.find(|before| before.pace == pace)?;
+            Some((runs.law, run, before))
+        })
+    });
+    let titles = [
+        "law",
+        "pace",
+        "accuracy",
+        "error before",
+        "error now",
+        "time before",
+        "time now over before",
+    ];
+    html! {
+        section {
+            h2 { "Beside another revision" }
+            p { "On the finest mesh of each law." }
+            div.scroll { table {
+                thead { tr { @for title in titles { th scope="col" { (title) } } } }
+                tbody { @for (law, run, before) in rows { tr {
+                    th scope="row" { (law.name.replace('_', " ")) }
+                    td { (run.conditions.pace) } td { (run.conditions.accuracy.name) }
+                    td { (error(law, before.error)) } td { (error(law, run.error())) }
+                    td { (time(before.seconds)) } td { (few(run.seconds / before.seconds)) }
+                } } }
+            } }
         }
     }
 }

@@ -59,7 +59,7 @@ pub(super) const CANTILEVER: Law = Law {
             let clamp = pinned(vertices_where(cloth.mesh(), is_clamped));
             let mut scene = scene(cloth);
             elastic(&mut scene, 1000.0, rigidity);
-            scene.add(clamp).add(AirDrag { rate: 8.0 });
+            scene.add(clamp).add(AirDrag { rate: 16.0 });
             let tip = cells / 4 * (columns + 1) + columns;
             let mut run = Run::new(scene, conditions)?;
             run.advance_to(1.5)?;
@@ -99,7 +99,7 @@ pub(super) const PLATE: Law = Law {
             let acceleration = -gravity * DVec3::Z;
             scene
                 .add(Gravity { acceleration })
-                .add(AirDrag { rate: 8.0 })
+                .add(AirDrag { rate: 20.0 })
                 .add(pinned(border));
             membrane(&mut scene, 20.0);
             scene.add(Bend::isotropic(rigidity));

@@ -55,8 +55,12 @@ pub struct Accuracy {
     pub name: &'static str,
 }
 
-/// The accuracies at which laws are measured.
-pub const ACCURACIES: [Accuracy; 3] = [Accuracy { name: "film" }, Accuracy { name: "game" }, Accuracy { name: "exact" }];
+/// The accuracies at which laws are measured. The first is the default, and tests use it.
+pub const ACCURACIES: [Accuracy; 3] = [
+    Accuracy { name: "film" },
+    Accuracy { name: "game" },
+    Accuracy { name: "exact" },
+];
 
 impl Accuracy {
     /// Gives a scene this accuracy.

@@ -2,15 +2,17 @@
 
 /// Returns the root of a function between two numbers. The function is negative below its root and positive above.
 pub(super) fn root([mut low, mut high]: [f64; 2], function: impl Fn(f64) -> f64) -> f64 {
-    for _ in 0..200 {
+    loop {
         let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            return middle;
+        }
         if function(middle) > 0.0 {
             high = middle;
         } else {
             low = middle;
         }
     }
-    0.5 * (low + high)
 }
 
 /// A catenary between two points at one height, at the distance `span`: y = a·cosh(x/a), with the length 2a·sinh(span/2a).

@@ -103,7 +103,7 @@ pub(super) const OWN_WEIGHT: Law = Law {
         let edge = pinned(vertices_where(cloth.mesh(), |point| point.z > -1e-9));
         let mut scene = scene(cloth);
         elastic(&mut scene, stiffness, 1e-6);
-        scene.add(AirDrag { rate: 4.0 }).add(edge);
+        scene.add(AirDrag { rate: 8.0 }).add(edge);
         let mut run = Run::new(scene, conditions)?;
         run.advance_to(3.0)?;
         let sinking = |s: f64| DENSITY * G / stiffness * (length * s - 0.5 * s * s);

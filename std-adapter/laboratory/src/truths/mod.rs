@@ -198,6 +198,8 @@ pub fn measure(law: &Law, conditions: Conditions) -> Measured {
 pub struct Extent {
     /// The paces.
     pub paces: Vec<Pace>,
+    /// The accuracies.
+    pub accuracies: Vec<Accuracy>,
     /// Whether each law has its coarsest mesh only.
     pub is_coarse: bool,
 }
@@ -212,11 +214,11 @@ impl Extent {
     /// Returns the number of runs of a law.
     #[must_use]
     pub fn runs(&self, law: &Law) -> usize {
-        self.meshes(law).len() * ACCURACIES.len() * self.paces.len()
+        self.meshes(law).len() * self.accuracies.len() * self.paces.len()
     }
 }
 
-/// A law, and its runs: for each mesh, from coarse to fine, each of [`ACCURACIES`] at each pace.
+/// A law, and its runs: for each mesh, from coarse to fine, each accuracy at each pace.
 #[derive(Clone, Debug)]
 pub struct LawRuns {
     /// The law.
@@ -224,6 +226,7 @@ pub struct LawRuns {
     /// The runs.
     pub runs: Vec<Measured>,
     paces: usize,
+    accuracies: usize,
 }
 
 impl LawRuns {
@@ -231,7 +234,7 @@ impl LawRuns {
     pub fn measure(law: &'static Law, extent: &Extent, progress: &mut dyn FnMut(usize)) -> Self {
         let mut runs = Vec::with_capacity(extent.runs(law));
         for &grid in extent.meshes(law) {
-            for accuracy in ACCURACIES {
+            for &accuracy in &extent.accuracies {
                 for &pace in &extent.paces {
                     runs.push(measure(law, Conditions { grid, accuracy, pace }));
                     progress(runs.len());
@@ -242,12 +245,13 @@ impl LawRuns {
             law,
             runs,
             paces: extent.paces.len(),
+            accuracies: extent.accuracies.len(),
         }
     }
 
     /// Returns the runs on each mesh, from coarse to fine.
     pub fn by_mesh(&self) -> impl DoubleEndedIterator<Item = &[Measured]> {
-        self.runs.chunks(self.paces * ACCURACIES.len())
+        self.runs.chunks(self.paces * self.accuracies)
     }
 
     /// Returns the runs on each mesh at each accuracy: one at each pace.

@@ -7,7 +7,7 @@ use super::stepping::fallen;
 use super::{ErrorUnit, Failure, Law, Outcome, Sample};
 use selvedge_cloth::effects::{BodyContact, Seam, Seams, Thickness};
 use selvedge_cloth::glam::DVec3;
-use selvedge_cloth::{Body, Scene};
+use selvedge_cloth::{Body, OnBlocked, Scene};
 
 const THICKNESS: f64 = 2e-3;
 
@@ -147,6 +147,8 @@ pub(super) const BAG_SPEED: Law = Law {
             Ok(sheet(corner, sides, cells, DENSITY, conditions.grid, |_| false)?.named(name))
         };
         let mut scene = scene(panel("front", 0.085)?);
+        // The closing seams may need more time than they have.
+        scene.on_blocked = OnBlocked::Hold;
         scene.cloths.push(panel("back", -0.085)?);
         for (name, x) in [("left ball", -0.08), ("right ball", 0.08)] {
             scene.bodies.push(Body::ball(name, x * DVec3::X, 0.08, 20)?);

@@ -53,7 +53,7 @@ pub(super) const SPRING: Law = Law {
     axes: ["time, s", "displacement of the end, m"],
     error: ErrorUnit::Of("the amplitude"),
     mesh: "segments",
-    meshes: &[regular(4), regular(16), regular(64)],
+    meshes: &[regular(16), regular(32), regular(64)],
     remark: "An implicit Euler step turns the phase by atan(ω·h) instead of ω·h, and divides the amplitude by √(1 + ω²h²).",
     simulate: |conditions| {
         let Rod {
@@ -84,7 +84,7 @@ pub(super) const ENERGY: Law = Law {
     axes: ["time, s", "energy over that at the start"],
     error: ErrorUnit::Of("the energy"),
     mesh: "segments",
-    meshes: &[regular(4), regular(16), regular(64)],
+    meshes: &[regular(16), regular(32), regular(64)],
     remark: "An implicit Euler step divides the energy of a mode by 1 + ω²h². This is the integrator's dissipation, and all of it.",
     simulate: |conditions| {
         let Rod { mut run, frequency, .. } = Rod::new(conditions)?;

@@ -15,4 +15,4 @@ mod truths;
 pub use accuracy::accuracy_svg;
 pub use elementary::elementary_svg;
 pub use scaling::scaling_svg;
-pub use truths::{convergence_svg, cost_of_accuracy_svg, truth_svg};
+pub use truths::{convergence_svg, cost_of_accuracy_svg, cost_of_law_svg, truth_svg};
