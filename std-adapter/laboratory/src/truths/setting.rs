@@ -25,7 +25,7 @@ pub(super) fn elastic(scene: &mut Scene, stiffness: f64, bending: f64) {
     scene.add(Bend::isotropic(bending));
 }
 
-/// Returns stretch with a stiffness in N/m that each step solves until little changes.
+/// Returns stretch with a stiffness in N/m that each step solves until converged.
 pub(super) const fn solved(stiffness: f64) -> Stretch {
     Stretch {
         sweeps: 0,

@@ -5,8 +5,8 @@ use super::{LAWS, STEPS, measure};
 use selvedge_cloth::glam::DVec3;
 use selvedge_cloth::{Cloth, Material, Scene};
 
-/// Asserts the largest errors at each of the time steps, on the two coarsest meshes, and beyond those of the time stepping. Returns the
-/// errors at the shortest step.
+/// Asserts the largest errors at each of the time steps, on the two coarsest meshes, and beyond those of the time stepping.
+/// Returns the errors at the shortest step.
 fn check(name: &str, largest: [f64; 3], unpredicted: f64) -> Vec<f64> {
     let law = LAWS.into_iter().find(|law| law.name == name).expect("a law");
     let on_mesh = |mesh: &u32| {

@@ -62,8 +62,8 @@ pub fn convergence_svg(runs: &LawRuns) -> String {
     errors_svg(title, ["time step", "error"], SIZE, &by_mesh(runs, |run| run.step))
 }
 
-/// Plots the errors of laws against the time of a run, a line for each law on its finest mesh, at each time step. If there is one law,
-/// it has a line for each mesh.
+/// Plots the errors of laws against the time of a run, a line for each law on its finest mesh, at each time step. If there is one
+/// law, it has a line for each mesh.
 #[must_use]
 pub fn cost_of_accuracy_svg(all: &[LawRuns]) -> String {
     let (size, lines) = match all {

@@ -3,8 +3,8 @@ use crate::report::number::few;
 use crate::report::truths::error;
 use crate::truths::LawRuns;
 
-/// Returns a table of laws with the simulation's errors at each time step. The exact and the simulated value are those of the largest error on
-/// the finest mesh with the shortest step.
+/// Returns a table of laws with the simulation's errors at each time step. The exact and the simulated value are those of the
+/// largest error on the finest mesh with the shortest step.
 #[must_use]
 pub fn truths(all: &[LawRuns]) -> String {
     let header = ["law", "mesh", "exact", "simulated", "error at\n1 ms", "at\n2 ms", "at\n4 ms"];
