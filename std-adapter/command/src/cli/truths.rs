@@ -10,8 +10,8 @@ use std::path::PathBuf;
 
 /// Compares the cloth simulation with laws whose answers are known
 ///
-/// Runs scenes with an exact answer, such as free fall, catenaries, friction and stacks, each at time steps of 1, 2 and 4 ms and on up to three
-/// meshes. The table has the largest error of each.
+/// Runs scenes with an exact answer, such as free fall, catenaries, friction and stacks, each at time steps of 1, 2 and 4 ms and
+/// on up to three meshes. The table has the largest error of each.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
