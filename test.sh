@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Runs every test of the workspace: all crates, their documentation's examples, and the kept inputs of the fuzz targets. .ci/run adds
-# lints, proofs and bindings.
-# Needs Rust (rustup) and a C compiler; installs make and m4 if they are missing. `cargo run --release`, the main job, needs Rust alone.
+# Runs every test of the workspace: all crates, their documentation's examples, and the kept inputs of the fuzz targets. .ci/run
+# adds lints, proofs and bindings.
+# Needs Rust (rustup) and a C compiler; installs make and m4 if they are missing. `cargo run --release`, the main job, needs Rust
+# alone.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 

@@ -3,9 +3,9 @@
 #
 #   fuzz/campaign.sh [MINUTES] [TARGET...]      every target for 30 minutes by default
 #
-# Needs a nightly compiler; installs cargo-fuzz if it is missing. Interesting inputs are kept in $FUZZ_WORK (fuzz/campaign), and the next
-# campaign continues from them, so it may be stopped at any time. Inputs that break a promise go to $FUZZ_WORK/TARGET.broken; then the
-# exit status is 1.
+# Needs a nightly compiler; installs cargo-fuzz if it is missing. Interesting inputs are kept in $FUZZ_WORK (fuzz/campaign), and
+# the next campaign continues from them, so it may be stopped at any time. Inputs that break a promise go to
+# $FUZZ_WORK/TARGET.broken; then the exit status is 1.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 

@@ -35,6 +35,7 @@
 //! | [`features`], [`distribution`] | representative features of a triangle; the primitive pairs of a candidate triangle pair | each pair once |
 //! | [`elementary`] | whether a pair touches; its time of impact | exact; certified |
 //! | [`paths`] | time of impact on arcs of rotating bodies and on several straight pieces | certified |
+//! | [`kernels`], [`altered`] | the parts that the tests are built from; the same with other rounding constants | as each says |
 //!
 //! # Features
 //! Features only add items. Code that tests single pairs needs none of them.
@@ -42,7 +43,6 @@
 //! | feature | what it adds |
 //! |---|---|
 //! | `batch` | [`batch`], and boxes of a hierarchy ([`boxes::moving`]): the basis of `selvedge`. Instruction sets are named by types of `fearless_simd` |
-//! | `kernels` | `batch`, and [`kernels`]: the parts that the tests are built from, for baselines, measurements and proofs |
 //!
 //! # Terms
 //! The paper behind this work is Lv, He, Mi: *Improved Method in Lower Tailoring of Self-collision Detection of Arm Cloth
@@ -50,27 +50,13 @@
 //! candidate triangle pair, and *basic intersection test* the elementary test. This crate uses the terms of the field.
 #![no_std]
 #![forbid(unsafe_code)]
-// Without the features, kernels that only they expose are unused, and links to them are broken.
-#![cfg_attr(
-    not(feature = "kernels"),
-    allow(
-        dead_code,
-        unreachable_pub,
-        unused_imports,
-        rustdoc::broken_intra_doc_links,
-        rustdoc::private_intra_doc_links
-    )
-)]
 
 pub use glam;
 
 #[macro_use]
-#[cfg(feature = "kernels")]
 pub mod kernels;
-#[macro_use]
-#[cfg(not(feature = "kernels"))]
-mod kernels;
 
+pub mod altered;
 #[cfg(feature = "batch")]
 pub mod batch;
 pub mod boxes;

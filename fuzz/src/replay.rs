@@ -73,3 +73,12 @@ fn every_folder_of_inputs_belongs_to_a_target() {
         }
     }
 }
+
+/// libFuzzer puts words of the dictionary into scene files.
+#[test]
+fn the_dictionary_of_scenes_has_every_effect() {
+    let dictionary = include_str!("../dictionaries/scene.dict");
+    let is_missing = |name: &&str| !dictionary.lines().any(|line| line == format!("\"{name}\""));
+    let missing: Vec<_> = selvedge_cloth::effect_names().into_iter().filter(is_missing).collect();
+    assert!(missing.is_empty(), "add to dictionaries/scene.dict: {missing:?}");
+}

@@ -1,4 +1,5 @@
-//! Names the shared library for the loader, and makes the functions for `float` from those for `double`.
+//! Names the shared library for the loader, and makes the functions for `float` from those for `double`. A macro would not do:
+//! cbindgen, which writes the header, reads sources and does not expand macros with stable Rust.
 
 use std::env::var;
 use std::path::Path;

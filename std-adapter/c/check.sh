@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the library into a folder, then builds and runs the C and C++ programs against it as a user would: with every available
-# compiler, warnings as errors, with and without the address and undefined-behaviour sanitizers, through pkg-config and CMake. Missing
-# tools are skipped with a message. Linux; a few minutes, mostly link-time optimisation of the library.
+# compiler, warnings as errors, with and without the address and undefined-behaviour sanitizers, through pkg-config and CMake.
+# Missing tools are skipped with a message. Linux; a few minutes, mostly link-time optimisation of the library.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
@@ -91,7 +91,7 @@ for compiler in gcc clang g++ clang++; do
     *) standards="c11 c17" suffix=c ;;
     esac
     for standard in $standards; do
-        for source in examples/{frames,flag} tests/programs/{refusals,simulations,fork,fork_simulation}; do
+        for source in examples/{frames,flag} tests/programs/{refusals,refusals_of_worlds,simulations,fork,fork_simulation}; do
             [ -e "$source.$suffix" ] || continue
             for mode in plain sanitized; do
                 # The allocator of the sanitizers may be locked by a thread that the child does not have, and then hangs.

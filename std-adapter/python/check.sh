@@ -44,12 +44,14 @@ echo "$(basename "$wheels"/*.whl): $size bytes"
     exit 1
 }
 
-say "Python: installed into an empty environment, the README's example"
+say "Python: installed into an empty environment, the examples of the pages"
 rm -rf "$environment"
 "$python" -m venv "$environment"
 "$environment/bin/pip" install --quiet --disable-pip-version-check "$wheels"/*.whl
-sed -n '/^```python/,/^```/p' README.md | sed '/^```/d' >"$target/readme.py"
-(cd "$target" && environment/bin/python readme.py)
+for page in README.md ../../README.md ../../docs/tutorials/python.md; do
+    sed -n '/^```python/,/^```/p' "$page" | sed '/^```/d' >"$target/page.py"
+    (cd "$target" && environment/bin/python page.py)
+done
 
 say "Python: tests, types, stubs"
 "$tools/bin/pip" install --quiet --disable-pip-version-check --force-reinstall --no-deps "$wheels"/*.whl

@@ -1,11 +1,11 @@
-"""Runs a campaign on Ray: a task of one core for each shard, repeated elsewhere if its node is lost. Then joins the shards.
+"""Runs exact_campaign on Ray: a task of one core for each seed from 1 to SEEDS, repeated elsewhere if its node is lost. Then adds the counts.
 
-    python verification/cluster/on_ray.py PROGRAMS FOLDER SHARDS CAMPAIGN [ARGUMENT...]
-    python verification/cluster/on_ray.py /shared/programs /shared/exact 64 exact_campaign 1_000_000_000 --seed 2026
+    python verification/cluster/on_ray.py PROGRAM FOLDER SEEDS PAIRS [ARGUMENT...]
+    python verification/cluster/on_ray.py target/release/examples/exact_campaign /shared/exact 64 1_000_000_000
 
-PROGRAMS is the folder of build.sh. States, logs and the joined state (merged.json) go to FOLDER. All nodes must see both. The cluster is
-the one that $RAY_ADDRESS names, or a new one on this machine. The same command resumes a run that was stopped: finished shards end at
-once. Exit status as for `merge`: 0 nothing is wrong, 1 something is, or a shard is missing.
+All nodes must see PROGRAM and FOLDER, which receives counts and logs. The cluster is the one that $RAY_ADDRESS names, or a new one on this
+machine. A seed whose counts are there is not run again, so the same command completes a run that was stopped. The exit status is that of
+the program's `--sum`: 0 if nothing is wrong.
 """
 
 import subprocess
@@ -15,12 +15,14 @@ from pathlib import Path
 import ray
 
 
-# A lost node is not the shard's fault, so it is repeated without limit.
+# A lost node is not the seed's fault, so it is repeated without limit.
 @ray.remote(num_cpus=1, max_retries=-1)
-def run(programs, folder, shards, campaign, arguments, number):
-    command = [programs / campaign, *arguments, "--threads", "1"]
-    command += ["--shard", f"{number}/{shards}", "--state", folder / f"{number}.json"]
-    with (folder / f"{number}.log").open("a") as log:
+def run(program, folder, arguments, seed):
+    counts = folder / f"{seed}.json"
+    if counts.exists():
+        return 0
+    command = [program, *arguments, "--threads", "1", "--seed", str(seed), "--json", counts]
+    with (folder / f"{seed}.log").open("a") as log:
         return subprocess.run(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log).returncode
 
 
@@ -28,26 +30,14 @@ def main():
     if len(sys.argv) < 5 or not sys.argv[3].isdigit():
         print(__doc__, file=sys.stderr)
         return 2
-    programs, folder = (Path(path).resolve() for path in sys.argv[1:3])
-    shards, campaign, arguments = int(sys.argv[3]), sys.argv[4], sys.argv[5:]
+    program, folder = (Path(path).resolve() for path in sys.argv[1:3])
+    seeds, arguments = range(1, int(sys.argv[3]) + 1), sys.argv[4:]
     folder.mkdir(parents=True, exist_ok=True)
     ray.init()
-    numbers = range(1, shards + 1)
-    tasks = {run.remote(programs, folder, shards, campaign, arguments, number): number for number in numbers}
-    left = list(tasks)
-    while left:
-        [ended], left = ray.wait(left)
-        try:
-            status = ray.get(ended)
-        except ray.exceptions.RayError as error:
-            status = error
+    for seed, status in zip(seeds, ray.get([run.remote(program, folder, arguments, seed) for seed in seeds])):
         if status != 0:
-            log = folder / f"{tasks[ended]}.log"
-            print(f"\nshard {tasks[ended]} of {shards} ended with {status}: {log}", file=sys.stderr)
-        print(f"\r{shards - len(left)} of {shards} shards have ended", end="", file=sys.stderr, flush=True)
-    print(file=sys.stderr)
-    states = [folder / f"{number}.json" for number in numbers]
-    return subprocess.run([programs / "merge", *states, "--state", folder / "merged.json"]).returncode
+            print(f"seed {seed} ended with {status}: {folder / f'{seed}.log'}", file=sys.stderr)
+    return subprocess.run([program, "--sum", *(folder / f"{seed}.json" for seed in seeds)]).returncode
 
 
 if __name__ == "__main__":

@@ -1,33 +1,28 @@
 #!/usr/bin/env bash
-# Runs a campaign on Slurm: an array of SHARDS jobs of one core each, and one job that joins them when all have ended.
+# Runs exact_campaign on Slurm: an array of SEEDS jobs of one core each, seeds 1 to SEEDS, and one job that adds their counts.
 #
-#   verification/cluster/slurm.sh PROGRAMS FOLDER SHARDS CAMPAIGN [ARGUMENT...]
-#   verification/cluster/slurm.sh /shared/programs /shared/exact 1000 exact_campaign 1_000_000_000_000 --seed 2026
+#   verification/cluster/slurm.sh PROGRAM FOLDER SEEDS PAIRS [ARGUMENT...]
+#   verification/cluster/slurm.sh target/release/examples/exact_campaign /shared/exact 1000 1_000_000_000
 #
-# PROGRAMS is the folder of build.sh. States, logs and the joined state (merged.json) go to FOLDER. All machines must see both. The same
-# command resumes a run that was stopped: finished shards end at once. Jobs that Slurm kills and requeues resume, too. Set further options
-# of sbatch (partition, account, time, limit of the array) by its variables: SBATCH_PARTITION and so on.
+# All machines must see PROGRAM and FOLDER, which receives counts and logs. A seed whose counts are there is not run again, so the
+# same command completes a run that was stopped. Set further options of sbatch (partition, account, time) by its variables:
+# SBATCH_PARTITION …
 set -euo pipefail
 if [ $# -lt 4 ]; then
-    echo "usage: slurm.sh PROGRAMS FOLDER SHARDS CAMPAIGN [ARGUMENT...]" >&2
+    echo "usage: slurm.sh PROGRAM FOLDER SEEDS PAIRS [ARGUMENT...]" >&2
     exit 2
 fi
-programs=$1 folder=$2 shards=$3 campaign=$4
+program=$1 folder=$2 seeds=$3
 
 if [ -n "${SLURM_ARRAY_TASK_ID:-}" ]; then
-    # Array and shards both count from 1. The number of shards is an argument, since part of the array may be submitted again.
-    exec "$programs/$campaign" "${@:5}" --threads 1 \
-        --shard "$SLURM_ARRAY_TASK_ID/$shards" --state "$folder/$SLURM_ARRAY_TASK_ID.json"
+    seed=$SLURM_ARRAY_TASK_ID
+    [ -e "$folder/$seed.json" ] || exec "$program" "${@:4}" --threads 1 --seed "$seed" --json "$folder/$seed.json"
 elif [ -n "${SLURM_JOB_ID:-}" ]; then
-    states=()
-    for ((shard = 1; shard <= shards; shard++)); do
-        states+=("$folder/$shard.json")
-    done
-    exec "$programs/merge" "${states[@]}" --state "$folder/merged.json"
+    # A file that is missing is an error, which names it.
+    seq --format "$folder/%.0f.json" "$seeds" | xargs "$program" --sum
+else
+    mkdir -p "$folder"
+    array=$(sbatch --parsable --array="1-$seeds" --cpus-per-task=1 --requeue --open-mode=append --output="$folder/%a.log" "$0" "$@")
+    # On several clusters a name follows the number.
+    sbatch --dependency="afterany:${array%%;*}" --cpus-per-task=1 --output="$folder/sum.log" "$0" "$@"
 fi
-mkdir -p "$folder"
-array=$(sbatch --parsable --job-name="$campaign" --array="1-$shards" --cpus-per-task=1 --requeue --open-mode=append \
-    --output="$folder/%a.log" "$0" "$@")
-# This runs even if some fail: `merge` names them, and how to resume. (On several clusters a name follows the number.)
-sbatch --job-name="$campaign-merge" --dependency="afterany:${array%%;*}" --cpus-per-task=1 --open-mode=append \
-    --output="$folder/merge.log" "$0" "$@"

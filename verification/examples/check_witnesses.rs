@@ -2,8 +2,8 @@
 //!
 //! `cargo run --release -p selvedge-verification --example check_witnesses -- FILE`
 //!
-//! Each pair whose swept boxes overlap must have a record, and each record a proof that holds: see `docs/witnesses.md`. Exit status
-//! 1 if one has not, or the file is invalid.
+//! Each pair whose swept boxes overlap must have a record, and each record a proof that holds: see `docs/witnesses.md`. Exit
+//! status 1 if one has not, or the file is invalid.
 
 use fnv::FnvHashSet;
 use indicatif::{ProgressBar, ProgressStyle};

@@ -3,15 +3,14 @@
 //! `cargo run --release -p selvedge-verification --example exact_campaign -- --help`
 //!
 //! The pairs are `f32` and `f64`, random, adversarial and from scenes in equal parts. The scenes are a bending tube and the steps
-//! between the named meshes. A run that was killed resumes from its state. The shards of a run are joined by `--example merge`. The
-//! exit status is 0 if no claim is wrong, 1 if one is or a file is invalid, 2 for a wrong command line.
+//! between the named meshes. Several machines take a seed each; `--sum` adds the files that they write. The exit status is 0 if
+//! no claim is wrong, 1 if one is or a file is invalid, 2 for a wrong command line.
 
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
 use selvedge::simd::best_level;
 use selvedge_files::mesh::read_step;
-use selvedge_verification::campaign::exact::{Claim, ExactFindings, Progress, Scenes, run};
-use selvedge_verification::campaign::{Findings, Shard, StateFile, read};
+use selvedge_verification::campaign::{Claim, Findings, Run, Scenes};
 use selvedge_verification::generator::BendingTube;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -22,23 +21,21 @@ type Failure = Box<dyn std::error::Error + Send + Sync>;
 const PAIRS_PER_CHUNK: u64 = 1 << 20;
 /// The largest number of pairs of each kind that a step gives, evenly spaced.
 const PAIRS_OF_A_STEP: usize = 200_000;
-/// The commit from which `verification/cluster/build.sh` builds. Without it shards cannot be joined.
-const COMMIT: Option<&str> = option_env!("SELVEDGE_COMMIT");
 
 #[derive(Parser)]
 struct Options {
     /// The number of pairs.
     #[arg(default_value = "1_000_000_000", value_parser = |text: &str| text.replace('_', "").parse::<u64>())]
     pairs: u64,
-    /// The seed of the run, by default the time.
+    /// The seed of the run, by default the time. Runs with other seeds test other pairs.
     #[arg(long)]
     seed: Option<u64>,
-    /// Run one of N parts: I/N, I from 1 to N. All parts have the same seed.
-    #[arg(long, default_value_t = Shard::WHOLE, requires = "seed")]
-    shard: Shard,
-    /// The file of the state, by default in the folder for temporary files.
+    /// Write the counts to this file, as JSON.
     #[arg(long)]
-    state: Option<PathBuf>,
+    json: Option<PathBuf>,
+    /// Add the counts of these files instead of running.
+    #[arg(long, num_args = 1.., value_name = "JSON")]
+    sum: Vec<PathBuf>,
     #[arg(long)]
     threads: Option<usize>,
     /// A step between two meshes.
@@ -47,10 +44,16 @@ struct Options {
 }
 
 fn main() -> ExitCode {
-    match go_on(&Options::parse()) {
-        Ok(progress) => {
-            println!("seed {}, digest {}\n{progress}", progress.settings.seed, progress.digest);
-            ExitCode::from(u8::from(progress.found.wrong() > 0))
+    let options = Options::parse();
+    let found = if options.sum.is_empty() {
+        run(&options)
+    } else {
+        sum(&options.sum)
+    };
+    match found {
+        Ok(found) => {
+            println!("{found}");
+            ExitCode::from(u8::from(found.wrong() > 0))
         }
         Err(failure) => {
             eprintln!("{failure}");
@@ -69,74 +72,55 @@ fn scenes(meshes: &[PathBuf]) -> Result<Scenes, Failure> {
         let step = read_step(&ends[0], &ends[1])?;
         scenes.add_step(&step.topology, &step.start, &step.end, PAIRS_OF_A_STEP)?;
     }
-    eprintln!(
-        "scenes: {} VF and {} EE pairs",
-        scenes.vertex_face.len(),
-        scenes.edge_edge.len()
-    );
     Ok(scenes)
 }
 
-/// Resumes the kept state, or starts a run, and runs to the end.
-fn go_on(options: &Options) -> Result<Progress, Failure> {
-    let scenes = scenes(&options.mesh)?;
-    let shard = options.shard;
-    let name = match shard {
-        Shard::WHOLE => "exact_campaign.json".to_owned(),
-        _ => format!("exact_campaign-{}.json", shard.to_string().replace('/', "-of-")),
-    };
-    let path = options.state.clone().unwrap_or_else(|| std::env::temp_dir().join(name));
-    let file = StateFile::open(&path, |message| eprintln!("{message}"))?;
-    let command: Vec<String> = std::env::args().collect();
-    let fresh = |seed| {
-        let fresh = Progress::new(seed, options.pairs, PAIRS_PER_CHUNK, &scenes, &Claim::CERTIFIED);
-        fresh.of_shard(shard, COMMIT, &command.join(" "))
-    };
-    let progress = match read::<ExactFindings>(&path)? {
-        Some(kept) => {
-            let asked = fresh(options.seed.unwrap_or(kept.settings.seed));
-            let resume = kept.resume(asked);
-            resume.map_err(|why| format!("{}: {why}; delete it, or name another file", path.display()))?
-        }
-        None => fresh(
-            options
-                .seed
-                .unwrap_or_else(|| UNIX_EPOCH.elapsed().map_or(0, |time| time.as_secs())),
-        ),
-    };
-    // A shard without chunks needs a file, too.
-    file.keep(&progress)?;
-    eprintln!("seed {}, shard {shard}, state in {}", progress.settings.seed, path.display());
+fn sum(files: &[PathBuf]) -> Result<Findings, Failure> {
+    let mut sum: Option<Findings> = None;
+    for file in files {
+        let wrong = |why: &dyn std::fmt::Display| format!("{}: {why}", file.display());
+        let text = std::fs::read_to_string(file).map_err(|error| wrong(&error))?;
+        let found: Findings = serde_json::from_str(&text).map_err(|error| wrong(&error))?;
+        sum.get_or_insert_with(|| Findings::nothing(&found.claims))
+            .add(found)
+            .map_err(|claims| wrong(&format!("counts of other claims, {claims:?}")))?;
+    }
+    sum.ok_or_else(|| "no file to add".into())
+}
 
-    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} chunks, {eta} left{msg}")?;
-    let bar = ProgressBar::new(progress.range.end - progress.range.start).with_style(style);
-    bar.set_position(progress.done.len());
-    bar.reset_eta();
-    let (begin, before) = (Instant::now(), progress.cases());
-    let after_chunk = |progress: &Progress| {
-        if let Err(failure) = file.keep(progress) {
-            bar.suspend(|| eprintln!("{failure}"));
-        }
-        if progress.found.wrong() > 0 {
-            bar.set_message(format!(", {} WRONG", progress.found.wrong()));
-        }
-        bar.inc(1);
+fn run(options: &Options) -> Result<Findings, Failure> {
+    let scenes = scenes(&options.mesh)?;
+    let seed = options
+        .seed
+        .unwrap_or_else(|| UNIX_EPOCH.elapsed().map_or(0, |time| time.as_secs()));
+    let run = Run {
+        seed,
+        chunks: options.pairs.div_ceil(PAIRS_PER_CHUNK),
+        pairs_per_chunk: PAIRS_PER_CHUNK,
+        scenes: &scenes,
+        claims: &Claim::CERTIFIED,
+        level: best_level(),
     };
+    let (vertex_face, edge_edge) = (scenes.vertex_face.len(), scenes.edge_edge.len());
+    eprintln!("seed {seed}, {vertex_face} VF and {edge_edge} EE pairs of scenes");
+    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} chunks, {eta} left{msg}")?;
+    let bar = ProgressBar::new(run.chunks).with_style(style);
+    let begin = Instant::now();
     let threads = options
         .threads
         .or_else(|| std::thread::available_parallelism().ok().map(usize::from));
-    let progress = run(
-        progress,
-        &scenes,
-        best_level(),
-        threads.unwrap_or(1).max(1),
-        after_chunk,
-        || false,
-    );
+    let found = run.findings(threads.unwrap_or(1).max(1), |found| {
+        if found.wrong() > 0 {
+            bar.set_message(format!(", {} WRONG", found.wrong()));
+        }
+        bar.inc(1);
+    });
     bar.finish_and_clear();
-    let pairs = progress.cases() - before;
     let seconds = begin.elapsed().as_secs_f64();
-    let rate = pairs as f64 / seconds;
-    eprintln!("{pairs} pairs in {seconds:.0} s, {rate:.0} a second");
-    Ok(progress)
+    eprintln!("{:.0} s, {:.0} pairs a second", seconds, found.pairs as f64 / seconds);
+    if let Some(path) = &options.json {
+        let text = serde_json::to_string(&found)?;
+        std::fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))?;
+    }
+    Ok(found)
 }

@@ -4,10 +4,11 @@
 //!     [--time-step FACTOR] [--stiffness FACTOR] [--without EFFECT]`
 //!
 //! Runs each scene to its end, or N steps (after the scene's end its bodies and pins rest), and checks every state, or one in N
-//! with `--every`. It leaves out scenes without a contact effect, and reports the largest stretch in the checked states. Factors multiply the scene's time step and all its stiffnesses. Two ropes that pass through each other leave no
-//! trace in a state. So the paths of loose edges are checked as well, in all steps that were not cut into parts, which bend
-//! paths. Without `self_collision` the run must fail, which shows that it can. The exit status is 1 if a state is invalid, a step
-//! failed, or the scene cannot be read.
+//! with `--every`. It leaves out scenes without a contact effect, and reports the largest stretch in the checked states. Factors
+//! multiply the scene's time step and all its stiffnesses. Two ropes that pass through each other leave no trace in a state. So
+//! the paths of loose edges are checked as well, in all steps that were not cut into parts, which bend paths. Without
+//! `self_collision` the run must fail, which shows that it can. The exit status is 1 if a state is invalid, a step failed, or the
+//! scene cannot be read.
 
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressIterator, ProgressStyle};

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Checks the proofs in this folder with Coq, and that their only axioms are those of the real numbers. Then extracts the checker of
-# witnesses, and tests it.
+# Checks the proofs in this folder with Coq, and that their only axioms are those of the real numbers. Then extracts the checker
+# of witnesses, and tests it.
 #
 #   check.sh [PROGRAM]    leaves the extracted checker there
 #
@@ -26,13 +26,7 @@ if ! is_there; then
     install || { as_root apt-get update >/dev/null && install; }
 fi
 
-# In the order of their dependencies; the last one prints the axioms of its theorems. mutations.py reads the following lists of the files
-# that build on the ones written from the kernels:
-# above Filter: Permanent Magnitudes Advance Advancing Checker Witnesses Chains Gaps Kept Theorems
-# above Boxes: Apart Certificates Volume Clipping VolumeSteps Advancing Checker Witnesses Chains Gaps Kept Theorems
-# above Advance: Advancing Checker Chains Kept Theorems
-# above Gap: Gaps Kept Theorems
-# above Narrowed: Narrowing Theorems
+# In the order of their dependencies; the last one prints the axioms of its theorems.
 files=(Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Magnitudes Orders Boxes Apart Certificates
     Machine Nearness Corners Directions Held Hull Volume Clipping VolumeSteps Advance Advancing Checker Gap Gaps Nearest Witnesses
     Chains Kept Integers Narrowed Narrowing Theorems)

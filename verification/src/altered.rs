@@ -1,6 +1,7 @@
 //! Core's kernels with other constants in their error bounds, which shows why each constant is needed.
 
 use crate::generator::{Format, PairCase};
+use selvedge_core::altered::{self, Constants};
 use selvedge_core::elementary::{Impact, Limits};
 #[cfg(doc)]
 use selvedge_core::kernels::coplanarity::MovingTetrahedron;
@@ -8,7 +9,6 @@ use selvedge_core::kernels::coplanarity::MovingTetrahedron;
 use selvedge_core::kernels::lanes::Rounding;
 use selvedge_core::kernels::of_kind;
 use selvedge_core::kernels::points::{PairPoints, PairShape};
-use selvedge_core::kernels::{altered, altered::Constants};
 use selvedge_core::{PairKind, Scalar};
 use std::marker::PhantomData;
 

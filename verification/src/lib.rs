@@ -29,8 +29,8 @@ pub mod plain;
 pub mod random;
 pub mod witness;
 
-/// Declares a module with tests in `f32` and in `f64` of a generic function, or of a property with a number of cases and a strategy. The
-/// module has the function's name, or another one: `formats!(name is function(1_000, pairs_of_any_kind()))`.
+/// Declares a module with tests in `f32` and in `f64` of a generic function, or of a property with a number of cases and a
+/// strategy. The module has the function's name, or another one: `formats!(name is function(1_000, pairs_of_any_kind()))`.
 #[macro_export]
 macro_rules! formats {
     ($name:ident) => {
@@ -67,3 +67,8 @@ macro_rules! formats {
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
 struct Readme;
+
+/// Runs the tutorial's examples as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/tutorials/rust.md")]
+struct Tutorial;

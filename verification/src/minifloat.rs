@@ -227,7 +227,7 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Lanes for Minifloat<E, 
         mask
     }
 
-    /// This is rounded once: f64 has more than twice the bits, so a root that is no number of this format does not become one.
+    /// This is rounded once: f64 has more than twice the bits, so a root that is not a number of this format does not become one.
     fn sqrt(self) -> Self {
         Self::rounded(self.operand().sqrt())
     }

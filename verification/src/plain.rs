@@ -1,4 +1,5 @@
-//! The paper's non-coplanarity filter as printed, which ignores rounding. **It is not certified**: it culls a colliding pair now and then.
+//! The paper's non-coplanarity filter as printed, which ignores rounding. **It is not certified**: it culls a colliding pair now
+//! and then.
 //!
 //! The campaigns run it to show that they find false culls.
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Shows how the kernels' computations differ from those at a commit (the last one by default), as a diff of the texts for Gappa and Coq.
-# Changes nothing.
+# Shows how the kernels' computations differ from those at a commit (the last one by default), as a diff of the texts for Gappa
+# and Coq. Changes nothing.
 #
 #   verification/traced/difference.sh [COMMIT]
 set -euo pipefail

@@ -36,7 +36,6 @@ pub(super) fn points<L: Chunk>(token: L::Token, pairs: Sixteen<'_, L::Scalar>, f
     macro_rules! point {
         ($point:literal) => {
             match pairs {
-                #[cfg(feature = "kernels")]
                 Sixteen::Tile(tile) => tile.0[$point].each_ref().map(
                     #[inline(always)]
                     |[x, y, z]| {

@@ -34,13 +34,17 @@ pub fn closest_points(level: Level, kind: PairKind, pairs: &[[DVec3; 4]], closes
                 }
             }
         }
-        let Ways { weights, way, direction } = found(level, kind, &sixteen);
+        let Offsets {
+            weights,
+            offset,
+            direction,
+        } = found(level, kind, &sixteen);
         let vector = |[x, y, z]: &[[f64; LANES]; 3], lane: usize| DVec3::new(x[lane], y[lane], z[lane]);
         for (lane, closest) in closest.iter_mut().enumerate() {
             let lane = lane % LANES;
             *closest = ClosestPoints {
                 weights: weights.map(|row| row[lane]),
-                way: vector(&way, lane),
+                offset: vector(&offset, lane),
                 direction: vector(&direction, lane),
             };
         }
@@ -51,21 +55,21 @@ pub fn closest_points(level: Level, kind: PairKind, pairs: &[[DVec3; 4]], closes
 struct Sixteen([[[f64; LANES]; 3]; 4]);
 
 /// The closest points of sixteen pairs.
-struct Ways {
+struct Offsets {
     weights: [[f64; LANES]; 4],
-    way: [[f64; LANES]; 3],
+    offset: [[f64; LANES]; 3],
     direction: [[f64; LANES]; 3],
 }
 
-fn found(level: Level, kind: PairKind, pairs: &Sixteen) -> Ways {
+fn found(level: Level, kind: PairKind, pairs: &Sixteen) -> Offsets {
     of_kind!(kind, P => vectorized!(level, [f64x8, f64x4, f64x2, f64], all::<P>(pairs)))
 }
 
 #[inline(always)]
-fn all<P: PairShape, L: Chunk<Scalar = f64>>(token: L::Token, Sixteen(pairs): &Sixteen) -> Ways {
-    let mut ways = Ways {
+fn all<P: PairShape, L: Chunk<Scalar = f64>>(token: L::Token, Sixteen(pairs): &Sixteen) -> Offsets {
+    let mut offsets = Offsets {
         weights: [[0.0; LANES]; 4],
-        way: [[0.0; LANES]; 3],
+        offset: [[0.0; LANES]; 3],
         direction: [[0.0; LANES]; 3],
     };
     for chunk in 0..LANES / L::WIDTH {
@@ -89,12 +93,12 @@ fn all<P: PairShape, L: Chunk<Scalar = f64>>(token: L::Token, Sixteen(pairs): &S
         }
         let found = ClosestInLanes::<L>::of::<P>([point!(0), point!(1), point!(2), point!(3)]);
         let [a, b, c, d] = found.weights;
-        a.store(&mut ways.weights[0], first);
-        b.store(&mut ways.weights[1], first);
-        c.store(&mut ways.weights[2], first);
-        d.store(&mut ways.weights[3], first);
-        store!(found.way, ways.way);
-        store!(found.direction, ways.direction);
+        a.store(&mut offsets.weights[0], first);
+        b.store(&mut offsets.weights[1], first);
+        c.store(&mut offsets.weights[2], first);
+        d.store(&mut offsets.weights[3], first);
+        store!(found.offset, offsets.offset);
+        store!(found.direction, offsets.direction);
     }
-    ways
+    offsets
 }

@@ -9,10 +9,9 @@ use crate::filter::Filter;
 use crate::kind::PairKind;
 use crate::scalar::Scalar;
 use fearless_simd::Level;
-#[cfg(feature = "kernels")]
 pub use shown::{culled, culled_from_tiles};
 
-/// A test for batches: a [`Filter`] of any tier and separation. With the feature `kernels`, also a test of boxes or of the
+/// A test for batches: a [`Filter`] of any tier and separation. Also a test of boxes or of the
 /// caller's own.
 pub trait BatchTest<S: Scalar>: Copy + sealed::Sealed {
     /// Returns the pairs that it culls. It may keep pairs that are not `wanted`. Returns `None` if an index is not in the rows.
@@ -66,8 +65,7 @@ pub fn culled_from_rows<S: Scalar>(
     }
 }
 
-/// The tests of the feature `kernels`, and pairs that lie side by side.
-#[cfg(feature = "kernels")]
+/// Tests of boxes or of the caller, and pairs that lie side by side.
 mod shown {
     use super::{BatchTest, sealed::Sealed};
     use crate::batch::kernels;

@@ -6,7 +6,6 @@
 
 use super::chunk::{Chunk, edge, points};
 use super::lane_test::VolumeTest;
-#[cfg(feature = "kernels")]
 use super::lane_test::{PointsTest, Test};
 use super::mask::{LANES, Mask};
 use super::sixteen::{InEitherFormat, Sixteen};
@@ -43,21 +42,18 @@ pub(super) fn by_filter<S: Scalar>(
 }
 
 /// Returns the pairs that a test culls, or `None` if an index is not in the rows.
-#[cfg(feature = "kernels")]
 #[inline(always)]
 pub(super) fn by_test<S: Scalar>(level: Level, kind: PairKind, test: Test, pairs: Sixteen<'_, S>) -> Option<Mask> {
     in_format!(pairs, by_test(level, kind, test))
 }
 
 /// Returns the pairs that a test of points culls. The test is compiled where it is called.
-#[cfg(feature = "kernels")]
 #[inline(always)]
 pub(super) fn by_points<S: Scalar>(level: Level, kind: PairKind, test: impl PointsTest, pairs: Sixteen<'_, S>) -> Option<Mask> {
     in_format!(pairs, by_points(level, kind, test))
 }
 
 /// Returns the pairs that a test of volumes culls. The test is compiled where it is called.
-#[cfg(feature = "kernels")]
 #[inline(always)]
 pub(super) fn by_volume<S: Scalar>(
     level: Level,
@@ -96,7 +92,6 @@ impl VolumeTest for NonCoplanarity {
     }
 }
 
-#[cfg(feature = "kernels")]
 #[inline(always)]
 fn test_points<P: PairShape, L: Chunk>(token: L::Token, test: impl PointsTest, pairs: Sixteen<'_, L::Scalar>) -> Option<Mask> {
     let mut culled = 0;
@@ -117,7 +112,6 @@ fn test_volume<P: PairShape, L: Chunk>(
     for chunk in 0..LANES / L::WIDTH {
         let first = chunk * L::WIDTH;
         let tetrahedron = match pairs {
-            #[cfg(feature = "kernels")]
             Sixteen::Tile(_) => points::<L>(token, pairs, first)?.tetrahedron::<P>(),
             Sixteen::Mesh { rows, indices } => {
                 // The edge from the volume's first point to another.
@@ -170,12 +164,10 @@ macro_rules! kernels {
                 filter.culls_open(pair)
             }
 
-            #[cfg(feature = "kernels")]
             pub(super) fn by_test(level: Level, kind: PairKind, test: Test, pairs: Sixteen<'_, $scalar>) -> Option<Mask> {
                 by_points(level, kind, test, pairs)
             }
 
-            #[cfg(feature = "kernels")]
             #[inline]
             pub(super) fn by_points(
                 level: Level,
@@ -186,7 +178,6 @@ macro_rules! kernels {
                 of_kind!(kind, P => vectorized!(level, $lanes, test_points::<P>(test, pairs)))
             }
 
-            #[cfg(feature = "kernels")]
             #[inline]
             pub(super) fn by_volume(
                 level: Level,

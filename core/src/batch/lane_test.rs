@@ -1,30 +1,26 @@
-//! Tests of lanes for batches. The feature `kernels` adds tests of boxes, and tests of the caller's own.
+//! Tests of lanes for batches: filters, boxes, and tests of the caller.
 //!
 //! `selvedge` itself uses only the filter and the rounds of advancing.
 
 use crate::coplanarity::{Decision, MovingTetrahedron};
 use crate::lanes::Lanes;
-#[cfg(feature = "kernels")]
 use crate::points::PairPoints;
 use crate::points::PairShape;
 use crate::scalar::Scalar;
 
 /// A test of the pairs' signed volumes, on any number of lanes.
-#[cfg_attr(not(feature = "kernels"), allow(unreachable_pub))]
 pub trait VolumeTest: Copy {
     /// Decides the lanes' pairs. A caller's test may leave [`settled`](Decision::settled) false.
     fn on<P: PairShape, L: Lanes<Scalar: Scalar>>(self, tetrahedron: &MovingTetrahedron<L>) -> Decision<L::Mask>;
 }
 
 /// A test of the pairs' points, on any number of lanes.
-#[cfg(feature = "kernels")]
 pub trait PointsTest: Copy {
     /// Returns the lanes whose pairs it culls.
     fn on<P: PairShape, L: Lanes>(self, points: &PairPoints<L>) -> L::Mask;
 }
 
 /// A culling test of the pairs' points that runs on batches. See [`boxes`](crate::boxes).
-#[cfg(feature = "kernels")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Test {
@@ -36,7 +32,6 @@ pub enum Test {
     RelativeBoxes,
 }
 
-#[cfg(feature = "kernels")]
 impl PointsTest for Test {
     #[inline(always)]
     fn on<P: PairShape, L: Lanes>(self, points: &PairPoints<L>) -> L::Mask {
@@ -49,11 +44,9 @@ impl PointsTest for Test {
 }
 
 /// A caller's test of points for batches, run by the code that runs [`Test`], so that times compare.
-#[cfg(feature = "kernels")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ByPoints<T>(pub T);
 
 /// A caller's test of volumes for batches, run by the code that runs [`Filter`](crate::filter::Filter).
-#[cfg(feature = "kernels")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ByVolume<T>(pub T);

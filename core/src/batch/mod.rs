@@ -12,9 +12,26 @@
 //! | [`largest_strays_from_rows`] | how far points may stray while the pair keeps its distance |
 //! | [`closest_points`] | where the pair is closest |
 //!
-//! The feature `kernels` adds tests of boxes, and pairs that already lie side by side.
+//! [`culled`] and [`culled_from_tiles`] take pairs that already lie side by side, and [`Test`] and [`ByPoints`] are further tests.
 //!
 //! The caller names the instruction set by a [`Level`]; `selvedge` detects the best one at run time.
+//!
+//! # The path of a call
+//! Each macro makes one choice, and none is made twice. Every leaf is one loop, compiled for one instruction set, format and kind of pair.
+//!
+//! ```text
+//! culled_from_rows(level, kind, filter, rows, indices)      generic over the format, inlined into the caller
+//!   │  in_format!        f32 or f64: from here on nothing is generic, so this crate compiles it once
+//!   ▼
+//! single::by_filter / double::by_filter                     one module for each format, made by kernels!
+//!   │  of_kind!          vertex–face or edge–edge
+//!   │  vectorized!       AVX-512, AVX2, SSE2, NEON, simd128, or one lane
+//!   ▼
+//! test_volume::<Kind, Lanes>                                loops over the sixteen pairs at the width of the registers
+//!   │  Chunk             loads four points of each pair
+//!   ▼
+//! MovingTetrahedron::decide                                 the kernel that one pair runs, too
+//! ```
 //!
 //! ```
 //! use selvedge_core::batch::{culled_from_rows, Level, VertexRow};
@@ -48,20 +65,16 @@ mod rows;
 mod simd;
 mod sixteen;
 mod strays;
-#[cfg(feature = "kernels")]
 mod tile;
 
 pub use advance::{Round, RoundQuestion, advance_from_rows};
 pub use closest::closest_points;
 pub use compared::{Compares, Loop, in_lanes};
 pub use culled::{BatchTest, culled_from_rows};
-#[cfg(feature = "kernels")]
 pub use culled::{culled, culled_from_tiles};
 pub use fearless_simd::Level;
-#[cfg(feature = "kernels")]
 pub use lane_test::{ByPoints, ByVolume, PointsTest, Test, VolumeTest};
 pub use mask::{LANES, Mask};
 pub use rows::VertexRow;
 pub use strays::largest_strays_from_rows;
-#[cfg(feature = "kernels")]
 pub use tile::Tile;

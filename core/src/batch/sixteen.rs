@@ -2,7 +2,6 @@
 
 use super::mask::LANES;
 use super::rows::VertexRow;
-#[cfg(feature = "kernels")]
 use super::tile::Tile;
 use crate::kind::PairKind;
 use crate::motion::PrimitivePair;
@@ -18,7 +17,6 @@ pub enum Sixteen<'a, S> {
         rows: &'a [VertexRow<S>],
         indices: &'a [[u32; 4]; LANES],
     },
-    #[cfg(feature = "kernels")]
     Tile(&'a Tile<S>),
 }
 
@@ -33,7 +31,6 @@ impl<S: Scalar> Sixteen<'_, S> {
     #[inline(always)]
     pub(super) fn pair(self, kind: PairKind, lane: usize) -> PrimitivePair<S> {
         let motions = match self {
-            #[cfg(feature = "kernels")]
             Self::Tile(tile) => tile.motions(lane),
             Self::Mesh { rows, indices } => {
                 let unknown = VertexRow([S::INFINITY * S::ZERO; 8]);

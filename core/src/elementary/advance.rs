@@ -61,7 +61,7 @@
 //! | [`OutOfRange`](Reason::OutOfRange) | unknown, in `f64` with a separation: differences or the separation are above 2²⁵⁰, or coordinates above 2¹⁰¹⁹ |
 //! | [`NotFinite`](Reason::NotFinite) | undefined: NaN, an infinity, or a separation that is negative |
 //!
-//! V is the longest way of a corner during the step. A round that ends neither within δ + s nor within rounding of s proves that
+//! V is the longest path of a corner during the step. A round that ends neither within δ + s nor within rounding of s proves that
 //! the pair is apart for some time. This is the time that the rest of the distance takes at speed V, apart from a few u. So 4093
 //! rounds that each prove more than a 4093rd of the step pass its end. The first three rounds are not counted. They look for the
 //! closest points in a cheaper way, which may be wrong for thin or tiny sets.
@@ -126,7 +126,6 @@ fn impact_within<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>, span: [
 }
 
 /// Returns [`time_of_impact`] and its work.
-#[cfg(feature = "kernels")]
 #[inline]
 pub fn time_of_impact_and_work<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>) -> (Impact<S>, Work) {
     within(pair, limits, [S::ZERO, S::ONE])
@@ -134,7 +133,6 @@ pub fn time_of_impact_and_work<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limi
 
 /// Returns [`time_of_impact_and_work`] of four points in numbers of any format, other crates' included, after at most `rounds`
 /// rounds. A separation must not be subnormal.
-#[cfg(feature = "kernels")]
 #[inline(always)]
 pub fn time_of_impact_of_points<P: PairShape, S: Number>(
     points: &PairPoints<S>,

@@ -53,7 +53,6 @@ pub fn contact<S: Scalar>(pair: &PrimitivePair<S>) -> ContactVerdict {
 }
 
 /// Returns [`contact`] and the evidence for it.
-#[cfg(feature = "kernels")]
 #[inline]
 pub fn contact_and_evidence<S: Scalar>(pair: &PrimitivePair<S>) -> (ContactVerdict, Evidence) {
     answer(pair, &easy_impact(pair))

@@ -195,7 +195,7 @@ pub fn is_in_range<L: Lanes>(largest: L) -> L::Mask {
 #[inline(always)]
 pub(crate) fn zero_if_finite<L: Lanes>([a, b, c, d]: [L; 4]) -> L {
     let sum = (a + b) + (c + d);
-    #[allow(clippy::eq_op, reason = "infinity minus infinity is no number")]
+    #[allow(clippy::eq_op, reason = "infinity minus infinity is not a number")]
     let zero = sum - sum;
     zero
 }

@@ -33,7 +33,7 @@ pub trait PairShape {
     /// sets touch exactly when 0 lies in their convex hull.
     fn corners<L: Lanes>(points: [Vector<L>; 4]) -> [Vector<L>; 4];
 
-    /// Returns a multiple of the way from the middle of the second set to that of the first.
+    /// Returns a multiple of the vector from the middle of the second set to that of the first.
     fn between_middles<L: Lanes>(points: [Vector<L>; 4]) -> Vector<L>;
 }
 
@@ -98,7 +98,7 @@ impl PairShape for EdgeEdge {
 /// Selects code by a kind that is known at run time: `of_kind!(kind, P => code)`, where `P` is the [`PairShape`] of the kind.
 ///
 /// This is the only way from a [`PairKind`] to code that is compiled for each kind.
-#[cfg_attr(feature = "kernels", macro_export)]
+#[macro_export]
 macro_rules! of_kind {
     ($kind:expr, $pair:ident => $code:expr) => {
         match $kind {

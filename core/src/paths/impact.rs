@@ -35,7 +35,7 @@ const SHORTEST: f64 = 1.0 / 1_073_741_824.0;
 ///
 /// ```
 /// use selvedge_core::{Motion, PairKind, glam::DVec3, elementary::{Impact, Limits}, paths::{Path, RigidMotion, time_of_impact}};
-/// // The tip of a plank makes half a turn about the origin, through a wall at x = 0 that its straight way would pass behind.
+/// // The tip of a plank makes half a turn about the origin, through a wall at x = 0 that its straight path would pass behind.
 /// let plank = RigidMotion::new(DVec3::ZERO, DVec3::Z, core::f64::consts::PI, DVec3::ZERO).unwrap();
 /// let tip = plank.path(DVec3::X);
 /// let wall = [DVec3::new(0.0, 0.9, -1.0), DVec3::new(0.0, 0.9, 1.0), DVec3::new(0.0, 1.5, 0.0)].map(Motion::resting);
@@ -50,7 +50,7 @@ pub fn time_of_impact(kind: PairKind, paths: [&dyn Path; 4], limits: &Limits<f64
 /// Returns the distance that points must keep on straight pieces so that they keep `separation` on their paths, rounding
 /// included.
 ///
-/// `deviation` is the largest [deviation](super::Piece::deviation) of the paths of the two sides, added up. The ways between two
+/// `deviation` is the largest [deviation](super::Piece::deviation) of the paths of the two sides, added up. The offsets between two
 /// points, one of each side, on pieces and on paths differ by at most that. Three operations, each within 2u: 16u of it is added.
 #[must_use]
 pub fn separation_of_pieces(separation: f64, deviation: f64) -> f64 {

@@ -2,7 +2,7 @@
 //!
 //! All tests of this crate are for straight motion. A [`Path`] is reduced to it piece by piece. For any part of the step it
 //! returns a straight [motion](Piece::motion), and a bound of the point's distance from it, **rounding included**. Sets that are
-//! farther apart than the bounds of both sides on straight ways cannot meet on their paths. Where that does not decide, the part
+//! farther apart than the bounds of both sides on straight paths cannot meet on their paths. Where that does not decide, the part
 //! is halved, and for half an arc the bound is a quarter. [`time_of_impact`] does that for one pair, and [`geometry`] returns how
 //! the pair then meets.
 //!
@@ -83,7 +83,7 @@ impl Path for Motion<f64> {
     }
 }
 
-/// Returns a bound of the rounding error of a position on a straight way: along each axis 8u of the larger coordinate, 13.9u of
+/// Returns a bound of the rounding error of a position on a straight path: along each axis 8u of the larger coordinate, 13.9u of
 /// it in all.
 fn rounding(motion: &Motion<f64>) -> f64 {
     16.0 * u() * largest(motion.start).max(largest(motion.end)) + <f64 as Rounding>::UNDERFLOW

@@ -11,7 +11,7 @@ use glam::DVec3;
 /// use selvedge_core::{glam::DVec3, paths::{Path, Polyline}};
 /// let knots = [DVec3::ZERO, DVec3::X, DVec3::ZERO];
 /// let path = Polyline::new(&[0.0, 0.5, 1.0], &knots).unwrap();
-/// // There and back: at rest, apart from the way to the knot.
+/// // There and back: at rest, apart from the path to the knot.
 /// let piece = path.piece(0.0, 1.0);
 /// assert!(piece.motion.end == DVec3::ZERO && piece.deviation >= 1.0);
 /// assert!(path.piece(0.0, 0.5).deviation < 1e-13);
@@ -38,7 +38,7 @@ impl<'a> Polyline<'a> {
         (ascend && span && are_finite && times.len() == positions.len()).then_some(Self {
             times,
             positions,
-            // The time within a piece takes three operations, of a way of at most 2B along each axis, and the place adds 8u of B:
+            // The time within a piece takes three operations, of a path of at most 2B along each axis, and the place adds 8u of B:
             // 35u of it in all.
             rounding: 48.0 * u() * size + <f64 as Rounding>::UNDERFLOW,
         })
@@ -93,7 +93,7 @@ impl Path for Polyline<'_> {
             position: self.at(time),
             position_error: self.rounding,
             velocity,
-            // There are three operations, of a way of at most 2B along each axis: 21u of it over the time, and the quotient.
+            // There are three operations, of a path of at most 2B along each axis: 21u of it over the time, and the quotient.
             velocity_error: self.rounding / lasts,
         }
     }

@@ -140,7 +140,7 @@ pub struct Arc {
     start: DVec3,
     centre: DVec3,
     translation: DVec3,
-    /// The parts of the way from the centre: along the axis, across it, and the latter after a quarter turn.
+    /// The parts of the offset from the centre: along the axis, across it, and the latter after a quarter turn.
     along: DVec3,
     across: DVec3,
     sideways: DVec3,

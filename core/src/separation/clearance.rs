@@ -65,7 +65,7 @@ impl Clearance {
         }
     }
 
-    /// Returns how far points may stray on straight ways from `start` to `end`, so that the pair certainly keeps its distance.
+    /// Returns how far points may stray on straight paths from `start` to `end`, so that the pair certainly keeps its distance.
     /// The pair must keep it at both ends, in the same order, along an axis or along the direction between the sets' middles. The
     /// result is less than zero if points may not stray at all.
     /// [`largest_strays_from_rows`](crate::batch::largest_strays_from_rows) computes it for many pairs.

@@ -9,14 +9,14 @@ use crate::points::PairShape;
 use crate::vector::Vector;
 use glam::DVec3;
 
-/// The shortest way from the second set of a pair to the first.
+/// The shortest vector from the second set of a pair to the first.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ClosestPoints {
-    /// The weights of the four points in [`way`](Self::way): those of the first set add up to 1, those of the second to −1.
+    /// The weights of the four points in [`offset`](Self::offset): those of the first set add up to 1, those of the second to −1.
     pub weights: [f64; 4],
-    /// The shortest way, Σ weightᵢ·xᵢ.
-    pub way: DVec3,
-    /// The direction of the way, of length one, perpendicular to the features of the closest points as far as rounding allows. It
+    /// The shortest vector, Σ weightᵢ·xᵢ.
+    pub offset: DVec3,
+    /// The direction of that vector, of length one, perpendicular to the features of the closest points as far as rounding allows. It
     /// is zero if the sets touch.
     pub direction: DVec3,
 }
@@ -28,18 +28,18 @@ impl ClosestPoints {
     pub fn from_points(kind: PairKind, [p, q, r, s]: [DVec3; 4]) -> Self {
         let points = [vector(p), vector(q), vector(r), vector(s)];
         let found = of_kind!(kind, P => ClosestInLanes::of::<P>(points));
-        let [way, direction] = [found.way, found.direction].map(|Vector { x, y, z }| DVec3::new(x, y, z));
+        let [offset, direction] = [found.offset, found.direction].map(|Vector { x, y, z }| DVec3::new(x, y, z));
         Self {
             weights: found.weights,
-            way,
+            offset,
             direction,
         }
     }
 
-    /// Returns the length of the shortest way.
+    /// Returns the length of that vector.
     #[must_use]
     pub fn distance(&self) -> f64 {
-        self.way.length()
+        self.offset.length()
     }
 }
 
@@ -52,7 +52,7 @@ const fn vector(point: DVec3) -> Vector<f64> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ClosestInLanes<L> {
     pub(crate) weights: [L; 4],
-    pub(crate) way: Vector<L>,
+    pub(crate) offset: Vector<L>,
     pub(crate) direction: Vector<L>,
 }
 
@@ -61,23 +61,23 @@ impl<L: Lanes<Scalar = f64>> ClosestInLanes<L> {
     pub(crate) fn of<P: PairShape>(points: [Vector<L>; 4]) -> Self {
         let [p, q, r, s] = points;
         // Differences come first: they are small and nearly exact, wherever the pair is.
-        let (weights, way, sides, count) = match P::KIND {
+        let (weights, offset, sides, count) = match P::KIND {
             PairKind::VertexFace => {
                 let weights = of_vertex_face(points);
-                let way = ((q - p).scaled(weights[1]) + (r - p).scaled(weights[2])) + (s - p).scaled(weights[3]);
+                let offset = ((q - p).scaled(weights[1]) + (r - p).scaled(weights[2])) + (s - p).scaled(weights[3]);
                 let sides = [r - q, s - q];
-                (weights, way, sides, 3)
+                (weights, offset, sides, 3)
             }
             PairKind::EdgeEdge => {
                 let weights = of_edge_edge(points);
-                let way = ((p - r) + (q - p).scaled(weights[1])) + (s - r).scaled(weights[3]);
-                (weights, way, [q - p, s - r], 2)
+                let offset = ((p - r) + (q - p).scaled(weights[1])) + (s - r).scaled(weights[3]);
+                (weights, offset, [q - p, s - r], 2)
             }
         };
         Self {
             weights,
-            way,
-            direction: upright(way, sides, count),
+            offset,
+            direction: upright(offset, sides, count),
         }
     }
 }
@@ -87,24 +87,24 @@ impl<L: Lanes<Scalar = f64>> ClosestInLanes<L> {
 /// Where the sets are near each other, the difference of the closest points has lost its digits. Then the features themselves
 /// give the normal.
 #[inline(always)]
-fn upright<L: Lanes<Scalar = f64>>(way: Vector<L>, [first, second]: [Vector<L>; 2], count: usize) -> Vector<L> {
-    let zero = way.x.splat(0.0);
-    let straight = normalized(way);
-    let squared = way.dot(way);
+fn upright<L: Lanes<Scalar = f64>>(offset: Vector<L>, [first, second]: [Vector<L>; 2], count: usize) -> Vector<L> {
+    let zero = offset.x.splat(0.0);
+    let straight = normalized(offset);
+    let squared = offset.dot(offset);
     let near = zero.splat(NEAR);
     let is_near = !(squared.greater(first.dot(first) * near) & squared.greater(second.dot(second) * near));
     if !L::any(is_near) {
         return straight;
     }
     let normal = normalized(first.cross(second));
-    let along = normal.dot(way);
+    let along = normal.dot(offset);
     let is_level = (along * along).greater(squared * zero.splat(0.999_998));
     let sign = L::select(zero.greater(along), zero.splat(-1.0), zero.splat(1.0));
     let mut direction = chosen(is_near, normal.scaled(sign), straight);
     let is_on_side = is_near & !is_level;
     if L::any(is_on_side) {
         // This removes the rest along each side.
-        let mut left = way;
+        let mut left = offset;
         let sides = [first, second, second - first];
         for place in 0..count {
             let side = sides[place];
@@ -214,11 +214,11 @@ fn clamped<L: Lanes<Scalar = f64>>(number: L) -> L {
 
 /// Normalises a vector. Returns zero if that is not possible.
 #[inline(always)]
-fn normalized<L: Lanes<Scalar = f64>>(way: Vector<L>) -> Vector<L> {
-    let zero = way.x.splat(0.0);
-    let factor = way.x.splat(1.0) / way.dot(way).sqrt();
+fn normalized<L: Lanes<Scalar = f64>>(offset: Vector<L>) -> Vector<L> {
+    let zero = offset.x.splat(0.0);
+    let factor = offset.x.splat(1.0) / offset.dot(offset).sqrt();
     let is_possible = is_finite(factor) & factor.greater(zero);
-    chosen(is_possible, way.scaled(factor), Vector::new(zero, zero, zero))
+    chosen(is_possible, offset.scaled(factor), Vector::new(zero, zero, zero))
 }
 
 #[inline(always)]

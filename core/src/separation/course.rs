@@ -1,4 +1,4 @@
-//! A course: the straight way on which a point is expected, and how far it may stray from it.
+//! A course: the straight path on which a point is expected, and how far it may stray from it.
 //!
 //! Pairs may [keep a clearance](super::clearance) of h on the courses of their points, although each point strays by b/2 along
 //! each axis. Such pairs need no attention while no point strays further. If a smaller distance m is enough, points may stray by
@@ -6,7 +6,7 @@
 //! a hundredth less than that.
 //!
 //! A point that begins at `origin` is expected at `origin + drift·t` after a time t. At the end of the course this is `origin +
-//! drift·span`, from which the clearance was computed. Between times at which it is within its room, it moves on a straight way,
+//! drift·span`, from which the clearance was computed. Between times at which it is within its room, it moves on a straight path,
 //! as its course does. So it is within its room in between as well.
 //!
 //! # Rounding

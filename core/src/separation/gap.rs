@@ -220,7 +220,7 @@ impl SeparatingDirection {
         }
     }
 
-    /// Returns `direction` with its gap at the end, if it certainly keeps the pair more than `separation` apart on straight ways.
+    /// Returns `direction` with its gap at the end, if it certainly keeps the pair more than `separation` apart on straight paths.
     /// The direction is rounded first, so the returned one is the proof.
     #[inline]
     #[must_use]

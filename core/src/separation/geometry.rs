@@ -1,7 +1,7 @@
 //! The geometry of a contact: the points of both sides, their weights, and the normal between them.
 //!
-//! A contact's time lies a little before the pair touches. So its closest points are near each other, and the way between them is
-//! mostly rounding. The normal does not come from that way alone: directions perpendicular to the features are tried as well. A
+//! A contact's time lies a little before the pair touches. So its closest points are near each other, and the vector between them is
+//! mostly rounding. The normal does not come from that vector alone: directions perpendicular to the features are tried as well. A
 //! direction is taken only if it **certainly kept the pair apart** at the time of contact, or shortly before
 //! ([`gap`](super::gap)). So up to the first contact, a normal points from the second side to the first as they were before, in
 //! any numbering of vertices. At a time after a pair has passed through each other, it points as they lie then.
@@ -19,7 +19,7 @@
 //! * [`Geometry::distance`] encloses the distance of the two sides at that time. From above: the closest points are the nearest,
 //!   whatever the weights. Both sides' 18u·D along each axis, 62.4u·D, are covered by 96u·D, and η and 16u of the length are
 //!   added. From below: by the normal.
-//! * The speed is within 256u·D of that of the points with these weights along this normal. Along each axis a way is within 8u·D,
+//! * The speed is within 256u·D of that of the points with these weights along this normal. Along each axis a path is within 8u·D,
 //!   and weighing adds 12u·D. The difference of the two sides makes 48u·D of it, and the product with the normal at most 125u·D
 //!   in all.
 //! * A normal has length one within 16u, and **the two sides were certainly apart along it** at [`Geometry::separated_at`]. There
@@ -192,7 +192,7 @@ fn length(vector: DVec3) -> f64 {
     if size > 0.0 { size * (vector / size).length() } else { size }
 }
 
-/// Turns weights of the way between the two into barycentric weights: none is negative, and those of each side add up to one.
+/// Turns weights of the offset between the two into barycentric weights: none is negative, and those of each side add up to one.
 fn barycentric(kind: PairKind, [_, b, c, d]: [f64; 4]) -> [f64; 4] {
     let part = |weight: f64| weight.abs().clamp(0.0, 1.0);
     match kind {

@@ -1,6 +1,6 @@
 //! Two triangles with a common edge: a test that excludes contact beside it.
 //!
-//! Let e = u − v be the edge, and a and b the ways from v to the opposite corners. Any point of the first triangle has a part
+//! Let e = u − v be the edge, and a and b the vectors from v to the opposite corners. Any point of the first triangle has a part
 //! perpendicular to e: that of a times a weight in [0, 1], which is zero only on the edge. For the second triangle it is that of
 //! b. A common point has both: s·a⊥ = t·b⊥. Where a⊥·b⊥ < 0, the product with a⊥ gives s = 0, and the one with b⊥ gives t = 0, so
 //! the point is on the edge. So two triangles that are **wide open**, by more than a right angle, need no further test; flat ones

@@ -1,4 +1,4 @@
-//! Truncation: the way of each point of a pair that lets the pair keep its distance, however far the others go. A step is
+//! Truncation: the displacement of each point of a pair that lets the pair keep its distance, however far the others go. A step is
 //! truncated vertex by vertex, where a time of impact would cut it for the whole mesh.
 //!
 //! **The lemma.** Let x be where the four points start, y where they are wanted, and d a direction with |d| ≤ 1. Along d the
@@ -9,12 +9,12 @@
 //!
 //! *Proof.* At s = 0 each point is in its half-space, by the choice of o. Half-spaces are convex, so it is there for every share
 //! up to the largest, whatever the others' shares are. So the gap along d is at least m at the end, and more than m at the start.
-//! Along straight ways it is linear in time ([`gap`](super::gap)). ∎
+//! Along straight paths it is linear in time ([`gap`](super::gap)). ∎
 //!
 //! **From a base.** The step may begin at another place than x, which is then a *base* from which its points continue towards y.
 //! Then only the start needs a further test. If d keeps the pair more than m apart there too, the sets are at least m apart
-//! throughout the step from there to e. *Proof.* The statement about the end of the way from x to y concerns e alone, and
-//! straight ways from any start are linear in time. ∎ A step that cannot go from its start towards y first goes to a free base,
+//! throughout the step from there to e. *Proof.* The statement about the end of the path from x to y concerns e alone, and
+//! straight paths from any start are linear in time. ∎ A step that cannot go from its start towards y first goes to a free base,
 //! and from there as far as it can.
 //!
 //! A vertex takes the least of its shares over all of its pairs; their order does not matter. Only d is shared by both ends, and
@@ -39,7 +39,7 @@ use crate::vector::Vector;
 /// rest from then on.
 pub const PART: f64 = 127.0 / 128.0;
 
-/// Returns the largest shares of their ways from `start` to `wanted` that the four points may go, each in [0, 1]. With them the
+/// Returns the largest shares of their displacements from `start` to `wanted` that the four points may go, each in [0, 1]. With them the
 /// pair keeps more than `separation` along `direction`. `direction` goes from the second set to the first and is no longer than
 /// one. Returns `None` if it keeps the pair no farther apart than that at the start.
 ///
@@ -121,7 +121,7 @@ pub fn shares<P: Position>(
 #[must_use]
 pub fn most_shares<P: Position>(
     kind: PairKind,
-    ways: [[P; 4]; 2],
+    ends: [[P; 4]; 2],
     directions: impl IntoIterator<Item = P>,
     separation: P::Scalar,
     error: GapError<P::Scalar>,
@@ -132,6 +132,6 @@ pub fn most_shares<P: Position>(
     };
     directions
         .into_iter()
-        .filter_map(|direction| Some((direction, shares(kind, ways, direction, separation, error)?)))
+        .filter_map(|direction| Some((direction, shares(kind, ends, direction, separation, error)?)))
         .reduce(|a, b| if least(&b.1) > least(&a.1) { b } else { a })
 }

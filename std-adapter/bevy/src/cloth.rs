@@ -26,10 +26,11 @@ use std::collections::BTreeMap;
 /// the one that was passed to [`cloth_of_mesh`]. No other entity should have the same mesh. The entity's `Transform` does not
 /// move the cloth.
 ///
-/// When cloth tears, its mesh receives one vertex per corner of a triangle, with all attributes. This needs the triangles in the cloth's
-/// order, as [`cloth_of_mesh`] and [`mesh_of`] have them.
+/// When cloth tears, its mesh receives one vertex per corner of a triangle, with all attributes. This needs the triangles in the
+/// cloth's order, as [`cloth_of_mesh`] and [`mesh_of`] have them.
 ///
-/// A fixed step is a [frame](Simulation::advance): it takes as many steps as the cloth needs, and the scene's own time step has no part in it.
+/// A fixed step is a [frame](Simulation::advance): it takes as many steps as the cloth needs, and the scene's own time step has
+/// no part in it.
 ///
 /// ```
 /// use bevy_ecs::world::World;
@@ -84,8 +85,8 @@ enum Part {
 }
 
 impl ClothSimulation {
-    /// Creates a simulation of a scene, on one thread. It starts in the first fixed step in which all followed entities have a place; errors
-    /// are reported then.
+    /// Creates a simulation of a scene, on one thread. It starts in the first fixed step in which all followed entities have a
+    /// place; errors are reported then.
     #[must_use]
     pub fn new(scene: Scene) -> Self {
         Self {
@@ -100,8 +101,8 @@ impl ClothSimulation {
         }
     }
 
-    /// Lets a body of the scene, given by its index, follow an entity. Its `BodyMotion` becomes [`Driven`](BodyMotion::Driven), from the
-    /// entity's place at the start.
+    /// Lets a body of the scene, given by its index, follow an entity. Its `BodyMotion` becomes [`Driven`](BodyMotion::Driven),
+    /// from the entity's place at the start.
     ///
     /// In a fixed step it moves to the place of the entity at a constant rate, and rotates the short way about the entity's
     /// origin. If the entity loses its `Transform` or is despawned, the body stays where it is.
@@ -165,8 +166,8 @@ impl ClothSimulation {
     }
 }
 
-/// Creates a Bevy mesh for rendering from [`Cloth::mesh`] or a body's mesh: positions, smooth normals and triangles. The material of a cloth
-/// should be double-sided.
+/// Creates a Bevy mesh for rendering from [`Cloth::mesh`] or a body's mesh: positions, smooth normals and triangles. The material
+/// of a cloth should be double-sided.
 #[must_use]
 pub fn mesh_of(mesh: &selvedge::Mesh) -> Mesh {
     let mut normals = Vec::new();
@@ -178,7 +179,8 @@ pub fn mesh_of(mesh: &selvedge::Mesh) -> Mesh {
         .with_inserted_indices(Indices::U32(mesh.triangles.as_flattened().to_vec()))
 }
 
-/// Creates a Bevy mesh with all cloths of a scene, one after the other. Ropes have no triangles; [`RopesOf`](crate::RopesOf) shows them.
+/// Creates a Bevy mesh with all cloths of a scene, one after the other. Ropes have no triangles; [`RopesOf`](crate::RopesOf)
+/// shows them.
 #[must_use]
 pub fn mesh_of_cloths(scene: &Scene) -> Mesh {
     let mut all = selvedge::Mesh::new(Vec::new(), Vec::new());

@@ -99,7 +99,7 @@ struct Source {
     groups: Groups,
 }
 
-enum Way {
+enum BodyPath {
     Rigid(Place),
     /// A straight motion of each point, while the body moves to a place and its mesh's vertices to positions.
     Straight {
@@ -145,21 +145,21 @@ pub(crate) fn find_contacts(
     all.sort_unstable_by_key(|&(entity, ..)| entity);
     collisions.keep_only(&all);
 
-    let mut ways = Vec::new();
+    let mut paths = Vec::new();
     let mut met: BTreeMap<Entity, SelvedgeError> = BTreeMap::new();
     for &wanted in &all {
         let entity = wanted.0;
         let place = places.of(entity);
-        match place.and_then(|place| collisions.way(wanted, place, &meshes, &changed)) {
-            Ok(Some(way)) => ways.push((entity, way)),
+        match place.and_then(|place| collisions.path(wanted, place, &meshes, &changed)) {
+            Ok(Some(path)) => paths.push((entity, path)),
             Ok(None) => {}
             Err(error) => {
                 met.insert(entity, error);
             }
         }
     }
-    let result = collisions.run(&mut ways, &mut met);
-    collisions.settle(ways);
+    let result = collisions.run(&mut paths, &mut met);
+    collisions.settle(paths);
     for (&entity, error) in &met {
         // The problem recurs in each step until it is fixed, but it is reported once.
         if collisions.problems.get(&entity) != Some(error) {
@@ -211,13 +211,13 @@ impl Collisions {
     }
 
     /// Returns the motion of a body to its current `place`; `None` if it rests or its mesh is not loaded.
-    fn way(
+    fn path(
         &mut self,
         (entity, &kind, groups, own, seen): Wanted<'_>,
         place: Place,
         meshes: &Assets<Mesh>,
         changed: &HashSet<AssetId<Mesh>>,
-    ) -> Result<Option<Way>, SelvedgeError> {
+    ) -> Result<Option<BodyPath>, SelvedgeError> {
         let id = own.map(|mesh| mesh.0.id()).or(seen.map(|mesh| mesh.0.id()));
         let Some((id, mesh)) = id.and_then(|id| Some((id, meshes.get(id)?))) else {
             self.remove(entity);
@@ -261,8 +261,8 @@ impl Collisions {
         }
         match kind {
             CollisionBody::Fixed => Ok(None),
-            CollisionBody::Rigid => Ok(body.rigid_way(place, mesh)?),
-            CollisionBody::Deforming => self.deforming_way(entity, place, positions_of(mesh)?),
+            CollisionBody::Rigid => Ok(body.rigid_path(place, mesh)?),
+            CollisionBody::Deforming => self.deforming_path(entity, place, positions_of(mesh)?),
         }
     }
 
@@ -311,7 +311,7 @@ impl Collisions {
         Ok(())
     }
 
-    fn deforming_way(&mut self, entity: Entity, place: Place, mesh: &[[f32; 3]]) -> Result<Option<Way>, SelvedgeError> {
+    fn deforming_path(&mut self, entity: Entity, place: Place, mesh: &[[f32; 3]]) -> Result<Option<BodyPath>, SelvedgeError> {
         let ends: Vec<DVec3> = mesh.iter().map(|&position| place.apply(position)).collect();
         let Some(body) = self.bodies.get(&entity) else {
             return Ok(None);
@@ -331,7 +331,7 @@ impl Collisions {
             let shape = Shape::new(last.shape.triangles.clone(), keys)?;
             self.insert(entity, last.source, Arc::new(shape), last.positions, last.place)?;
         }
-        Ok(self.bodies.get(&entity).map(|body| Way::Straight {
+        Ok(self.bodies.get(&entity).map(|body| BodyPath::Straight {
             points: [body.shape.of_points(&body.positions), body.shape.of_points(&ends)],
             place,
             positions: ends,
@@ -339,16 +339,16 @@ impl Collisions {
     }
 
     /// Finds the contacts. A body whose motion is refused stays where it is and is listed in `met`.
-    fn run(&mut self, ways: &mut Vec<(Entity, Way)>, met: &mut BTreeMap<Entity, SelvedgeError>) -> Result<(), WorldError> {
+    fn run(&mut self, paths: &mut Vec<(Entity, BodyPath)>, met: &mut BTreeMap<Entity, SelvedgeError>) -> Result<(), WorldError> {
         loop {
-            let motions = ways.iter().filter_map(|(entity, way)| {
+            let motions = paths.iter().filter_map(|(entity, path)| {
                 let body = self.bodies.get(entity)?;
-                let motion = match way {
-                    Way::Rigid(place) => MeshMotion::Rigid {
+                let motion = match path {
+                    BodyPath::Rigid(place) => MeshMotion::Rigid {
                         start: body.place.pose(),
                         end: place.pose(),
                     },
-                    Way::Straight {
+                    BodyPath::Straight {
                         points: [start, end], ..
                     } => MeshMotion::Deforming { start, end },
                 };
@@ -367,7 +367,7 @@ impl Collisions {
                 self.geometries.clear();
                 return Err(error);
             };
-            ways.retain(|&(own, _)| own != entity);
+            paths.retain(|&(own, _)| own != entity);
             met.insert(entity, SelvedgeError::World(error));
             if self.bodies.get(&entity).is_some_and(|body| body.is_new) {
                 // The body has left the place where it was inserted.
@@ -377,13 +377,13 @@ impl Collisions {
     }
 
     /// Makes the end of this step the start of the next.
-    fn settle(&mut self, ways: Vec<(Entity, Way)>) {
-        for (entity, way) in ways {
+    fn settle(&mut self, paths: Vec<(Entity, BodyPath)>) {
+        for (entity, path) in paths {
             let Some(body) = self.bodies.get_mut(&entity) else { continue };
             body.is_new = false;
-            match way {
-                Way::Rigid(place) => body.place = place,
-                Way::Straight { place, positions, .. } => (body.place, body.positions) = (place, positions),
+            match path {
+                BodyPath::Rigid(place) => body.place = place,
+                BodyPath::Straight { place, positions, .. } => (body.place, body.positions) = (place, positions),
             }
         }
     }
@@ -418,12 +418,12 @@ impl Collisions {
 }
 
 impl Body {
-    fn rigid_way(&self, place: Place, mesh: &Mesh) -> Result<Option<Way>, MeshError> {
+    fn rigid_path(&self, place: Place, mesh: &Mesh) -> Result<Option<BodyPath>, MeshError> {
         if place == self.place && !self.is_new {
             return Ok(None);
         }
         if place.has_form_of(&self.inserted) {
-            return Ok(Some(Way::Rigid(place)));
+            return Ok(Some(BodyPath::Rigid(place)));
         }
         let mesh = positions_of(mesh)?;
         if mesh.len() != self.shape.points.len() {
@@ -434,7 +434,7 @@ impl Body {
             let vertices = self.shape.vertices.iter();
             vertices.map(|&vertex| place.apply(mesh[vertex as usize])).collect()
         });
-        Ok(Some(Way::Straight {
+        Ok(Some(BodyPath::Straight {
             points,
             place,
             positions: Vec::new(),

@@ -28,13 +28,15 @@ pub enum SelvedgeError {
         /// The entity without it.
         entity: Entity,
     },
-    /// A `Transform` is not finite, or its rotation is zero. Until that changes, the body does not take part or stays where it is.
+    /// A `Transform` is not finite, or its rotation is zero. Until that changes, the body does not take part or stays where it
+    /// is.
     #[error("it cannot be placed: its Transform or that of an ancestor is not finite or has a rotation of zero")]
     BadTransform,
     /// A body was refused: it is out of range, or there are too many bodies.
     #[error("{0}")]
     World(WorldError),
-    /// The contacts of a step could not be found, for example because of the limit of pairs. The bodies are at the end of the step.
+    /// The contacts of a step could not be found, for example because of the limit of pairs. The bodies are at the end of the
+    /// step.
     #[error("the contacts of this step could not be found: {0}")]
     Step(WorldError),
     /// The scene of a cloth is invalid. It never starts.

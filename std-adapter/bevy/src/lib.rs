@@ -1,7 +1,7 @@
 //! Contacts of moving meshes in Bevy as messages, without a missed contact, and cloth whose bodies follow entities.
 //!
-//! **Start with [`SelvedgePlugin`]**: entities with a [`CollisionBody`] and a mesh take part, and each [`BodyContact`] is a message. A
-//! [`ClothSimulation`] moves the mesh of its entity. The readme explains the schedule.
+//! **Start with [`SelvedgePlugin`]**: entities with a [`CollisionBody`] and a mesh take part, and each [`BodyContact`] is a
+//! message. A [`ClothSimulation`] moves the mesh of its entity. The readme explains the schedule.
 //!
 //! ```text
 //! Transforms, meshes ──▶ place, shape ──▶ collisions: bodies of a World ──▶ BodyContact

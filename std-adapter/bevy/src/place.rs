@@ -7,8 +7,8 @@ use bevy_ecs::system::{Query, SystemParam};
 use bevy_transform::components::Transform;
 use selvedge::glam::{DMat3, DQuat, DVec3};
 
-/// A position p of the entity's mesh is at rotation · (form · p) + translation in the world. The form contains the scale and the shear that
-/// results from non-uniform scales of ancestors.
+/// A position p of the entity's mesh is at rotation · (form · p) + translation in the world. The form contains the scale and the
+/// shear that results from non-uniform scales of ancestors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Place {
     pub(crate) rotation: DQuat,
@@ -79,7 +79,8 @@ fn widened(position: [f32; 3]) -> DVec3 {
 }
 
 /// Computes the current places of entities from their `Transform`s and those of their ancestors, like
-/// [`TransformHelper`](bevy_transform::helper::TransformHelper). `GlobalTransform` is one frame old while the fixed schedules run.
+/// [`TransformHelper`](bevy_transform::helper::TransformHelper). `GlobalTransform` is one frame old while the fixed schedules
+/// run.
 #[derive(SystemParam)]
 pub(crate) struct Places<'w, 's> {
     transforms: Query<'w, 's, &'static Transform>,

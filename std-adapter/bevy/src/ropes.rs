@@ -15,11 +15,11 @@ use bevy_transform::components::Transform;
 use selvedge::glam::DVec3;
 use selvedge_cloth::{Simulation, Tubes, vertex_normals};
 
-/// Shows the ropes, laces and fringes of another entity's [`ClothSimulation`] in the `Mesh3d` of this one, as closed tubes. Their diameter is
-/// the distance that `self_collision` keeps.
+/// Shows the ropes, laces and fringes of another entity's [`ClothSimulation`] in the `Mesh3d` of this one, as closed tubes. Their
+/// diameter is the distance that `self_collision` keeps.
 ///
-/// The mesh is replaced when the simulation starts, by triangles with positions and normals, and written in each step. The entity's
-/// `Transform` does not move the ropes.
+/// The mesh is replaced when the simulation starts, by triangles with positions and normals, and written in each step. The
+/// entity's `Transform` does not move the ropes.
 ///
 /// ```
 /// use bevy_asset::{Assets, RenderAssetUsages};

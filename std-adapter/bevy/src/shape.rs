@@ -79,8 +79,8 @@ pub(crate) fn triangles_of(mesh: &Mesh) -> Result<Vec<[u32; 3]>, MeshError> {
     }
 }
 
-/// Triangles between points. A Bevy mesh repeats a vertex whose normal or texture coordinate differs between faces; the shape has one point
-/// for all of them.
+/// Triangles between points. A Bevy mesh repeats a vertex whose normal or texture coordinate differs between faces; the shape has
+/// one point for all of them.
 #[derive(Debug)]
 pub(crate) struct Shape {
     /// The triangles with the vertex numbers of the mesh.

@@ -1,4 +1,4 @@
-/* A flag in a wind that turns: 500 steps of 2 ms. It prints where the flag's free corner is, and whether each state is certified to
+/* A flag in a wind that turns: 500 steps of 2 ms. Prints where the flag's free corner is, and whether each state is certified to
  * be free of intersections.
  */
 #include <selvedge_cloth.h>

@@ -56,8 +56,8 @@ class list {
   std::size_t count_ = 0;
 };
 
-/// A view of the caller's positions or triangles: groups of three numbers. Construct it from a pointer and the number of groups, or
-/// from a container of numbers with data() and size(), such as std::vector.
+/// A view of the caller's positions or triangles: groups of three numbers. Construct it from a pointer and the number of groups,
+/// or from a container of numbers with data() and size(), such as std::vector.
 template <class T>
 class triples {
  public:
@@ -220,8 +220,8 @@ class detector {
     return free;
   }
 
-  /// Computes the geometry of each contact at its time, in the same order. The list is valid until the next call for this detector, or
-  /// its end.
+  /// Computes the geometry of each contact at its time, in the same order. The list is valid until the next call for this
+  /// detector, or its end.
   list<selvedge_geometry> contact_geometries(triples<Scalar> start, triples<Scalar> end, list<selvedge_contact> contacts) {
     const selvedge_geometry *first = nullptr;
     std::size_t count = 0;
@@ -237,8 +237,8 @@ class detector {
   }
 
   /// Moves each vertex as far as its neighbourhood allows. The step from `start` to `end` is free of contact, except for pairs in
-  /// contact at the start. `end` is a container with data() and size(), such as std::vector, with as many numbers as `start`; it may
-  /// be one of the other two.
+  /// contact at the start. `end` is a container with data() and size(), such as std::vector, with as many numbers as `start`; it
+  /// may be one of the other two.
   template <class Numbers>
   selvedge_truncation truncate(triples<Scalar> start, triples<Scalar> wanted, Numbers &end) {
     selvedge_truncation truncation{};
@@ -291,8 +291,8 @@ class detector {
     return has_any;
   }
 
-  /// Finds all pairs within a distance of each other at rest, with their closest points. The list is valid until the next call for
-  /// this detector, or its end. (The name is not `near`, which is a macro on Windows.)
+  /// Finds all pairs within a distance of each other at rest, with their closest points. The list is valid until the next call
+  /// for this detector, or its end. (The name is not `near`, which is a macro on Windows.)
   list<selvedge_geometry> near_pairs(triples<Scalar> positions, double distance) {
     const selvedge_geometry *first = nullptr;
     std::size_t count = 0;
@@ -323,8 +323,8 @@ class detector {
   std::unique_ptr<selvedge_detector, freed> handle_;
 };
 
-/// The motions of a step of a world; meshes without a motion rest. `Scalar` is that of the world. The caller owns the positions and
-/// keeps them until the call returns.
+/// The motions of a step of a world; meshes without a motion rest. `Scalar` is that of the world. The caller owns the positions
+/// and keeps them until the call returns.
 template <class Scalar>
 class motions {
  public:
@@ -458,8 +458,8 @@ class world {
     return free;
   }
 
-  /// Computes the geometry of each contact of the last step at its time, in the same order. The list is valid until the next call for
-  /// this world, or its end.
+  /// Computes the geometry of each contact of the last step at its time, in the same order. The list is valid until the next call
+  /// for this world, or its end.
   list<selvedge_world_geometry> contact_geometries(list<selvedge_world_contact> contacts) {
     const selvedge_world_geometry *first = nullptr;
     std::size_t count = 0;

@@ -32,7 +32,8 @@ inline const char *text(const std::string &text) {
 
 /// A mesh that was read from a file, with the file's numbers and unit.
 struct mesh_file {
-  /// Reads OBJ, PLY, STL or OFF, by the extension. It throws `error` with SELVEDGE_STATUS_BAD_FILE and a message that names the place.
+  /// Reads OBJ, PLY, STL or OFF, by the extension. It throws `error` with SELVEDGE_STATUS_BAD_FILE and a message that names the
+  /// place.
   static mesh_file read(const std::string &path) {
     selvedge_file *made = nullptr;
     check(selvedge_file_new(detail::text(path), &made));
@@ -56,8 +57,8 @@ struct mesh_file {
 /// It can be moved but not copied. One thread at a time may use it, as for a detector. All functions throw `error`.
 class simulation {
  public:
-  /// Creates a simulation from the text of a scene. The number of threads (0: one for each core) changes no bit of the result. Paths
-  /// in the text are relative to the folder; an empty one is the current folder.
+  /// Creates a simulation from the text of a scene. The number of threads (0: one for each core) changes no bit of the result.
+  /// Paths in the text are relative to the folder; an empty one is the current folder.
   explicit simulation(const std::string &scene, const std::string &folder = {}, std::size_t threads = 1) {
     selvedge_simulation *made = nullptr;
     check(selvedge_simulation_new(text(scene), text(folder), threads, &made));

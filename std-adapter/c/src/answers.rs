@@ -1,7 +1,6 @@
 //! The rows in which C reads the results of a detector.
 
-use crate::detector::Finder;
-use crate::input::unknown;
+use crate::input::{OutList, Plain, unknown};
 use crate::status::Failure;
 use selvedge::core::narrowing::rounded_down;
 use selvedge::{Contact, ContactGeometry, Geometry, Intersection, PairKind, Scalar, Topology, Truncation};
@@ -52,6 +51,13 @@ impl From<[u32; 2]> for Pair {
     }
 }
 
+impl OutList<Pair> {
+    pub(crate) fn set_pairs(self, pairs: &[[u32; 2]]) {
+        // Two numbers have the same layout as fields and as an array.
+        self.set_parts(pairs.as_ptr().cast(), pairs.len());
+    }
+}
+
 /// A pair that may touch during the step.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -65,6 +71,8 @@ pub struct ContactRow {
     /// The vertex and the face's three, or the ends of the first edge and of the second.
     pub vertices: [u32; 4],
 }
+
+impl Plain for ContactRow {}
 
 impl ContactRow {
     pub(crate) fn new<S: Scalar>(contact: &Contact<S>, topology: &Topology) -> Self {
@@ -226,10 +234,9 @@ pub(crate) struct Answers {
 }
 
 impl Answers {
-    pub(crate) fn show_contacts<S: Scalar>(&mut self, finder: &Finder<S>) -> &[ContactRow] {
-        let topology = finder.detector.topology();
+    pub(crate) fn show_contacts<S: Scalar>(&mut self, contacts: &[Contact<S>], topology: &Topology) -> &[ContactRow] {
         self.contacts.clear();
-        let rows = finder.contacts.iter().map(|contact| ContactRow::new(contact, topology));
+        let rows = contacts.iter().map(|contact| ContactRow::new(contact, topology));
         self.contacts.extend(rows);
         &self.contacts
     }

@@ -1,6 +1,5 @@
 //! Checks the input from C: pointers, counts and enumeration values.
 
-use crate::answers::{ContactRow, Pair};
 use crate::status::{Failure, Status};
 #[cfg(feature = "cloth")]
 use std::ffi::{CStr, c_char};
@@ -13,7 +12,6 @@ impl Plain for u8 {}
 impl Plain for u32 {}
 impl Plain for f32 {}
 impl Plain for f64 {}
-impl Plain for ContactRow {}
 impl<T: Plain, const N: usize> Plain for [T; N] {}
 
 /// Returns `count` groups of `N` numbers. A null pointer is allowed if `count` is 0.
@@ -124,21 +122,13 @@ impl<T> OutList<T> {
 
     /// Writes the address and the length of the list. An empty list is at NULL.
     pub(crate) fn set(self, list: &[T]) {
-        self.start.set(if list.is_empty() { std::ptr::null() } else { list.as_ptr() });
-        self.count.set(list.len());
+        self.set_parts(list.as_ptr(), list.len());
     }
-}
 
-impl OutList<Pair> {
-    pub(crate) fn set_pairs(self, pairs: &[[u32; 2]]) {
-        // Two numbers have the same layout as fields and as an array.
-        let start = if pairs.is_empty() {
-            std::ptr::null()
-        } else {
-            pairs.as_ptr().cast()
-        };
-        self.start.set(start);
-        self.count.set(pairs.len());
+    /// Writes the address and the length of a list that lives elsewhere.
+    pub(crate) fn set_parts(self, start: *const T, count: usize) {
+        self.start.set(if count == 0 { std::ptr::null() } else { start });
+        self.count.set(count);
     }
 }
 

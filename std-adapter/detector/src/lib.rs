@@ -1,7 +1,8 @@
 //! Finds the vertex–face and edge–edge contacts of a deforming triangle mesh during a time step, and never misses one.
 //!
-//! **Start at [`CollisionDetector`]**: it takes positions at the start and at the end of a step, and returns contacts with their times. [`Topology`]
-//! holds the mesh's vertices, edges and faces and is made once. [`World`] is a detector for several meshes that come and go.
+//! **Start at [`CollisionDetector`]**: it takes positions at the start and at the end of a step, and returns contacts with their
+//! times. [`Topology`] holds the mesh's vertices, edges and faces and is made once. [`World`] is a detector for several meshes
+//! that come and go.
 //!
 //! | module | contents |
 //! |---|---|
@@ -11,8 +12,8 @@
 //! | [`parallel`] | threads, and loops that are split between them |
 //! | [`simd`] | instruction sets |
 //!
-//! Tests of single pairs, without `std`, are in [`selvedge_core`](crate::core). Mesh files are in the crate `selvedge-files`, cloth simulation in
-//! `selvedge-cloth`, and the published methods with their comparison in `selvedge-laboratory`.
+//! Tests of single pairs, without `std`, are in [`selvedge_core`](crate::core). Mesh files are in the crate `selvedge-files`,
+//! cloth simulation in `selvedge-cloth`, and the published methods with their comparison in `selvedge-laboratory`.
 //!
 //! # Features
 //! | feature | effect |
@@ -42,7 +43,9 @@ pub use api::{
 };
 pub use engine::world::MeshHandle;
 pub use engine::{DEFAULT_MEMORY_LIMIT, StepStatistics};
-pub use mesh::{FeaturePair, Mesh, Topology, TopologyError, TopologyStatistics, WeldedMesh, first_coincident};
+pub use mesh::{
+    Adjacency, Components, FeaturePair, Mesh, Topology, TopologyError, TopologyStatistics, WeldedMesh, first_coincident,
+};
 pub use pair_counts::PairCounts;
 #[cfg(feature = "parallel")]
 pub use parallel::{ThreadError, Threads};

@@ -105,7 +105,8 @@ pub fn gather<I: Sync, O: Copy + Send>(output: &mut Vec<O>, items: &[I], add: im
     add(items, output);
 }
 
-/// Calls `action` with each chunk of the items, the index of its first item, and a result of its own. `take` joins the results to `result`, in order.
+/// Calls `action` with each chunk of the items, the index of its first item, and a result of its own. `take` joins the results to
+/// `result`, in order.
 pub fn map_chunks<T: Send, R>(
     items: &mut [T],
     action: impl Fn(usize, &mut [T], &mut R) + Sync + Send,

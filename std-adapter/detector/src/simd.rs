@@ -4,8 +4,8 @@
 
 pub use selvedge_core::batch::Level;
 
-/// Returns the widest instruction set that the machine and the kernels have: SSE2, AVX2 or AVX-512 on x86, NEON on 64-bit Arm, otherwise a plain
-/// loop.
+/// Returns the widest instruction set that the machine and the kernels have: SSE2, AVX2 or AVX-512 on x86, NEON on 64-bit Arm,
+/// otherwise a plain loop.
 #[must_use]
 pub fn best_level() -> Level {
     Level::new()

@@ -1,7 +1,8 @@
-//! Calls every method of a detector on a thread with little stack, and compares the bits of the results with those of an optimised build.
+//! Calls every method of a detector on a thread with little stack, and compares the bits of the results with those of an
+//! optimised build.
 //!
-//! `test.sh` runs these tests with optimisation, and once more without it, as in a program under development. Stack frames are then largest, and plain
-//! loops stand for vectors.
+//! `test.sh` runs these tests with optimisation, and once more without it, as in a program under development. Stack frames are
+//! then largest, and plain loops stand for vectors.
 
 use fnv::FnvHasher;
 use selvedge::core::elementary::Limits;

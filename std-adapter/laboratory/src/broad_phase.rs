@@ -1,14 +1,14 @@
 //! The broad phase of the published methods: finds the triangles whose swept boxes overlap.
 //!
-//! [`BroadPhase`] takes one box for each triangle and returns every pair of overlapping boxes once, in order. Boxes that only touch
-//! overlap. Adjacent triangles are pairs like any other, since they can hold vertex–face and edge–edge pairs that no other triangle pair
-//! holds.
+//! [`BroadPhase`] takes one box for each triangle and returns every pair of overlapping boxes once, in order. Boxes that only
+//! touch overlap. Adjacent triangles are pairs like any other, since they can hold vertex–face and edge–edge pairs that no other
+//! triangle pair holds.
 //!
-//! Triangles stand in leaves of sixteen neighbours, and leaves in a binary tree. Each step refits the boxes. Every leaf then descends the
-//! tree and tests its triangles against the sixteen triangles of each leaf that it meets.
+//! Triangles stand in leaves of sixteen neighbours, and leaves in a binary tree. Each step refits the boxes. Every leaf then
+//! descends the tree and tests its triangles against the sixteen triangles of each leaf that it meets.
 //!
-//! The pairs do not depend on the number of threads. After the first step nothing is allocated, unless some list needs half as much again
-//! as in any step before.
+//! The pairs do not depend on the number of threads. After the first step nothing is allocated, unless some list needs half as
+//! much again as in any step before.
 //!
 //! ```
 //! use selvedge_laboratory::broad_phase::{BroadPhase, SweptBox};
@@ -31,8 +31,8 @@ use selvedge_core::batch::LANES;
 /// Boxes that overlap must still do so after rounding. A caller with `f64` positions either rounds outwards, or maps all
 /// coordinates of an axis by one monotone function.
 ///
-/// Two boxes overlap unless, along some axis, the lower bound of one is greater than the upper bound of the other. A NaN bound separates
-/// nothing. Infinite bounds compare as numbers do.
+/// Two boxes overlap unless, along some axis, the lower bound of one is greater than the upper bound of the other. A NaN bound
+/// separates nothing. Infinite bounds compare as numbers do.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SweptBox {
     /// The least coordinate along each axis.

@@ -1,8 +1,8 @@
 //! Hard cases of the literature by name, with exact answers: degenerate pairs, and Erleben's shapes rebuilt from their geometry.
 //! Each case stands at several sizes and places.
 //!
-//! They are the file `named.jsonl` of the conformance suite, which is part of the program. Its answers come from exact arithmetic on
-//! the very numbers that it holds. The project's tests repeat that computation.
+//! They are the file `named.jsonl` of the conformance suite, which is part of the program. Its answers come from exact arithmetic
+//! on the very numbers that it holds. The project's tests repeat that computation.
 
 use selvedge_core::glam::DVec3;
 use selvedge_core::{Motion, PrimitivePair};

@@ -1,5 +1,6 @@
-//! Reads primitive-pair queries in the rational CSV format of the public continuous collision detection benchmark (Wang, Ferguson,
-//! Schneider, Jiang, Attene, Panozzo: A Large-scale Benchmark and an Inclusion-based Algorithm for Continuous Collision Detection, 2021).
+//! Reads primitive-pair queries in the rational CSV format of the public continuous collision detection benchmark (Wang,
+//! Ferguson, Schneider, Jiang, Attene, Panozzo: A Large-scale Benchmark and an Inclusion-based Algorithm for Continuous Collision
+//! Detection, 2021).
 //!
 //! A query is one vertex–face or edge–edge pair that moves linearly over the step. It takes eight rows: its four points at the
 //! start of the step, then the same four at the end. A row has numerator and denominator of x, y and z. If the verdict is known,
@@ -35,7 +36,8 @@ use std::path::{Path, PathBuf};
 #[error("{0}")]
 pub struct QueryError(String);
 
-/// A primitive pair that moves linearly over the step, and whether it collides. Positions are in the file's length unit and finite.
+/// A primitive pair that moves linearly over the step, and whether it collides. Positions are in the file's length unit and
+/// finite.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Query<S: Scalar = f64> {
     /// The pair: `v, f0, f1, f2` or `a0, a1, b0, b1`.
@@ -55,7 +57,8 @@ pub struct QueryFile {
     pub queries: Vec<Query>,
     /// The path that was read, as given.
     pub path: PathBuf,
-    /// The number of coordinates that `f64` does not hold exactly. They are rounded to the nearest; the truth may not hold for them.
+    /// The number of coordinates that `f64` does not hold exactly. They are rounded to the nearest; the truth may not hold for
+    /// them.
     pub inexact: usize,
 }
 
@@ -73,8 +76,8 @@ const ROWS: usize = 8;
 
 /// Returns the kind that a path names, or `None`.
 ///
-/// The file's folder decides if its name is `vertex-face` or `edge-edge`, as in the benchmark. Otherwise a file name decides that ends in
-/// `vf` or `ee` before its extension, if no letter comes before these (`227vf.csv`, but not `knee.csv`).
+/// The file's folder decides if its name is `vertex-face` or `edge-edge`, as in the benchmark. Otherwise a file name decides that
+/// ends in `vf` or `ee` before its extension, if no letter comes before these (`227vf.csv`, but not `knee.csv`).
 pub fn kind_of_path(path: &Path) -> Option<PairKind> {
     // The path is made absolute so that `data.csv` inside `vertex-face` is recognised from there.
     let absolute = std::path::absolute(path);
@@ -93,8 +96,8 @@ pub fn kind_of_path(path: &Path) -> Option<PairKind> {
     folder.and_then(|name| name.parse().ok()).or_else(of_stem)
 }
 
-/// Reads all queries of the file at `path`. Without a `kind` the path names it, see [`kind_of_path`]. Every coordinate becomes the nearest
-/// `f64`, ties to even.
+/// Reads all queries of the file at `path`. Without a `kind` the path names it, see [`kind_of_path`]. Every coordinate becomes
+/// the nearest `f64`, ties to even.
 ///
 /// # Errors
 /// Returns an error if the file is missing, a folder, unreadable, empty or of unknown kind, or the last query is incomplete. A

@@ -1,7 +1,7 @@
 //! A primitive pair as plain numbers, which prints as the Rust code that makes it.
 
 use super::Format;
-use crate::oracle::{Pair, PairKind};
+use crate::oracle::{Pair, PairKind, points_of_first};
 use selvedge_core::kernels::coplanarity::MovingTetrahedron;
 use selvedge_core::{Motion, PrimitivePair};
 use std::fmt;
@@ -14,19 +14,6 @@ pub struct PairCase<S> {
     pub kind: PairKind,
     /// The positions of each point at times 0 and 1.
     pub points: [[[S; 3]; 2]; 4],
-}
-
-/// Returns the set, 0 or 1, to which one of the four points belongs.
-pub const fn side_of(kind: PairKind, point: usize) -> usize {
-    (point >= points_of_first(kind)) as usize
-}
-
-/// Returns the number of points in the first set.
-pub const fn points_of_first(kind: PairKind) -> usize {
-    match kind {
-        PairKind::VertexFace => 1,
-        PairKind::EdgeEdge => 2,
-    }
 }
 
 impl<S: Format> PairCase<S> {

@@ -20,8 +20,8 @@ pub struct MeshCase<S> {
 /// Two primitives of a mesh, by their indices.
 pub type MeshPair = (PairKind, [u32; 2]);
 
-/// Returns every vertex–face and every edge–edge pair without a common vertex, by definition; the smaller edge is first. Vertices without a
-/// triangle are not part of the surface.
+/// Returns every vertex–face and every edge–edge pair without a common vertex, by definition; the smaller edge is first. Vertices
+/// without a triangle are not part of the surface.
 pub fn all_pairs(topology: &Topology) -> [Vec<[u32; 2]>; 2] {
     let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
     for vertex in 0..topology.vertex_count() as u32 {

@@ -19,7 +19,8 @@ mod sliding;
 mod strategy;
 mod tube;
 
-pub use case::{PairCase, points_of_first, side_of};
+pub use crate::oracle::{points_of_first, side_of};
+pub use case::PairCase;
 pub use choices::Choices;
 pub use mesh::{MeshCase, MeshPair, all_pairs, with_kinds};
 pub use moment::{Meeting, Moment};

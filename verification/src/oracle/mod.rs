@@ -39,7 +39,7 @@ pub(crate) mod volume;
 pub use algebraic::AlgebraicTime;
 pub use collision::{collides, coplanar, touches_at};
 pub use mesh::{mesh_intersections, mesh_self_intersections, triangles_intersect};
-pub use motion::{Pair, PairKind};
+pub use motion::{Pair, PairKind, points_of_first, side_of};
 pub use polynomial::Polynomial;
 pub use ropes::{edges_that_meet, intersections_with_loose_edges};
 pub use segment::segment_meets_box;

@@ -2,7 +2,6 @@
 
 use super::geometry::{Point, Ring};
 use super::polynomial::Polynomial;
-use crate::generator::points_of_first;
 use rug::{Integer, Rational};
 // This is a name, not arithmetic.
 pub use selvedge_core::PairKind;
@@ -18,6 +17,19 @@ pub struct Pair {
 impl Pair {
     pub const fn new(kind: PairKind, start: [[f64; 3]; 4], end: [[f64; 3]; 4]) -> Self {
         Self { kind, start, end }
+    }
+}
+
+/// Returns the set, 0 or 1, to which one of the four points belongs.
+pub const fn side_of(kind: PairKind, point: usize) -> usize {
+    (point >= points_of_first(kind)) as usize
+}
+
+/// Returns the number of points in the first set.
+pub const fn points_of_first(kind: PairKind) -> usize {
+    match kind {
+        PairKind::VertexFace => 1,
+        PairKind::EdgeEdge => 2,
     }
 }
 

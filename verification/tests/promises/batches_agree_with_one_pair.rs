@@ -132,7 +132,7 @@ fn how_far_pairs_may_stray() {
 /// All NaNs count as the same.
 fn number_bits(closest: &ClosestPoints) -> [u64; 10] {
     let [a, b, c, d] = closest.weights;
-    let ([e, f, g], [h, i, j]) = (closest.way.to_array(), closest.direction.to_array());
+    let ([e, f, g], [h, i, j]) = (closest.offset.to_array(), closest.direction.to_array());
     [a, b, c, d, e, f, g, h, i, j].map(|number| if number.is_nan() { f64::NAN } else { number }.to_bits())
 }
 

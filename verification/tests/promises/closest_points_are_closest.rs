@@ -32,7 +32,7 @@ proptest! {
             prop_assert!(closest.distance() <= grid + 1e-12);
             prop_assert!(closest.distance() >= grid - 0.15);
             let sum: DVec3 = (0..4).map(|k| points[k] * closest.weights[k]).sum();
-            prop_assert!((sum - closest.way).length() < 1e-12);
+            prop_assert!((sum - closest.offset).length() < 1e-12);
         }
     }
 }

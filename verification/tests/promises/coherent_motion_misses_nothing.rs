@@ -91,8 +91,8 @@ fn are_followed<S: Format>(mesh: &MeshCase<S>, compared: &Cell<[usize; 2]>, sepa
     for (number, step) in steps(mesh).into_iter().enumerate() {
         let (start, end) = (step.frame(0), step.frame(1));
         let result = coherent.contacts(&start, &end, &mut found);
-        let mut anew = new();
-        prop_assert_eq!(result.is_err(), anew.contacts(&start, &end, &mut expected).is_err());
+        let mut fresh = new();
+        prop_assert_eq!(result.is_err(), fresh.contacts(&start, &end, &mut expected).is_err());
         if result.is_err() {
             continue;
         }
@@ -241,11 +241,11 @@ fn threads_and_instruction_sets_change_nothing() {
             }
         }
         let (_, level) = available_levels()[0];
-        let (anew, _) = contacts(Threads::Calling, level, false);
+        let (fresh, _) = contacts(Threads::Calling, level, false);
         let expected = expected.expect("a level");
         assert!(expected.iter().map(Vec::len).sum::<usize>() > 100);
-        for (found, anew) in expected.iter().zip(&anew) {
-            assert!(by_pair(found) == by_pair(anew));
+        for (found, fresh) in expected.iter().zip(&fresh) {
+            assert!(by_pair(found) == by_pair(fresh));
         }
     }
 }
@@ -325,11 +325,11 @@ fn what_is_asked_may_change_from_step_to_step() {
         coherent.set_coherent(number % 5 != 4);
         let limits = Limits::within([0.0, 1e-3, 1e-3, 4e-3][number % 4]);
         coherent.set_criterion(Criterion::Within(limits)).expect("lengths");
-        let mut anew = CollisionDetector::<f64>::new(Arc::clone(&topology));
-        anew.set_criterion(Criterion::Within(limits)).expect("lengths");
+        let mut fresh = CollisionDetector::<f64>::new(Arc::clone(&topology));
+        fresh.set_criterion(Criterion::Within(limits)).expect("lengths");
         let (start, end) = (scene.frame(number), scene.frame(number + 1));
         coherent.contacts(&start, &end, &mut found).expect("finite positions");
-        anew.contacts(&start, &end, &mut expected).expect("finite positions");
+        fresh.contacts(&start, &end, &mut expected).expect("finite positions");
         assert!(by_pair(&found) == by_pair(&expected), "step {number}");
     }
 }

@@ -22,7 +22,8 @@ fn by_pair<S: Scalar>(contacts: &[Contact<S>]) -> BTreeMap<MeshPair, f64> {
         .collect()
 }
 
-/// Runs every query whose result the oracle knows. With exact verdicts the contacts are those that the oracle finds, and no others.
+/// Runs every query whose result the oracle knows. With exact verdicts the contacts are those that the oracle finds, and no
+/// others.
 fn no_question_misses_a_contact<S: Format>(mesh: &MeshCase<S>) -> TestCaseResult {
     let topology = mesh.topology();
     let (start, end) = (mesh.frame(0), mesh.frame(1));

@@ -29,8 +29,8 @@ fn pairs<S: Format>(case: &Case) -> Vec<PairCase<S>> {
     case.pairs().into_iter().map(pair).collect()
 }
 
-/// Returns the distance below which a case may be reported although it does not touch: tolerance, and 192 units of rounding of all
-/// lengths.
+/// Returns the distance below which a case may be reported although it does not touch: tolerance, and 192 units of rounding of
+/// all lengths.
 fn reach<S: Format>(case: &Case) -> f64 {
     let [start, end] = case.positions();
     let largest = |axis: usize| {

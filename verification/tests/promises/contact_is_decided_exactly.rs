@@ -41,8 +41,8 @@ fn agree_with_the_oracle<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
 
 formats!(verdicts_are_the_oracles is agree_with_the_oracle(6_000, pairs_of_any_kind()));
 
-/// Generates coordinates from 0 to a small number. They give contacts at corners, along edges, at the start and end, and all kinds of
-/// degeneration.
+/// Generates coordinates from 0 to a small number. They give contacts at corners, along edges, at the start and end, and all
+/// kinds of degeneration.
 fn on_a_grid<S: Format>(choices: &mut Choices<'_>) -> PairCase<S> {
     let (limit, kind) = (choices.pick(&[1_u32, 2, 3, 5, 9]), choices.pick(&KINDS));
     PairCase::from_coordinates(kind, || S::exact(choices.below(limit + 1).into(), 0))

@@ -162,9 +162,9 @@ fn is_documented<S: Format>(bound: &Rational, relative: Rational, absolute: &Rat
     Ok(())
 }
 
-/// - Each monomial of a computed value passes through at most 8 roundings (k₀, k₃) or 10 (3k₁, 3k₂), here to nearest. Each product
-///   that underflows loses η₀. There are two for a component of n, four for one of h, and at most one more in the last six
-///   additions.
+/// - Each monomial of a computed value passes through at most 8 roundings (k₀, k₃) or 10 (3k₁, 3k₂), here to nearest. Each
+///   product that underflows loses η₀. There are two for a component of n, four for one of h, and at most one more in the last
+///   six additions.
 /// - A computed value beyond either of its bounds has the sign of the exact one. The filter relies on this for each of the four
 ///   values alone.
 /// - The bounds are Eᵢ = Cᵢ·P̂ᵢ + (1 + M)²·η with C = 16u, 20u. The bound by magnitudes is 96u times the product of the three

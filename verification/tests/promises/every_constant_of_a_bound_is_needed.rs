@@ -1,8 +1,8 @@
-//! Each constant of the error bounds is needed: a search found a pair that is culled wrongly without it. Random tests alone do not
-//! show that.
+//! Each constant of the error bounds is needed: a search found a pair that is culled wrongly without it. Random tests alone do
+//! not show that.
 //!
-//! `every_constant_of_a_bound_is_needed.csv` has a row for each test, with its name, the kind of the pair, and the start and end of
-//! four points. The pairs were simplified after the search.
+//! `every_constant_of_a_bound_is_needed.csv` has a row for each test, with its name, the kind of the pair, and the start and end
+//! of four points. The pairs were simplified after the search.
 
 use crate::certified_in_every_floating_point_environment::nothing_culls;
 use crate::support::prelude::*;

@@ -1,10 +1,8 @@
 //! In a small billion-pair campaign no certified claim is wrong, and the false culls of an unsafe filter are found. The findings
-//! depend on neither threads nor interruptions.
+//! do not depend on threads, and those of several runs add up.
 
 use crate::support::prelude::*;
-use selvedge_verification::campaign::Findings;
-use selvedge_verification::campaign::exact::{Claim, ClaimCounts, Progress, Scenes, run};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use selvedge_verification::campaign::{Claim, ClaimCounts, Findings, Run, Scenes};
 
 /// Makes a vertex that falls through a face, and two edges that cross.
 fn scenes() -> Scenes {
@@ -18,59 +16,61 @@ fn scenes() -> Scenes {
     }
 }
 
-fn campaign(claims: &[Claim], pairs: u64) -> Progress {
-    Progress::new(3, pairs, 2048, &scenes(), claims)
+fn findings(seed: u64, claims: &[Claim], pairs: u64, threads: usize) -> Findings {
+    let run = Run {
+        seed,
+        chunks: pairs.div_ceil(2048),
+        pairs_per_chunk: 2048,
+        scenes: &scenes(),
+        claims,
+        level: best_level(),
+    };
+    run.findings(threads, |_| {})
 }
 
-fn to_the_end(progress: Progress, threads: usize) -> Progress {
-    run(progress, &scenes(), best_level(), threads, |_| {}, || false)
-}
-
-fn sum(progress: &Progress, what: fn(&ClaimCounts) -> u64) -> u64 {
-    progress.found.counts.iter().flatten().flatten().map(what).sum()
+fn sum(found: &Findings, what: fn(&ClaimCounts) -> u64) -> u64 {
+    found.counts.iter().flatten().flatten().map(what).sum()
 }
 
 #[test]
 fn no_certified_claim_is_wrong_and_each_kind_of_proof_is_needed() {
-    let progress = to_the_end(campaign(&Claim::CERTIFIED, 100_000), 2);
-    assert_eq!(progress.found.wrong(), 0, "{progress}");
-    for by_source in &progress.found.counts {
+    let found = findings(3, &Claim::CERTIFIED, 100_000, 2);
+    assert_eq!(found.wrong(), 0, "{found}");
+    for by_source in &found.counts {
         for claim in 0..Claim::CERTIFIED.len() {
             let of_claim = by_source.iter().map(|counts| &counts[claim]);
-            assert!(of_claim.clone().map(|count| count.claims).sum::<u64>() > 1000, "{progress}");
-            assert!(of_claim.map(|count| count.by_oracle).sum::<u64>() > 1, "{progress}");
+            assert!(of_claim.clone().map(|count| count.claims).sum::<u64>() > 1000, "{found}");
+            assert!(of_claim.map(|count| count.by_oracle).sum::<u64>() > 1, "{found}");
         }
     }
     let proofs: [fn(&ClaimCounts) -> u64; 3] = [|count| count.by_signs, |count| count.by_axis, |count| count.by_whole_numbers];
     for proven in proofs {
-        assert!(sum(&progress, proven) > 100, "{progress}");
+        assert!(sum(&found, proven) > 100, "{found}");
     }
 }
 
 #[test]
 fn false_culls_of_the_plain_filter_are_found_and_shown() {
-    let progress = to_the_end(campaign(&[Claim::Plain], 25_000), 2);
-    assert!(progress.found.wrong() > 10, "{progress}");
-    assert!(progress.to_string().contains("Plain, f32, is wrong of\n"), "{progress}");
+    let found = findings(3, &[Claim::Plain], 25_000, 2);
+    assert!(found.wrong() > 10, "{found}");
+    assert!(found.to_string().contains("Plain, f32, is wrong of\n"), "{found}");
 }
 
 #[test]
-fn a_run_that_was_stopped_goes_on_to_the_same_result() {
-    let whole = to_the_end(campaign(&Claim::CERTIFIED, 25_000), 1);
-    let chunks = AtomicUsize::new(0);
-    let stopped = run(
-        campaign(&Claim::CERTIFIED, 25_000),
-        &scenes(),
-        best_level(),
-        2,
-        |_| {
-            chunks.fetch_add(1, Ordering::Relaxed);
-        },
-        || chunks.load(Ordering::Relaxed) >= 3,
-    );
-    assert!(!stopped.done.is_empty() && stopped.done.len() < whole.done.len());
-    assert_eq!(stopped.settings, whole.settings);
-    let kept = serde_json::to_string(&stopped).expect("JSON");
-    let resumed = to_the_end(serde_json::from_str(&kept).expect("JSON"), 2);
-    assert_eq!(resumed, whole);
+fn findings_depend_on_the_seed_alone_and_add_up() {
+    let [one, other] = [3, 4].map(|seed| findings(seed, &Claim::CERTIFIED, 25_000, 1));
+    assert_eq!(findings(3, &Claim::CERTIFIED, 25_000, 2), one);
+    assert_ne!(one, other);
+    // Counts of several machines travel as JSON.
+    let mut both: Findings = serde_json::from_str(&serde_json::to_string(&one).expect("JSON")).expect("JSON");
+    both.add(other.clone()).expect("the same claims");
+    assert_eq!(both.pairs, one.pairs + other.pairs);
+    for count in [
+        |count: &ClaimCounts| count.claims,
+        |count| count.by_signs,
+        |count| count.by_oracle,
+    ] {
+        assert_eq!(sum(&both, count), sum(&one, count) + sum(&other, count));
+    }
+    assert_eq!(both.add(findings(3, &[Claim::Plain], 2048, 1)), Err(vec![Claim::Plain]));
 }

@@ -170,8 +170,8 @@ fn sides_that_touch(case: &Turning, kind: PairKind) -> [Vec<DVec3>; 2] {
 }
 
 /// Two bodies in screw motion, each with one set, touch at a time by construction, up to the rounding of the starts. The time of
-/// impact is no later, for any separation that exceeds this rounding. Counts the pairs, tight times, and those that the chords of the
-/// arcs would miss.
+/// impact is no later, for any separation that exceeds this rounding. Counts the pairs, tight times, and those that the chords of
+/// the arcs would miss.
 fn contacts_are_found(case: &Turning, count: &Cell<[usize; 3]>) -> TestCaseResult {
     let [first, second] = &case.turns;
     for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {

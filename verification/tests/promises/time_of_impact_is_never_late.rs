@@ -301,7 +301,7 @@ formats!(comes_as_near_as_its_reason_says is comes_near(12_000, questions()));
 const CHEAP_ROUNDS: u32 = 3;
 
 /// Checks how near a pair comes that is undecided after this many rounds: within the separation, the rounding, and the part of
-/// the longest way of a corner that one of the accurate rounds takes.
+/// the longest path of a corner that one of the accurate rounds takes.
 fn comes_near_at_last<S: Format>(question: &Question<S>, rounds: u32) -> TestCaseResult {
     let [first, second] = question.pair.sets();
     let way = |one: &[[S; 3]; 2], other: &[[S; 3]; 2]| {

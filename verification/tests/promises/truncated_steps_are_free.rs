@@ -51,7 +51,7 @@ fn is_free<S: Format>(mesh: &MeshCase<S>, criterion: Criterion<S>, met: &Met) ->
         held_back += usize::from(end != wanted);
         for axis in 0..3 {
             let (from, to, at) = (start[axis].to_f64(), wanted[axis].to_f64(), end[axis].to_f64());
-            prop_assert!(from.min(to) <= at && at <= from.max(to), "in the box of its way");
+            prop_assert!(from.min(to) <= at && at <= from.max(to), "in the box of its path");
         }
     }
     prop_assert!(held_back <= truncation.held_back);

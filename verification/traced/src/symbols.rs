@@ -292,7 +292,7 @@ impl Lanes for Traced {
 /// A product of inputs and constants by name, in alphabetical order.
 pub type Monomial = Vec<String>;
 
-/// The monomials of a result, each with the largest number of roundings on the way from one of its occurrences to the result. A
+/// The monomials of a result, each with the largest number of roundings on the path from one of its occurrences to the result. A
 /// minimum or a maximum has the monomials of both.
 pub type Paths = BTreeMap<Monomial, u32>;
 

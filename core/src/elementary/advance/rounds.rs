@@ -171,7 +171,7 @@ impl<S: Number, R: Record<S>, const N: usize> Advance<'_, S, R, N> {
         let mut until = time;
         for _ in 0..CLIPS {
             self.work.volume_steps += 1;
-            let next = self.volume.clipped::<false>(until);
+            let next = self.volume.clipped(until);
             let step = next.until - until;
             until = next.until;
             // Steps as short as rounding errors make no progress.

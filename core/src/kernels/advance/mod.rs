@@ -4,7 +4,6 @@ pub mod closest;
 pub mod confirm;
 pub mod corners;
 pub mod directions;
-#[cfg(feature = "batch")]
 pub mod round;
 pub(crate) mod turning;
 pub mod volume;

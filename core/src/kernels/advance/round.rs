@@ -80,8 +80,8 @@ fn round_of<L: Lanes, const N: usize>(
 
     if question.with_volume && question.separation.is_none() {
         let volume = SignedVolume::new(corners, None);
-        let first = volume.clipped::<true>(time);
-        let second = volume.clipped::<true>(first.until);
+        let first = volume.clipped(time);
+        let second = volume.clipped(first.until);
         let later = L::select(first.to_the_end | second.to_the_end, beyond(time), second.until);
         let is_later = is_in_range & later.greater(time) & (later.greater(until) | !is_proven);
         until = L::select(is_later, later, until);

@@ -126,11 +126,9 @@ impl<L: Lanes> SignedVolume<L> {
     /// first zero is the next time. Its quotients pass through at most 8 roundings, which a factor 1 − 32u covers, and the last
     /// addition through two. The hull of the whole rest is coarse. If the part that is sixteen, or four, times as long has only
     /// positive control values, that part is taken instead.
-    ///
-    /// The constant `DIVIDES_FIRST` is that of `first_zero_of_hull`.
     #[inline(always)]
     #[must_use]
-    pub fn clipped<const DIVIDES_FIRST: bool>(&self, time: L) -> Clipped<L> {
+    pub fn clipped(&self, time: L) -> Clipped<L> {
         let zero = time.splat(L::Scalar::ZERO);
         let margins @ [m0, m1, m2, m3] = self.margins_from(time);
         let is_apart = m0.greater(zero);
@@ -138,7 +136,7 @@ impl<L: Lanes> SignedVolume<L> {
         if L::may_leave(is_apart & !to_the_end) {
             return Clipped { to_the_end, until: time };
         }
-        let part = looking_ahead(margins, first_zero_of_hull::<L, DIVIDES_FIRST>(margins));
+        let part = looking_ahead(margins, first_zero_of_hull(margins));
         let rest = time.splat(L::Scalar::ONE) - time;
         let next = (time + part * rest * less_roundoffs(time, 32)) * less_roundoffs(time, 8);
         let until = L::select(is_apart & next.greater(time), next, time);
@@ -222,27 +220,14 @@ fn third<L: Lanes>(like: L) -> L {
 ///
 /// The hull's lower side crosses zero on a line. It leads from one of the positive points before the first other point to a point
 /// that is not positive. Every such line crosses no earlier. (Lines from the first point alone are not enough.)
-///
-/// On a line from the first point, 2b₀/3(b₀ − b) has as many roundings whether it divides or multiplies first, but other bits.
-/// One pair alone multiplies first; several side by side divide first. Each keeps its results.
 #[inline(always)]
-fn first_zero_of_hull<L: Lanes, const DIVIDES_FIRST: bool>([b0, b1, b2, b3]: [L; 4]) -> L {
-    // These are macros, because a closure is not always inlined.
+fn first_zero_of_hull<L: Lanes>([b0, b1, b2, b3]: [L; 4]) -> L {
     let (zero, one) = (b0.splat(L::Scalar::ZERO), b0.splat(L::Scalar::ONE));
     let (two, three) = (b0.splat(L::Scalar::small(2)), b0.splat(L::Scalar::small(3)));
     let third = third(b0);
-    macro_rules! from_0 {
-        ($thirds:ident * $b:ident) => {{
-            let divisor = three * (b0 - $b);
-            if DIVIDES_FIRST {
-                b0 * ($thirds / divisor)
-            } else {
-                b0 * $thirds / divisor
-            }
-        }};
-    }
     let (p1, p2, p3) = (b1.greater(zero), b2.greater(zero), b3.greater(zero));
     let mut first = beyond(b0);
+    // This is a macro, because a closure is not always inlined.
     macro_rules! line {
         ($where:expr, $zero:expr) => {{
             let crosses = $where;
@@ -252,8 +237,8 @@ fn first_zero_of_hull<L: Lanes, const DIVIDES_FIRST: bool>([b0, b1, b2, b3]: [L;
         }};
     }
     line!(!p1, b0 / (three * (b0 - b1)));
-    line!(!p2, from_0!(two * b2));
-    line!(!p3, from_0!(three * b3));
+    line!(!p2, b0 * two / (three * (b0 - b2)));
+    line!(!p3, b0 * three / (three * (b0 - b3)));
     line!(p1 & !p2, (one + b1 / (b1 - b2)) * third);
     line!(p1 & !p3, (one + two * (b1 / (b1 - b3))) * third);
     line!(p1 & p2 & !p3, (two + b2 / (b2 - b3)) * third);
@@ -321,9 +306,9 @@ mod tests {
 
     #[test]
     fn a_hull_that_comes_down_to_zero_has_a_first_zero_there() {
-        assert_eq!(first_zero_of_hull::<_, false>([1.0; 4]), 2.0);
+        assert_eq!(first_zero_of_hull([1.0; 4]), 2.0);
         let near = |values: [f64; 4], expected: f64| {
-            let found = first_zero_of_hull::<_, false>(values);
+            let found = first_zero_of_hull(values);
             assert!((found - expected).abs() < 1e-15, "{found:?}");
         };
         near([1.0, 0.0, 1.0, 1.0], 1.0 / 3.0);
@@ -334,7 +319,7 @@ mod tests {
     /// The first zero of the hull is so small that it underflows.
     #[test]
     fn where_time_stands_still_nothing_is_proven() {
-        let found = volume([5e-324, -1.0, -1.0, -1.0], 0.0).clipped::<false>(0.0);
+        let found = volume([5e-324, -1.0, -1.0, -1.0], 0.0).clipped(0.0);
         assert!(!found.to_the_end && found.until == 0.0, "{found:?}");
     }
 

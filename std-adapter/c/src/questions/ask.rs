@@ -81,7 +81,7 @@ pub(super) unsafe fn find_contacts<S: Format>(
         asked.ask(|finder, answers, [start, end]| {
             let out = OutList::new("contacts", contacts, count)?;
             finder.detector.contacts(start, end, &mut finder.contacts)?;
-            out.set(answers.show_contacts(finder));
+            out.set(answers.show_contacts(&finder.contacts, finder.detector.topology()));
             Ok(())
         })
     }
@@ -102,7 +102,7 @@ pub(super) unsafe fn find_contacts_of<S: Format>(
             let edge_edge = view("edge_edge", edge_edge.0.cast::<u32>(), edge_edge.1)?;
             let found = &mut finder.contacts;
             finder.detector.contacts_of(start, end, vertex_face, edge_edge, found)?;
-            out.set(answers.show_contacts(finder));
+            out.set(answers.show_contacts(&finder.contacts, finder.detector.topology()));
             Ok(())
         })
     }

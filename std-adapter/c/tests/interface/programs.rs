@@ -247,6 +247,7 @@ fn the_example_in_cpp_prints_what_rust_finds_bit_for_bit() {
 #[test]
 fn wrong_input_from_c_is_refused_and_changes_nothing() {
     runs(Language::C, "tests/programs/refusals");
+    runs(Language::C, "tests/programs/refusals_of_worlds");
 }
 
 #[test]
@@ -265,33 +266,38 @@ fn a_forked_child_is_refused_a_simulation_that_has_threads() {
     runs(Language::C, "tests/programs/fork_simulation");
 }
 
+/// Builds the programs of a page in a language, and checks what each prints.
+fn page_prints(page: &str, language: Language, expected: &[&str]) {
+    let page = fs::read_to_string(format!("{FOLDER}/{page}")).unwrap();
+    let folder = TempDir::new().unwrap();
+    let suffix = language.suffix();
+    let programs: Vec<&str> = page.split(&format!("```{suffix}\n")).skip(1).collect();
+    assert_eq!(programs.len(), expected.len(), "programs in {suffix}");
+    for (number, (program, expected)) in programs.iter().zip(expected).enumerate() {
+        if program.contains("selvedge_cloth") && !cfg!(feature = "cloth") {
+            continue;
+        }
+        let source = folder.path().join(format!("page-{number}"));
+        fs::write(source.with_extension(suffix), program.split("```").next().unwrap()).unwrap();
+        let Some(program) = build(language, source.to_str().unwrap()) else {
+            continue;
+        };
+        let output = succeed(&mut Command::new(program));
+        assert_eq!(&String::from_utf8_lossy(&output.stdout), expected);
+    }
+}
+
 #[test]
 fn the_programs_of_the_readme_print_what_it_says() {
-    let readme = fs::read_to_string(format!("{FOLDER}/README.md")).unwrap();
-    let folder = TempDir::new().unwrap();
-    let times = [
-        "3 meets face 0 at time 0.5",
-        "4 meets face 0 at time 0.75",
-        "5 meets face 0 at time 1",
-    ];
-    let first = times.map(|line| format!("vertex {line}\n")).concat();
-    let second = "vertex 2 comes down at x = 1.7321\n".to_owned();
-    let flag = "after 500 steps the corner is at -0.708 0.173 0.374, certified\n".to_owned();
-    for (language, expected) in [(Language::C, vec![&first, &flag]), (Language::Cpp, vec![&first, &second])] {
-        let suffix = language.suffix();
-        let programs: Vec<&str> = readme.split(&format!("```{suffix}\n")).skip(1).collect();
-        assert_eq!(programs.len(), expected.len(), "programs in {suffix}");
-        for (number, (program, expected)) in programs.iter().zip(expected).enumerate() {
-            if program.contains("selvedge_cloth") && !cfg!(feature = "cloth") {
-                continue;
-            }
-            let source = folder.path().join(format!("readme-{number}"));
-            fs::write(source.with_extension(suffix), program.split("```").next().unwrap()).unwrap();
-            let Some(program) = build(language, source.to_str().unwrap()) else {
-                continue;
-            };
-            let output = succeed(&mut Command::new(program));
-            assert_eq!(&String::from_utf8_lossy(&output.stdout), expected);
-        }
-    }
+    let first = "vertex 3 meets face 0 at time 0.5\nvertex 4 meets face 0 at time 0.75\nvertex 5 meets face 0 at time 1\n";
+    let second = "vertex 2 comes down at x = 1.7321\n";
+    let flag = "after 500 steps the corner is at -0.708 0.173 0.374, certified\n";
+    page_prints("README.md", Language::C, &[first, flag]);
+    page_prints("README.md", Language::Cpp, &[first, second]);
+}
+
+#[test]
+fn the_program_of_the_tutorial_prints_what_it_says() {
+    let text = "9 contacts\n9 vertices held back, free: yes\n";
+    page_prints("../../docs/tutorials/cpp.md", Language::Cpp, &[text]);
 }

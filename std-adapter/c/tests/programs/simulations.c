@@ -3,31 +3,10 @@
  *
  * check.sh runs this under the sanitizers, which find invalid reads and writes, and leaks.
  */
+#include "expect.h"
 #include <math.h>
 #include <selvedge_cloth.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-
-static int faults = 0;
-
-#define EXPECT(expected, call)                                                                                       \
-  do {                                                                                                               \
-    selvedge_status found_ = (call);                                                                                 \
-    if (found_ != SELVEDGE_STATUS_##expected) {                                                                      \
-      fprintf(stderr, "line %d: %s: \"%s\": %s\n", __LINE__, #call, selvedge_status_string(found_), selvedge_last_error()); \
-      faults++;                                                                                                      \
-    }                                                                                                                \
-    if (found_ != SELVEDGE_STATUS_OK && strlen(selvedge_last_error()) < 10) faults++;                                \
-  } while (0)
-
-#define HOLDS(condition)                                              \
-  do {                                                                \
-    if (!(condition)) {                                               \
-      fprintf(stderr, "line %d: not so: %s\n", __LINE__, #condition); \
-      faults++;                                                       \
-    }                                                                 \
-  } while (0)
 
 #define SAYS(words) HOLDS(strstr(selvedge_last_error(), words))
 

@@ -5,7 +5,6 @@ mod body;
 pub(crate) mod cloth;
 mod driven;
 pub(crate) mod file_mesh;
-mod incidence;
 mod material;
 mod motion;
 mod placement;
@@ -29,9 +28,9 @@ pub(crate) use driven::{Driven, Kinematic};
 pub(crate) use file_mesh::FileNumbering;
 use crate::solve::Accuracy;
 pub use file_mesh::MeshInFiles;
-pub(crate) use incidence::Incidence;
 pub(crate) use motion::{KEY_TIME, Pose, check_key_time};
 pub(crate) use runs::runs;
+pub(crate) use selvedge::Adjacency as Incidence;
 #[cfg(test)]
 pub(crate) use shapes::{capsule, sheet, tube};
 

@@ -24,8 +24,33 @@ pub(crate) const NAMES: [&str; 14] = [
 
 /// Makes a garment of [`NAMES`] with `cells` cells along its longer side; `depth` is about one.
 pub(crate) fn garment(name: &str, cells: u32, depth: f64) -> Scene {
-    let mut bodies = Vec::new();
-    let n = cells;
+    let of_any_kind = sheet(name, cells, depth)
+        .or_else(|| layers(name, cells, depth))
+        .or_else(|| tubes(name, cells, depth));
+    let mesh = of_any_kind.unwrap_or_else(|| panic!("no garment is named {name}"));
+    let body = match name {
+        "sheet in a ball" => Some(Body::ball("ball", DVec3::new(0.2, 0.2, -0.08 + 0.05 * depth), 0.1, 20)),
+        "arm through its sleeve" => {
+            let ends = [DVec3::new(-0.05, 0.0, 0.025 * depth), DVec3::new(0.45, 0.0, 0.01)];
+            Some(Body::capsule("arm", ends, 0.035, 16))
+        }
+        _ => None,
+    };
+    let bodies: Vec<Body> = body.into_iter().map(Result::unwrap).collect();
+    let mut scene = Scene::new(Cloth::from_mesh(mesh, DVec3::X, 0.2).unwrap(), 1e-3);
+    let thickness = Thickness::new(2e-3);
+    scene.add(Stretch::isotropic(200.0)).add(Shear::new(50.0));
+    scene.add(Bend::isotropic(1e-5)).add(SelfCollision(thickness));
+    if !bodies.is_empty() {
+        scene.add(BodyContact(thickness));
+    }
+    scene.bodies = bodies;
+    name.clone_into(&mut scene.name);
+    scene
+}
+
+/// Makes the mesh of a garment of one sheet.
+fn sheet(name: &str, n: u32, depth: f64) -> Option<Mesh> {
     let mesh = match name {
         "fold through itself" => grid([n, n], |u, v| {
             let flap = bent(0.4 * u - 0.2, 0.012, PI + 0.25 * depth);
@@ -44,6 +69,33 @@ pub(crate) fn garment(name: &str, cells: u32, depth: f64) -> Scene {
                 -0.022 * (1.0 + 0.3 * depth) * t.cos(),
             )
         }),
+        "crumpled sheet" => {
+            let mut random = Random(11);
+            let waves: Vec<_> = (0..12)
+                .map(|_| (random.vector() * 9.0, random.vector() * 0.03 * depth, random.next() * TAU))
+                .collect();
+            grid([n, n], move |u, v| {
+                let flat = DVec3::new(u, v, 0.0);
+                let pushed = waves
+                    .iter()
+                    .map(|(along, way, phase)| *way * (along.dot(flat) * 1.6 + phase).sin());
+                flat * 0.4 + pushed.sum::<DVec3>()
+            })
+        }
+        "pleats through each other" => grid([2 * n, n / 2], |u, v| {
+            let phase = TAU * 5.0 * u;
+            let back = 0.011 * (1.0 + 0.6 * depth) * (2.0 * phase).sin();
+            DVec3::new(0.3 * u + back, 0.02 * phase.sin() + 0.004 * v, 0.2 * v)
+        }),
+        "sheet in a ball" => grid([n, n], |u, v| DVec3::new(0.4 * u, 0.4 * v, 0.0)),
+        _ => return None,
+    };
+    Some(mesh)
+}
+
+/// Makes the mesh of a garment of two layers, or two sheets.
+fn layers(name: &str, n: u32, depth: f64) -> Option<Mesh> {
+    let mesh = match name {
         "two layers, waves" => two_layers(
             n,
             |u, v| 0.004 * depth * (TAU * 2.0 * u).sin() * (TAU * 1.5 * v).sin(),
@@ -63,19 +115,14 @@ pub(crate) fn garment(name: &str, cells: u32, depth: f64) -> Scene {
             two_layers(n, height, 0.006)
         }
         "two sheets, tilted" => two_layers(n, |u, _| 0.12 * depth * (u - 0.3), 0.0),
-        "crumpled sheet" => {
-            let mut random = Random(11);
-            let waves: Vec<_> = (0..12)
-                .map(|_| (random.vector() * 9.0, random.vector() * 0.03 * depth, random.next() * TAU))
-                .collect();
-            grid([n, n], move |u, v| {
-                let flat = DVec3::new(u, v, 0.0);
-                let pushed = waves
-                    .iter()
-                    .map(|(along, way, phase)| *way * (along.dot(flat) * 1.6 + phase).sin());
-                flat * 0.4 + pushed.sum::<DVec3>()
-            })
-        }
+        _ => return None,
+    };
+    Some(mesh)
+}
+
+/// Makes the mesh of a garment of tubes.
+fn tubes(name: &str, n: u32, depth: f64) -> Option<Mesh> {
+    let mesh = match name {
         "sleeve bent through itself" => tube([n * 2 / 3, n], |angle, t| {
             let radius = 0.05;
             let middle = bent(0.5 * t - 0.25, 0.045 / depth, 2.3);
@@ -89,22 +136,9 @@ pub(crate) fn garment(name: &str, cells: u32, depth: f64) -> Scene {
             let pinch = 1.0 - (1.0 + 0.15 * depth) * (-((t - 0.5) / 0.12).powi(2)).exp();
             DVec3::new(0.4 * t, 0.05 * angle.cos(), 0.05 * pinch * angle.sin())
         }),
-        "pleats through each other" => grid([2 * n, n / 2], |u, v| {
-            let phase = TAU * 5.0 * u;
-            let back = 0.011 * (1.0 + 0.6 * depth) * (2.0 * phase).sin();
-            DVec3::new(0.3 * u + back, 0.02 * phase.sin() + 0.004 * v, 0.2 * v)
+        "arm through its sleeve" => tube([n * 2 / 3, n], |angle, t| {
+            DVec3::new(0.4 * t, 0.05 * angle.cos(), 0.05 * angle.sin())
         }),
-        "sheet in a ball" => {
-            bodies.push(Body::ball("ball", DVec3::new(0.2, 0.2, -0.08 + 0.05 * depth), 0.1, 20).unwrap());
-            grid([n, n], |u, v| DVec3::new(0.4 * u, 0.4 * v, 0.0))
-        }
-        "arm through its sleeve" => {
-            let ends = [DVec3::new(-0.05, 0.0, 0.025 * depth), DVec3::new(0.45, 0.0, 0.01)];
-            bodies.push(Body::capsule("arm", ends, 0.035, 16).unwrap());
-            tube([n * 2 / 3, n], |angle, t| {
-                DVec3::new(0.4 * t, 0.05 * angle.cos(), 0.05 * angle.sin())
-            })
-        }
         "tube through a tube" => {
             let turned = |p: DVec3| DMat3::from_rotation_y(1.3) * p + DVec3::new(0.2, 0.05 - 0.03 * depth, 0.0);
             let one = tube([n / 2, n], |angle, t| {
@@ -115,18 +149,9 @@ pub(crate) fn garment(name: &str, cells: u32, depth: f64) -> Scene {
             });
             joined([one, other])
         }
-        _ => panic!("no garment is named {name}"),
+        _ => return None,
     };
-    let mut scene = Scene::new(Cloth::from_mesh(mesh, DVec3::X, 0.2).unwrap(), 1e-3);
-    let thickness = Thickness::new(2e-3);
-    scene.add(Stretch::isotropic(200.0)).add(Shear::new(50.0));
-    scene.add(Bend::isotropic(1e-5)).add(SelfCollision(thickness));
-    if !bodies.is_empty() {
-        scene.add(BodyContact(thickness));
-    }
-    scene.bodies = bodies;
-    name.clone_into(&mut scene.name);
-    scene
+    Some(mesh)
 }
 
 /// Returns a point of a line that is bent by `angle` in an arc of this radius. `way` is its distance from the start of the arc.

@@ -16,10 +16,10 @@ use std::time::Instant;
 
 /// Finds out exactly whether meshes pass through themselves
 ///
-/// Reads meshes (OBJ, PLY, STL, OFF or glTF) and checks each at rest. Finds edges that pass through faces or touch them, and neighbours
-/// that are folded flat onto each other. Ropes and particles are checked as well: lines `l` and `p` of OBJ, the element `edge` of
-/// PLY, and all vertices of a PLY file without faces. Frames of a sequence, with the same triangles, share their hierarchies,
-/// which is faster. Features that share a vertex do not intersect there.
+/// Reads meshes (OBJ, PLY, STL, OFF or glTF) and checks each at rest. Finds edges that pass through faces or touch them, and
+/// neighbours that are folded flat onto each other. Ropes and particles are checked as well: lines `l` and `p` of OBJ, the
+/// element `edge` of PLY, and all vertices of a PLY file without faces. Frames of a sequence, with the same triangles, share
+/// their hierarchies, which is faster. Features that share a vertex do not intersect there.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

@@ -7,8 +7,8 @@ use std::process::{Command, ExitCode};
 
 /// Runs the conformance suite on collision libraries: hard cases with exact answers
 ///
-/// Starts the suite's program, which needs Python 3. It installs each runner into a separate environment, and gives it every case. It
-/// writes scores, pages that lead to each wrong answer, and a plot of accuracy against time.
+/// Starts the suite's program, which needs Python 3. It installs each runner into a separate environment, and gives it every
+/// case. It writes scores, pages that lead to each wrong answer, and a plot of accuracy against time.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples, in a clone of the repository:

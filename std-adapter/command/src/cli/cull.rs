@@ -20,8 +20,9 @@ use std::process::ExitCode;
 
 /// Finds the pairs of a mesh that may collide during one time step
 ///
-/// Reads the mesh at the start and at the end of the step (OBJ, PLY, STL, OFF or glTF, the same vertices and triangles in the same
-/// order), or a mesh and two frames of its animation: a point cache (MDD or PC2), a glTF animation or numbered files. Vertices move on straight lines. Runs one method and prints the pairs after each stage.
+/// Reads the mesh at the start and at the end of the step (OBJ, PLY, STL, OFF or glTF, the same vertices and triangles in the
+/// same order), or a mesh and two frames of its animation: a point cache (MDD or PC2), a glTF animation or numbered files.
+/// Vertices move on straight lines. Runs one method and prints the pairs after each stage.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

@@ -41,8 +41,8 @@ pub(crate) fn read_step(start: &Path, end: &Path) -> Result<MeshStep, Failure> {
     Ok(step)
 }
 
-/// Reads an animation of a mesh with so many vertices: a point cache, the keys of a glTF animation, or numbered files. Returns the name and
-/// the positions of each frame.
+/// Reads an animation of a mesh with so many vertices: a point cache, the keys of a glTF animation, or numbered files. Returns
+/// the name and the positions of each frame.
 pub(crate) fn read_frames(path: &Path, vertex_count: usize) -> Result<Vec<(String, Vec<DVec3>)>, Failure> {
     let _progress = Progress::spinner("reading");
     let name = path.display();

@@ -1,4 +1,5 @@
-//! Tests the `selvedge` command as its users run it: the real program, real files, and the exit status. Most cases are rows of `tables/`.
+//! Tests the `selvedge` command as its users run it: the real program, real files, and the exit status. Most cases are rows of
+//! `tables/`.
 
 mod accuracy;
 mod check;

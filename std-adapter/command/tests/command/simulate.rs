@@ -267,3 +267,14 @@ fn the_scene_that_it_writes_runs_and_stays_free_of_intersections() {
         (&10.into(), &0.into(), &0.into())
     );
 }
+
+#[test]
+fn the_scene_of_the_tutorial_runs_and_is_certified() {
+    let page = include_str!("../../../../docs/tutorials/cloth.md");
+    let scene = page.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next());
+    let place = Workplace::new();
+    place.write("scene.toml", scene.expect("a scene"));
+    let document = place.json(&["simulate", "scene.toml", "--json"]);
+    assert_eq!(document["intersections_at_end"], 0);
+    assert!(document["contacts_resolved"].as_u64().unwrap() > 0);
+}

@@ -133,7 +133,8 @@ impl Workplace {
         String::from_utf8(output.stdout).unwrap()
     }
 
-    /// Returns the error message, without earlier notes, of a run that must fail with status 1, print nothing and leave no file behind.
+    /// Returns the error message, without earlier notes, of a run that must fail with status 1, print nothing and leave no file
+    /// behind.
     #[track_caller]
     pub(crate) fn refusal(&self, arguments: &[&str]) -> String {
         let before = self.listing();

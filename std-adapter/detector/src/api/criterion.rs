@@ -23,8 +23,8 @@ use selvedge_core::narrowing::widened;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Criterion<S> {
-    /// Reports pairs that cannot be proven to stay farther apart than the separation. Pairs that come within separation and tolerance together may be
-    /// among them.
+    /// Reports pairs that cannot be proven to stay farther apart than the separation. Pairs that come within separation and
+    /// tolerance together may be among them.
     Within(Limits<S>),
     /// Reports only pairs that truly touch, by the [exact verdict](mod@selvedge_core::elementary::contact). Times are those of
     /// [`Within`](Self::Within) with this tolerance and no separation.
@@ -63,8 +63,8 @@ impl<S: Scalar> Default for Criterion<S> {
 /// Selects the bounding boxes that generate candidates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CandidateBoxes {
-    /// Boxes at the start and at the end of the step. A pair is a candidate unless its boxes have the same order along one axis at both. This gives
-    /// fewer pairs, in less time.
+    /// Boxes at the start and at the end of the step. A pair is a candidate unless its boxes have the same order along one axis
+    /// at both. This gives fewer pairs, in less time.
     #[default]
     Moving,
     /// Boxes that hold the whole motion of a primitive. A pair is a candidate if its boxes overlap, as in most other systems.

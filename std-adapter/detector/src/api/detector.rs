@@ -66,8 +66,9 @@ use std::sync::Arc;
 ///
 /// If each step starts where the last ended, as in a simulation, call [`set_coherent`](Self::set_coherent); it is faster.
 ///
-/// If some vertices rest, name the moving ones with [`set_moving`](Self::set_moving). The detector then skips pairs in which nothing moves, and fits the
-/// boxes of resting vertices once. To detect contacts between several meshes, put them into one topology, or use a [`World`](crate::World).
+/// If some vertices rest, name the moving ones with [`set_moving`](Self::set_moving). The detector then skips pairs in which
+/// nothing moves, and fits the boxes of resting vertices once. To detect contacts between several meshes, put them into one
+/// topology, or use a [`World`](crate::World).
 ///
 /// # Guarantees
 /// * **No contact is missed**, and no time is later than the exact one. This includes rounding, and holds in every floating-point
@@ -75,12 +76,12 @@ use std::sync::Arc;
 ///   contact. So may a pair that comes within 2⁻⁴⁵ of its size of the separation, which rounding hides, and one with coordinates
 ///   that differ by more than 2²⁵⁰. No pair that stays farther apart is a contact ([reason by
 ///   reason](selvedge_core::elementary::advance#what-is-promised)).
-/// * Positions in `f32` give contacts that are as sharp as those of the same positions in `f64`: pairs that `f32` leaves open are decided in `f64`. Times
-///   are rounded down. Positions in `f64` that are all `f32` numbers take as little time as `f32`.
-/// * The contacts, their times and their order are the same on any number of threads and every instruction set. The order depends on the hierarchies,
-///   and so on earlier steps; the set of contacts and the times do not.
-/// * After the first step nothing is allocated, unless there are more pairs than before or hierarchies are built again. Rayon may still allocate for
-///   its queues, and coherent steps for pairs that are found again.
+/// * Positions in `f32` give contacts that are as sharp as those of the same positions in `f64`: pairs that `f32` leaves open are
+///   decided in `f64`. Times are rounded down. Positions in `f64` that are all `f32` numbers take as little time as `f32`.
+/// * The contacts, their times and their order are the same on any number of threads and every instruction set. The order depends
+///   on the hierarchies, and so on earlier steps; the set of contacts and the times do not.
+/// * After the first step nothing is allocated, unless there are more pairs than before or hierarchies are built again. Rayon may
+///   still allocate for its queues, and coherent steps for pairs that are found again.
 /// * Frames of the wrong length and positions that are not finite are errors.
 #[derive(Debug)]
 pub struct CollisionDetector<S: Scalar> {
@@ -123,8 +124,8 @@ impl<S: Scalar> CollisionDetector<S> {
 
     /// Sets which vertices move, with one entry for each vertex. `None`, the default, means that all move.
     ///
-    /// From the next step on, the detector skips pairs without a moving vertex. It reads the positions of resting vertices in the next step, and **not
-    /// again** until the next call of this method.
+    /// From the next step on, the detector skips pairs without a moving vertex. It reads the positions of resting vertices in the
+    /// next step, and **not again** until the next call of this method.
     ///
     /// # Errors
     /// Returns an error if the slice's length is not the mesh's number of vertices.
@@ -157,13 +158,14 @@ impl<S: Scalar> CollisionDetector<S> {
 
     /// Sets whether each step starts where the last ended, as in a simulation. The default is false.
     ///
-    /// The detector then finds near pairs for several steps at once and follows them, so that most steps look at these pairs only. This pays where
-    /// a step moves vertices by much less than an edge, and not where every step is a different motion.
+    /// The detector then finds near pairs for several steps at once and follows them, so that most steps look at these pairs
+    /// only. This pays where a step moves vertices by much less than an edge, and not where every step is a different motion.
     ///
-    /// [`contacts`](Self::contacts), [`earliest`](Self::earliest) and [`is_free`](Self::is_free) return what a new detector returns, with the same times,
-    /// **whatever the steps are**. A step that starts elsewhere, or a mesh that jumps, only takes longer. Contacts come in ascending order of their
-    /// pairs. There is one exception. The elementary test can give up on a pair that is farther apart than the tolerance, such as one with a face
-    /// without area. Such a pair may be left out in one step and not in another, but only where it is proven apart. Other methods do not change.
+    /// [`contacts`](Self::contacts), [`earliest`](Self::earliest) and [`is_free`](Self::is_free) return what a new detector
+    /// returns, with the same times, **whatever the steps are**. A step that starts elsewhere, or a mesh that jumps, only takes
+    /// longer. Contacts come in ascending order of their pairs. There is one exception. The elementary test can give up on a pair
+    /// that is farther apart than the tolerance, such as one with a face without area. Such a pair may be left out in one step
+    /// and not in another, but only where it is proven apart. Other methods do not change.
     ///
     /// ```
     /// use selvedge::{CollisionDetector, Topology, glam::DVec3};
@@ -189,7 +191,8 @@ impl<S: Scalar> CollisionDetector<S> {
         self.engine.set_coherent(coherent);
     }
 
-    /// Replaces `contacts` by all contacts of the step from `start` to `end`, vertex–face pairs first. There is one position for each vertex.
+    /// Replaces `contacts` by all contacts of the step from `start` to `end`, vertex–face pairs first. There is one position for
+    /// each vertex.
     ///
     /// # Errors
     /// Returns an error if a frame's length is not the mesh's number of vertices, or a coordinate is NaN or infinite. Also
@@ -205,26 +208,28 @@ impl<S: Scalar> CollisionDetector<S> {
         let question = self.question(Wanted::All);
         self.engine.run(&self.workers, &step, &question);
         self.engine.collect_contacts(contacts);
-        self.engine.pairs.stop.result()
+        self.engine.result()
     }
 
     /// Returns the earliest contact of the step. If several have the same time, it returns the one with the smallest numbers,
     /// vertex–face pairs first.
     ///
-    /// It is the first contact that [`contacts`](Self::contacts) finds, with the same time. Let s be the separation and δ the tolerance of the
-    /// [criterion](Self::set_criterion):
+    /// It is the first contact that [`contacts`](Self::contacts) finds, with the same time. Let s be the separation and δ the
+    /// tolerance of the [criterion](Self::set_criterion):
     /// * **The time is a certified lower bound.** Before it no two primitives are within s of each other, rounding included. So
     ///   the mesh may move up to that time (`start + (end − start)·time`, apart from rounding), and any shorter step is free.
     ///   `None` proves that the whole step is free.
     /// * **The time may be early.** At that time the distance of the pair is at most s + δ and a rounding error
-    ///   ([bounded there](selvedge_core::elementary::advance#what-is-promised)). If the pair approaches at a speed of v lengths per step and comes within
-    ///   s, the exact time is about δ/v later. A near miss, a pair that comes within s + δ and turns back, may also count. The exact first contact is
-    ///   then that of another pair, or there is none. A near miss at more than s + δ never counts.
-    /// * **Exception.** Rounding hides whether a pair within 2⁻⁴⁵ of the size of its differences touches. It is reported from the time at which it comes
-    ///   so near, even if it never touches. For such pairs the result may be a pair that [`contacts`](Self::contacts) does not
-    ///   have, or another time.
+    ///   ([bounded there](selvedge_core::elementary::advance#what-is-promised)). If the pair approaches at a speed of v lengths
+    ///   per step and comes within s, the exact time is about δ/v later. A near miss, a pair that comes within s + δ and turns
+    ///   back, may also count. The exact first contact is then that of another pair, or there is none. A near miss at more than s
+    ///   + δ never counts.
+    /// * **Exception.** Rounding hides whether a pair within 2⁻⁴⁵ of the size of its differences touches. It is reported from the
+    ///   time at which it comes so near, even if it never touches. For such pairs the result may be a pair that
+    ///   [`contacts`](Self::contacts) does not have, or another time.
     ///
-    /// So the result does not prove contact. [`elementary::contact`](selvedge_core::elementary::contact()) decides exactly whether a pair touches.
+    /// So the result does not prove contact. [`elementary::contact`](selvedge_core::elementary::contact()) decides exactly
+    /// whether a pair touches.
     ///
     /// # Errors
     /// Returns the errors of [`contacts`](Self::contacts).
@@ -232,7 +237,7 @@ impl<S: Scalar> CollisionDetector<S> {
         let step = self.step(start, end)?;
         let question = self.question(Wanted::Earliest);
         let earliest = self.engine.earliest(&self.workers, &step, &question);
-        self.engine.pairs.stop.result()?;
+        self.engine.result()?;
         Ok(earliest.as_ref().map(in_format_of_positions))
     }
 
@@ -247,24 +252,26 @@ impl<S: Scalar> CollisionDetector<S> {
         if self.engine.statistics().contacts.total() > 0 {
             return Ok(false);
         }
-        self.engine.pairs.stop.result()?;
+        self.engine.result()?;
         Ok(true)
     }
 
-    /// Replaces `end` by positions on the way from `start` to `wanted` to which the step is free of contact.
+    /// Replaces `end` by positions on the path from `start` to `wanted` to which the step is free of contact.
     ///
-    /// Vertices that would come into contact are held back, each as far as its own neighbourhood requires. All others reach their wanted position. Use
-    /// this in a solver instead of cutting the whole step at its [earliest](Self::earliest) contact.
+    /// Vertices that would come into contact are held back, each as far as its own neighbourhood requires. All others reach their
+    /// wanted position. Use this in a solver instead of cutting the whole step at its [earliest](Self::earliest) contact.
     ///
     /// * **The step from `start` to `end` is certified free**, by the tests of [`is_free`](Self::is_free). Pairs that are
     ///   [in contact](Truncation::in_contact) at the start are the exception: their vertices rest.
-    /// * A vertex ends exactly at its wanted position, or in the box of its way, rounding included. If the whole step is free, `end` is `wanted`.
-    /// * A vertex goes a share of its whole motion. So a vertex that slides along a surface, nearer than its next step, is held back too. A separation
-    ///   leaves it room.
+    /// * A vertex ends exactly at its wanted position, or in the box of its path, rounding included. If the whole step is free,
+    ///   `end` is `wanted`.
+    /// * A vertex goes a share of its whole motion. So a vertex that slides along a surface, nearer than its next step, is held
+    ///   back too. A separation leaves it room.
     /// * The result has the same bits for any number of threads. The method always ends; core describes
     ///   [how](selvedge_core::separation::truncation) shares are chosen.
     ///
-    /// Bodies that must reach their position are held back like all others. If that is not acceptable, cut the step at the contacts of that body.
+    /// Bodies that must reach their position are held back like all others. If that is not acceptable, cut the step at the
+    /// contacts of that body.
     ///
     /// ```
     /// use selvedge::{CollisionDetector, Topology, glam::DVec3};
@@ -298,17 +305,17 @@ impl<S: Scalar> CollisionDetector<S> {
         let question = self.question(Wanted::All);
         let [start, wanted] = [start, wanted].map(|positions| positions.iter().map(|&p| exactly(p)).collect::<Vec<_>>());
         let mut ends = Vec::new();
-        let ways = [&start[..], &wanted];
+        let frames = [&start[..], &wanted];
         let truncation = self
             .engine
-            .truncate(&self.workers, ways, &question, rounded::<P>, &mut ends)?;
+            .truncate(&self.workers, frames, &question, rounded::<P>, &mut ends)?;
         end.clear();
         end.extend(ends.into_iter().map(nearest::<P>));
         Ok(truncation)
     }
 
-    /// Replaces `vertex_face` and `edge_edge` by the candidates: vertex and face, or two edges with the smaller number first. All other pairs are
-    /// certainly farther apart than the separation throughout the step.
+    /// Replaces `vertex_face` and `edge_edge` by the candidates: vertex and face, or two edges with the smaller number first. All
+    /// other pairs are certainly farther apart than the separation throughout the step.
     ///
     /// # Errors
     /// Returns the errors of [`contacts`](Self::contacts).
@@ -324,13 +331,14 @@ impl<S: Scalar> CollisionDetector<S> {
         let separation = self.question(Wanted::All).limits.separation;
         self.engine
             .candidates(&self.workers, &step, separation, boxes.are_swept(), [vertex_face, edge_edge]);
-        self.engine.pairs.stop.result()
+        self.engine.result()
     }
 
-    /// Replaces `contacts` by those of listed pairs, in their order, vertex–face pairs first. A pair is a vertex and a face, or two edges.
+    /// Replaces `contacts` by those of listed pairs, in their order, vertex–face pairs first. A pair is a vertex and a face, or
+    /// two edges.
     ///
-    /// Pairs that share a vertex are in contact at time 0. The method makes boxes for all primitives of the mesh, which takes most of the time if the
-    /// list is much shorter than the mesh.
+    /// Pairs that share a vertex are in contact at time 0. The method makes boxes for all primitives of the mesh, which takes
+    /// most of the time if the list is much shorter than the mesh.
     ///
     /// # Errors
     /// Returns the errors of [`contacts`](Self::contacts). Also returns an error if the mesh does not have a vertex, face or edge
@@ -348,7 +356,7 @@ impl<S: Scalar> CollisionDetector<S> {
         self.engine
             .run_on(&self.workers, &step, &question, [vertex_face, edge_edge])?;
         self.engine.collect_contacts(contacts);
-        self.engine.pairs.stop.result()
+        self.engine.result()
     }
 
     /// Returns the mesh's vertices, edges and triangles.

@@ -2,10 +2,10 @@
 
 use super::criterion::Criterion;
 use super::detector::CollisionDetector;
-use crate::PairKind;
 use crate::mesh::Topology;
 use crate::parallel;
 use crate::step::{Contact, Frame, StepError, check_length, check_pair, exactly};
+use selvedge_core::PairKind;
 use selvedge_core::elementary::Limits;
 use selvedge_core::narrowing::widened;
 use selvedge_core::separation::closest::ClosestPoints;
@@ -91,10 +91,12 @@ impl<S: Scalar> CollisionDetector<S> {
         Ok(())
     }
 
-    /// Replaces `near` by all pairs of a mesh at rest that are within `distance` of each other, with their closest points. Use them for contact forces.
+    /// Replaces `near` by all pairs of a mesh at rest that are within `distance` of each other, with their closest points. Use
+    /// them for contact forces.
     ///
-    /// Pairs ascend by kind and numbers, vertex–face pairs first. Pairs that share a vertex are left out. **No pair is missed.** A pair that is
-    /// farther away by up to 2⁻¹⁹ of the distance and a rounding error may be among them; each has the [range](Geometry::distance) of its distance.
+    /// Pairs ascend by kind and numbers, vertex–face pairs first. Pairs that share a vertex are left out. **No pair is missed.**
+    /// A pair that is farther away by up to 2⁻¹⁹ of the distance and a rounding error may be among them; each has the
+    /// [range](Geometry::distance) of its distance.
     ///
     /// ```
     /// use selvedge::{CollisionDetector, Topology};
@@ -127,7 +129,7 @@ impl<S: Scalar> CollisionDetector<S> {
         let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
         self.engine
             .candidates(&self.workers, &step, distance, false, [&mut vertex_face, &mut edge_edge]);
-        self.engine.pairs.stop.result()?;
+        self.engine.result()?;
         near.clear();
         let topology = self.engine.topology();
         let error = GapError::from_largest_coordinate(largest_coordinate(positions).to_f64());
@@ -148,7 +150,7 @@ impl<S: Scalar> CollisionDetector<S> {
                 });
             });
             self.engine.pairs.stop.stores(pairs.len() * size_of::<ContactGeometry>());
-            self.engine.pairs.stop.result()?;
+            self.engine.result()?;
             pairs.sort_unstable();
             let mut found = Vec::new();
             self.workers.run(|| {

@@ -5,10 +5,10 @@ use crate::step::Cancellation;
 use selvedge_core::Scalar;
 
 impl<S: Scalar> CollisionDetector<S> {
-    /// Returns the handle that cuts this detector's steps short from another thread. The detector remains usable, and its next answers do not depend
-    /// on the cancelled step.
+    /// Returns the handle that cuts this detector's steps short from another thread. The detector remains usable, and its next
+    /// answers do not depend on the cancelled step.
     ///
-    /// A step looks at the handle every few thousand pairs. It first finishes hierarchies that are being refitted or built.
+    /// A step checks the handle every few thousand pairs. It first finishes hierarchies that are being refitted or built.
     #[must_use]
     pub fn cancellation(&self) -> Cancellation {
         self.engine.pairs.stop.cancellation.clone()
@@ -17,10 +17,10 @@ impl<S: Scalar> CollisionDetector<S> {
     /// Sets the largest number of pairs that a step may look at, counted after the test of boxes. `None`, the default, is no
     /// limit.
     ///
-    /// A step with more pairs ends with [`StepError::TooManyPairs`](crate::StepError::TooManyPairs), on any number of threads. This saves hours of work
-    /// after a simulation has collapsed. [`is_free`](Self::is_free) and [`has_intersections`](Self::has_intersections) may find their answer before the
-    /// limit; on several threads, in one run and not in the next. With [coherent](Self::set_coherent) steps the limit counts the followed pairs that are
-    /// still open.
+    /// A step with more pairs ends with [`StepError::TooManyPairs`](crate::StepError::TooManyPairs), on any number of threads.
+    /// This saves hours of work after a simulation has collapsed. [`is_free`](Self::is_free) and
+    /// [`has_intersections`](Self::has_intersections) may find their answer before the limit; on several threads, in one run and
+    /// not in the next. With [coherent](Self::set_coherent) steps the limit counts the followed pairs that are still open.
     ///
     /// ```
     /// use selvedge::{CollisionDetector, StepError, Topology};
@@ -43,13 +43,14 @@ impl<S: Scalar> CollisionDetector<S> {
     /// Sets the largest memory that the pairs and contacts of a step may take, in bytes. `None` is no limit; the default is
     /// [`DEFAULT_MEMORY_LIMIT`](crate::DEFAULT_MEMORY_LIMIT).
     ///
-    /// A step that needs more ends with [`StepError::TooMuchMemory`](crate::StepError::TooMuchMemory), on any number of threads. Many triangles through
-    /// one point have contacts in the square of their number: without a limit, a few thousand of them exhaust the memory.
+    /// A step that needs more ends with [`StepError::TooMuchMemory`](crate::StepError::TooMuchMemory), on any number of threads.
+    /// Many triangles through one point have contacts in the square of their number: without a limit, a few thousand of them
+    /// exhaust the memory.
     ///
-    /// The limit counts 48 bytes for each contact and 8 for each pair in a list of [`candidates`](Self::candidates). Buffers may be up to twice as long
-    /// while they grow. Hierarchies, positions and the caller's own lists are not counted. With [coherent](Self::set_coherent) steps the search for near
-    /// pairs and their list have to stay within the limit too. The [earliest](Self::earliest) contact and
-    /// [`is_free`](Self::is_free) store next to nothing.
+    /// The limit counts 48 bytes for each contact and 8 for each pair in a list of [`candidates`](Self::candidates). Buffers may
+    /// be up to twice as long while they grow. Hierarchies, positions and the caller's own lists are not counted. With
+    /// [coherent](Self::set_coherent) steps the search for near pairs and their list have to stay within the limit too. The
+    /// [earliest](Self::earliest) contact and [`is_free`](Self::is_free) store next to nothing.
     ///
     /// ```
     /// use selvedge::{CollisionDetector, StepError, Topology};

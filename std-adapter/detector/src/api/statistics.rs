@@ -12,7 +12,8 @@ impl<S: Scalar> CollisionDetector<S> {
         self.engine.set_level(level);
     }
 
-    /// Finds [`contacts`](Self::contacts), and replaces `vertex_face` and `edge_edge` by the pairs that the non-coplanarity filter leaves.
+    /// Finds [`contacts`](Self::contacts), and replaces `vertex_face` and `edge_edge` by the pairs that the non-coplanarity
+    /// filter leaves.
     ///
     /// # Errors
     /// Returns the errors of [`contacts`](Self::contacts).
@@ -32,7 +33,7 @@ impl<S: Scalar> CollisionDetector<S> {
         self.engine.run(&self.workers, &step, &question);
         self.engine.collect_contacts(contacts);
         self.engine.collect_kept([vertex_face, edge_edge]);
-        self.engine.pairs.stop.result()
+        self.engine.result()
     }
 
     /// Returns how often near pairs were searched for since the steps became [coherent](Self::set_coherent).

@@ -25,11 +25,12 @@ pub enum MeshMotion<'a, P> {
         /// Positions at the end.
         end: &'a [P],
     },
-    /// The mesh moves as one body, in the shape that it was [inserted](World::insert) with, from one pose to another. A pose is a rotation and the
-    /// position of the shape's origin. The body turns the short way at a constant rate, about an axis through its origin, and the origin moves straight.
+    /// The mesh moves as one body, in the shape that it was [inserted](World::insert) with, from one pose to another. A pose is a
+    /// rotation and the position of the shape's origin. The body turns the short way at a constant rate, about an axis through
+    /// its origin, and the origin moves straight.
     ///
-    /// If the two rotations are equal, every vertex moves straight between its two positions, rounded to the world's format. Otherwise vertices move on
-    /// [arcs](selvedge_core::paths::RigidMotion::between), from their start positions in `f64`.
+    /// If the two rotations are equal, every vertex moves straight between its two positions, rounded to the world's format.
+    /// Otherwise vertices move on [arcs](selvedge_core::paths::RigidMotion::between), from their start positions in `f64`.
     Rigid {
         /// The pose at the start.
         start: (DQuat, DVec3),
@@ -71,17 +72,19 @@ pub enum MeshMotion<'a, P> {
 /// ```
 ///
 /// # Guarantees
-/// * **No contact is missed**, and no time is later than the exact one, rounding included. This holds for straight motion and arcs, for any two meshes of
-///   which one moves, and for a deforming mesh with itself. Times are as sharp as [those of a detector](crate::CollisionDetector::earliest). With
-///   separation s and tolerance δ, a pair within s + 3δ on arcs may be a contact.
+/// * **No contact is missed**, and no time is later than the exact one, rounding included. This holds for straight motion and
+///   arcs, for any two meshes of which one moves, and for a deforming mesh with itself. Times are as sharp as [those of a
+///   detector](crate::CollisionDetector::earliest). With separation s and tolerance δ, a pair within s + 3δ on arcs may be a
+///   contact.
 /// * **Contacts of two meshes do not depend on other meshes.** For straight motion they are those of a
 ///   [`CollisionDetector`](crate::CollisionDetector) for the two as one mesh, with the same times, bit for bit. There is one
 ///   exception, far from the origin, in `f64`. Between the separation and the tolerance beyond it, such a detector may leave out
 ///   pairs that a world reports.
 /// * The contacts and their order are the same on any number of threads.
-/// * **The cost of a step depends on what moves.** The world skips pairs of resting meshes and does not refit them. Inserting a mesh builds its own
-///   hierarchies, and in the next step the small one over meshes.
-/// * An error loses no mesh. Only a step that was cut short has begun: its meshes rest at the end of their motions unless the next step moves them.
+/// * **The cost of a step depends on what moves.** The world skips pairs of resting meshes and does not refit them. Inserting a
+///   mesh builds its own hierarchies, and in the next step the small one over meshes.
+/// * An error loses no mesh. Only a step that was cut short has begun: its meshes rest at the end of their motions unless the
+///   next step moves them.
 ///
 /// For piecewise-straight motion, run one step for each segment. For a single pair, core takes [all segments at
 /// once](selvedge_core::paths::Polyline).
@@ -124,8 +127,8 @@ impl<P: Position> World<P> {
 
     /// Sets what counts as a contact. The default is [`Criterion::default`].
     ///
-    /// There is no exact verdict for rotating bodies: with [`Criterion::Touching`] their contacts are those within its tolerance. If the separation
-    /// changes, the next step fits all boxes again.
+    /// There is no exact verdict for rotating bodies: with [`Criterion::Touching`] their contacts are those within its tolerance.
+    /// If the separation changes, the next step fits all boxes again.
     ///
     /// # Errors
     /// Returns an error if a length is negative, infinite or NaN. The old criterion then stays.
@@ -218,8 +221,8 @@ impl<P: Position> World<P> {
         Ok(self.mesh(mesh)?.hierarchies.topology())
     }
 
-    /// Replaces `contacts` by all contacts of a step in which these meshes move and all others rest. A listed mesh counts as moving even if it ends
-    /// where it starts.
+    /// Replaces `contacts` by all contacts of a step in which these meshes move and all others rest. A listed mesh counts as
+    /// moving even if it ends where it starts.
     ///
     /// # Errors
     /// Returns an error if a mesh does not exist or is listed twice, or if its positions or poses are invalid. The world is then

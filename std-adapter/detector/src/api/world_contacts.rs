@@ -11,9 +11,11 @@ use selvedge_core::{PairKind, Scalar};
 pub struct WorldContact<S> {
     /// Vertex–face or edge–edge.
     pub kind: PairKind,
-    /// The mesh of the vertex and that of the face, or those of the two edges with the smaller handle first. A mesh that meets itself comes twice.
+    /// The mesh of the vertex and that of the face, or those of the two edges with the smaller handle first. A mesh that meets
+    /// itself comes twice.
     pub meshes: [MeshHandle; 2],
-    /// The vertex and the face, or the two edges, as their own meshes number them. Two edges of one mesh come with the smaller number first.
+    /// The vertex and the face, or the two edges, as their own meshes number them. Two edges of one mesh come with the smaller
+    /// number first.
     pub pair: [u32; 2],
     /// The time in [0, 1] of the step. It is never after the exact time, and hardly before it, as for
     /// [`Contact::time`](crate::Contact::time).
@@ -32,8 +34,8 @@ pub struct WorldContactGeometry {
     pub pair: [u32; 2],
     /// The vertex and the corners of the face, or the ends of both edges, as their own meshes number them.
     pub vertices: [u32; 4],
-    /// Points, weights, normal, distance and speed, with the guarantees for [straight motion](selvedge_core::separation::geometry) or, if a mesh turns,
-    /// for [arcs](selvedge_core::paths::geometry).
+    /// Points, weights, normal, distance and speed, with the guarantees for [straight
+    /// motion](selvedge_core::separation::geometry) or, if a mesh turns, for [arcs](selvedge_core::paths::geometry).
     pub geometry: Geometry,
 }
 

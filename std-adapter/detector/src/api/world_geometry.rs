@@ -3,7 +3,7 @@
 use super::world::World;
 use super::world_contacts::{WorldContact, WorldContactGeometry};
 use super::world_error::WorldError;
-use crate::engine::world::{Way, vertices_of, ways};
+use crate::engine::world::{VertexPath, vertex_paths, vertices_of};
 use crate::parallel;
 use crate::step::StepError;
 use selvedge_core::paths::{self, Path};
@@ -47,14 +47,14 @@ impl<P: Position> World<P> {
         let [first, second] = meshes.map(|mesh| self.mesh(mesh));
         let both = [first?, second?];
         let turning = both.map(|mesh| mesh.moves.turning());
-        let ways = ways(both.map(|mesh| &mesh.hierarchies), &turning, kind, vertices);
+        let paths = vertex_paths(both.map(|mesh| &mesh.hierarchies), &turning, kind, vertices);
         let time = contact.time.to_f64();
-        let geometry = match ways.each_ref().map(Way::straight) {
+        let geometry = match paths.each_ref().map(VertexPath::straight) {
             [Some(a), Some(b), Some(c), Some(d)] => {
                 let motions = [a, b, c, d];
                 geometry(&PrimitivePair { kind, motions }, time)
             }
-            _ => paths::geometry(kind, ways.each_ref().map(|way| way as &dyn Path), time),
+            _ => paths::geometry(kind, paths.each_ref().map(|path| path as &dyn Path), time),
         };
         Ok(WorldContactGeometry {
             kind,
@@ -82,7 +82,8 @@ impl<P: Position> World<P> {
     /// Nothing is allocated if `geometries` has room.
     ///
     /// # Errors
-    /// Returns the errors of [`contact_geometry`](Self::contact_geometry), for the first invalid contact. `geometries` then stays.
+    /// Returns the errors of [`contact_geometry`](Self::contact_geometry), for the first invalid contact. `geometries` then
+    /// stays.
     pub fn contact_geometries(
         &self,
         contacts: &[WorldContact<P::Scalar>],

@@ -12,7 +12,8 @@ pub(super) struct Prices {
 /// Sums what searches cost more than they would just after a build.
 #[derive(Debug, Default)]
 pub(super) struct Degradation {
-    /// Box tests for each unit of size just after the build, if a search was measured then. The size is that of items, at their price, and pairs.
+    /// Box tests for each unit of size just after the build, if a search was measured then. The size is that of items, at their
+    /// price, and pairs.
     fresh: Option<f64>,
     /// Box tests for each unit of size just after the build, for other searches.
     fresh_of_others: Option<f64>,
@@ -20,12 +21,13 @@ pub(super) struct Degradation {
     excess: f64,
 }
 
-/// Box tests for each unit of size of good hierarchies, where none were measured just after the build. A flat sheet of 20,000 triangles takes 0.22, and
-/// the same sheet crumpled takes 0.31 to 0.33.
+/// Box tests for each unit of size of good hierarchies, where none were measured just after the build. A flat sheet of 20,000
+/// triangles takes 0.22, and the same sheet crumpled takes 0.31 to 0.33.
 const TYPICAL: f64 = 0.5;
 
 impl Degradation {
-    /// Notes a search that found `pairs` among `items` in this number of box tests. `is_new` says that it is the first one after the build.
+    /// Notes a search that found `pairs` among `items` in this number of box tests. `is_new` says that it is the first one after
+    /// the build.
     pub(super) fn observe(&mut self, prices: Prices, box_tests: u64, items: usize, pairs: usize, is_new: bool) {
         let size = size(prices, items, pairs);
         self.excess += excess(&mut self.fresh, 0.0, box_tests as f64, size, is_new);

@@ -1,11 +1,13 @@
 //! Vertices with very many edges, such as the middle of a fan.
 //!
-//! All edges at a hub are near each other, and so are all its faces. No two of them are a pair, since they share the hub. Without further
-//! knowledge a traversal compares each with each, which takes a time that is quadratic in their number. So the edges, or faces, of one hub are
-//! put together in the order of a tree. A block whose primitives all have one hub then needs no comparison with another block of that hub.
+//! All edges at a hub are near each other, and so are all its faces. No two of them are a pair, since they share the hub. Without
+//! further knowledge a traversal compares each with each, which takes a time that is quadratic in their number. So the edges, or
+//! faces, of one hub are put together in the order of a tree. A block whose primitives all have one hub then needs no comparison
+//! with another block of that hub.
 //!
-//! Only whole groups of [`GROUP`] primitives are put together, so that the other primitives keep blocks of their own. Fewer than `GROUP` primitives
-//! of each hub are left among the others. Each of these is compared with all blocks of its hub, so a traversal stays linear in their number.
+//! Only whole groups of [`GROUP`] primitives are put together, so that the other primitives keep blocks of their own. Fewer than
+//! `GROUP` primitives of each hub are left among the others. Each of these is compared with all blocks of its hub, so a traversal
+//! stays linear in their number.
 
 use super::order::{Centre, LEAF, order};
 

@@ -1,10 +1,12 @@
 //! Candidate vertex–face and edge–edge pairs, from hierarchies of moving boxes.
 //!
-//! Each vertex, edge and face has a box at the start and a box at the end of the step ([`selvedge_core::boxes::moving`]). Two primitives whose
-//! boxes keep one order along an axis cannot meet. All others are candidates, unless they have a vertex in common. The same test holds for
-//! groups of primitives. So three hierarchies, over vertices, edges and faces, find each candidate once without looking at every pair.
+//! Each vertex, edge and face has a box at the start and a box at the end of the step ([`selvedge_core::boxes::moving`]). Two
+//! primitives whose boxes keep one order along an axis cannot meet. All others are candidates, unless they have a vertex in
+//! common. The same test holds for groups of primitives. So three hierarchies, over vertices, edges and faces, find each
+//! candidate once without looking at every pair.
 //!
-//! A [`CollisionDetector`](crate::CollisionDetector) holds such a broad phase. Use [`MovingBroadPhase`] by itself for stages of your own.
+//! A [`CollisionDetector`](crate::CollisionDetector) holds such a broad phase. Use [`MovingBroadPhase`] by itself for stages of
+//! your own.
 //!
 //! ```
 //! use selvedge::{CandidateBoxes, CollisionDetector, Topology, glam::DVec3};
@@ -32,8 +34,8 @@
 //! size. Other `f64` positions are [rounded to `f32`](selvedge_core::boxes::mapping) for the boxes. Pairs that are apart by less
 //! than the rounding are then candidates too; none is lost.
 //!
-//! The order of the candidates depends on the hierarchies, and so on earlier steps. The same sequence of steps gives the same candidates in the
-//! same order, on any number of threads and every instruction set.
+//! The order of the candidates depends on the hierarchies, and so on earlier steps. The same sequence of steps gives the same
+//! candidates in the same order, on any number of threads and every instruction set.
 
 mod degradation;
 mod hierarchies;

@@ -71,8 +71,8 @@ impl MovingBroadPhase {
         self.fit.is_swept = swept;
     }
 
-    /// Finds only pairs with a `wanted` vertex from the next update on, such as pairs of cloth but not of bodies among themselves. There is one
-    /// entry for each vertex. Earlier steps then only change the order of the candidates.
+    /// Finds only pairs with a `wanted` vertex from the next update on, such as pairs of cloth but not of bodies among
+    /// themselves. There is one entry for each vertex. Earlier steps then only change the order of the candidates.
     ///
     /// # Panics
     /// The next update panics if there are fewer entries than vertices.
@@ -80,7 +80,8 @@ impl MovingBroadPhase {
         self.hierarchies.set_wanted(wanted);
     }
 
-    /// Makes these pairs candidates only within the [separation of neighbours](Self::set_separation_of_neighbours), if that is smaller.
+    /// Makes these pairs candidates only within the [separation of neighbours](Self::set_separation_of_neighbours), if that is
+    /// smaller.
     ///
     /// # Panics
     /// The next update panics if there are fewer vertices than in the mesh.
@@ -97,8 +98,8 @@ impl MovingBroadPhase {
         self.hierarchies.set_filter(filter);
     }
 
-    /// Finds only pairs with a `wanted` vertex from the next update on. Only wanted vertices may have moved since the last update. The hierarchies
-    /// are not built then.
+    /// Finds only pairs with a `wanted` vertex from the next update on. Only wanted vertices may have moved since the last
+    /// update. The hierarchies are not built then.
     pub(crate) fn narrow_to(&mut self, wanted: Vec<bool>) {
         self.hierarchies.narrow_to(wanted);
     }
@@ -110,7 +111,8 @@ impl MovingBroadPhase {
 
     /// Takes the positions of a step. Refits the hierarchies, or builds them in the first step and when they have degraded.
     ///
-    /// Hierarchies have degraded when the searches since they were built have cost more than a new build, beyond what they would cost just after it.
+    /// Hierarchies have degraded when the searches since they were built have cost more than a new build, beyond what they would
+    /// cost just after it.
     ///
     /// # Errors
     /// Returns an error if a frame's length is not the mesh's number of vertices, or a coordinate is NaN or infinite.

@@ -1,9 +1,9 @@
 //! Pairs that are near each other at rest: nearly all candidates of a fine mesh.
 //!
-//! The caller may give neighbours a smaller separation than other pairs. Hierarchies know the shapes at rest, so they leave out many neighbours at a
-//! time that keep that separation.
+//! The caller may give neighbours a smaller separation than other pairs. Hierarchies know the shapes at rest, so they leave out
+//! many neighbours at a time that keep that separation.
 
-use crate::PairKind;
+use selvedge_core::PairKind;
 use selvedge_core::glam::{DVec3, Vec3A};
 use selvedge_core::separation::clearance::{are_boxes_within, nearness};
 use selvedge_core::separation::largest_coordinate;
@@ -26,8 +26,8 @@ pub(crate) struct AtRest {
 }
 
 impl Neighbours {
-    /// Makes neighbours from positions at rest and parts of consecutive vertices. Each part has the vertex after its last one, and the distance of its
-    /// neighbours at rest. Vertices after the last part have no neighbours.
+    /// Makes neighbours from positions at rest and parts of consecutive vertices. Each part has the vertex after its last one,
+    /// and the distance of its neighbours at rest. Vertices after the last part have no neighbours.
     ///
     /// # Panics
     /// Panics if a part ends beyond the positions.

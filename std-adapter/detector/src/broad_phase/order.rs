@@ -17,7 +17,8 @@ pub(super) struct Centre {
 
 /// Orders items so that groups of 16ᵏ consecutive ones lie close together.
 ///
-/// It splits at the median along the longest axis, recursively, but always between two groups of the largest size of which more than one fits.
+/// It splits at the median along the longest axis, recursively, but always between two groups of the largest size of which more
+/// than one fits.
 pub(super) fn order(centres: &mut [Centre]) {
     if centres.len() <= LEAF {
         return;

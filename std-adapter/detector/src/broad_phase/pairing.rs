@@ -4,12 +4,13 @@ use super::hierarchies::Hierarchies;
 use super::pairs::Sink;
 use super::traversal::{BlockPair, Common, Scratch, Trees};
 use super::tree::Tree;
-use crate::PairKind;
 use crate::step::CollisionFilter;
+use selvedge_core::PairKind;
 
 /// Two sets of primitives, of one mesh or of two: vertices of the first and faces of the second, or edges of both.
 ///
-/// The boxes of two meshes must be comparable: made by one [mapping](selvedge_core::boxes::mapping), or by several about one origin.
+/// The boxes of two meshes must be comparable: made by one [mapping](selvedge_core::boxes::mapping), or by several about one
+/// origin.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pairing<'a> {
     pub(crate) kind: PairKind,
@@ -55,8 +56,8 @@ impl<'a> Pairing<'a> {
         }
     }
 
-    /// Gives `sink` the candidates of some tasks that the mesh's filter allows, by their positions. Returns the number of box tests, or `None` if
-    /// the sink stops the traversal.
+    /// Gives `sink` the candidates of some tasks that the mesh's filter allows, by their positions. Returns the number of box
+    /// tests, or `None` if the sink stops the traversal.
     pub(crate) fn visit(&self, tasks: &[BlockPair], scratch: &mut Scratch, sink: &mut dyn Sink) -> Option<u64> {
         let [mesh, _] = self.meshes;
         let Some(filter) = mesh.filter.as_ref().filter(|_| self.is_within) else {
@@ -178,7 +179,8 @@ impl FacesAndEdges<'_> {
         self.trees().tasks(self.0.level(), TASK_LEVEL, stack, tasks)
     }
 
-    /// Gives `sink` the pairs of some tasks, by their positions. Returns the number of box tests, or `None` if the sink stops the traversal.
+    /// Gives `sink` the pairs of some tasks, by their positions. Returns the number of box tests, or `None` if the sink stops the
+    /// traversal.
     pub(crate) fn visit(&self, tasks: &[BlockPair], scratch: &mut Scratch, sink: &mut dyn Sink) -> Option<u64> {
         self.trees().pairs(self.0.level(), tasks, scratch, sink)
     }

@@ -61,7 +61,8 @@ impl PairBuffer {
 
     /// Appends `first` with each set lane of the block that begins at `second`.
     ///
-    /// There is no branch on the number of set lanes, since it would be unpredictable. Eight pairs are written, of which only the first ones count.
+    /// There is no branch on the number of set lanes, since it would be unpredictable. Eight pairs are written, of which only the
+    /// first ones count.
     #[inline(always)]
     pub(super) fn push(&mut self, first: u32, second: u32, mask: Mask) {
         for (second, byte) in [(second, mask & 0xFF), (second + 8, mask >> 8)] {

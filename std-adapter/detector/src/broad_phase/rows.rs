@@ -1,7 +1,8 @@
 //! The motion of each vertex, as the lanes read it.
 //!
-//! There are always rows in `f64`, which hold positions of either format exactly. If all positions are `f32` numbers, there are rows in `f32` too.
-//! Proofs in `f32`, with sixteen pairs in a register, then hold for the positions themselves, and only open pairs need `f64`.
+//! There are always rows in `f64`, which hold positions of either format exactly. If all positions are `f32` numbers, there are
+//! rows in `f32` too. Proofs in `f32`, with sixteen pairs in a register, then hold for the positions themselves, and only open
+//! pairs need `f64`.
 
 use crate::parallel;
 use crate::step::Motions;

@@ -1,12 +1,13 @@
 //! Finds the primitives of two trees that are near each other.
 //!
-//! A traversal splits pairs of blocks from the top. For two blocks of one level, it compares each box of the first with all sixteen of the second at
-//! once. For two blocks of different levels, it compares the boxes of the higher one with the bounds of the other. Near blocks go on a stack; near
-//! primitives go to the caller, each pair once. A tree against itself takes a pair of blocks in one order only, and inside one block the lanes after
-//! each lane.
+//! A traversal splits pairs of blocks from the top. For two blocks of one level, it compares each box of the first with all
+//! sixteen of the second at once. For two blocks of different levels, it compares the boxes of the higher one with the bounds of
+//! the other. Near blocks go on a stack; near primitives go to the caller, each pair once. A tree against itself takes a pair of
+//! blocks in one order only, and inside one block the lanes after each lane.
 //!
-//! Neighbours may have a smaller separation. A box that is [drawn in](selvedge_core::boxes::mapping::Inset) is then compared with the same sixteen. Pairs
-//! that are apart in this test are left out if they are neighbours. The boxes at rest decide that in the same way.
+//! Neighbours may have a smaller separation. A box that is [drawn in](selvedge_core::boxes::mapping::Inset) is then compared with
+//! the same sixteen. Pairs that are apart in this test are left out if they are neighbours. The boxes at rest decide that in the
+//! same way.
 
 use super::hubs::NO_HUB;
 use super::pairs::{PairBuffer, Sink};
@@ -63,8 +64,8 @@ impl Scratch {
 }
 
 impl<const N: usize, const M: usize> Trees<'_, N, M> {
-    /// Appends to `tasks` the near pairs of blocks of a level or below, in the order of a whole traversal. Returns the number of tests, each of one box
-    /// against sixteen.
+    /// Appends to `tasks` the near pairs of blocks of a level or below, in the order of a whole traversal. Returns the number of
+    /// tests, each of one box against sixteen.
     pub(super) fn tasks(&self, level: Level, floor: usize, stack: &mut Vec<BlockPair>, tasks: &mut Vec<BlockPair>) -> u64 {
         let (Some(top), Some(other_top)) = (self.first.top(), self.second.top()) else {
             return 0;
@@ -83,8 +84,8 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
         in_lanes(level, down_to)
     }
 
-    /// Gives `sink` the near pairs of primitives of `tasks` that have no vertex in common. Returns the number of tests, or `None` if the sink stops the
-    /// traversal.
+    /// Gives `sink` the near pairs of primitives of `tasks` that have no vertex in common. Returns the number of tests, or `None`
+    /// if the sink stops the traversal.
     pub(super) fn pairs(&self, level: Level, tasks: &[BlockPair], scratch: &mut Scratch, sink: &mut dyn Sink) -> Option<u64> {
         let Scratch {
             stack, found, left_out, ..
@@ -102,7 +103,8 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
         in_lanes(level, all_pairs)
     }
 
-    /// Returns whether no primitive of one block is a pair with one of the other: all have one hub, or their groups do not collide.
+    /// Returns whether no primitive of one block is a pair with one of the other: all have one hub, or their groups do not
+    /// collide.
     #[inline(always)]
     fn are_excluded(&self, [level_a, level_b]: [u8; 2], [a, b]: [u32; 2]) -> bool {
         if !self.are_filtered && !self.first.has_hubs {

@@ -1,9 +1,9 @@
 //! A hierarchy of moving boxes over the vertices, the edges or the faces of a mesh.
 //!
-//! The primitives have an [order](super::order) in which 16 (256, 4096, …) consecutive ones lie close together, counted from a multiple of that
-//! number. A *block* holds the moving boxes of sixteen of them side by side. A block of the next level holds the boxes of sixteen blocks, and so on up
-//! to one block that holds all. So the tree is only arrays: the children of block b are the blocks, or primitives, from 16b on. No block but the last of
-//! a level has an empty lane.
+//! The primitives have an [order](super::order) in which 16 (256, 4096, …) consecutive ones lie close together, counted from a
+//! multiple of that number. A *block* holds the moving boxes of sixteen of them side by side. A block of the next level holds the
+//! boxes of sixteen blocks, and so on up to one block that holds all. So the tree is only arrays: the children of block b are the
+//! blocks, or primitives, from 16b on. No block but the last of a level has an empty lane.
 
 use super::hubs::{NO_HUB, order_by_hub};
 use super::neighbours::AtRest;
@@ -76,8 +76,8 @@ impl<const N: usize> Tree<N> {
         self.levels.len().checked_sub(1)
     }
 
-    /// Puts primitives in order by their centres, and by their hubs if there are any. [`connect`](Self::connect) and [`refit`](Self::refit) must
-    /// follow.
+    /// Puts primitives in order by their centres, and by their hubs if there are any. [`connect`](Self::connect) and
+    /// [`refit`](Self::refit) must follow.
     pub(super) fn build(
         &mut self,
         primitives: impl Iterator<Item = u32>,

@@ -1,7 +1,8 @@
 //! Chooses the number of steps to look ahead that costs least.
 //!
-//! A search that looks far ahead is needed seldom. But it finds more pairs, each of which costs something in every step, and more vertices stray. The
-//! best number depends on the motion. So now and then the search tries twice as many steps, or half as many, and keeps them if a step then costs less.
+//! A search that looks far ahead is needed seldom. But it finds more pairs, each of which costs something in every step, and more
+//! vertices stray. The best number depends on the motion. So now and then the search tries twice as many steps, or half as many,
+//! and keeps them if a step then costs less.
 //!
 //! Costs are counts, not times, so they are the same on every machine and every number of threads.
 

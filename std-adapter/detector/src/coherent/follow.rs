@@ -2,17 +2,17 @@
 //!
 //! **No contact is missed.** A pair outside the list keeps its distance while no vertex strays too far ([`near`](super::near)).
 //! Every step measures the strays at its end, and also at its start unless it starts exactly where the last step ended. The
-//! distance is the separation and twice the tolerance, so a pair that is proven apart here is no contact of the elementary test
-//! either.
+//! distance is the separation and twice the tolerance, so a pair that is proven apart here is not a contact of the elementary
+//! test either.
 
 use super::interest::{CLASSES, Class, Interest, Reach};
 use super::near::NearPairs;
 use super::pair::NearPair;
-use crate::PairKind;
 use crate::broad_phase::mapping_within;
 use crate::mesh::Topology;
 use crate::parallel;
 use crate::step::{CollisionFilter, Motions};
+use selvedge_core::PairKind;
 use selvedge_core::Scalar;
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::gap::GapError;
@@ -94,8 +94,8 @@ impl Followed {
         self.near.as_ref().map_or(0, |near| near.list.len())
     }
 
-    /// Finds the pairs of a step that may come within `distance` by directions, and within `separation` by the boxes of a new detector. The separation is
-    /// not larger than the distance, and positions are finite.
+    /// Finds the pairs of a step that may come within `distance` by directions, and within `separation` by the boxes of a new
+    /// detector. The separation is not larger than the distance, and positions are finite.
     ///
     /// Returns false if that needs more than `memory_limit` bytes. The list is then empty, and the next step finds it again.
     #[must_use]

@@ -1,10 +1,11 @@
 //! The motion for which near pairs were found, and how long they stay valid.
 //!
-//! A search extends the present motion straight ahead for several steps. Every pair that it does not find keeps more than a distance along some direction
-//! on all of that way. As long as each vertex stays within some room of its way along each axis, the pair keeps the rest of that distance
-//! ([`near`](super::near)).
+//! A search extends the present motion straight ahead for several steps. Every pair that it does not find keeps more than a
+//! distance along some direction on all of that path. As long as each vertex stays within some room of its path along each axis,
+//! the pair keeps the rest of that distance ([`near`](super::near)).
 //!
-//! If few vertices leave that room, as in a crease, only they get a [new way](Horizon::lead_back), and only their pairs are found again.
+//! If few vertices leave that room, as in a crease, only they get a [new path](Horizon::lead_back), and only their pairs are
+//! found again.
 
 use super::ahead::Ahead;
 use super::parts::Parts;
@@ -24,7 +25,7 @@ pub(super) struct Expected<'a> {
 /// The motion for which near pairs were found.
 #[derive(Debug, Default)]
 pub(super) struct Horizon {
-    /// The start of each vertex. For a new way, the point where it would have started.
+    /// The start of each vertex. For a new path, the point where it would have started.
     origin: Vec<DVec3>,
     /// The velocity of each vertex.
     drift: Vec<DVec3>,
@@ -38,7 +39,7 @@ pub(super) struct Horizon {
     elapsed: f64,
     /// The number of steps in the span.
     pub(super) ahead: Ahead,
-    /// The difference between the way of each vertex in a step and its way in the last one; empty if unknown.
+    /// The difference between the displacement of each vertex in a step and its displacement in the last one; empty if unknown.
     pub(super) bends: Vec<DVec3>,
     pub(super) parts: Parts,
 }
@@ -74,13 +75,13 @@ impl Horizon {
         self.origin.extend_from_slice(start);
         self.drift.clear();
         self.drift.extend(start.iter().zip(end).map(|(&from, &to)| (to - from) / h));
-        let ways = self.drift.iter_mut().zip(&self.bends);
-        ways.for_each(|(drift, &own)| *drift += bent(own, steps, h, room));
+        let drifts = self.drift.iter_mut().zip(&self.bends);
+        drifts.for_each(|(drift, &bend)| *drift += bent(bend, steps, h, room));
         self.parts.far().for_each(|part| self.drift[part].fill(DVec3::ZERO));
         self.far.clear();
         let span = self.span;
-        let ways = start.iter().zip(&self.drift);
-        self.far.extend(ways.map(|(&from, &drift)| expected(from, drift, span)));
+        let drifts = start.iter().zip(&self.drift);
+        self.far.extend(drifts.map(|(&from, &drift)| expected(from, drift, span)));
         self.largest = self.parts.largest(start).max(self.parts.largest(&self.far));
         if !is_certain(room, self.largest) {
             // Rounding is too coarse to measure strays, so the motion is exactly this step.
@@ -105,8 +106,8 @@ impl Horizon {
         time_after(self.elapsed, h, self.span).is_some()
     }
 
-    /// Finds the vertices that are not certainly within `room` of the motion, a time of `h` later. Returns their number. These are all vertices of no
-    /// far part if the motion has ended.
+    /// Finds the vertices that are not certainly within `room` of the motion, a time of `h` later. Returns their number. These
+    /// are all vertices of no far part if the motion has ended.
     pub(super) fn find_strayed(&self, end: &[DVec3], h: f64, room: f64, strayed: &mut Vec<bool>) -> usize {
         strayed.clear();
         match time_after(self.elapsed, h, self.span) {
@@ -120,8 +121,9 @@ impl Horizon {
         strayed.iter().filter(|&&strayed| strayed).count()
     }
 
-    /// Gives strayed vertices a new way for the rest of the motion, in the direction from `start` to `end`. Returns the motion of all vertices, with new
-    /// ways extended back to its beginning. Returns `None` if rounding is too coarse for that; the motion is then over.
+    /// Gives strayed vertices a new path for the rest of the motion, in the direction from `start` to `end`. Returns the motion
+    /// of all vertices, with new paths extended back to its beginning. Returns `None` if rounding is too coarse for that; the
+    /// motion is then over.
     pub(super) fn lead_back(&mut self, strayed: &[bool], [start, end]: [&[DVec3]; 2], h: f64, room: f64) -> Option<Expected<'_>> {
         for vertex in (0..strayed.len()).filter(|&vertex| strayed[vertex]) {
             let mut drift = (end[vertex] - start[vertex]) / h;
@@ -140,8 +142,8 @@ impl Horizon {
         })
     }
 
-    /// Raises the stray of each vertex to that from the motion, a time of `h` later, in the measure of [`Reach::beyond`](super::interest::Reach::beyond). The stray
-    /// is infinite where it cannot be measured.
+    /// Raises the stray of each vertex to that from the motion, a time of `h` later, in the measure of
+    /// [`Reach::beyond`](super::interest::Reach::beyond). The stray is infinite where it cannot be measured.
     pub(super) fn find_strays(&self, end: &[DVec3], h: f64, beyond: f64, strays: &mut [f32]) {
         let time = time_after(self.elapsed, h, self.span).unwrap_or(f64::NAN);
         let mut grades = [(f64::NEG_INFINITY, f32::INFINITY); GRADES];
@@ -171,7 +173,7 @@ impl Horizon {
 /// The number of grades of strays, each half of the one before.
 const GRADES: usize = 6;
 
-/// Returns the correction of a drift for a vertex whose way bends in each step.
+/// Returns the correction of a drift for a vertex whose path bends in each step.
 ///
 /// The correction is half of the one that leads to the end of the vertex's parabola, since bends do not last. It is limited so
 /// that the vertex stays within half of its room in the first step. On a bending sleeve this halves the strays.

@@ -1,7 +1,7 @@
 //! The pairs that a caller has an interest in, and how near they are.
 
-use crate::PairKind;
 use crate::broad_phase::Neighbours;
+use selvedge_core::PairKind;
 use std::sync::Arc;
 
 /// Selects the pairs that a caller has an interest in.
@@ -17,7 +17,8 @@ pub trait Interest: Sync {
         None
     }
 
-    /// Returns the first data of a pair, or `None` if the pair is of no interest. It must always return the same for the same pair.
+    /// Returns the first data of a pair, or `None` if the pair is of no interest. It must always return the same for the same
+    /// pair.
     fn about(&self, kind: PairKind, vertices: [u32; 4]) -> Option<Self::Data>;
 }
 
@@ -39,8 +40,8 @@ pub struct Class {
 pub struct Reach {
     /// The distance of each class.
     pub classes: [Class; CLASSES],
-    /// A length beyond the distance within which pairs are looked for. It is twice the length by which each vertex may stray along an axis. A larger
-    /// value gives longer lists that last longer.
+    /// A length beyond the distance within which pairs are looked for. It is twice the length by which each vertex may stray
+    /// along an axis. A larger value gives longer lists that last longer.
     pub beyond: f64,
     /// The length by which every pair may come closer than its distance.
     pub spare: f64,

@@ -1,7 +1,7 @@
 //! Looks up pairs that are found again.
 
 use super::pair::NearPair;
-use crate::PairKind;
+use selvedge_core::PairKind;
 
 /// Known pairs, in two runs that each ascend by key. Look-ups ascend too, and drop the pairs that they pass.
 pub(super) struct Known<'a, D>([&'a [NearPair<D>]; 2]);

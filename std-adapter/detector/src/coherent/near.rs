@@ -13,10 +13,10 @@ use super::known::Known;
 use super::pair::NearPair;
 use super::parts::Parts;
 use super::search::Search;
-use crate::PairKind;
 use crate::buffer::append_selected;
 use crate::mesh::Topology;
 use crate::step::{CollisionFilter, StepError};
+use selvedge_core::PairKind;
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::course::room;
 use std::ops::Range;
@@ -30,8 +30,8 @@ const MANY: usize = 4;
 /// Searches run on the rayon pool of the caller, if there is one, and otherwise on the calling thread.
 #[derive(Debug)]
 pub struct NearPairs<I: Interest> {
-    /// The pairs of the last full search, then those that were added since. Both parts ascend by [key](NearPair::key). Adding pairs does not move the
-    /// first part, which may have millions.
+    /// The pairs of the last full search, then those that were added since. Both parts ascend by [key](NearPair::key). Adding
+    /// pairs does not move the first part, which may have millions.
     pub list: Vec<NearPair<I::Data>>,
     /// The number of pairs of the last full search.
     first: usize,
@@ -63,7 +63,8 @@ pub struct NearStatistics {
 }
 
 impl<I: Interest> NearPairs<I> {
-    /// Makes an empty list for a mesh. It will hold pairs of `interest` that have a `wanted` vertex; there is one entry for each vertex.
+    /// Makes an empty list for a mesh. It will hold pairs of `interest` that have a `wanted` vertex; there is one entry for each
+    /// vertex.
     ///
     /// # Errors
     /// Returns an error if a length in `reach` is negative or not finite.
@@ -90,14 +91,16 @@ impl<I: Interest> NearPairs<I> {
     }
 
     /// Sets the vertices of parts, such as bodies, that may be far from all else. Far parts change no list and no time of a
-    /// search. The ranges ascend and are disjoint, their vertices are not wanted, and no edge or triangle has vertices of two of them, or of one and others.
+    /// search. The ranges ascend and are disjoint, their vertices are not wanted, and no edge or triangle has vertices of two of
+    /// them, or of one and others.
     pub fn set_parts(&mut self, parts: Vec<Range<usize>>) {
         let largest = self.reach.classes.iter().map(|class| class.distance).fold(0.0, f64::max);
         let reach = largest + self.reach.beyond;
         self.horizon.parts = Parts::new(parts, self.search.vertex_count(), reach);
     }
 
-    /// Returns the largest coordinate of all vertices that listed pairs may have, in the unit of the positions. It is infinite if one is not finite.
+    /// Returns the largest coordinate of all vertices that listed pairs may have, in the unit of the positions. It is infinite if
+    /// one is not finite.
     #[must_use]
     pub fn largest_coordinate(&self, positions: &[DVec3]) -> f64 {
         self.horizon.parts.largest(positions)
@@ -179,14 +182,15 @@ impl<I: Interest> NearPairs<I> {
         self.horizon.ahead.spend(self.reach.upkeep * self.list.len() as f64);
     }
 
-    /// Finds the vertices that stray too far on the way from `start` to `end`, a time of `h` later. Then a pair outside the list may come
-    /// closer than allowed. Returns their number.
+    /// Finds the vertices that stray too far on the path from `start` to `end`, a time of `h` later. Then a pair outside the list
+    /// may come closer than allowed. Returns their number.
     pub fn find_strayed(&mut self, [start, end]: [&[DVec3]; 2], h: f64) -> usize {
         self.horizon.parts.update([start, end]);
         self.horizon.find_strayed(end, h, self.room, &mut self.strayed)
     }
 
-    /// Adds the pairs of vertices that have strayed. Returns false if that is impossible, because too many have strayed or the motion has ended.
+    /// Adds the pairs of vertices that have strayed. Returns false if that is impossible, because too many have strayed or the
+    /// motion has ended.
     ///
     /// # Panics
     /// Panics as [`cover`](Self::cover) does.
@@ -207,7 +211,7 @@ impl<I: Interest> NearPairs<I> {
         self.cover_strayed(strayed, start, end, h);
     }
 
-    /// Sets the difference between the way of each vertex in the next step and its way in the last one.
+    /// Sets the difference between the displacement of each vertex in the next step and its displacement in the last one.
     pub fn set_bends(&mut self, bends: impl Iterator<Item = DVec3>) {
         self.horizon.bends.clear();
         self.horizon.bends.extend(bends);

@@ -2,7 +2,7 @@
 //!
 //! Proofs by directions, and their rounding errors, are [core's](selvedge_core::separation::gap).
 
-use crate::PairKind;
+use selvedge_core::PairKind;
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::closest::ClosestPoints;
 use selvedge_core::separation::gap::{GapError, SeparatingDirection, distance_from_below};
@@ -53,7 +53,8 @@ impl<D: Copy> NearPair<D> {
         (self.kind, self.pair)
     }
 
-    /// Returns whether the pair may have come within its distance, given how far all vertices stray. False proves that it has not.
+    /// Returns whether the pair may have come within its distance, given how far all vertices stray. False proves that it has
+    /// not.
     #[inline(always)]
     pub(super) fn needs_attention(&self, strays: &[f32]) -> bool {
         let [a, b, c, d] = self.vertices.map(|vertex| strays[vertex as usize]);
@@ -118,7 +119,8 @@ impl<D: Copy> NearPair<D> {
         self.separating.gap_at(self.kind, self.points(positions)) > distance
     }
 
-    /// Returns whether the remembered direction also keeps the pair apart at the end of the step. The remembered gap must hold at the start.
+    /// Returns whether the remembered direction also keeps the pair apart at the end of the step. The remembered gap must hold at
+    /// the start.
     #[inline(always)]
     pub fn stays_apart(&mut self, end: &[DVec3], separation: f64, error: GapError<f64>) -> bool {
         let later = self.separating.lasts(self.kind, self.points(end), separation, error);
@@ -128,7 +130,7 @@ impl<D: Copy> NearPair<D> {
         later.is_some()
     }
 
-    /// Returns whether a direction certainly keeps the pair more than `separation` apart on the way from `start` to `end`, and
+    /// Returns whether a direction certainly keeps the pair more than `separation` apart on the path from `start` to `end`, and
     /// remembers it. It tries the remembered direction, then those of the closest points at the end and at the start.
     #[inline]
     pub fn keeps_apart(&mut self, path: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> bool {
@@ -172,11 +174,11 @@ impl<D: Copy> NearPair<D> {
         kept.is_some()
     }
 
-    /// Returns the share of the way from `base` to `wanted` that each vertex may go. With it the pair keeps `separation` on the
-    /// way from `start` ([core's truncation](selvedge_core::separation::truncation)).
+    /// Returns the share of the path from `base` to `wanted` that each vertex may go. With it the pair keeps `separation` on the
+    /// path from `start` ([core's truncation](selvedge_core::separation::truncation)).
     ///
-    /// It tries the remembered direction and those of the closest points, and remembers the best one, without a gap. The shares are zero if no direction
-    /// keeps the pair apart both at `start` and at `base`.
+    /// It tries the remembered direction and those of the closest points, and remembers the best one, without a gap. The shares
+    /// are zero if no direction keeps the pair apart both at `start` and at `base`.
     pub fn shares(&mut self, start: &[DVec3], [base, wanted]: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> [f64; 4] {
         let (kind, [start, base, wanted]) = (self.kind, [self.points(start), self.points(base), self.points(wanted)]);
         let directions = [start, base, wanted].map(|points| ClosestPoints::from_points(kind, points).direction);

@@ -1,7 +1,7 @@
 //! Parts of a mesh, such as bodies, that may be far from all else.
 //!
-//! A part is far in a step if, along an axis, the box of its ways keeps more than twice the reach from that of the vertices of no
-//! part. Then it has no pair within the reach; the factor of two covers the rounding of the difference. Until the next full
+//! A part is far in a step if, along an axis, the box of its paths keeps more than twice the reach from that of the vertices of
+//! no part. Then it has no pair within the reach; the factor of two covers the rounding of the difference. Until the next full
 //! search, a far part counts nowhere: it has no listed pair, does not stray, and no rounding bound covers it. So it changes
 //! neither the list nor the steps of searches. A part that comes near is taken for strayed, and stays near until the next full
 //! search, since listed pairs may have its vertices.

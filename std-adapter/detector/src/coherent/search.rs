@@ -1,4 +1,5 @@
-//! Finds the pairs that may come near each other on a motion, by [hierarchies of moving boxes](crate::broad_phase) and a [sieve](super::sieve).
+//! Finds the pairs that may come near each other on a motion, by [hierarchies of moving boxes](crate::broad_phase) and a
+//! [sieve](super::sieve).
 
 use super::horizon::Expected;
 use super::interest::{Interest, Reach};
@@ -6,11 +7,11 @@ use super::known::Known;
 use super::pair::NearPair;
 use super::parts::Parts;
 use super::sieve::{Sieve, SievedPair};
-use crate::PairKind;
 use crate::broad_phase::MovingBroadPhase;
 use crate::mesh::Topology;
 use crate::parallel;
 use crate::step::{CollisionFilter, StepError};
+use selvedge_core::PairKind;
 use selvedge_core::glam::DVec3;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};

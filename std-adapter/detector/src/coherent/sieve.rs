@@ -1,14 +1,14 @@
 //! Drops candidates that keep apart until the next search.
 //!
-//! Boxes along three axes leave many pairs that are farther apart than their reach, such as most pairs of triangles side by side. The distance that a
-//! pair keeps while its vertices stray is its [clearance](selvedge_core::separation::clearance).
+//! Boxes along three axes leave many pairs that are farther apart than their reach, such as most pairs of triangles side by side.
+//! The distance that a pair keeps while its vertices stray is its [clearance](selvedge_core::separation::clearance).
 
 use super::interest::{CLASSES, Class, Interest, Reach};
-use crate::PairKind;
 use crate::buffer::append_selected;
 use crate::mesh::Topology;
 use crate::simd::{Level, best_level};
 use selvedge_core::Motion;
+use selvedge_core::PairKind;
 use selvedge_core::batch::{VertexRow, largest_strays_from_rows};
 use selvedge_core::glam::{DVec3, Vec3};
 use selvedge_core::separation::clearance::Clearance;
@@ -42,10 +42,11 @@ impl Sieve {
         }
     }
 
-    /// Sets the motion. If there is an `only`, other vertices keep the last motion. `largest` is the largest coordinate of the vertices of pairs.
+    /// Sets the motion. If there is an `only`, other vertices keep the last motion. `largest` is the largest coordinate of the
+    /// vertices of pairs.
     ///
-    /// Returns a gap between boxes: [`leave`](Self::leave) certainly drops a pair of the first class whose boxes keep that gap along one axis throughout the
-    /// motion.
+    /// Returns a gap between boxes: [`leave`](Self::leave) certainly drops a pair of the first class whose boxes keep that gap
+    /// along one axis throughout the motion.
     pub(super) fn set_motion(&mut self, reach: &Reach, [start, end]: [&[DVec3]; 2], largest: f64, only: Option<&[bool]>) -> f64 {
         let clearance = |class: Class| Clearance::new(class.distance, largest, class.margin);
         self.clearances = reach.classes.map(clearance);

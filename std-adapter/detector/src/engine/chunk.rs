@@ -12,22 +12,22 @@
 //! ```
 //!
 //! # `f32` first
-//! If all positions are `f32` numbers, in either format, filter and sweeps run in `f32` first. A register then holds twice as
+//! If all positions are `f32` numbering, in either format, filter and sweeps run in `f32` first. A register then holds twice as
 //! many pairs, and half as many bytes are read. A proof in `f32` holds for the positions themselves. The pairs that `f32` leaves
 //! open continue in `f64`, from the times up to which they are proven apart. So contacts and times are as sharp as those of
 //! `f64`. The separation and the end of the time range are rounded up.
 
 use super::findings::{Findings, count_of};
-use super::numbers::Numbers;
+use super::numbering::Numbering;
 use super::question::{Bound, Question, Wanted};
 use super::source::Source;
 use super::stop::Stop;
 use super::sweep::{MOST, Open, Sweep, Undecided};
-use crate::PairKind;
 use crate::broad_phase::{CHUNK, RowSlices, Sink};
 use crate::clock::Clock;
 use crate::simd::Level;
 use crate::step::Contact;
+use selvedge_core::PairKind;
 use selvedge_core::batch::{LANES, Mask, VertexRow, culled_from_rows};
 use selvedge_core::elementary::advance::time_of_impact_within;
 use selvedge_core::elementary::contact::contact_given_impact;
@@ -47,7 +47,7 @@ const SINGLE_SWEEPS: usize = 4;
 #[derive(Clone, Copy)]
 pub(super) struct StepInput<'a> {
     pub(super) level: Level,
-    pub(super) numbers: Numbers<'a>,
+    pub(super) numbering: Numbering<'a>,
     pub(super) rows: RowSlices<'a>,
     pub(super) question: Question,
     /// The latest time of interest.
@@ -59,14 +59,14 @@ impl<'a> StepInput<'a> {
     pub(super) fn new(source: &Source<'a>, bound: &'a Bound, stop: &'a Stop) -> Self {
         let &Source {
             level,
-            numbers,
+            numbering,
             rows,
             question,
             ..
         } = source;
         Self {
             level,
-            numbers,
+            numbering,
             rows,
             question,
             bound,
@@ -131,7 +131,7 @@ impl Chunk {
         let first = self.pairs.len();
         self.pairs.extend_from_slice(candidates);
         self.indices.resize(first + candidates.len(), [0; 4]);
-        step.numbers.vertices_of_all(kind, candidates, &mut self.indices[first..]);
+        step.numbering.vertices_of_all(kind, candidates, &mut self.indices[first..]);
         let Self {
             pairs, indices, masks, ..
         } = self;
@@ -140,7 +140,7 @@ impl Chunk {
         *count_of(&mut findings.counts.candidates, kind) += candidates.len() as u64;
         *count_of(&mut findings.counts.filtered, kind) += kept.len() as u64;
         if step.question.keeps_filtered {
-            let in_mesh = |&pair| step.numbers.in_mesh(kind, pair);
+            let in_mesh = |&pair| step.numbering.in_mesh(kind, pair);
             findings.kept[kind as usize].extend(kept.iter().map(in_mesh));
         }
         findings.counts.filter_time += begin.elapsed();
@@ -167,7 +167,7 @@ impl Chunk {
                 step.bound.lower(step.question.wanted, time);
                 findings.contacts.push(Contact {
                     kind,
-                    pair: step.numbers.in_mesh(kind, pair),
+                    pair: step.numbering.in_mesh(kind, pair),
                     time,
                 });
             }
@@ -185,7 +185,8 @@ impl Chunk {
         !has_enough && !step.stop.has_stopped()
     }
 
-    /// Sweeps in `f32`. Pairs that this does not prove apart until the end continue in `f64` from the proven time. Returns the number of sweeps.
+    /// Sweeps in `f32`. Pairs that this does not prove apart until the end continue in `f64` from the proven time. Returns the
+    /// number of sweeps.
     fn sweep_in_single(&mut self, step: &StepInput<'_>, kind: PairKind, until: f64, rows: &[VertexRow<f32>]) -> usize {
         let Self { single, double, .. } = self;
         single.fill(&self.indices);
@@ -196,7 +197,7 @@ impl Chunk {
             kind,
             rows,
             limits: Limits {
-                // This tolerance is no part of a proof: it only decides when a pair goes to `f64`.
+                // This tolerance is not part of a proof: it only decides when a pair goes to `f64`.
                 tolerance: f32::from_f64(limits.tolerance),
                 separation: rounded_up(limits.separation),
             },
@@ -286,7 +287,7 @@ fn touches(step: &StepInput<'_>, kind: PairKind, pair: [u32; 2], time: f64) -> b
         time,
         reason: Reason::WithinTolerance,
     };
-    let pair = step.primitives(kind, step.numbers.vertices(kind, pair));
+    let pair = step.primitives(kind, step.numbering.vertices(kind, pair));
     contact_given_impact(&pair, &impact) != Verdict::Never
 }
 

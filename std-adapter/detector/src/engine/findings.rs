@@ -1,8 +1,8 @@
 //! The contacts and counts of one share of the work.
 
-use crate::PairKind;
 use crate::pair_counts::PairCounts;
 use crate::step::Contact;
+use selvedge_core::PairKind;
 use std::cmp::Ordering;
 use std::time::Duration;
 

@@ -2,7 +2,7 @@
 
 use super::chunk::StepInput;
 use super::mesh_engine::MeshEngine;
-use super::numbers::Numbers;
+use super::numbering::Numbering;
 use super::pair_engine::{own_space, shares, spaces_for_threads};
 use super::question::{Bound, Question, Wanted};
 use super::rest::{Part, RestSearch};
@@ -50,7 +50,7 @@ impl MeshEngine {
         let search = RestSearch {
             step: StepInput {
                 level: hierarchies.level(),
-                numbers: Numbers::FacesAndEdges(hierarchies),
+                numbering: Numbering::FacesAndEdges(hierarchies),
                 rows: self.rows.slices(),
                 question: Question {
                     // The sweeps stop at this distance, and the exact verdict decides. The limits change no result.

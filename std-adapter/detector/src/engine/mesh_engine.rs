@@ -1,7 +1,7 @@
 //! The stages joined for one mesh.
 
 use super::findings::{StageCounts, by_time_and_pair};
-use super::given::PrimitiveBoxes;
+use super::listed_pairs::PrimitiveBoxes;
 use super::pair_engine::{PairEngine, in_format_of_positions};
 use super::question::Question;
 use super::rest::RestTasks;
@@ -277,8 +277,8 @@ impl MeshEngine {
         self.earliest_found()
     }
 
-    /// Looks at the whole step, or at its [early part](EARLY) first if that has less than half of the candidates. If many boxes overlap from the
-    /// start, as about one point, the early part would take as long as the whole step.
+    /// Looks at the whole step, or at its [early part](EARLY) first if that has less than half of the candidates. If many boxes
+    /// overlap from the start, as about one point, the early part would take as long as the whole step.
     fn run_for_earliest(&mut self, motions: &dyn Motions, question: &Question) {
         let begin = Clock::now();
         self.fit(1.0, motions, question);
@@ -298,11 +298,16 @@ impl MeshEngine {
             let update = begin.elapsed().as_secs_f64();
             let is_whole = self.pairs.run(&sources, question.wanted, EARLY, None);
             self.finish(begin, update, is_whole);
-            if self.earliest_found().is_some() || self.pairs.stop.result().is_err() {
+            if self.earliest_found().is_some() || self.result().is_err() {
                 return;
             }
         }
         self.run_until(1.0, motions, question);
+    }
+
+    /// Returns an error if the last run was cut short: cancelled, or by a limit.
+    pub(crate) fn result(&self) -> Result<(), StepError> {
+        self.pairs.stop.result()
     }
 
     /// Returns the earliest contact of the last run.

@@ -1,15 +1,15 @@
 //! Decides the pairs of a step: candidates of hierarchies, lists or the coherent search, through filter and elementary test.
 //!
-//! A [`PairEngine`] decides the candidates of [sources](Source), one after the other. A [`MeshEngine`] has the two sources of one mesh, and a
-//! [world](world) those of many.
+//! A [`PairEngine`] decides the candidates of [sources](Source), one after the other. A [`MeshEngine`] has the two sources of one
+//! mesh, and a [world](world) those of many.
 
 mod chunk;
 mod findings;
-mod given;
 mod hinge_chunk;
 mod intersections;
+mod listed_pairs;
 mod mesh_engine;
-mod numbers;
+mod numbering;
 mod pair_engine;
 mod question;
 mod rest;

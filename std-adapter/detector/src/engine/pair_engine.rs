@@ -64,7 +64,7 @@ struct Visit {
     candidates: u64,
 }
 
-/// Returns the time of a contact of the source with this number, or `None` if it is no contact after all.
+/// Returns the time of a contact of the source with this number, or `None` if it is not a contact after all.
 pub(crate) type Refine<'a> = dyn Fn(usize, &Contact<f64>) -> Option<f64> + Sync + 'a;
 
 impl PairEngine {
@@ -303,7 +303,7 @@ impl Sink for Count {
     }
 }
 
-/// The approximate number of tasks that an estimate looks at.
+/// The approximate number of tasks that an estimate samples.
 const SAMPLES: usize = 32;
 
 /// The number of shares for each thread. With many shares, a slow one does not keep the other threads waiting.

@@ -25,7 +25,8 @@ pub(crate) struct Question {
     pub(crate) is_exact: bool,
 }
 
-/// The latest time at which a contact is of interest. All threads share it, and each contact lowers it if only the earliest is wanted.
+/// The latest time at which a contact is of interest. All threads share it, and each contact lowers it if only the earliest is
+/// wanted.
 ///
 /// A time is stored as its bits, which have the same order since times are not negative. The order in which threads lower it
 /// changes no result. A pair is dropped only if it is proven apart until *after* the bound, which is never before the earliest
@@ -42,7 +43,7 @@ impl Bound {
         f64::from_bits(self.0.load(Ordering::Relaxed))
     }
 
-    /// Takes note of a contact at `time`.
+    /// Lowers the bound to `time`.
     pub(super) fn lower(&self, wanted: Wanted, time: f64) {
         match wanted {
             Wanted::All => {}

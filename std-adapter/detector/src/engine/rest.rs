@@ -1,11 +1,11 @@
 //! Finds the primitives of a mesh at rest that meet.
 //!
-//! An edge is the way of a vertex from one of its ends to the other. So an edge and a face are tested like a vertex and a face during a step, by the
-//! same filter, sweeps and exact verdict:
+//! An edge is the path of a vertex from one of its ends to the other. So an edge and a face are tested like a vertex and a face
+//! during a step, by the same filter, sweeps and exact verdict:
 //!
 //! ```text
 //! edges and faces without a common vertex     traversal of their hierarchies
-//! triangles with a common edge ("hinges")     those that are not wide open, and may be coplanar: their four pairs without a common vertex
+//! triangles with a common edge ("hinges")     not wide open, perhaps coplanar: their four pairs without a common vertex
 //! ends of loose edges, points                 vertices and faces that the edge connects; all faces with a point
 //!   │  chunk by chunk, as in a step           filter, sweeps, exact verdict
 //!   ▼
@@ -16,25 +16,25 @@
 //! Two triangles have a point in common, besides the vertices that they share, exactly if one of these pairs meets:
 //! * **No common vertex.** A triangle without area is the union of its edges. Otherwise two triangles meet in a segment that ends
 //!   where an edge of one meets the other. Or they are coplanar and overlap in a polygon whose corners lie on edges.
-//! * **One common vertex v**, and x another common point. The ray from v through x leaves each triangle on the edge opposite to v, or in an end of it.
-//!   Where it first leaves a triangle, it is still in the other, which is convex.
-//! * **A common edge, v u**, and x a common point beside it. Then both triangles lie in one plane, on one side of v u, with corners a and b. By the
-//!   angles at v and at u, one of the corners is in the other triangle, or v a crosses u b, or u a crosses v b. Every edge of one triangle has a
-//!   vertex of the other, so these four pairs are tested separately.
+//! * **One common vertex v**, and x another common point. The ray from v through x leaves each triangle on the edge opposite to
+//!   v, or in an end of it. Where it first leaves a triangle, it is still in the other, which is convex.
+//! * **A common edge, v u**, and x a common point beside it. Then both triangles lie in one plane, on one side of v u, with
+//!   corners a and b. By the angles at v and at u, one of the corners is in the other triangle, or v a crosses u b, or u a
+//!   crosses v b. Every edge of one triangle has a vertex of the other, so these four pairs are tested separately.
 //!
-//! This also finds a vertex that touches a face, and two edges that touch: as an edge and a face, or as a pair of a hinge. Loose features are the
-//! exception. A triangle that names a vertex twice is an edge, whose end may touch a face that contains its other end. A triangle that names one
-//! vertex only is a point without edges, so it is tested with every face.
+//! This also finds a vertex that touches a face, and two edges that touch: as an edge and a face, or as a pair of a hinge. Loose
+//! features are the exception. A triangle that names a vertex twice is an edge, whose end may touch a face that contains its
+//! other end. A triangle that names one vertex only is a point without edges, so it is tested with every face.
 
 use super::chunk::{Chunk, ChunkSink, StepInput, drop_never_coplanar};
 use super::findings::Findings;
-use super::numbers::Numbers;
+use super::numbering::Numbering;
 use super::pair_engine::Space;
 use super::question::Wanted;
-use crate::PairKind;
 use crate::broad_phase::{BlockPair, CHUNK, FacesAndEdges, Hierarchies, Pairing, Sink};
 use crate::mesh::Hinges;
 use crate::step::{Contact, Intersection};
+use selvedge_core::PairKind;
 use selvedge_core::separation::hinge::is_wide_open;
 
 /// The tasks of traversals for pairs at rest.
@@ -144,7 +144,7 @@ impl RestSearch<'_> {
     fn hinges(&self, edges: impl Iterator<Item = u32>, space: &mut Space, findings: &mut Findings) {
         let topology = self.hierarchies.topology();
         let step = StepInput {
-            numbers: Numbers::Placed(self.hierarchies),
+            numbering: Numbering::Placed(self.hierarchies),
             ..self.step
         };
         let moves = |vertices: [u32; 4]| vertices.into_iter().any(|vertex| self.hierarchies.moves(vertex));
@@ -192,7 +192,7 @@ impl RestSearch<'_> {
             scratch, chunk, near, ..
         } = space;
         let step = StepInput {
-            numbers: Numbers::Positions(self.hierarchies),
+            numbering: Numbering::Positions(self.hierarchies),
             ..self.step
         };
         let mut sink = TiedSink {
@@ -222,12 +222,12 @@ struct TiedSink<'a> {
 impl Sink for TiedSink<'_> {
     fn take(&mut self, pairs: &[[u32; 2]]) -> bool {
         let RestSearch { hierarchies, hinges, .. } = self.search;
-        let must_be_looked_at = |&pair: &[u32; 2]| {
+        let may_touch_unseen = |&pair: &[u32; 2]| {
             let [vertex, face] = hierarchies.in_mesh(PairKind::VertexFace, pair);
-            hinges.must_be_looked_at(vertex, hierarchies.topology().triangles()[face as usize])
+            hinges.may_touch_unseen(vertex, hierarchies.topology().triangles()[face as usize])
         };
         self.tied.clear();
-        self.tied.extend(pairs.iter().copied().filter(must_be_looked_at));
+        self.tied.extend(pairs.iter().copied().filter(may_touch_unseen));
         self.chunk.take(self.step, PairKind::VertexFace, self.tied, self.findings)
     }
 }

@@ -1,11 +1,11 @@
 //! Sources of candidates.
 
-use super::given::PrimitiveBoxes;
-use super::numbers::Numbers;
+use super::listed_pairs::PrimitiveBoxes;
+use super::numbering::Numbering;
 use super::question::Question;
-use crate::PairKind;
 use crate::broad_phase::{Hierarchies, Pairing, RowSlices};
 use crate::simd::Level;
+use selvedge_core::PairKind;
 
 /// Candidates of one kind, and the question about them.
 #[derive(Clone, Copy)]
@@ -13,7 +13,7 @@ pub(crate) struct Source<'a> {
     pub(super) candidates: Candidates<'a>,
     pub(super) level: Level,
     /// Translates the numbers of candidates.
-    pub(super) numbers: Numbers<'a>,
+    pub(super) numbering: Numbering<'a>,
     pub(super) rows: RowSlices<'a>,
     pub(super) question: Question,
 }
@@ -36,7 +36,7 @@ impl<'a> Source<'a> {
         Pairing::all_within(hierarchies).map(|pairing| Self {
             candidates: Candidates::Traversed(pairing),
             level: hierarchies.level(),
-            numbers: Numbers::Positions(hierarchies),
+            numbering: Numbering::Positions(hierarchies),
             rows: hierarchies.rows().slices(),
             question,
         })
@@ -47,7 +47,7 @@ impl<'a> Source<'a> {
         Self {
             candidates: Candidates::Traversed(pairing),
             level: pairing.meshes[0].level(),
-            numbers: Numbers::Between(pairing, first_rows),
+            numbering: Numbering::Between(pairing, first_rows),
             rows,
             question,
         }
@@ -64,7 +64,7 @@ impl<'a> Source<'a> {
         [(PairKind::VertexFace, vertex_face), (PairKind::EdgeEdge, edge_edge)].map(|(kind, pairs)| Self {
             candidates: Candidates::Listed { kind, pairs, boxes },
             level: hierarchies.level(),
-            numbers: Numbers::Mesh(hierarchies.topology()),
+            numbering: Numbering::Mesh(hierarchies.topology()),
             rows,
             question,
         })

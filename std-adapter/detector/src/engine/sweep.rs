@@ -77,8 +77,8 @@ pub(super) struct Sweep<'a, F> {
 }
 
 impl<F: Scalar> Sweep<'_, F> {
-    /// Runs one round for all open pairs. Drops the pairs that it decides, and calls `leave` with those that it does not prove apart: place, rows, time
-    /// and reason.
+    /// Runs one round for all open pairs. Drops the pairs that it decides, and calls `leave` with those that it does not prove
+    /// apart: place, rows, time and reason.
     pub(super) fn run(&self, number: usize, open: &mut Open<F>, mut leave: impl FnMut(u32, [u32; 4], F, Undecided)) {
         let Open {
             places,

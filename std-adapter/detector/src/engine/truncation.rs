@@ -4,12 +4,12 @@
 //! wanted step   ─▶ contacts ─ none ─▶ it is free
 //!                     │
 //!                     ▼
-//! each contact     planes between its two sets: shares of their ways (core's truncation); the second time, its vertices rest
+//! each contact     planes between its two sets: shares of displacements (core's truncation); the second time, its vertices rest
 //! vertices         the least of their shares
-//! their pairs      from the boxes that whole ways sweep: contacts again ─▶ repeat until there are none
+//! their pairs      from the boxes that whole displacements sweep: contacts again ─▶ repeat until there are none
 //! ```
 //!
-//! **The result is free.** A pair that swept boxes exclude keeps its distance wherever each vertex ends in the box of its way.
+//! **The result is free.** A pair that swept boxes exclude keeps its distance wherever each vertex ends in the box of its path.
 //! Every other pair passes the certified tests for the final ends of its vertices. It does so in the last round, or in an earlier
 //! one after which none of its vertices changed.
 //!
@@ -22,11 +22,11 @@
 
 use super::mesh_engine::MeshEngine;
 use super::question::Question;
-use crate::PairKind;
 use crate::mesh::Topology;
 use crate::parallel::Workers;
 use crate::step::{Contact, Step, StepError, Truncation};
 use selvedge_core::Motion;
+use selvedge_core::PairKind;
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::closest::ClosestPoints;
 use selvedge_core::separation::gap::GapError;
@@ -41,7 +41,7 @@ struct Held<'a> {
     /// The distance that pairs keep, with a margin so that the elementary test confirms it.
     distance: f64,
     error: GapError<f64>,
-    /// The share of its way that each vertex goes.
+    /// The share of its displacement that each vertex goes.
     shares: Vec<f64>,
     /// True for vertices whose share changed in this round.
     changed: Vec<bool>,
@@ -96,8 +96,8 @@ impl Held<'_> {
 }
 
 impl MeshEngine {
-    /// Replaces `end` by the ends of a step that is free of contact, except for pairs that are in contact at the start. `round` rounds a position to the
-    /// caller's format, between the same two numbers.
+    /// Replaces `end` by the ends of a step that is free of contact, except for pairs that are in contact at the start. `round`
+    /// rounds a position to the caller's format, between the same two numbers.
     pub(crate) fn truncate(
         &mut self,
         threads: &Workers,
@@ -110,7 +110,7 @@ impl MeshEngine {
         end.extend_from_slice(wanted);
         let mut contacts = Vec::new();
         self.run(threads, &Step::of_finite(start, end), question);
-        self.pairs.stop.result()?;
+        self.result()?;
         self.collect_contacts(&mut contacts);
         let mut truncation = Truncation {
             rounds: 1,
@@ -124,7 +124,7 @@ impl MeshEngine {
         let separation = question.limits.separation;
         let whole = Step::of_finite(start, wanted);
         self.candidates(threads, &whole, separation, true, [&mut vertex_face, &mut edge_edge]);
-        self.pairs.stop.result()?;
+        self.result()?;
         let candidates = [vertex_face, edge_edge];
         let largest = largest_coordinate(start).max(largest_coordinate(wanted));
         let mut held = Held {
@@ -177,6 +177,6 @@ impl MeshEngine {
         let step = Step::of_finite(start, end);
         self.run_on(threads, &step, question, [vertex_face, edge_edge])?;
         self.collect_contacts(contacts);
-        self.pairs.stop.result()
+        self.result()
     }
 }

@@ -1,5 +1,6 @@
 //! Finds the edges of a list of triangles.
 
+use super::adjacency::Adjacency;
 use std::borrow::Cow;
 
 /// Marks a triangle's side without an edge.
@@ -58,11 +59,12 @@ pub(super) fn find_edges(named: &Named<'_>) -> (Vec<[u32; 2]>, Vec<[u32; 3]>) {
         let (a, b) = ends(slot);
         (a != b).then(|| (a.max(b), (a.min(b), slot as u32)))
     });
-    let groups = ByKey::new(named.vertex_count, slots);
+    // A mesh has few edges at each vertex, so this is much faster than one large sort.
+    let groups = Adjacency::new(named.vertex_count, || slots.clone()).sorted();
 
     let mut edges: Vec<[u32; 2]> = Vec::with_capacity(triangles.len() * 3 / 2);
     let mut triangle_edges = vec![[NO_EDGE; 3]; triangles.len()];
-    for (larger, group) in groups.iter() {
+    for (larger, group) in (0..).zip(groups.iter()) {
         for same_edge in group.chunk_by(|a, b| a.0 == b.0) {
             for &(_, slot) in same_edge {
                 triangle_edges[slot as usize / 3][slot as usize % 3] = edges.len() as u32;
@@ -71,49 +73,4 @@ pub(super) fn find_edges(named: &Named<'_>) -> (Vec<[u32; 2]>, Vec<[u32; 3]>) {
         }
     }
     (edges, triangle_edges)
-}
-
-/// Items grouped by a key below a known bound, and sorted within each group.
-///
-/// This is a counting sort by key, then a small sort of each group. A mesh has few items for each vertex, so it is much faster than one large sort.
-#[derive(Debug)]
-pub(super) struct ByKey<T> {
-    /// Group k is `items[starts[k]..starts[k + 1]]`.
-    starts: Vec<u32>,
-    items: Vec<T>,
-}
-
-impl<T: Copy + Default + Ord> ByKey<T> {
-    pub(super) fn new(key_count: usize, keyed: impl Iterator<Item = (u32, T)> + Clone) -> Self {
-        let mut starts = vec![0_u32; key_count + 1];
-        for (key, _) in keyed.clone() {
-            starts[key as usize + 1] += 1;
-        }
-        for key in 0..key_count {
-            starts[key + 1] += starts[key];
-        }
-        let mut items = vec![T::default(); starts[key_count] as usize];
-        let mut next = starts.clone();
-        for (key, item) in keyed {
-            let place = &mut next[key as usize];
-            items[*place as usize] = item;
-            *place += 1;
-        }
-        for key in 0..key_count {
-            items[starts[key] as usize..starts[key + 1] as usize].sort_unstable();
-        }
-        Self { starts, items }
-    }
-
-    pub(super) fn group(&self, key: usize) -> &[T] {
-        &self.items[self.starts[key] as usize..self.starts[key + 1] as usize]
-    }
-
-    /// Returns the groups in order of their keys. Some may be empty.
-    pub(super) fn iter(&self) -> impl Iterator<Item = (u32, &[T])> {
-        self.starts.windows(2).enumerate().map(|(key, bounds)| {
-            let group = &self.items[bounds[0] as usize..bounds[1] as usize];
-            (key as u32, group)
-        })
-    }
 }

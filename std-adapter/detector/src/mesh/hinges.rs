@@ -1,6 +1,6 @@
 //! Features so closely connected that every edge of one has a vertex of the other.
 
-use super::edges::ByKey;
+use super::adjacency::Adjacency;
 use super::topology::{Topology, is_degenerate};
 
 /// Two triangles with a common edge.
@@ -14,7 +14,7 @@ pub(crate) struct Hinge {
 #[derive(Debug)]
 pub(crate) struct Hinges {
     /// The triangles of each edge, without those that name a vertex twice.
-    triangles: ByKey<u32>,
+    triangles: Adjacency<u32>,
     /// The ends of the loose edges, in both orders, ascending.
     loose: Vec<[u32; 2]>,
     /// The vertices of points, ascending.
@@ -42,14 +42,14 @@ impl Hinges {
         let mut loose: Vec<_> = ends.filter(|[a, b]| a != b).collect();
         loose.sort_unstable();
         loose.dedup();
-        let of_edges = ByKey::new(topology.edges().len(), keyed);
+        let of_edges = Adjacency::new(topology.edges().len(), || keyed.clone()).sorted();
         let degenerate = topology.triangle_edges().iter().zip(triangles);
         let named = degenerate
             .filter(|(_, triangle)| is_degenerate(triangle))
             .flat_map(|(edges, _)| edges);
         let mut opposite: Vec<_> = named
             .filter(|&&edge| edge != Topology::NO_EDGE)
-            .flat_map(|&edge| of_edges.group(edge as usize).iter().map(move |&triangle| [triangle, edge]))
+            .flat_map(|&edge| of_edges.of(edge as usize).iter().map(move |&triangle| [triangle, edge]))
             .map(|[triangle, edge]| {
                 let ends @ [u, v] = topology.edges()[edge as usize];
                 [opposite_vertex(topology, triangle, ends), u, v]
@@ -66,11 +66,11 @@ impl Hinges {
     }
 
     pub(crate) fn at(&self, edge: u32) -> impl Iterator<Item = Hinge> {
-        let own = self.triangles.group(edge as usize);
-        let pairs = own
+        let triangles = self.triangles.of(edge as usize);
+        let pairs = triangles
             .iter()
             .enumerate()
-            .flat_map(|(k, &first)| own[k + 1..].iter().map(move |&second| [first, second]));
+            .flat_map(|(k, &first)| triangles[k + 1..].iter().map(move |&second| [first, second]));
         pairs.map(move |triangles| Hinge { triangles, edge })
     }
 
@@ -82,7 +82,7 @@ impl Hinges {
     /// Returns whether neither an edge of the vertex nor a hinge shows that the vertex touches the triangle. Then the vertex is a
     /// point, or a loose edge joins it with a corner. Or the triangle is a loose edge that lies on the opposite edge of a
     /// triangle of the vertex.
-    pub(crate) fn must_be_looked_at(&self, vertex: u32, triangle: [u32; 3]) -> bool {
+    pub(crate) fn may_touch_unseen(&self, vertex: u32, triangle: [u32; 3]) -> bool {
         let is_loose = |&corner: &u32| self.loose.binary_search(&[vertex, corner]).is_ok();
         let lies_opposite = || {
             let (least, most) = triangle

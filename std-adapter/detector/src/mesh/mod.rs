@@ -1,7 +1,10 @@
 //! Triangle meshes in memory, and their topology.
 //!
-//! A [`Mesh`] is positions and triangles. A [`Topology`] holds the edges; it does not change while the mesh moves, so it is built once.
+//! A [`Mesh`] is positions and triangles. A [`Topology`] holds the edges; it does not change while the mesh moves, so it is built
+//! once.
 
+mod adjacency;
+mod components;
 mod edges;
 mod error;
 mod features;
@@ -12,6 +15,8 @@ mod tests;
 mod topology;
 mod weld;
 
+pub use adjacency::Adjacency;
+pub use components::Components;
 pub use error::TopologyError;
 pub use features::FeaturePair;
 pub(crate) use hinges::{Hinge, Hinges};

@@ -1,11 +1,13 @@
 //! Counts of unusual properties of a mesh.
 
-use super::edges::{ByKey, Named};
+use super::adjacency::Adjacency;
+use super::components;
+use super::edges::Named;
 use super::topology::{Topology, is_degenerate};
 use std::fmt;
 
-/// Counts of unusual properties of a mesh. They are no errors. Everything takes part in collision except isolated vertices, which
-/// belong to no primitive.
+/// Counts of unusual properties of a mesh. They are not errors. Everything takes part in collision except isolated vertices,
+/// which belong to no primitive.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TopologyStatistics {
     /// The number of sets of triangles, loose edges and points connected through shared vertices.
@@ -111,8 +113,8 @@ fn count_duplicates(named: &Named<'_>) -> usize {
         }
         (key[2], (key[0], key[1]))
     });
-    let groups = ByKey::new(named.vertex_count, keys);
-    let distinct: usize = groups.iter().map(|(_, group)| group.chunk_by(|a, b| a == b).count()).sum();
+    let groups = Adjacency::new(named.vertex_count, || keys.clone()).sorted();
+    let distinct: usize = groups.iter().map(|group| group.chunk_by(|a, b| a == b).count()).sum();
     triangles.len() - distinct
 }
 
@@ -122,29 +124,10 @@ fn count_components(named: &Named<'_>) -> (usize, usize) {
     let vertices = named.triangles.iter().flatten();
     vertices.for_each(|&vertex| is_used[vertex as usize] = true);
     let used = is_used.iter().filter(|&&is_used| is_used).count();
-    let own = (0..).zip(firsts(named.vertex_count, &named.triangles)).zip(is_used);
-    let components = own.filter(|&((vertex, first), is_used)| is_used && vertex == first).count();
+    let firsts = components::of_triangles(named.vertex_count, &named.triangles).into_firsts();
+    let firsts = (0..).zip(firsts).zip(is_used);
+    let components = firsts
+        .filter(|&((vertex, first), is_used)| is_used && vertex == first)
+        .count();
     (components, used)
-}
-
-/// Returns, for each vertex, the vertex with the smallest number in its component.
-pub(super) fn firsts(vertex_count: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
-    // Union-find over vertices, by path halving and the smaller number as root.
-    let mut parents: Vec<u32> = (0..vertex_count as u32).collect();
-    for &[a, b, c] in triangles {
-        for (u, v) in [(a, b), (b, c)] {
-            let (u, v) = (root(&mut parents, u), root(&mut parents, v));
-            parents[u.max(v) as usize] = u.min(v);
-        }
-    }
-    (0..vertex_count as u32).map(|vertex| root(&mut parents, vertex)).collect()
-}
-
-fn root(parents: &mut [u32], mut vertex: u32) -> u32 {
-    while parents[vertex as usize] != vertex {
-        let grandparent = parents[parents[vertex as usize] as usize];
-        parents[vertex as usize] = grandparent;
-        vertex = grandparent;
-    }
-    vertex
 }

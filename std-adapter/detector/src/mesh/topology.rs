@@ -1,18 +1,18 @@
 //! The vertices, edges and triangles of a mesh, and how they are connected.
 
+use super::components;
 use super::edges::{MAX_TRIANGLES, NO_EDGE, Named, find_edges};
 use super::error::TopologyError;
 use super::features::FeaturePair;
-use super::statistics::firsts;
-use crate::PairKind;
+use selvedge_core::PairKind;
 
 /// The vertices, edges and triangles of a mesh.
 ///
 /// The mesh may be anything that a file can hold. It may have edges with one, two or more triangles, several components, vertices
 /// without a triangle, duplicate triangles, and triangles that name a vertex twice. Nothing is dropped or renumbered.
 ///
-/// [Loose edges and points](Self::with_loose_features), for ropes, hair and particles, are faces that name a vertex twice or three times. They
-/// collide as the segment or point that they are.
+/// [Loose edges and points](Self::with_loose_features), for ropes, hair and particles, are faces that name a vertex twice or
+/// three times. They collide as the segment or point that they are.
 ///
 /// ```
 /// use selvedge::Topology;
@@ -55,17 +55,19 @@ impl Topology {
         Self::with_loose_features(vertex_count, triangles, &[], &[])
     }
 
-    /// Makes a topology with edges and points that need not belong to a triangle: ropes, hair, wires, particles. There may be no triangles at all.
+    /// Makes a topology with edges and points that need not belong to a triangle: ropes, hair, wires, particles. There may be no
+    /// triangles at all.
     ///
-    /// Each loose edge or point is one more face, after the triangles: an edge is (a, b, b), a point (p, p, p). A face without area is a segment or a
-    /// point, so the same certified and exact tests apply, with the same guarantees. Pairs of a vertex with such a face are
-    /// [`PairKind::VertexFace`]; [`features_of`](Self::features_of) says what they are.
+    /// Each loose edge or point is one more face, after the triangles: an edge is (a, b, b), a point (p, p, p). A face without
+    /// area is a segment or a point, so the same certified and exact tests apply, with the same guarantees. Pairs of a vertex
+    /// with such a face are [`PairKind::VertexFace`]; [`features_of`](Self::features_of) says what they are.
     ///
     /// * **Every edge is tested with every edge**, loose or not.
-    /// * **Every vertex of a primitive is tested with every loose edge and every point.** Two points make two pairs, one in each order. Where a vertex
-    ///   meets a loose edge, the edges that end in the vertex meet it too, unless they share a vertex with it. So one touch often gives several
-    ///   contacts, as it does for triangles.
-    /// * A vertex that belongs to no primitive touches nothing; name it a point. Without a separation, points touch only if they meet exactly.
+    /// * **Every vertex of a primitive is tested with every loose edge and every point.** Two points make two pairs, one in each
+    ///   order. Where a vertex meets a loose edge, the edges that end in the vertex meet it too, unless they share a vertex with
+    ///   it. So one touch often gives several contacts, as it does for triangles.
+    /// * A vertex that belongs to no primitive touches nothing; name it a point. Without a separation, points touch only if they
+    ///   meet exactly.
     ///
     /// ```
     /// use selvedge::{CollisionDetector, Criterion, FeaturePair, Topology};
@@ -140,7 +142,8 @@ impl Topology {
         })
     }
 
-    /// Returns the features of a pair of this kind. A face that names a vertex twice is an edge; one that names it three times is a point.
+    /// Returns the features of a pair of this kind. A face that names a vertex twice is an edge; one that names it three times is
+    /// a point.
     ///
     /// ```
     /// use selvedge::{FeaturePair, PairKind, Topology};
@@ -208,24 +211,25 @@ impl Topology {
         self.vertex_count
     }
 
-    /// Returns the three vertices of each triangle, as given. Then follow [loose edges and points](Self::with_loose_features), which name a vertex
-    /// twice or three times.
+    /// Returns the three vertices of each triangle, as given. Then follow [loose edges and points](Self::with_loose_features),
+    /// which name a vertex twice or three times.
     #[must_use]
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
     }
 
-    /// Returns each edge once, as `[smaller vertex, larger vertex]`, sorted by the larger vertex and then by the smaller. Public collision benchmarks
-    /// number edges in this order.
+    /// Returns each edge once, as `[smaller vertex, larger vertex]`, sorted by the larger vertex and then by the smaller. Public
+    /// collision benchmarks number edges in this order.
     #[must_use]
     pub fn edges(&self) -> &[[u32; 2]] {
         &self.edges
     }
 
-    /// Returns the three edges of each triangle, as indices into [`edges`](Self::edges). Entry k joins the triangle's vertices k and (k + 1) mod 3.
+    /// Returns the three edges of each triangle, as indices into [`edges`](Self::edges). Entry k joins the triangle's vertices k
+    /// and (k + 1) mod 3.
     ///
-    /// A degenerate triangle (v, v, w) has [`NO_EDGE`](Self::NO_EDGE) where both ends are v. Its other two entries name the *same* edge. A triangle
-    /// (v, v, v) has no edge.
+    /// A degenerate triangle (v, v, w) has [`NO_EDGE`](Self::NO_EDGE) where both ends are v. Its other two entries name the
+    /// *same* edge. A triangle (v, v, v) has no edge.
     #[must_use]
     pub fn triangle_edges(&self) -> &[[u32; 3]] {
         &self.triangle_edges
@@ -240,7 +244,7 @@ impl Topology {
     /// ```
     #[must_use]
     pub fn components(&self) -> Vec<u32> {
-        firsts(self.vertex_count, &self.triangles)
+        components::of_triangles(self.vertex_count, &self.triangles).into_firsts()
     }
 
     /// Returns the triangles without loose edges and points.

@@ -1,6 +1,7 @@
 //! Merges vertices in the same place.
 
 use super::Mesh;
+use super::components::Components;
 use selvedge_core::glam::DVec3;
 use std::collections::HashMap;
 
@@ -29,9 +30,9 @@ impl WeldedMesh {
 }
 
 impl Mesh {
-    /// Merges vertices that are at most `tolerance` apart, in the caller's length unit; 0 (or a negative number, or NaN) merges equal positions
-    /// alone. Merging is transitive: a chain of near vertices becomes one vertex. The tolerance should be far below the length of an edge: time
-    /// grows with the number of vertices within it.
+    /// Merges vertices that are at most `tolerance` apart, in the caller's length unit; 0 (or a negative number, or NaN) merges
+    /// equal positions alone. Merging is transitive: a chain of near vertices becomes one vertex. The tolerance should be far
+    /// below the length of an edge: time grows with the number of vertices within it.
     ///
     /// ```
     /// use selvedge::{Mesh, glam::DVec3};
@@ -69,10 +70,12 @@ impl Mesh {
 /// Returns, for each position, the lowest number of those that are merged with it: see [`Mesh::welded`].
 #[must_use]
 pub fn first_coincident(positions: &[DVec3], tolerance: f64) -> Vec<u32> {
-    let mut first = first_equal(positions);
+    let first = first_equal(positions);
     if tolerance.is_nan() || tolerance <= 0.0 {
         return first;
     }
+    let mut merged = Components::new(positions.len());
+    (0..).zip(&first).for_each(|(vertex, &first)| merged.join(vertex, first));
     // Positions at most `tolerance` apart are in the same cell or in cells next to each other.
     let cell = |position: DVec3| (position / tolerance).floor();
     let mut cells: HashMap<[u64; 3], Vec<u32>> = HashMap::new();
@@ -85,17 +88,13 @@ pub fn first_coincident(positions: &[DVec3], tolerance: f64) -> Vec<u32> {
             let step = DVec3::new((step % 3).into(), (step / 3 % 3).into(), (step / 9).into()) - 1.0;
             for &other in cells.get(&bits(own + step)).into_iter().flatten() {
                 if positions[other as usize].distance(position) <= tolerance {
-                    let [a, b] = [root(&mut first, vertex as u32), root(&mut first, other)];
-                    first[a.max(b) as usize] = a.min(b);
+                    merged.join(vertex as u32, other);
                 }
             }
         }
         cells.entry(bits(own)).or_default().push(vertex as u32);
     }
-    for vertex in 0..first.len() as u32 {
-        first[vertex as usize] = root(&mut first, vertex);
-    }
-    first
+    merged.into_firsts()
 }
 
 fn first_equal(positions: &[DVec3]) -> Vec<u32> {
@@ -132,15 +131,6 @@ const MIX: u64 = 0x9e37_79b9_7f4a_7c15;
 /// Returns the same bits for equal coordinates; zero has one sign.
 fn bits(position: DVec3) -> [u64; 3] {
     (position + 0.0).to_array().map(f64::to_bits)
-}
-
-fn root(first: &mut [u32], mut vertex: u32) -> u32 {
-    while first[vertex as usize] != vertex {
-        let above = first[vertex as usize];
-        first[vertex as usize] = first[above as usize];
-        vertex = above;
-    }
-    vertex
 }
 
 #[cfg(test)]

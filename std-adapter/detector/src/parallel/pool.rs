@@ -20,8 +20,8 @@ pub enum Threads {
     /// The calling thread only, even in a rayon pool.
     #[default]
     Calling,
-    /// The threads of the rayon pool in which a method is called, or the calling thread outside of one. The global pool counts only for code that
-    /// runs on its threads.
+    /// The threads of the rayon pool in which a method is called, or the calling thread outside of one. The global pool counts
+    /// only for code that runs on its threads.
     CallersPool,
     /// This number of own threads, at most [`most`](Self::most). One of them is the calling thread.
     Own(NonZeroUsize),

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Cuts steps short, from any thread. [`CollisionDetector::cancellation`](crate::CollisionDetector::cancellation) returns it. All clones act on the
-/// same detector.
+/// Cuts steps short, from any thread. [`CollisionDetector::cancellation`](crate::CollisionDetector::cancellation) returns it. All
+/// clones act on the same detector.
 ///
 /// ```
 /// use selvedge::{CollisionDetector, StepError, Topology};
@@ -23,8 +23,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub struct Cancellation(Arc<AtomicBool>);
 
 impl Cancellation {
-    /// Ends the present step and all later ones with [`StepError::Cancelled`](crate::StepError::Cancelled). A step that is nearly complete may still
-    /// succeed.
+    /// Ends the present step and all later ones with [`StepError::Cancelled`](crate::StepError::Cancelled). A step that is nearly
+    /// complete may still succeed.
     pub fn cancel(&self) {
         self.0.store(true, Ordering::Relaxed);
     }

@@ -1,13 +1,13 @@
 //! Pairs that never collide: by groups, by patches, one by one, or by a rule of the caller.
 
 use super::error::StepError;
-use crate::PairKind;
 use crate::mesh::Topology;
+use selvedge_core::PairKind;
 use std::fmt;
 use std::sync::Arc;
 
-/// The groups of a vertex and the groups that it collides with, one bit for each group, as in game engines. Two vertices collide if each is in a
-/// group of the other's filter.
+/// The groups of a vertex and the groups that it collides with, one bit for each group, as in game engines. Two vertices collide
+/// if each is in a group of the other's filter.
 ///
 /// ```
 /// use selvedge::Groups;
@@ -64,8 +64,10 @@ impl Default for Groups {
 ///
 /// // A sheet of two triangles that folds onto itself, and a third that falls on both.
 /// let topology = Topology::new(7, vec![[0, 1, 2], [1, 3, 2], [4, 5, 6]])?;
-/// let start = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.1], [0.1, 0.1, 1.0], [0.9, 0.1, 1.1], [0.1, 0.9, 1.2]];
-/// let mut end = start;
+/// let below = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.1]];
+/// let above = [[0.1, 0.1, 1.0], [0.9, 0.1, 1.1], [0.1, 0.9, 1.2]];
+/// let start = [&below[..], &above].concat();
+/// let mut end = start.clone();
 /// end[3] = [0.1, 0.1, -0.1];
 /// end[4..].iter_mut().for_each(|vertex| vertex[2] -= 2.0);
 ///
@@ -144,9 +146,11 @@ impl CollisionFilter {
         self
     }
 
-    /// Excludes pairs for which `rule` is false. The rule gets the kind, the two primitives and their four vertices, as the mesh numbers them.
+    /// Excludes pairs for which `rule` is false. The rule gets the kind, the two primitives and their four vertices, as the mesh
+    /// numbers them.
     ///
-    /// The rule runs on any thread, and only for candidates. It must always return the same for the same pair; this is not checked.
+    /// The rule runs on any thread, and only for candidates. It must always return the same for the same pair; this is not
+    /// checked.
     #[must_use]
     pub fn with_rule(mut self, rule: impl Fn(PairKind, [u32; 2], [u32; 4]) -> bool + Send + Sync + 'static) -> Self {
         self.rule = Some(Arc::new(rule));

@@ -1,6 +1,6 @@
 //! The results of a step.
 
-use crate::PairKind;
+use selvedge_core::PairKind;
 
 /// A pair that may touch during the step, with the time of its contact.
 ///
@@ -20,7 +20,7 @@ pub struct Contact<S> {
 /// The result of a [truncated](crate::CollisionDetector::truncate) step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Truncation {
-    /// The number of vertices that do not go all of their way.
+    /// The number of vertices that stop short of their wanted positions.
     pub held_back: usize,
     /// The number of pairs that are in contact at the start, by the detector's criterion. Their vertices rest. If it is zero, the
     /// step is certainly free of contact.

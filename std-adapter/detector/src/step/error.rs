@@ -1,6 +1,6 @@
 //! Reasons for refusing a step or a setting.
 
-use crate::PairKind;
+use selvedge_core::PairKind;
 use std::fmt;
 
 /// One of the two frames of a step.

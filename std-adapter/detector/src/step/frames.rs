@@ -1,8 +1,8 @@
 //! The positions of a step, and checks of them.
 
 use super::error::{Frame, StepError};
-use crate::PairKind;
 use crate::mesh::Topology;
+use selvedge_core::PairKind;
 use selvedge_core::boxes::Aabb;
 use selvedge_core::boxes::mapping::Mapping;
 use selvedge_core::glam::DVec3;

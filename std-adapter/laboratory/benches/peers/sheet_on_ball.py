@@ -71,8 +71,8 @@ def in_states(step: Callable[[], None], points: Callable[[], np.ndarray], time_s
     return done, taken, states
 
 
-# Changes that make the scene of selvedge that of MuJoCo with `ipc`: no friction, the shear stiffness of a membrane of E·t = 400 N/m and a
-# Poisson number of 0.2 (E·t/(2·1.2)), and a shorter step and a smaller limit for less stretch.
+# Changes that make the scene of selvedge that of MuJoCo with `ipc`: no friction, the shear stiffness of a membrane of E·t = 400
+# N/m and a Poisson number of 0.2 (E·t/(2·1.2)), and a shorter step and a smaller limit for less stretch.
 AS_MUJOCO = [
     ("\n[effects.friction]\ncoefficient = 0.3\n", ""),
     ('stiffness = "80 N/m"', 'stiffness = "167 N/m"'),

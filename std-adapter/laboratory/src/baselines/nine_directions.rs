@@ -5,11 +5,11 @@
 //! floating-point environment. NaN and infinite coordinates keep the pair.
 //!
 //! # Why sums may round
-//! Rounding is monotone in any direction: x ≤ y implies fl(x) ≤ fl(y). So fl(a) > fl(b) proves a > b. A coordinate along a diagonal is
-//! a sum of two coordinates, rounded once, and needs no error bound.
+//! Rounding is monotone in any direction: x ≤ y implies fl(x) ≤ fl(y). So fl(a) > fl(b) proves a > b. A coordinate along a
+//! diagonal is a sum of two coordinates, rounded once, and needs no error bound.
 //!
-//! Flushed operands break that: with λ the smallest normal number, λ/2 + λ/2 becomes 0. Hence one value must exceed the other plus
-//! g = η/u, far above λ. Let A = fl(a + b) > fl(Z + g) with Z = fl(c + d).
+//! Flushed operands break that: with λ the smallest normal number, λ/2 + λ/2 becomes 0. Hence one value must exceed the other
+//! plus g = η/u, far above λ. Let A = fl(a + b) > fl(Z + g) with Z = fl(c + d).
 //! * |Z| ≤ g/16u: then A ≥ Z + g/2, and all roundings and flushed operands together are less than g/2.
 //! * |Z| > g/16u: at most one operand of a sum of that size is flushed. The sums of the others are multiples of a step far above
 //!   λ, or differ by a normal operand, which exceeds the flushed one.

@@ -5,8 +5,8 @@
 //! Nothing else differs. The difference in time is the cost of certification, and the difference in misses and late times is its
 //! benefit; `selvedge accuracy` shows both.
 
+use selvedge_core::altered::{self, Constants};
 use selvedge_core::elementary::{Impact, Limits};
-use selvedge_core::kernels::altered::{self, Constants};
 use selvedge_core::{PrimitivePair, Scalar};
 
 /// Returns the time from which the pair is within the separation, as computed. **It may be too late, or miss a contact.**

@@ -11,9 +11,6 @@ table! {
     pub enum CullingTest of Stage {
         /// Swept axis-aligned boxes of the two primitives, made for each pair. The test is exact.
         SweptBoxes = "swept_boxes": Stage::Boxes,
-        /// Swept axis-aligned boxes that are stored. They are made once for every vertex, edge and face, and refitted each step.
-        /// The test is exact.
-        StoredSweptBoxes = "stored_swept_boxes": Stage::Boxes,
         /// Swept 18-DOPs, stored for every vertex, edge and face and refitted each step. The test is exact.
         StoredDop18 = "dop_18": Stage::Boxes,
         /// The vertex's path against the face's swept box for VF, and swept boxes for EE. The test is certified.
@@ -82,7 +79,7 @@ impl CullingTest {
     #[inline(always)]
     pub(crate) fn run<S: Scalar, W: WithTest<S, bool>>(self, with: W) -> W::Outcome {
         match self {
-            Self::SweptBoxes | Self::StoredSweptBoxes => with.with(|pair| boxes::swept_boxes(pair).is_culled()),
+            Self::SweptBoxes => with.with(|pair| boxes::swept_boxes(pair).is_culled()),
             Self::StoredDop18 => with.with(have_disjoint_dops),
             Self::SegmentBox => with.with(|pair| boxes::segment::primitive_boxes(pair).is_culled()),
             Self::RelativeBoxes | Self::SubspaceThree => with.with(|pair| boxes::relative::three_axes(pair).is_culled()),
@@ -97,7 +94,7 @@ impl CullingTest {
     #[inline(always)]
     pub(crate) fn run_lanes<S: Scalar>(self, with: impl WithLanes<S>) {
         match self {
-            Self::SweptBoxes | Self::StoredSweptBoxes => with.with(Test::SweptBoxes),
+            Self::SweptBoxes => with.with(Test::SweptBoxes),
             Self::SegmentBox => with.with(Test::SegmentBox),
             Self::RelativeBoxes | Self::SubspaceThree => with.with(Test::RelativeBoxes),
             Self::RelativeBoxesNine | Self::SubspaceNine => with.with(ByPoints(NineDirections)),

@@ -2,8 +2,7 @@
 
 use super::assignment::FeatureAssignment;
 use super::pairs::MovingMesh;
-use super::stored::{BoundingVolume, Stored};
-use crate::baselines::nine_directions::Dop18;
+use super::stored::StoredDops;
 use crate::methods::{CullingTest, Stages, WithLanes, WithTest};
 use arrayvec::ArrayVec;
 use rustc_hash::FxHashSet;
@@ -12,7 +11,6 @@ use selvedge::PairCounts;
 use selvedge::PairKind;
 use selvedge::clock::Clock;
 use selvedge_core::batch::{BatchTest, LANES, Level, Mask, culled_from_rows};
-use selvedge_core::boxes::Aabb;
 use selvedge_core::distribution::distribute;
 use selvedge_core::{PrimitivePair, Scalar};
 
@@ -21,8 +19,7 @@ use selvedge_core::{PrimitivePair, Scalar};
 pub(super) struct StepInput<'a, S: Scalar> {
     pub(super) level: Level,
     pub(super) mesh: MovingMesh<'a, S>,
-    pub(super) boxes: &'a Stored<Aabb<S>>,
-    pub(super) dops: &'a Stored<Dop18<S>>,
+    pub(super) dops: &'a StoredDops<S>,
     pub(super) stages: Stages,
 }
 
@@ -110,7 +107,6 @@ impl<S: Scalar> Batch<S> {
 
     fn cull_by(&mut self, test: CullingTest, step: &StepInput<'_, S>) {
         match test {
-            CullingTest::StoredSweptBoxes => self.keep_overlapping(step.boxes),
             CullingTest::StoredDop18 => self.keep_overlapping(step.dops),
             _ => test.run_lanes(AtWork { batch: self, step }),
         }
@@ -143,7 +139,7 @@ impl<S: Scalar> Batch<S> {
     }
 
     /// Drops the pairs whose stored volumes do not overlap.
-    fn keep_overlapping(&mut self, stored: &Stored<impl BoundingVolume<S>>) {
+    fn keep_overlapping(&mut self, stored: &StoredDops<S>) {
         keep_where(&mut self.vertex_face, |pair| stored.vertex_face_overlap(pair));
         keep_where(&mut self.edge_edge, |pair| stored.edge_edge_overlap(pair));
     }

@@ -54,7 +54,6 @@ pub use selvedge::Contact;
 pub use selvedge::StepError;
 pub use selvedge::ThreadError;
 
-use crate::baselines::nine_directions::Dop18;
 use crate::broad_phase::{BroadPhase, SweptBox};
 #[cfg(doc)]
 use crate::methods::Preset;
@@ -73,7 +72,7 @@ use selvedge_core::boxes::Aabb;
 use selvedge_core::elementary::Limits;
 use selvedge_core::{Motion, Scalar};
 use std::sync::Arc;
-use stored::Stored;
+use stored::StoredDops;
 
 /// The number of candidate triangle pairs in a batch. Their primitive pairs take at most a quarter of a megabyte, so that a batch
 /// stays in a core's own cache through all stages. Smaller batches gain nothing and read the clock more often.
@@ -111,8 +110,8 @@ struct Buffers<S: Scalar> {
     swept: Vec<SweptBox>,
     broad_phase: BroadPhase,
     triangle_pairs: Vec<[u32; 2]>,
-    boxes: Stored<Aabb<S>>,
-    dops: Stored<Dop18<S>>,
+    boxes: Vec<Aabb<S>>,
+    dops: StoredDops<S>,
     batches: Vec<Batch<S>>,
     distributed: Distributed,
     candidates: [Vec<[u32; 2]>; 2],
@@ -163,8 +162,8 @@ impl<S: Scalar> Pipeline<S> {
                 swept: Vec::new(),
                 broad_phase: BroadPhase::default(),
                 triangle_pairs: Vec::new(),
-                boxes: Stored::new(),
-                dops: Stored::new(),
+                boxes: Vec::new(),
+                dops: StoredDops::new(),
                 batches: vec![Batch::with_capacity(BATCH); batches],
                 distributed: Distributed::default(),
                 candidates: [Vec::new(), Vec::new()],
@@ -192,8 +191,8 @@ impl<S: Scalar> Pipeline<S> {
         }
     }
 
-    /// Sets the most memory that a detector's pairs and contacts may take, in bytes; see [`CollisionDetector::set_memory_limit`]. Methods
-    /// with triangle pairs have no limit.
+    /// Sets the most memory that a detector's pairs and contacts may take, in bytes; see [`CollisionDetector::set_memory_limit`].
+    /// Methods with triangle pairs have no limit.
     pub fn set_memory_limit(&mut self, limit: Option<u64>) {
         if let Route::MovingBoxes(detector) = &mut self.route {
             detector.set_memory_limit(limit);
@@ -203,7 +202,8 @@ impl<S: Scalar> Pipeline<S> {
     /// Runs the step from `start` to `end`, one position for each vertex, in any length unit.
     ///
     /// # Errors
-    /// If a frame's length is not the mesh's number of vertices, a coordinate is NaN or infinite, or the memory limit is exceeded.
+    /// If a frame's length is not the mesh's number of vertices, a coordinate is NaN or infinite, or the memory limit is
+    /// exceeded.
     pub fn step(&mut self, start: &[S::Vector], end: &[S::Vector]) -> Result<&StepReport, StepError> {
         check_frames(start, end, self.topology.vertex_count())?;
         let Self {
@@ -298,8 +298,10 @@ impl<S: Scalar> Buffers<S> {
             topology: distributor.topology,
             rows: &self.rows,
         };
-        self.boxes.refit_vertices_and_faces(mesh);
-        swept::map_boxes(&mut self.swept, self.boxes.faces());
+        parallel::fill(&mut self.boxes, mesh.topology.triangles(), |corners| {
+            Aabb::swept(&corners.map(|vertex| mesh.rows[vertex as usize].motion()))
+        });
+        swept::map_boxes(&mut self.swept, &self.boxes);
         self.broad_phase.overlapping_pairs(&self.swept, &mut self.triangle_pairs);
         report.broad_phase_seconds = begin.elapsed().as_secs_f64();
         report.triangle_pairs = self.triangle_pairs.len() as u64;
@@ -327,21 +329,15 @@ impl<S: Scalar> Buffers<S> {
         };
         // Volumes that only some methods store are refitted in the stage that uses them.
         for (test, report) in stages.tests.iter().zip(&mut report.stages[1..]) {
-            let begin = Clock::now();
-            match test {
-                CullingTest::StoredSweptBoxes => self.boxes.refit_edges(mesh),
-                CullingTest::StoredDop18 => {
-                    self.dops.refit_vertices_and_faces(mesh);
-                    self.dops.refit_edges(mesh);
-                }
-                _ => continue,
+            if *test == CullingTest::StoredDop18 {
+                let begin = Clock::now();
+                self.dops.refit(mesh);
+                report.seconds += begin.elapsed().as_secs_f64();
             }
-            report.seconds += begin.elapsed().as_secs_f64();
         }
         let step = StepInput {
             level: self.level,
             mesh,
-            boxes: &self.boxes,
             dops: &self.dops,
             stages,
         };

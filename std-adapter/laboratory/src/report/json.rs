@@ -162,8 +162,8 @@ pub fn effects_one_by_one(costs: &[crate::study::EffectCost]) -> Value {
 /// Returns a simulation and its recording, for `selvedge simulate`.
 ///
 /// Energies are in J; gravitational energy counts from the scene's origin. Stretch is relative to the length at rest. Both lists
-/// belong to the times in `seconds`. Vertices have the numbers of the [mesh in files](selvedge_cloth::MeshInFiles), those of `torn` within
-/// their cloth.
+/// belong to the times in `seconds`. Vertices have the numbers of the [mesh in files](selvedge_cloth::MeshInFiles), those of
+/// `torn` within their cloth.
 pub fn simulation(simulation: &selvedge_cloth::Simulation, recording: &Recording) -> Value {
     let seconds = recording.wall_seconds.unwrap_or(f64::NAN);
     let steps = simulation.steps_done();

@@ -223,8 +223,8 @@ pub fn mesh_checks_json(checks: &[MeshCheck]) -> Value {
     })
 }
 
-/// Writes every intersection as `mesh,kind,i0,i1,i2,i3,i4`: the vertices of the edge, then of the face. For a vertex and a face, or two
-/// edges, i4 is empty. Vertices count from 0 as in the mesh's file.
+/// Writes every intersection as `mesh,kind,i0,i1,i2,i3,i4`: the vertices of the edge, then of the face. For a vertex and a face,
+/// or two edges, i4 is empty. Vertices count from 0 as in the mesh's file.
 ///
 /// # Errors
 /// Returns the errors of `out`.

@@ -1,4 +1,5 @@
-//! The baseline filters give sixteen pairs at a time the verdicts that they give one by one, on every instruction set of this machine.
+//! The baseline filters give sixteen pairs at a time the verdicts that they give one by one, on every instruction set of this
+//! machine.
 
 use proptest::prelude::*;
 use selvedge::simd::available_levels;

@@ -1,4 +1,5 @@
-//! No certified culling test of the laboratory culls a pair that touches, and nine directions cull exactly what their definition says.
+//! No certified culling test of the laboratory culls a pair that touches, and nine directions cull exactly what their definition
+//! says.
 
 use proptest::prelude::*;
 use selvedge_core::PairKind;

@@ -3,6 +3,8 @@
 //!
 //! The oracle decides by signs and never constructs a point; this constructs every corner of the common part.
 
+pub(crate) mod bounds;
+pub(crate) mod digest;
 pub(crate) mod distance;
 pub(crate) mod environment;
 pub(crate) mod geometry;
@@ -10,6 +12,7 @@ pub(crate) mod prelude;
 pub(crate) mod rationals;
 pub(crate) mod sweeps;
 pub(crate) mod widths;
+pub(crate) mod worlds;
 
 use rug::Rational;
 

@@ -23,8 +23,8 @@ use std::sync::Arc;
 ///
 /// Build: the time of building all three hierarchies is 0.6 to 0.7 of that of a box test for each edge and halving.
 ///
-/// Item: just after a build 9.5 tests for each edge find 12.8 candidates on one mesh, and 5.6 tests find 0.8 on another. So a candidate costs a
-/// third of a test, and an edge 5.3 tests.
+/// Item: just after a build 9.5 tests for each edge find 12.8 candidates on one mesh, and 5.6 tests find 0.8 on another. So a
+/// candidate costs a third of a test, and an edge 5.3 tests.
 pub(super) const PRICES: Prices = Prices { build: 0.65, item: 16.0 };
 
 /// The quantities that boxes hold.
@@ -78,8 +78,8 @@ enum State {
     Refitted,
 }
 
-/// Trees over vertices, edges and faces. Each primitive is numbered by its position in its tree, so that neighbours in space are neighbours in
-/// memory, whatever the mesh's own order.
+/// Trees over vertices, edges and faces. Each primitive is numbered by its position in its tree, so that neighbours in space are
+/// neighbours in memory, whatever the mesh's own order.
 #[derive(Debug)]
 pub(crate) struct Hierarchies {
     topology: Arc<Topology>,
@@ -158,8 +158,8 @@ impl Hierarchies {
         self.rows.narrow();
     }
 
-    /// Finds only pairs with a vertex that moves from the next update on; `None` finds all. The positions of the others are read in the next
-    /// update and not after it.
+    /// Finds only pairs with a vertex that moves from the next update on; `None` finds all. The positions of the others are read
+    /// in the next update and not after it.
     pub(crate) fn set_moving(&mut self, moving: Option<Vec<bool>>) {
         self.moving = moving;
         self.resting = None;
@@ -192,7 +192,8 @@ impl Hierarchies {
         self.mark();
     }
 
-    /// Builds the hierarchies from these positions if that pays. With wanted vertices only the order of what updates find changes.
+    /// Builds the hierarchies from these positions if that pays. With wanted vertices only the order of what updates find
+    /// changes.
     pub(crate) fn build_if_degraded(&mut self, motions: &dyn Motions) {
         if self.state != State::Empty && self.are_degraded() {
             self.build(motions);

@@ -1,8 +1,8 @@
 //! Translates between positions in the hierarchies and the numbers of the mesh.
 
 use super::Hierarchies;
-use crate::PairKind;
 use selvedge_core::Motion;
+use selvedge_core::PairKind;
 use selvedge_core::batch::VertexRow;
 
 impl Hierarchies {
@@ -37,8 +37,8 @@ impl Hierarchies {
         [self.faces.primitives[face as usize], self.edges.primitives[edge as usize]]
     }
 
-    /// Returns the positions of the four vertices of a pair: vertex and face, or two edges. The edge with the smaller number in the mesh comes
-    /// first, so that results do not depend on the order of the hierarchy.
+    /// Returns the positions of the four vertices of a pair: vertex and face, or two edges. The edge with the smaller number in
+    /// the mesh comes first, so that results do not depend on the order of the hierarchy.
     #[inline(always)]
     pub(crate) fn vertices(&self, kind: PairKind, [first, second]: [u32; 2]) -> [u32; 4] {
         let (first, second) = (first as usize, second as usize);

@@ -16,11 +16,11 @@ use std::sync::Arc;
 pub(crate) enum Moves {
     /// The mesh rests.
     Not,
-    /// Each vertex goes its own way, so the mesh can meet itself.
+    /// Each vertex has its own path, so the mesh can meet itself.
     Deforming,
     /// All vertices move alike, straight.
     Straight,
-    /// The mesh rotates as a body. The number is the largest distance of a vertex from its straight way.
+    /// The mesh rotates as a body. The number is the largest distance of a vertex from its straight path.
     Turning(RigidMotion, f64),
 }
 

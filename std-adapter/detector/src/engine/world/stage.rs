@@ -2,7 +2,7 @@
 
 use super::handles::{MeshHandle, Places};
 use super::mesh::{Moves, RowsAt, WorldMesh};
-use super::way::{vertices_of, ways};
+use super::vertex_path::{vertex_paths, vertices_of};
 use crate::broad_phase::{Hierarchies, MeshHierarchy, Pairing, Rows};
 use crate::engine::{PairEngine, Question, Refine, Source, Wanted};
 use crate::step::{Contact, Motions, StepError};
@@ -232,14 +232,15 @@ fn time_on_paths(
         // The meshes do not have such a pair, so nothing is proven about it.
         return Some(0.0);
     };
-    let ways = ways(meshes, motions, contact.kind, vertices);
-    let time = time_of_impact(contact.kind, ways.each_ref().map(|way| way as &dyn Path), limits).time();
-    // Neither time is after the exact one. Pairs are dropped by their time on pieces, so a smaller time would make the result depend on the
-    // order of the threads.
+    let paths = vertex_paths(meshes, motions, contact.kind, vertices);
+    let time = time_of_impact(contact.kind, paths.each_ref().map(|path| path as &dyn Path), limits).time();
+    // Neither time is after the exact one. Pairs are dropped by their time on pieces, so a smaller time would make the result
+    // depend on the order of the threads.
     time.map(|time| time.max(contact.time))
 }
 
-/// The rows of meshes that are, or were, near others. Each mesh keeps its place as long as there is room, so resting meshes are copied once.
+/// The rows of meshes that are, or were, near others. Each mesh keeps its place as long as there is room, so resting meshes are
+/// copied once.
 #[derive(Debug, Default)]
 struct PlacedRows {
     rows: Rows,

@@ -5,7 +5,8 @@ use crate::report::paper::printed;
 use crate::report::{distributed, mesh_size};
 use crate::study::{Comparison, ComparisonRow, MeanCounts};
 
-/// Returns tables of every method on the same steps: the paper's Table 1 beside its own numbers, and each stage's survivors and time.
+/// Returns tables of every method on the same steps: the paper's Table 1 beside its own numbers, and each stage's survivors and
+/// time.
 pub fn comparison(comparison: &Comparison) -> String {
     let mut text = format!(
         "{}\n{}\n{}, {}, the fastest of {}; f64\n",

@@ -1,6 +1,6 @@
 "use strict";
 
-/** Returns the data blocks of a page: the header with the arrays added. Numbers are little endian, as on every machine with a browser. */
+/** Returns the data blocks of a page: the header with the arrays added. Numbers are little endian. */
 function readRecording(page = document) {
   const text = (id) => page.getElementById(id).textContent;
   const buffer = (id) => {

@@ -3,8 +3,9 @@
 /**
  * Draws frames on a canvas with WebGL 2, or returns null without it.
  *
- * The viewer has its own axes: x to the right, y up, z towards the reader, the scene's middle at 0. A recording has its direction `up`, the
- * number of `vertices`, `triangles`, `parts` of them, `frameSteps`, `bounds` of each frame, and `write(frame, out)`, which writes positions.
+ * The viewer has its own axes: x to the right, y up, z towards the reader, the scene's middle at 0. A recording has its direction
+ * `up`, the number of `vertices`, `triangles`, `parts` of them, `frameSteps`, `bounds` of each frame, and `write(frame, out)`, which
+ * writes positions.
  */
 function createViewer(canvas, recording, onChange) {
   const gl = canvas.getContext("webgl2", { alpha: true, antialias: true });
@@ -82,7 +83,7 @@ function createViewer(canvas, recording, onChange) {
     gl.bufferSubData(gl.ARRAY_BUFFER, 0, normals);
   }
 
-  /** Mixes a colour into the surface at each vertex: red, green, blue as linear light, and the share. `null`: nothing is mixed in. */
+  /** Mixes a colour into the surface at each vertex: red, green, blue as linear light, and the share; `null` mixes in nothing. */
   function setTints(tints) {
     gl.bindVertexArray(vertices);
     if (tints) {
@@ -110,7 +111,7 @@ function createViewer(canvas, recording, onChange) {
   /** The projection of the last draw, from the viewer's axes to the canvas. */
   let projected = null;
 
-  /** Returns the vertex below a place on the canvas, from 0 to 1, and its depth; `null` if none is within a share `reach` of the height. */
+  /** Returns the vertex below a place on the canvas, from 0 to 1, and its depth; `null` if none is within `reach`. */
   function pick(across, down, reach) {
     if (!projected) return null;
     const aspect = canvas.width / canvas.height;

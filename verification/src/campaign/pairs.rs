@@ -1,13 +1,11 @@
 //! Sources of pairs that cost little to make.
 
-use crate::campaign::Digest;
 use crate::generator::{Choices, Format, PairCase};
 use crate::random::Random;
 use selvedge::broad_phase::MovingBroadPhase;
 use selvedge::{StepError, Topology};
 use selvedge_core::PairKind;
 use selvedge_core::glam::DVec3;
-use std::fmt;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
@@ -30,18 +28,6 @@ pub type Points = [[[f64; 3]; 2]; 4];
 pub struct Scenes {
     pub vertex_face: Vec<Points>,
     pub edge_edge: Vec<Points>,
-}
-
-impl fmt::Display for Scenes {
-    /// Writes the number of pairs and a digest of them. Machines whose scenes differ, by a file or by a rounding, then do not
-    /// share a run.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let kinds = [&self.vertex_face, &self.edge_edge];
-        let coordinates = kinds.into_iter().flatten().flatten().flatten().flatten();
-        let digest = Digest::of_bytes(coordinates.map(|x| x.to_le_bytes()));
-        let [vertex_face, edge_edge] = kinds.map(Vec::len);
-        write!(f, "{vertex_face} VF and {edge_edge} EE pairs, {digest}")
-    }
 }
 
 impl Scenes {

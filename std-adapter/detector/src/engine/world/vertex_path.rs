@@ -1,17 +1,17 @@
 //! The paths of a pair's vertices in the last step.
 
-use crate::PairKind;
 use crate::broad_phase::Hierarchies;
 use selvedge_core::Motion;
+use selvedge_core::PairKind;
 use selvedge_core::paths::{Arc, Moment, Path, Piece, RigidMotion};
 
 /// The path of a vertex.
-pub(crate) enum Way {
+pub(crate) enum VertexPath {
     Straight(Motion<f64>),
     Arc(Arc),
 }
 
-impl Way {
+impl VertexPath {
     pub(crate) const fn straight(&self) -> Option<Motion<f64>> {
         match self {
             Self::Straight(motion) => Some(*motion),
@@ -20,7 +20,7 @@ impl Way {
     }
 }
 
-impl Path for Way {
+impl Path for VertexPath {
     fn piece(&self, from: f64, to: f64) -> Piece {
         match self {
             Self::Straight(motion) => motion.piece(from, to),
@@ -36,8 +36,8 @@ impl Path for Way {
     }
 }
 
-/// Returns the vertices of a pair whose first primitive is of the first mesh and whose second is of the second mesh. Returns `None` if there is no such
-/// pair, or if the vertex belongs to no primitive, so that the hierarchies do not have it.
+/// Returns the vertices of a pair whose first primitive is of the first mesh and whose second is of the second mesh. Returns
+/// `None` if there is no such pair, or if the vertex belongs to no primitive, so that the hierarchies do not have it.
 pub(crate) fn vertices_of([first, second]: [&Hierarchies; 2], kind: PairKind, pair: [u32; 2]) -> Option<[u32; 4]> {
     let index = pair[1] as usize;
     match kind {
@@ -55,17 +55,19 @@ pub(crate) fn vertices_of([first, second]: [&Hierarchies; 2], kind: PairKind, pa
 }
 
 /// Returns the paths of [such vertices](vertices_of): arcs if their mesh rotates.
-pub(crate) fn ways(
+pub(crate) fn vertex_paths(
     meshes: [&Hierarchies; 2],
     motions: &[Option<RigidMotion>; 2],
     kind: PairKind,
     [a, b, c, d]: [u32; 4],
-) -> [Way; 4] {
-    let way = |side: usize, vertex: u32| {
+) -> [VertexPath; 4] {
+    let path = |side: usize, vertex: u32| {
         let straight = meshes[side].motion_of(vertex as usize).unwrap_or_default();
         // These are the same arcs as for boxes and sweeps: an arc has its start without rounding.
-        motions[side].map_or(Way::Straight(straight), |motion| Way::Arc(motion.path(straight.start)))
+        motions[side].map_or(VertexPath::Straight(straight), |motion| {
+            VertexPath::Arc(motion.path(straight.start))
+        })
     };
     let second = usize::from(kind == PairKind::VertexFace);
-    [way(0, a), way(second, b), way(1, c), way(1, d)]
+    [path(0, a), path(second, b), path(1, c), path(1, d)]
 }

@@ -9,14 +9,14 @@
 //!               apart if the second is above the first in one of the six at the start, and in the same at the end
 //! ```
 //!
-//! Other tests gather the rows of four vertices; this one reads two cache lines for each pair, without a branch. A dropped pair is certainly apart: see
-//! [boxes](selvedge_core::boxes::moving) and their [mapping](selvedge_core::boxes::mapping).
+//! Other tests gather the rows of four vertices; this one reads two cache lines for each pair, without a branch. A dropped pair
+//! is certainly apart: see [boxes](selvedge_core::boxes::moving) and their [mapping](selvedge_core::boxes::mapping).
 
-use crate::PairKind;
 use crate::broad_phase::mapping_within;
 use crate::mesh::Topology;
 use crate::simd::Level;
 use crate::step::Motions;
+use selvedge_core::PairKind;
 use selvedge_core::batch::{Compares, Loop, in_lanes};
 use selvedge_core::boxes::moving::MovingBox;
 

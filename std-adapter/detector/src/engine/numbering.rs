@@ -1,26 +1,26 @@
-//! The numbers of pairs: positions in hierarchies, or numbers of the mesh.
+//! The numbering of pairs: by positions in hierarchies, or by the numbers of the mesh.
 
-use crate::PairKind;
 use crate::broad_phase::{Hierarchies, Pairing};
 use crate::mesh::Topology;
+use selvedge_core::PairKind;
 
-/// The way in which pairs are numbered.
+/// How pairs are numbered.
 #[derive(Clone, Copy)]
-pub(super) enum Numbers<'a> {
+pub(super) enum Numbering<'a> {
     /// Positions in the hierarchies.
     Positions(&'a Hierarchies),
     /// The mesh's own numbers.
     Mesh(&'a Topology),
     /// The mesh's own numbers, with rows by positions in the hierarchies.
     Placed(&'a Hierarchies),
-    /// Positions of faces and edges in the hierarchies. An edge is a vertex that moves from one end to the other; its row comes after those of all
-    /// vertices.
+    /// Positions of faces and edges in the hierarchies. An edge is a vertex that moves from one end to the other; its row comes
+    /// after those of all vertices.
     FacesAndEdges(&'a Hierarchies),
     /// Positions in the hierarchies of two meshes, with the first row of each.
     Between(Pairing<'a>, [u32; 2]),
 }
 
-impl Numbers<'_> {
+impl Numbering<'_> {
     /// Returns the rows of a pair's vertices.
     #[inline(always)]
     pub(super) fn vertices(&self, kind: PairKind, pair: [u32; 2]) -> [u32; 4] {
