@@ -12,6 +12,7 @@ pub mod coplanarity;
 pub mod exact;
 pub mod gap;
 pub mod lanes;
+pub mod separation_lanes;
 pub mod vector;
 
 #[cfg(feature = "kernels")]

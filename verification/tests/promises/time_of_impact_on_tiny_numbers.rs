@@ -14,6 +14,7 @@ use selvedge_core::kernels::advance::round::{RoundInput, round};
 use selvedge_core::kernels::advance::volume::SignedVolume;
 use selvedge_core::kernels::lanes::Rounding;
 use selvedge_core::kernels::points::{EdgeEdge, PairPoints, PairShape, VertexFace};
+use selvedge_core::kernels::separation_lanes::SeparationLanes;
 use selvedge_verification::altered::{self, Factors};
 use selvedge_verification::minifloat::{DOWNWARD, FLUSHING, Minifloat, TO_NEAREST, TOWARDS_ZERO, UPWARD, every, numbers};
 use selvedge_verification::random::Random;
@@ -78,7 +79,7 @@ impl Seen {
     ) {
         let one = Number::<F, ENVIRONMENT>::ONE;
         let corners = Corners::of_vertex_face(points);
-        let direction = corners.direction(w, None);
+        let direction = corners.direction(w);
         let positions = corners.at(time);
         let proven = corners.apart_along(&direction, &positions, true);
         let exact = exact_corners(PairKind::VertexFace, points);
@@ -177,7 +178,7 @@ fn random_directions<const ENVIRONMENT: u32>(is_curved: bool) -> u64 {
         let corners = Corners::of_edge_edge(&points);
         let positions = times.map(|time| corners.at(time));
         let [before, middle, after] = positions.map(|[a, b, c, d]| (a + b) + (c + d));
-        let curve = [before, middle + middle, after].map(|w| corners.direction(w, None));
+        let curve = [before, middle + middle, after].map(|w| corners.direction(w));
         let [from, _, to] = &positions;
         let is_proven = match is_curved {
             true => are_apart_curving(&curve, from, to),
@@ -242,7 +243,7 @@ fn random_volumes<const ENVIRONMENT: u32>() -> Seen {
         let points = pair_points(&random_points::<10, ENVIRONMENT>(&mut random));
         let time = random.pick(&times);
         let corners = Corners::of_vertex_face(&points);
-        let volume = SignedVolume::new(&corners, None);
+        let volume = SignedVolume::new(&corners);
         let exact = exact_corners(PairKind::VertexFace, &points);
         let at = |part: i128| exact_volume(&exact, part, whole);
         seen.asked += 1;
@@ -310,7 +311,7 @@ fn random_times<P: PairShape, const ENVIRONMENT: u32>() -> [u64; 2] {
             let Some(from) = in_rounds else { break };
             let question = RoundInput {
                 near: zero,
-                separation: None,
+                separation: SeparationLanes::zero(zero),
                 until: one,
                 with_volume: sweep > 1,
             };
