@@ -152,7 +152,7 @@ mod vectors {
     use crate::batch::mask::{LANES, Mask};
     use crate::batch::rows::VertexRow;
     use crate::vector::Vector;
-    use fearless_simd::{Level, Simd, SimdBase, SimdCombine, SimdMask, SimdSplit, f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
+    use fearless_simd::{Simd, SimdBase, SimdCombine, SimdMask, SimdSplit, f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
 
     /// Transposes N rows of N numbers by log₂ N rounds of interleaving row k with row k + N/2. For N = 8:
     ///
@@ -272,12 +272,10 @@ mod vectors {
     #[inline(always)]
     fn has_registers_of_sixteen(simd: impl Simd) -> bool {
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-        return matches!(simd.level(), Level::Avx512(_));
+        let has_them = matches!(simd.level(), fearless_simd::Level::Avx512(_));
         #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
-        return {
-            let _ = simd;
-            false
-        };
+        let (has_them, _) = (false, simd);
+        has_them
     }
 
     macro_rules! two_wide {
