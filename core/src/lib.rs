@@ -80,7 +80,7 @@ pub use motion::{Motion, PrimitivePair};
 pub use scalar::{Position, Scalar};
 pub use verdict::Verdict;
 
-use kernels::{coplanarity, exact, lanes, points, vector};
+use kernels::{coplanarity, exact, lanes, points, separation_lanes, vector};
 
 /// Runs the readme's examples as tests.
 #[cfg(doctest)]

@@ -10,9 +10,10 @@ use super::sixteen::Sixteen;
 use crate::elementary::Limits;
 use crate::kernels::advance::round;
 use crate::kind::PairKind;
-use crate::lanes::{Lanes, Rounding};
+use crate::lanes::Lanes;
 use crate::points::{PairPoints, PairShape};
 use crate::scalar::{Family, InFormat, Scalar};
+use crate::separation_lanes::SeparationLanes;
 use core::marker::PhantomData;
 use fearless_simd::Level;
 #[cfg(not(unoptimised))]
@@ -214,7 +215,7 @@ where
     let Limits { tolerance, separation } = question.limits;
     let question = round::RoundInput {
         near: time.splat(tolerance + separation),
-        separation: (separation > L::Scalar::ZERO).then(|| time.splat(separation)),
+        separation: SeparationLanes::new(separation, time),
         until: time.splat(question.until),
         with_volume: question.with_volume,
     };

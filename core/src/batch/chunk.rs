@@ -23,10 +23,11 @@ pub(super) trait Chunk: Lanes<Scalar: Scalar> {
     /// Stores the numbers from `first` on.
     fn store(self, numbers: &mut [Self::Scalar; LANES], first: usize);
     fn bits(mask: Self::Mask) -> Mask;
-    /// Loads one part of a row; the first is part 0.
-    fn part(token: Self::Token, row: &VertexRow<Self::Scalar>, part: usize) -> Self::Part;
-    /// Transposes rows to lanes of start and end. `row` returns a row by lane and part; the result is `None` if `row` returns it.
-    fn columns(row: impl Fn(usize, usize) -> Option<Self::Part>) -> Option<[Vector<Self>; 2]>;
+    /// Loads one part of two rows, which are the same if a register holds a part of one; the first is part 0.
+    fn part(token: Self::Token, rows: [&VertexRow<Self::Scalar>; 2], part: usize) -> Self::Part;
+    /// Transposes rows to lanes of start and end. `row` returns a part of the rows of two lanes; the result is `None` if `row`
+    /// returns it.
+    fn columns(token: Self::Token, row: impl Fn([usize; 2], usize) -> Option<Self::Part>) -> Option<[Vector<Self>; 2]>;
 }
 
 /// Loads the points of the pairs from `first` on. Returns `None` if an index is not in the rows.
@@ -47,10 +48,12 @@ pub(super) fn points<L: Chunk>(token: L::Token, pairs: Sixteen<'_, L::Scalar>, f
                     },
                 ),
                 Sixteen::Mesh { rows, indices } => L::columns(
+                    token,
                     #[inline(always)]
-                    |lane, part| {
-                        let row = rows.get(indices[(first + lane) % LANES][$point] as usize)?;
-                        Some(L::part(token, row, part))
+                    |[one, other], part| {
+                        let one = rows.get(indices[(first + one) % LANES][$point] as usize)?;
+                        let other = rows.get(indices[(first + other) % LANES][$point] as usize)?;
+                        Some(L::part(token, [one, other], part))
                     },
                 )?,
             }
@@ -77,11 +80,14 @@ pub(super) fn edge<L: Chunk>(
     ends: impl Fn([u32; 4]) -> [u32; 2],
 ) -> Option<[Vector<L>; 2]> {
     L::columns(
+        token,
         #[inline(always)]
-        |lane, part| {
-            let [from, to] = ends(indices[(first + lane) % LANES]);
+        |[one, other], part| {
+            let ([from, to], [other_from, other_to]) =
+                (ends(indices[(first + one) % LANES]), ends(indices[(first + other) % LANES]));
             let (from, to) = (rows.get(from as usize)?, rows.get(to as usize)?);
-            Some(L::part(token, to, part) - L::part(token, from, part))
+            let (other_from, other_to) = (rows.get(other_from as usize)?, rows.get(other_to as usize)?);
+            Some(L::part(token, [to, other_to], part) - L::part(token, [from, other_from], part))
         },
     )
 }
@@ -123,14 +129,14 @@ macro_rules! one_lane {
             }
 
             #[inline(always)]
-            fn part((): (), row: &VertexRow<$scalar>, _: usize) -> Row<$scalar> {
+            fn part((): (), [row, _]: [&VertexRow<$scalar>; 2], _: usize) -> Row<$scalar> {
                 let [x, y, z, _, u, v, w, _] = row.0;
                 Row([Vector::new(x, y, z), Vector::new(u, v, w)])
             }
 
             #[inline(always)]
-            fn columns(row: impl Fn(usize, usize) -> Option<Row<$scalar>>) -> Option<[Vector<Self>; 2]> {
-                Some(row(0, 0)?.0)
+            fn columns((): (), row: impl Fn([usize; 2], usize) -> Option<Row<$scalar>>) -> Option<[Vector<Self>; 2]> {
+                Some(row([0, 0], 0)?.0)
             }
         }
     };
@@ -178,8 +184,25 @@ mod vectors {
         [p, q, r, s, t, u, v, w]
     }
 
+    /// Interleaves the lower halves of two registers, and their upper halves: the results have what [`two`] has of each half. AVX2
+    /// has one instruction for each result, and needs two more to interleave the whole registers.
+    #[inline(always)]
+    fn two_by_halves<V: Simd>([a, b]: [f32x8<V>; 2]) -> [f32x8<V>; 2] {
+        let ((a, a_4), (b, b_4)) = (a.split(), b.split());
+        let ([first, second], [first_4, second_4]) = (two([a, b]), two([a_4, b_4]));
+        [first.combine(first_4), second.combine(second_4)]
+    }
+
+    /// Transposes the halves of four registers.
+    #[inline(always)]
+    fn four_by_halves<V: Simd>([a, b, c, d]: [f32x8<V>; 4]) -> [f32x8<V>; 4] {
+        let ([ac, ac_2], [bd, bd_2]) = (two_by_halves([a, c]), two_by_halves([b, d]));
+        let ([x, y], [z, w]) = (two_by_halves([ac, bd]), two_by_halves([ac_2, bd_2]));
+        [x, y, z, w]
+    }
+
     macro_rules! vector {
-        ($vector:ident, $scalar:ident, $width:literal, $part:ident, $parts:literal, |$row:ident| $columns:expr) => {
+        ($vector:ident, $scalar:ident, $width:literal, $part:ident, |$token:ident, $rows:ident, $number:ident| $load:expr, |$row:ident| $columns:expr) => {
             impl<V: Simd> Chunk for $vector<V> {
                 type Token = V;
                 type Part = $part<V>;
@@ -204,42 +227,94 @@ mod vectors {
                 }
 
                 #[inline(always)]
-                fn part(simd: V, row: &VertexRow<$scalar>, part: usize) -> $part<V> {
-                    $part::load_array_ref(simd, &row.0.as_chunks().0[part % $parts])
+                fn part($token: V, $rows: [&VertexRow<$scalar>; 2], $number: usize) -> $part<V> {
+                    $load
                 }
 
                 #[inline(always)]
-                fn columns($row: impl Fn(usize, usize) -> Option<$part<V>>) -> Option<[Vector<Self>; 2]> {
+                fn columns($token: V, $row: impl Fn([usize; 2], usize) -> Option<$part<V>>) -> Option<[Vector<Self>; 2]> {
+                    let _ = $token;
                     $columns
                 }
             }
         };
     }
 
+    /// One of the parts of a row, all of which have the same width.
+    macro_rules! part_of_one {
+        ($part:ident, $parts:literal, $simd:ident, $rows:ident, $number:ident) => {
+            $part::load_array_ref($simd, &$rows[0].0.as_chunks().0[$number % $parts])
+        };
+    }
+
+    /// One half of both rows.
+    #[inline(always)]
+    fn two_halves<V: Simd>(simd: V, [one, other]: [&VertexRow<f32>; 2], half: usize) -> f32x8<V> {
+        let [one, other] = [one.0.as_chunks().0[half % 2], other.0.as_chunks().0[half % 2]];
+        f32x4::load_array_ref(simd, &one).combine(f32x4::load_array_ref(simd, &other))
+    }
+
+    /// The part that is a whole row, where a part may also be a half of two.
+    const WHOLE: usize = 2;
+
+    /// The first row with [`WHOLE`], otherwise one half of both.
+    #[inline(always)]
+    fn row_or_two_halves<V: Simd>(simd: V, rows: [&VertexRow<f32>; 2], part: usize) -> f32x8<V> {
+        if part == WHOLE {
+            f32x8::load_array_ref(simd, &rows[0].0)
+        } else {
+            two_halves(simd, rows, part)
+        }
+    }
+
+    /// Returns whether registers hold sixteen `f32`; otherwise one of that width is two of 256 bits, each of which has two halves.
+    #[inline(always)]
+    fn has_registers_of_sixteen(simd: impl Simd) -> bool {
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        let has_them = matches!(simd.level(), fearless_simd::Level::Avx512(_));
+        #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+        let (has_them, _) = (false, simd);
+        has_them
+    }
+
     macro_rules! two_wide {
         ($row:ident) => {{
-            let [x, y] = two([$row(0, 0)?, $row(1, 0)?]);
-            let [z, _] = two([$row(0, 1)?, $row(1, 1)?]);
-            let [u, v] = two([$row(0, 2)?, $row(1, 2)?]);
-            let [w, _] = two([$row(0, 3)?, $row(1, 3)?]);
+            let [x, y] = two([$row([0, 0], 0)?, $row([1, 1], 0)?]);
+            let [z, _] = two([$row([0, 0], 1)?, $row([1, 1], 1)?]);
+            let [u, v] = two([$row([0, 0], 2)?, $row([1, 1], 2)?]);
+            let [w, _] = two([$row([0, 0], 3)?, $row([1, 1], 3)?]);
             Some([Vector::new(x, y, z), Vector::new(u, v, w)])
         }};
     }
 
     macro_rules! four_wide {
         ($row:ident) => {{
-            let [x, y, z, _] = four([$row(0, 0)?, $row(1, 0)?, $row(2, 0)?, $row(3, 0)?]);
-            let [u, v, w, _] = four([$row(0, 1)?, $row(1, 1)?, $row(2, 1)?, $row(3, 1)?]);
+            let [x, y, z, _] = four([$row([0, 0], 0)?, $row([1, 1], 0)?, $row([2, 2], 0)?, $row([3, 3], 0)?]);
+            let [u, v, w, _] = four([$row([0, 0], 1)?, $row([1, 1], 1)?, $row([2, 2], 1)?, $row([3, 3], 1)?]);
             Some([Vector::new(x, y, z), Vector::new(u, v, w)])
         }};
     }
 
     macro_rules! eight_wide {
         ($row:ident) => {{
-            let [a, b, c, d] = [$row(0, 0)?, $row(1, 0)?, $row(2, 0)?, $row(3, 0)?];
-            let [e, f, g, h] = [$row(4, 0)?, $row(5, 0)?, $row(6, 0)?, $row(7, 0)?];
+            let [a, b, c, d] = [$row([0, 0], 0)?, $row([1, 1], 0)?, $row([2, 2], 0)?, $row([3, 3], 0)?];
+            let [e, f, g, h] = [$row([4, 4], 0)?, $row([5, 5], 0)?, $row([6, 6], 0)?, $row([7, 7], 0)?];
             let [x, y, z, _, u, v, w, _] = eight([a, b, c, d, e, f, g, h]);
             Some([Vector::new(x, y, z), Vector::new(u, v, w)])
+        }};
+    }
+
+    /// A register holds a half of the rows of pairs k and k + 4, from `first` on, and after transposition a column of eight pairs.
+    macro_rules! two_by_four_wide {
+        ($row:ident, $first:literal) => {{
+            macro_rules! two {
+                ($lane:literal, $half:literal) => {
+                    $row([$first + $lane, $first + $lane + 4], $half)?
+                };
+            }
+            let [x, y, z, _] = four_by_halves([two!(0, 0), two!(1, 0), two!(2, 0), two!(3, 0)]);
+            let [u, v, w, _] = four_by_halves([two!(0, 1), two!(1, 1), two!(2, 1), two!(3, 1)]);
+            [[x, y, z], [u, v, w]]
         }};
     }
 
@@ -248,7 +323,7 @@ mod vectors {
         ($row:ident) => {{
             macro_rules! two {
                 ($lane:literal) => {
-                    $row($lane, 0)?.combine($row($lane + 8, 0)?)
+                    $row([$lane, $lane], WHOLE)?.combine($row([$lane + 8, $lane + 8], WHOLE)?)
                 };
             }
             let [a, b, c, d] = [two!(0), two!(1), two!(2), two!(3)];
@@ -265,10 +340,63 @@ mod vectors {
         }};
     }
 
-    vector!(f64x2, f64, 2, f64x2, 4, |row| two_wide!(row));
-    vector!(f64x4, f64, 4, f64x4, 2, |row| four_wide!(row));
-    vector!(f32x4, f32, 4, f32x4, 2, |row| four_wide!(row));
-    vector!(f64x8, f64, 8, f64x8, 1, |row| eight_wide!(row));
-    vector!(f32x8, f32, 8, f32x8, 1, |row| eight_wide!(row));
-    vector!(f32x16, f32, 16, f32x8, 1, |row| sixteen_wide!(row));
+    macro_rules! two_by_eight_wide {
+        ($simd:ident, $row:ident) => {{
+            if has_registers_of_sixteen($simd) {
+                sixteen_wide!($row)
+            } else {
+                let [[x, y, z], [u, v, w]] = two_by_four_wide!($row, 0);
+                let [[x_8, y_8, z_8], [u_8, v_8, w_8]] = two_by_four_wide!($row, 8);
+                Some([
+                    Vector::new(x.combine(x_8), y.combine(y_8), z.combine(z_8)),
+                    Vector::new(u.combine(u_8), v.combine(v_8), w.combine(w_8)),
+                ])
+            }
+        }};
+    }
+
+    vector!(
+        f64x2,
+        f64,
+        2,
+        f64x2,
+        |simd, rows, part| part_of_one!(f64x2, 4, simd, rows, part),
+        |row| two_wide!(row)
+    );
+    vector!(
+        f64x4,
+        f64,
+        4,
+        f64x4,
+        |simd, rows, part| part_of_one!(f64x4, 2, simd, rows, part),
+        |row| four_wide!(row)
+    );
+    vector!(
+        f32x4,
+        f32,
+        4,
+        f32x4,
+        |simd, rows, part| part_of_one!(f32x4, 2, simd, rows, part),
+        |row| four_wide!(row)
+    );
+    vector!(
+        f64x8,
+        f64,
+        8,
+        f64x8,
+        |simd, rows, part| part_of_one!(f64x8, 1, simd, rows, part),
+        |row| eight_wide!(row)
+    );
+    vector!(f32x8, f32, 8, f32x8, |simd, rows, part| two_halves(simd, rows, part), |row| {
+        let [[x, y, z], [u, v, w]] = two_by_four_wide!(row, 0);
+        Some([Vector::new(x, y, z), Vector::new(u, v, w)])
+    });
+    vector!(
+        f32x16,
+        f32,
+        16,
+        f32x8,
+        |simd, rows, part| row_or_two_halves(simd, rows, part),
+        |row| two_by_eight_wide!(simd, row)
+    );
 }

@@ -58,7 +58,10 @@ pub fn in_lanes<L: Loop>(level: Level, work: L) -> L::Output {
                 if let Some(token) = $token {
                     return token.vectorize(
                         #[inline(always)]
-                        || work.run(Vectors(token)),
+                        || {
+                            super::frame::align();
+                            work.run(Vectors(token))
+                        },
                     );
                 }
             };

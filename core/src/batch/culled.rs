@@ -28,7 +28,7 @@ impl<S: Scalar> BatchTest<S> for Filter<S> {
     /// Decides by the tier's bound side by side, and pairs that the bound leaves open one by one.
     #[inline(always)]
     fn sixteen(self, level: Level, kind: PairKind, pairs: Sixteen<'_, S>, wanted: Mask) -> Option<Mask> {
-        let Decision { mut culled, settled } = kernels::by_filter(level, kind, self.positive_separation(), pairs)?;
+        let Decision { mut culled, settled } = kernels::by_filter(level, kind, self.separation(), pairs)?;
         let mut open = self.tier().open(culled, settled) & wanted;
         while open != 0 {
             let lane = next_lane(&mut open);

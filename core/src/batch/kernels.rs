@@ -16,6 +16,7 @@ use crate::lanes::Lanes;
 use crate::motion::PrimitivePair;
 use crate::points::PairShape;
 use crate::scalar::{Family, InFormat, Scalar};
+use crate::separation_lanes::SeparationLanes;
 use fearless_simd::Level;
 #[cfg(not(unoptimised))]
 use fearless_simd::{Simd, f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
@@ -32,13 +33,8 @@ macro_rules! in_format {
 
 /// Decides sixteen pairs by the certified filter. Returns `None` if an index is not in the rows.
 #[inline(always)]
-pub(super) fn by_filter<S: Scalar>(
-    level: Level,
-    kind: PairKind,
-    separation: Option<S>,
-    pairs: Sixteen<'_, S>,
-) -> Option<Decision<Mask>> {
-    in_format!(pairs, by_filter(level, kind, NonCoplanarity(separation.map(S::to_f64))))
+pub(super) fn by_filter<S: Scalar>(level: Level, kind: PairKind, separation: S, pairs: Sixteen<'_, S>) -> Option<Decision<Mask>> {
+    in_format!(pairs, by_filter(level, kind, NonCoplanarity(separation.to_f64())))
 }
 
 /// Returns the pairs that a test culls, or `None` if an index is not in the rows.
@@ -77,17 +73,14 @@ pub(super) fn culls_open<S: Scalar>(filter: Filter<S>, pair: PrimitivePair<S>) -
     }
 }
 
-/// The certified filter, with a separation that its format holds exactly, or without.
+/// The certified filter, with a separation that its format holds exactly, or zero.
 #[derive(Clone, Copy)]
-struct NonCoplanarity(Option<f64>);
+struct NonCoplanarity(f64);
 
 impl VolumeTest for NonCoplanarity {
     #[inline(always)]
     fn on<P: PairShape, L: Lanes<Scalar: Scalar>>(self, tetrahedron: &MovingTetrahedron<L>) -> Decision<L::Mask> {
-        let separation = self.0.map(
-            #[inline(always)]
-            |separation| tetrahedron.p[0].x.splat(L::Scalar::from_f64(separation)),
-        );
+        let separation = SeparationLanes::new(L::Scalar::from_f64(self.0), tetrahedron.p[0].x);
         tetrahedron.decide::<P>(separation)
     }
 }

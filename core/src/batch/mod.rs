@@ -57,6 +57,8 @@ mod chunk;
 mod closest;
 mod compared;
 mod culled;
+#[cfg(not(unoptimised))]
+mod frame;
 mod kernels;
 mod lane_test;
 pub(crate) mod mask;

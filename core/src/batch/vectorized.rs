@@ -12,7 +12,10 @@ macro_rules! vectorized {
                 if let Some(token) = $token {
                     return token.vectorize(
                         #[inline(always)]
-                        || $function::<$pair, $lanes<_>>(token, $($argument),*),
+                        || {
+                            $crate::batch::frame::align();
+                            $function::<$pair, $lanes<_>>(token, $($argument),*)
+                        },
                     );
                 }
             };

@@ -88,6 +88,7 @@ use crate::lanes::Number;
 use crate::motion::PrimitivePair;
 use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
+use crate::separation_lanes::SeparationLanes;
 use rounds::{Advance, EASY_ROUNDS};
 pub use witness::{Proof, WITNESS_PARTS, Witness, WitnessPart, witness};
 use witness::{Record, Unrecorded};
@@ -270,14 +271,14 @@ fn decide<S: Number, R: Record<S>, const N: usize>(
         return not_excluded(S::ZERO, Reason::OutOfRange, work);
     }
     let corners = &corners;
-    let separation = (limits.separation > S::ZERO).then_some(limits.separation);
-    if let Some(separation) = separation
-        && corners.are_beyond_along_an_axis(separation)
-        && record.add_axis(|| corners.ends.into_iter().flatten(), axis_bar(separation))
+    let separation = SeparationLanes::new(limits.separation, limits.separation);
+    if separation.is_positive()
+        && corners.are_beyond_along_an_axis(separation.length())
+        && record.add_axis(|| corners.ends.into_iter().flatten(), axis_bar(separation.length()))
     {
         return (Impact::Never, work);
     }
-    let volume = SignedVolume::new(corners, separation);
+    let volume = SignedVolume::beyond(corners, &separation);
     work.volume_steps += 1;
     if volume.proves_apart_throughout() {
         record.add(S::ONE, Proof::Volume);

@@ -12,6 +12,7 @@ use crate::lanes::{Lanes, Rounding};
 use crate::motion::PrimitivePair;
 use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
+use crate::separation_lanes::SeparationLanes;
 use crate::verdict::Verdict;
 
 /// Culls `pair` if its four points are certainly not coplanar at any time in [0, 1].
@@ -37,31 +38,27 @@ impl<L: Lanes> MovingTetrahedron<L> {
     #[inline(always)]
     #[must_use]
     pub fn is_never_coplanar(&self) -> L::Mask {
-        decide_beyond(self, None).culled
+        decide_beyond(self, SeparationLanes::zero(self.b[0].x)).culled
     }
 
     /// Makes the decision with a separation s on any number of lanes. `culled` is a proof for all times in [0, 1]. The vertex is
     /// never within s of the face's plane, or the line of one edge within s of the other's.
     ///
-    /// The separation must be positive and finite. `None` means zero, and then the kind of the pair does not matter.
+    /// If the separation is zero, the kind of the pair does not matter.
     #[inline(always)]
     #[must_use]
-    pub fn decide<P: PairShape>(&self, separation: Option<L>) -> Decision<L::Mask> {
-        #[allow(
-            clippy::manual_map,
-            reason = "a closure is not always inlined into code for a wider instruction set"
-        )]
-        let clearance = match separation {
-            Some(separation) => Some(separation * self.largest_normal(P::KIND)),
-            None => None,
-        };
+    pub fn decide<P: PairShape>(&self, separation: SeparationLanes<L>) -> Decision<L::Mask> {
+        let clearance = separation.times(
+            #[inline(always)]
+            || self.largest_normal(P::KIND),
+        );
         decide_beyond(self, clearance)
     }
 }
 
 /// Decides whether all control values exceed their error bounds and the clearance, with one sign.
 #[inline(always)]
-fn decide_beyond<L: Lanes>(tetrahedron: &MovingTetrahedron<L>, clearance: Option<L>) -> Decision<L::Mask> {
+fn decide_beyond<L: Lanes>(tetrahedron: &MovingTetrahedron<L>, clearance: SeparationLanes<L>) -> Decision<L::Mask> {
     let values: ControlValues<L> = tetrahedron.control_values();
     let largest = tetrahedron.largest_by_axis();
     let in_range = is_in_range(largest.largest());
@@ -97,10 +94,11 @@ fn decide_beyond<L: Lanes>(tetrahedron: &MovingTetrahedron<L>, clearance: Option
 
 /// Adds the clearance to the bounds. The middle control values are tripled, so theirs is as well.
 #[inline(always)]
-fn with_clearance<L: Lanes>([e0, e1, e2, e3]: [L; 4], clearance: Option<L>) -> [L; 4] {
-    let Some(outer) = clearance else {
+fn with_clearance<L: Lanes>([e0, e1, e2, e3]: [L; 4], clearance: SeparationLanes<L>) -> [L; 4] {
+    if !clearance.is_positive() {
         return [e0, e1, e2, e3];
-    };
+    }
+    let outer = clearance.length();
     let inner = outer * outer.splat(L::Scalar::small(3));
     [e0 + outer, e1 + inner, e2 + inner, e3 + outer]
 }

@@ -7,6 +7,7 @@ use crate::lanes::Rounding;
 use crate::motion::PrimitivePair;
 use crate::points::PairPoints;
 use crate::scalar::Scalar;
+use crate::separation_lanes::SeparationLanes;
 use crate::verdict::Verdict;
 
 /// The sharpness of a non-coplanarity filter. Every tier is certified.
@@ -104,16 +105,10 @@ impl<S: Scalar> Filter<S> {
         self.separation
     }
 
-    /// Returns the separation, or `None` if it is zero.
-    #[inline(always)]
-    pub(crate) fn positive_separation(&self) -> Option<S> {
-        (self.separation > S::ZERO).then_some(self.separation)
-    }
-
     /// Culls or keeps `pair`.
     #[inline]
     pub fn verdict(&self, pair: &PrimitivePair<S>) -> Verdict {
-        let separation = self.positive_separation();
+        let separation = SeparationLanes::new(self.separation, S::ZERO);
         let points = PairPoints::from(pair);
         let decision = of_kind!(pair.kind, P => points.tetrahedron::<P>().decide::<P>(separation));
         let culled = u16::from(decision.culled);
@@ -126,15 +121,15 @@ impl<S: Scalar> Filter<S> {
     pub(crate) fn culls_open(&self, pair: &PrimitivePair<S>) -> bool {
         match self.tier {
             Tier::Permanent => false,
-            Tier::Widened => S::UNIT_ROUNDOFF.to_f64() > f64::UNIT_ROUNDOFF && widened::culls(pair, self.positive_separation()),
+            Tier::Widened => S::UNIT_ROUNDOFF.to_f64() > f64::UNIT_ROUNDOFF && widened::culls(pair, self.separation),
             Tier::Exact => self.culls_exactly(pair),
         }
     }
 
     /// Decides by the exact signs. Signs that the rounded values prove are not computed again.
     fn culls_exactly(&self, pair: &PrimitivePair<S>) -> bool {
-        if let Some(separation) = self.positive_separation() {
-            return exact::is_never_within(pair, separation, exact::UNKNOWN);
+        if self.separation > S::ZERO {
+            return exact::is_never_within(pair, self.separation, exact::UNKNOWN);
         }
         let tetrahedron = MovingTetrahedron::from(pair);
         let known = if is_in_range(tetrahedron.largest_by_axis().largest()) {

@@ -6,10 +6,13 @@
 use crate::motion::PrimitivePair;
 use crate::points::PairPoints;
 use crate::scalar::Scalar;
+use crate::separation_lanes::SeparationLanes;
 
 /// Returns whether the certified filter culls the pair in `f64`.
-pub(super) fn culls<S: Scalar>(pair: &PrimitivePair<S>, separation: Option<S>) -> bool {
+pub(super) fn culls<S: Scalar>(pair: &PrimitivePair<S>, separation: S) -> bool {
     let points = PairPoints::from(&pair.widened());
-    let separation = separation.map(Scalar::to_f64);
-    of_kind!(pair.kind, P => points.tetrahedron::<P>().decide::<P>(separation).culled)
+    of_kind!(pair.kind, P => {
+        let tetrahedron = points.tetrahedron::<P>();
+        tetrahedron.decide::<P>(SeparationLanes::new(separation.to_f64(), 0.0)).culled
+    })
 }

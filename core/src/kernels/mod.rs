@@ -21,6 +21,7 @@ pub mod coplanarity;
 pub mod exact;
 pub mod gap;
 pub mod lanes;
+pub mod separation_lanes;
 pub mod vector;
 
 pub use crate::of_kind;

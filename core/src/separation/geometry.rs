@@ -122,7 +122,9 @@ pub(crate) fn of_instants(kind: PairKind, time: Option<f64>, at: impl Fn(f64) ->
     let met = both(kind, weights, now.points);
 
     let across = across(kind, now.points);
-    let found = BEFORE.iter().filter(|_| is_time).find_map(|&share| {
+    // Without a gap nothing was found. There is no `Option`, whose numbers would be undefined.
+    let (mut normal, mut separated_at, mut gap) = (DVec3::ZERO, 0.0, 0.0);
+    for share in BEFORE.into_iter().filter(|_| is_time) {
         let earlier = time * (1.0 - share);
         let before = at(earlier);
         let own = if share == 0.0 {
@@ -137,9 +139,12 @@ pub(crate) fn of_instants(kind: PairKind, time: Option<f64>, at: impl Fn(f64) ->
         });
         // This takes the direction with the largest gap.
         let farther = |a: (DVec3, f64), b: (DVec3, f64)| if b.1 > a.1 { b } else { a };
-        let (direction, gap) = directions.into_iter().fold((DVec3::ZERO, 0.0), farther);
-        (gap > 0.0).then_some((direction, earlier))
-    });
+        (normal, gap) = directions.into_iter().fold((DVec3::ZERO, 0.0), farther);
+        separated_at = earlier;
+        if gap > 0.0 {
+            break;
+        }
+    }
     let largest = now.largest;
     let apart = length(met[0] - met[1]) * (1.0 + 16.0 * u()) + (96.0 * u() * largest + <f64 as Rounding>::UNDERFLOW);
     let apart = if now.error == 0.0 {
@@ -155,7 +160,7 @@ pub(crate) fn of_instants(kind: PairKind, time: Option<f64>, at: impl Fn(f64) ->
         distance: [0.0, if is_time && !apart.is_nan() { apart } else { f64::INFINITY }],
         speed: 0.0,
     };
-    if let Some((normal, separated_at)) = found {
+    if gap > 0.0 {
         let [first, second] = both(kind, weights, now.velocities);
         geometry.normal = Some(normal);
         geometry.separated_at = separated_at;

@@ -161,9 +161,9 @@ fn proofs_of_advance<const N: usize>(of: &str, corners: fn(&PairPoints<Traced>) 
         let in_range = corners.are_in_range();
         let moments = [0, 1].map(|number| Traced::input(format!("Moment {number}")));
         let [now, later] = moments.map(|moment| corners.at(moment));
-        let [first, second, third] = [0, 1, 2].map(|number| corners.direction(direction(number), None));
+        let [first, second, third] = [0, 1, 2].map(|number| corners.direction(direction(number)));
         let held = corners.apart_along(&first, &now, in_range);
-        let volume = SignedVolume::new(&corners, None);
+        let volume = SignedVolume::new(&corners);
         let margins = volume.margins_from(moments[0]);
         let clipped = volume.clipped::<false>(moments[0]);
         let masks = [

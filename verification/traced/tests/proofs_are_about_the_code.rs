@@ -251,7 +251,7 @@ fn edge_edge_corners() -> Corners<Traced, 4> {
 fn roundings_of_a_direction_are_as_many_as_the_script_says() {
     let (bar, mut constant) = trace(|| {
         let corners = edge_edge_corners();
-        let direction = corners.direction(vector("w"), None);
+        let direction = corners.direction(vector("w"));
         let positions = corners.at(Traced::input("t"));
         let _ = corners.apart_along(&direction, &positions, Mask::always());
         direction.bar
@@ -271,7 +271,7 @@ fn roundings_of_a_direction_are_as_many_as_the_script_says() {
 
     let (_, mut turning) = trace(|| {
         let corners = edge_edge_corners();
-        let [before, after] = ["v", "w"].map(|name| corners.direction(vector(name), None));
+        let [before, after] = ["v", "w"].map(|name| corners.direction(vector(name)));
         let [from, to] = ["s", "t"].map(|name| corners.at(Traced::input(name)));
         are_apart_turning(&before, &from, &after, &to)
     });
@@ -284,7 +284,7 @@ fn roundings_of_a_direction_are_as_many_as_the_script_says() {
 
     let (_, mut curving) = trace(|| {
         let corners = edge_edge_corners();
-        let curve = ["u", "v", "w"].map(|name| corners.direction(vector(name), None));
+        let curve = ["u", "v", "w"].map(|name| corners.direction(vector(name)));
         let [from, to] = ["s", "t"].map(|name| corners.at(Traced::input(name)));
         are_apart_curving(&curve, &from, &to)
     });
@@ -302,7 +302,7 @@ fn roundings_of_a_direction_are_as_many_as_the_script_says() {
 #[test]
 fn roundings_of_the_volume_are_as_many_as_the_script_says() {
     let ((at, margins, error), mut steps) = trace(|| {
-        let volume = SignedVolume::new(&edge_edge_corners(), None);
+        let volume = SignedVolume::new(&edge_edge_corners());
         let time = Traced::input("t");
         (volume.at(time), volume.margins_from(time), volume.error)
     });

@@ -14,6 +14,7 @@ use crate::kernels::advance::directions::{Direction, are_apart_curving, are_apar
 use crate::kernels::advance::turning::{along_face, along_side, balanced, farthest, in_the_middle};
 use crate::kernels::advance::volume::{Clipped, SignedVolume};
 use crate::lanes::Number;
+use crate::separation_lanes::SeparationLanes;
 use crate::vector::Vector;
 
 /// The number of rounds after which a pair is hard: it slides, or its closest points are hard to find.
@@ -26,8 +27,7 @@ pub(super) struct Advance<'a, S, R, const N: usize> {
     pub(super) corners: &'a Corners<S, N>,
     pub(super) volume: &'a SignedVolume<S>,
     pub(super) limits: &'a Limits<S>,
-    /// The separation, if it is not zero.
-    pub(super) separation: Option<S>,
+    pub(super) separation: SeparationLanes<S>,
     /// The time up to which it is proven to be apart, and the end of the requested time.
     pub(super) span: [S; 2],
     pub(super) rounds: u32,
@@ -162,7 +162,7 @@ impl<S: Number, R: Record<S>, const N: usize> Advance<'_, S, R, N> {
 
     #[inline(always)]
     fn direction(&self, w: Vector<S>) -> Direction<S> {
-        self.corners.direction(w, self.separation)
+        self.corners.direction_beyond(w, &self.separation)
     }
 
     /// Returns the time until which the volume proves, from `time` on, that the pair is apart.

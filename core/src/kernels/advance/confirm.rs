@@ -64,7 +64,7 @@ fn prove<S: Number, const N: usize>(corners: &Corners<S, N>, near: S) -> Option<
     if !corners.are_in_range() {
         return None;
     }
-    let volume = SignedVolume::new(corners, None);
+    let volume = SignedVolume::new(corners);
     let [from, to] = where_it_changes_sign(&volume, near)?;
     let (start, end) = (corners.at(from), corners.at(to));
     let [xy, yz, zx] = doubled_bounds(corners.extent);

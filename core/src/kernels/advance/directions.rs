@@ -7,6 +7,7 @@
 
 use super::corners::Corners;
 use crate::lanes::{Lanes, Rounding, less_roundoffs, more_roundoffs};
+use crate::separation_lanes::SeparationLanes;
 use crate::vector::Vector;
 
 /// A direction, and the value that a computed product with it must exceed.
@@ -63,12 +64,21 @@ impl<L: Lanes, const N: usize> Corners<L, N> {
         along(|corner| corner.x) | along(|corner| corner.y) | along(|corner| corner.z)
     }
 
-    /// Returns the direction `w`, of any length, for pairs that must stay farther than `separation` apart, if that is not zero.
+    /// Returns the direction `w`, of any length, for pairs that must not touch.
     #[inline(always)]
     #[must_use]
-    pub fn direction(&self, w: Vector<L>, separation: Option<L>) -> Direction<L> {
-        let mut bar = self.product_error(w);
-        if let Some(separation) = separation {
+    pub fn direction(&self, w: Vector<L>) -> Direction<L> {
+        let bar = self.product_error(w);
+        Direction { w, bar }
+    }
+
+    /// Returns the direction `w`, of any length, for pairs that must stay farther apart than `separation`.
+    #[inline(always)]
+    #[must_use]
+    pub fn direction_beyond(&self, w: Vector<L>, separation: &SeparationLanes<L>) -> Direction<L> {
+        let Direction { w, mut bar } = self.direction(w);
+        if separation.is_positive() {
+            let separation = separation.length();
             bar = bar + separation * (length_above(w) * more_roundoffs(separation, 32));
         }
         Direction { w, bar }

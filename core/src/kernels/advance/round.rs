@@ -11,14 +11,15 @@ use super::volume::SignedVolume;
 use crate::PairKind;
 use crate::lanes::{Lanes, Rounding};
 use crate::points::{PairPoints, PairShape};
+use crate::separation_lanes::SeparationLanes;
 
 /// The parameters of a round, the same in each lane.
 #[derive(Clone, Copy, Debug)]
 pub struct RoundInput<L> {
     /// The distance within which a pair is near: the tolerance and the separation.
     pub near: L,
-    /// The separation, if it is not zero.
-    pub separation: Option<L>,
+    /// The separation.
+    pub separation: SeparationLanes<L>,
     /// The time up to which pairs matter, at most 1.
     pub until: L,
     /// True to use the signed volume as well, if there is no separation.
@@ -73,13 +74,13 @@ fn round_of<L: Lanes, const N: usize>(
         };
     }
 
-    let direction = corners.direction(w, question.separation);
+    let direction = corners.direction_beyond(w, &question.separation);
     let proven = corners.apart_along(&direction, &now, is_in_range);
     let mut until = proven.until;
     let mut is_proven = proven.is_apart & until.greater(time);
 
-    if question.with_volume && question.separation.is_none() {
-        let volume = SignedVolume::new(corners, None);
+    if question.with_volume && !question.separation.is_positive() {
+        let volume = SignedVolume::new(corners);
         let first = volume.clipped(time);
         let second = volume.clipped(first.until);
         let later = L::select(first.to_the_end | second.to_the_end, beyond(time), second.until);

@@ -26,6 +26,7 @@ use super::corners::Corners;
 use super::directions::beyond;
 use crate::coplanarity::MovingTetrahedron;
 use crate::lanes::{Lanes, Rounding, less_roundoffs, more_roundoffs, roundoffs};
+use crate::separation_lanes::SeparationLanes;
 use crate::vector::Vector;
 
 /// The cubic, its error and the normal.
@@ -35,17 +36,17 @@ pub struct SignedVolume<L> {
     pub values: [L; 4],
     /// The error bound E of a control value.
     pub error: L,
-    /// The normal, for separations that are not zero.
-    normal: Option<Normal<L>>,
+    normal: Normal<L>,
 }
 
-/// The two edges at the first corner, at the start and at the end, and the weight of their cross product.
+/// The two edges at the first corner, at the start and at the end, and the weight of their cross product. Zero if the separation is.
 #[derive(Clone, Copy, Debug)]
 struct Normal<L> {
     first: [Vector<L>; 2],
     second: [Vector<L>; 2],
     length_error: L,
     separation: L,
+    is_positive: bool,
 }
 
 /// One step of [clipping](SignedVolume::clipped).
@@ -58,15 +59,28 @@ pub struct Clipped<L: Lanes> {
 }
 
 impl<L: Lanes> SignedVolume<L> {
-    /// Computes the volume of the first three corners, with a separation if it is not zero.
+    /// Computes the volume of the first three corners, for pairs that must stay farther apart than `separation`.
     #[inline(always)]
     #[must_use]
-    pub fn new<const N: usize>(corners: &Corners<L, N>, separation: Option<L>) -> Self {
+    pub fn beyond<const N: usize>(corners: &Corners<L, N>, separation: &SeparationLanes<L>) -> Self {
+        let mut volume = Self::new(corners);
+        if let &[p, b, c, ..] = corners.ends.as_slice()
+            && separation.is_positive()
+        {
+            volume.normal = Normal::new(corners.extent, [p, b, c], separation.length());
+        }
+        volume
+    }
+
+    /// Computes the volume of the first three corners, for pairs that must not touch.
+    #[inline(always)]
+    #[must_use]
+    pub fn new<const N: usize>(corners: &Corners<L, N>) -> Self {
         let m = corners.extent;
         let &[p, b, c, ..] = corners.ends.as_slice() else {
             // There are at least three corners, and this value proves nothing.
             let (values, error) = ([m.x.splat(L::Scalar::ZERO); 4], m.x.splat(L::Scalar::INFINITY));
-            let normal = None;
+            let normal = Normal::zero(error);
             return Self { values, error, normal };
         };
         let [k0, k1, k2, k3] = MovingTetrahedron { b, c, p }.control_values().0;
@@ -75,21 +89,10 @@ impl<L: Lanes> SignedVolume<L> {
         let sixty_four = roundoffs(m.x, 64);
         let size = m.x.splat(L::Scalar::ONE) + m.largest();
         let error = sixty_four * permanent + m.x.splat(L::Scalar::UNDERFLOW) * (size * size);
-        let normal = separation.map(|separation| {
-            let [[p0, p1], [b0, b1], [c0, c1]] = [p, b, c];
-            let areas = (m.x * m.y + m.y * m.z) + m.z * m.x;
-            let (eight, vanishing) = (m.x.splat(L::Scalar::small(8)), m.x.splat(L::Scalar::LENGTH_UNDERFLOW));
-            Normal {
-                first: [p0 - b0, p1 - b1],
-                second: [p0 - c0, p1 - c1],
-                length_error: eight * sixty_four * areas + vanishing,
-                separation: separation * more_roundoffs(separation, 64),
-            }
-        });
         Self {
             values: [k0, k1 * third, k2 * third, k3],
             error,
-            normal,
+            normal: Normal::zero(error),
         }
     }
 
@@ -166,9 +169,10 @@ impl<L: Lanes> SignedVolume<L> {
     /// Returns the values that the control values on [`time`, 1] must exceed.
     #[inline(always)]
     fn bars_from(&self, time: L) -> [L; 4] {
-        let Some(normal) = &self.normal else {
+        let normal = &self.normal;
+        if !normal.is_positive {
             return [self.error; 4];
-        };
+        }
         let [m0, m1, m2] = normal.lengths_from(time);
         let (third, two) = (third(time), time.splat(L::Scalar::small(2)));
         [m0, (m0 + two * m1) * third, (two * m1 + m2) * third, m2]
@@ -177,6 +181,33 @@ impl<L: Lanes> SignedVolume<L> {
 }
 
 impl<L: Lanes> Normal<L> {
+    /// Computes the normal of three corners, of a pair with extent `m`.
+    #[inline(always)]
+    fn new(m: Vector<L>, [[p0, p1], [b0, b1], [c0, c1]]: [[Vector<L>; 2]; 3], separation: L) -> Self {
+        let areas = (m.x * m.y + m.y * m.z) + m.z * m.x;
+        let (eight, vanishing) = (m.x.splat(L::Scalar::small(8)), m.x.splat(L::Scalar::LENGTH_UNDERFLOW));
+        Self {
+            first: [p0 - b0, p1 - b1],
+            second: [p0 - c0, p1 - c1],
+            length_error: eight * roundoffs(m.x, 64) * areas + vanishing,
+            separation: separation * more_roundoffs(separation, 64),
+            is_positive: true,
+        }
+    }
+
+    #[inline(always)]
+    fn zero(like: L) -> Self {
+        let zero = like.splat(L::Scalar::ZERO);
+        let vector = Vector::new(zero, zero, zero);
+        Self {
+            first: [vector; 2],
+            second: [vector; 2],
+            length_error: zero,
+            separation: zero,
+            is_positive: false,
+        }
+    }
+
     /// Returns the lengths of the quadratic normal's control points on [`time`, 1], rounded.
     #[inline(always)]
     fn lengths_from(&self, time: L) -> [L; 3] {
@@ -275,13 +306,13 @@ fn is_positive_before<L: Lanes>([b0, b1, b2, b3]: [L; 4], time: L) -> L::Mask {
 /// A value on the bound is not beyond it.
 #[cfg(test)]
 mod tests {
-    use super::{SignedVolume, first_zero_of_hull, looking_ahead};
+    use super::{Normal, SignedVolume, first_zero_of_hull, looking_ahead};
 
     fn volume(values: [f64; 4], error: f64) -> SignedVolume<f64> {
         SignedVolume {
             values,
             error,
-            normal: None,
+            normal: Normal::zero(error),
         }
     }
 
