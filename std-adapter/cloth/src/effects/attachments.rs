@@ -81,7 +81,9 @@ impl AttachmentGroup {
         GIVE.check(self.give)?;
         match &self.motion {
             &PinMotion::Body(body) => check_body(body, world),
-            PinMotion::Own(motion @ BodyMotion::Keyframes(_)) => motion.check(self.vertices.len(), world.time_step),
+            PinMotion::Own(motion @ BodyMotion::Keyframes(_)) => {
+                motion.check(&world.positions_of(&self.vertices), world.time_step)
+            }
             PinMotion::Own(_) => {
                 let message =
                     "attachments follow keyframes or a body (`follow`), which may be driven; they cannot be driven themselves";

@@ -57,15 +57,16 @@ impl PinGroup {
             &PinMotion::Body(body) => {
                 check_body(body, world)?;
                 match &world.bodies[body].motion {
+                    BodyMotion::Keyframes(motion) => motion.check_speed(&world.positions_of(&self.vertices)),
                     BodyMotion::Animated(_) => {
                         let name = &world.bodies[body].name;
                         let message = format!("pins cannot follow '{name}', which deforms; give them a motion of their own");
                         Err(ValueError::new("follow", message))
                     }
-                    _ => Ok(()),
+                    BodyMotion::Driven(_) => Ok(()),
                 }
             }
-            PinMotion::Own(motion) => motion.check(self.vertices.len(), world.time_step),
+            PinMotion::Own(motion) => motion.check(&world.positions_of(&self.vertices), world.time_step),
         }
     }
 }

@@ -4,7 +4,8 @@
 //! their own move straight. If a step is cut or waits, they are on the way, and the next step starts from there.
 
 use super::animation::Animation;
-use super::motion::{BodyMotion, KeyframeMotion, Pose};
+use super::keyframes::KeyframeMotion;
+use super::motion::{BodyMotion, Pose};
 use super::placement::Placement;
 use selvedge_core::glam::DVec3;
 

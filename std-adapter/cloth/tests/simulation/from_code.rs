@@ -62,7 +62,8 @@ fn code_and_file_make_the_same_scene_to_the_last_bit() {
         translation: 0.02 * DVec3::Z,
     };
     let keyframes = vec![Keyframe::default(), later];
-    arm.motion = KeyframeMotion::new(0.1 * DVec3::Z, 2.0 * DVec3::Y, keyframes).unwrap().into();
+    let motion = KeyframeMotion::new(0.1 * DVec3::Z, 2.0 * DVec3::Y, keyframes).unwrap();
+    arm.motion = motion.interpolated(Interpolation::Smooth).into();
     scene.bodies.push(arm);
     // The order of these calls does not matter.
     scene.add(Friction { coefficient: 0.3 });

@@ -11,6 +11,7 @@ mod far_bodies;
 mod files;
 mod from_code;
 mod garments;
+mod keyframes;
 mod materials;
 mod paying_only;
 mod plastic_folds;
