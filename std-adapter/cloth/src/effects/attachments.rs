@@ -229,6 +229,17 @@ impl Memory for Holding {
         }
     }
 
+    fn held_by(&self) -> Vec<(u32, Option<u32>)> {
+        let held = self.0.iter().filter(|held| held.released.is_none());
+        held.map(|held| (held.vertex, held.anchor.vertex_of_body())).collect()
+    }
+
+    fn teleport(&mut self, is_moved: &[bool], to: &dyn Fn(DVec3) -> DVec3) {
+        for held in self.0.iter_mut().filter(|held| is_moved[held.vertex as usize]) {
+            held.last = to(held.last);
+        }
+    }
+
     fn released(&self) -> Vec<Release> {
         let released = |held: &Attachment| {
             held.released.map(|time| Release {

@@ -86,6 +86,12 @@ impl Pieces {
         }
     }
 
+    /// The vertices of each piece. A vertex that nothing connects is in none.
+    pub(super) fn vertices(&self) -> impl Iterator<Item = impl Iterator<Item = u32> + Clone> {
+        let pieces = self.pieces.iter();
+        pieces.map(|piece| piece.free.iter().chain(&piece.pinned).copied())
+    }
+
     /// Stores the positions before corrections, unless nothing is projected.
     pub(super) fn begin(&mut self, step: &TimeStep<'_>, positions: &[DVec3]) {
         self.before.clear();
@@ -117,7 +123,9 @@ pub(super) struct Outer<'a> {
 impl Pieces {
     /// Returns whether inner forces could change the momentum of a piece that touches nothing.
     pub(super) fn are_movable(&self, step: &TimeStep<'_>, is_pressed: &[bool]) -> bool {
-        self.pieces.iter().any(|piece| piece.is_free(is_pressed) && piece.hinge(step.start).is_some())
+        self.pieces
+            .iter()
+            .any(|piece| piece.is_free(is_pressed) && piece.hinge(step.start).is_some())
     }
 
     /// Gives each piece that touches nothing the momentum that forces from outside leave it.

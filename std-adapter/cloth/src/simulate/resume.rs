@@ -82,6 +82,7 @@ impl Simulation {
         }
         self.recall(&checkpoint.memories);
         self.state = checkpoint.state;
+        self.waiting = None;
         self.is_fresh = true;
         Ok(())
     }

@@ -27,10 +27,10 @@ pub use material::Material;
 pub use motion::BodyMotion;
 pub use placement::Placement;
 
+use crate::solve::Accuracy;
 pub(crate) use animation::FASTEST_VERTEX;
 pub(crate) use driven::{Driven, Kinematic};
 pub(crate) use file_mesh::FileNumbering;
-use crate::solve::Accuracy;
 pub use file_mesh::MeshInFiles;
 pub(crate) use incidence::Incidence;
 pub(crate) use keyframes::{KEY_TIME, check_key_time};
