@@ -154,7 +154,7 @@ fn a_teleport_takes_attached_cloth_and_named_cloths_along_and_leaves_the_others(
 #[test]
 fn a_teleport_that_cannot_be_is_an_error_and_changes_nothing() {
     let mut scene = cape();
-    let mut wall = Body::ball("wall", DVec3::new(5.0, 0.0, 0.0), 0.3, 16).unwrap();
+    let mut wall = Body::ball("wall", DVec3::new(5.0, 0.0, 0.0), 0.2, 16).unwrap();
     wall.motion = KeyframeMotion::resting().into();
     scene.bodies.push(wall);
     let mut simulation = Simulation::new(scene, 1).unwrap();
@@ -210,23 +210,24 @@ fn pressed() -> Scene {
 #[test]
 fn a_motion_that_stays_impossible_is_seldom_tried_and_changes_nothing() {
     let mut simulation = Simulation::new(pressed(), 1).unwrap();
-    while simulation.blocked_steps() == 0 {
+    // At first the pin creeps on.
+    while simulation.blocked_steps() < 50 {
         simulation.step().unwrap();
     }
     let (mut cuts, mut tried) = (simulation.contact_counts().unwrap().cuts, 0);
     let begin = simulation.blocked_steps();
     let pin = simulation.positions()[40];
-    for _ in 0..190 {
+    for _ in 0..100 {
         simulation.step().unwrap();
         let now = simulation.contact_counts().unwrap().cuts;
         tried += u32::from(now > cuts);
         cuts = now;
     }
-    assert_eq!(simulation.blocked_steps() - begin, 190, "each of them is counted");
+    assert_eq!(simulation.blocked_steps() - begin, 100, "each of them is counted");
     // Some are tried in parts at once, others with their shortest part, which is not cut.
-    assert!(tried < 20, "{tried} steps were tried in parts");
+    assert!(tried < 10, "{tried} steps were tried in parts");
     assert!(simulation.positions()[40].distance(pin) < 2e-3 && simulation.is_certified());
-    assert!(simulation.lag() > 0.15);
+    assert!(simulation.lag() > 0.1);
 }
 
 #[test]

@@ -85,7 +85,7 @@ fn a_turntable_at_a_steady_rate_is_one_line_and_carries_cloth_round() {
     // ω²r = 1.8 m/s² is less than µg, so the patch stays on its place of the table.
     let expected = DVec3::new(0.2 * 3.0_f64.cos(), 0.2 * 3.0_f64.sin(), centre(&simulation).z);
     let off = centre(&simulation).distance(expected);
-    assert!(off < 3e-3, "{off} m off");
+    assert!(off < 8e-3, "{off} m off");
 }
 
 #[test]
@@ -93,7 +93,7 @@ fn a_jump_in_keyframes_is_refused_with_the_line_the_body_the_time_and_the_speed(
     let scene = |motion: &str| {
         let text = format!(
             "[cloth]\nshape = \"sheet\"\ncorner = [0, 0, 0]\nsides = {{ first = [1, 0, 0], second = [0, 1, 0] }}\ncells = [2, 2]\n\
-             density = \"200 g/m2\"\n[[body]]\nname = \"ball\"\nshape = \"ball\"\ncentre = [0, 0, -1]\nradius = 0.1\n{motion}\n"
+             density = \"200 g/m2\"\n[[body]]\nname = \"ball\"\nshape = \"ball\"\ncentre = [0, 0, -1]\nradius = 0.1\n{motion}\n[effects]\n"
         );
         Scene::parse(&text, Path::new("scene.toml"))
             .map(drop)
