@@ -1,7 +1,12 @@
 #!/usr/bin/env bash
 # Runs fuzz targets one after the other, each for some minutes. Shows progress, and a table at the end.
 #
-#   fuzz/campaign.sh [MINUTES] [TARGET...]      every target for 30 minutes by default
+#   fuzz/campaign.sh [MINUTES] [TARGET...]                  every target for 30 minutes by default
+#   fuzz/campaign.sh --background HOURS [TARGET...]         so many hours in all, in the background of a working day
+#   fuzz/campaign.sh --record                               writes the totals of the record into README.md
+#
+# In the background all targets take turns of five minutes, at the lowest priority, so that each gets its share whenever it is stopped: kill the
+# number that it prints. Each turn adds a line to record.csv (date, target, executions, seconds of processor time, findings).
 #
 # Needs a nightly compiler; installs cargo-fuzz if it is missing. Interesting inputs are kept in $FUZZ_WORK (fuzz/campaign), and
 # the next campaign continues from them, so it may be stopped at any time. Inputs that break a promise go to
@@ -9,15 +14,53 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
-minutes=${1:-30}
-case $minutes in
-'' | *[!0-9]*)
-    echo "usage: campaign.sh [MINUTES] [TARGET...]" >&2
+usage() {
+    echo "usage: campaign.sh [MINUTES] [TARGET...], campaign.sh --background HOURS [TARGET...], or campaign.sh --record" >&2
     exit 2
+}
+
+work=${FUZZ_WORK:-$PWD/campaign}
+record=${FUZZ_RECORD:-$PWD/record.csv}
+
+# Writes the totals of the record between two marks of README.md.
+show_record() {
+    local readme=${FUZZ_README:-$PWD/README.md} table
+    table=$(awk -F, '
+        NR > 1 && NF == 5 { runs[$2] += $3; seconds[$2] += $4; found[$2] += $5; if ($1 > last[$2]) last[$2] = $1 }
+        END {
+            for (target in runs)
+                printf "| `%s` | %s | %.2f | %d | %s |\n", target, runs[target], seconds[target] / 3600, found[target], last[target]
+        }' "$record" | sort)
+    awk -v table="$table" '
+        /<!-- end of the record -->/ { inside = 0 }
+        !inside { print }
+        /<!-- record -->/ {
+            inside = 1
+            print "| target | executions | hours of processor time | findings | last run |\n|---|---|---|---|---|"
+            if (table != "") print table
+        }' "$readme" >"$readme.new"
+    # The file keeps its permissions.
+    cat "$readme.new" >"$readme" && rm "$readme.new"
+}
+
+case ${1:-30} in
+--record)
+    show_record
+    exit
     ;;
+--background)
+    hours=${2:-}
+    case $hours in '' | 0 | *[!0-9]*) usage ;; esac
+    shift 2
+    mkdir -p "$work"
+    FUZZ_HOURS=$hours nohup nice -n 19 "$PWD/campaign.sh" 5 "$@" >"$work/background.log" 2>&1 &
+    echo "$! runs for $hours h: see $work/background.log; kill $! stops it"
+    exit
+    ;;
+*[!0-9]*) usage ;;
+*) minutes=${1:-30} ;;
 esac
 shift || true
-work=${FUZZ_WORK:-$PWD/campaign}
 targets=("$@")
 if [ ${#targets[@]} -eq 0 ]; then
     for program in fuzz_targets/*.rs; do
@@ -48,7 +91,12 @@ statistic() { sed -n "s/^stat::$1: *//p" "$2" | tail -n 1; }
 
 table=$(printf '%-18s %8s %14s %10s %8s %s\n' target minutes executions 'a second' kept found)
 broken=0
-for target in "${targets[@]}"; do
+# In the background, as many turns as the hours have.
+[ -z "${FUZZ_HOURS:-}" ] || turns=$(((60 * FUZZ_HOURS + minutes - 1) / minutes))
+[ -n "${FUZZ_HOURS:-}" ] || turns=${#targets[@]}
+[ -e "$record" ] || echo "date,target,executions,seconds of processor time,findings" >"$record"
+for ((turn = 0; turn < turns; turn++)); do
+    target=${targets[turn % ${#targets[@]}]}
     log=$work/$target.log
     mkdir -p "$work/$target" "$work/$target.broken"
     kept=("$work/$target" "corpus/$target")
@@ -56,9 +104,13 @@ for target in "${targets[@]}"; do
     [ ! -d "regressions/$target" ] || kept+=("regressions/$target")
     # Files of other kinds in the zoo do no harm.
     case $target in obj | ply | stl | off | gltf) kept+=(../std-adapter/files/tests/zoo) ;; esac
-    # shellcheck disable=SC2046 # words on purpose
-    "$work/programs/$target" "${kept[@]}" $(options "$target") -max_total_time=$((60 * minutes)) \
-        -print_final_stats=1 -timeout=60 -artifact_prefix="$work/$target.broken/" >"$log" 2>&1 &
+    before=$(find "$work/$target.broken" -type f | wc -l)
+    {
+        TIMEFORMAT='%U %S'
+        # shellcheck disable=SC2046 # words on purpose
+        time "$work/programs/$target" "${kept[@]}" $(options "$target") -max_total_time=$((60 * minutes)) \
+            -print_final_stats=1 -timeout=60 -artifact_prefix="$work/$target.broken/" >"$log" 2>&1
+    } 2>"$work/$target.time" &
     run=$!
     begin=$SECONDS
     while kill -0 "$run" 2>/dev/null; do
@@ -78,7 +130,12 @@ for target in "${targets[@]}"; do
         "$(statistic number_of_executed_units "$log")" "$(statistic average_exec_per_sec "$log")" \
         "$(find "$work/$target" -type f | wc -l)" "$found")
     echo "$row" >&2
+    findings=$(($(find "$work/$target.broken" -type f | wc -l) - before))
+    executions=$(statistic number_of_executed_units "$log")
+    printf '%s,%s,%s,%s,%s\n' "$(date +%F)" "$target" "${executions:-0}" \
+        "$(awk '{ seconds = $1 + $2 } END { printf "%.0f", seconds }' "$work/$target.time")" "$findings" >>"$record"
     table+=$'\n'$row
 done
 echo "$table"
+show_record
 exit $broken

@@ -139,6 +139,31 @@ else
     echo "skipped: cmake or g++ is missing"
 fi
 
+say "a moved installation"
+moved=$folder/moved/here
+mkdir -p "$folder/moved" && mv "$prefix" "$moved"
+if is_there cmake && is_there g++; then
+    cmake -S tests/cmake -B "$folder/cmake-moved" -DCMAKE_PREFIX_PATH="$moved" >/dev/null
+    cmake --build "$folder/cmake-moved" >/dev/null
+    for program in frames-c-shared frames-cpp-static; do
+        { "$folder/cmake-moved/$program" "${frames[@]}" && "$folder/cmake-moved/$program" --float "${frames[@]}"; } >"$folder/output"
+        cmp "$printed" "$folder/output" || give_up "$program of a moved installation has different output"
+    done
+    echo "CMake, shared and static: passed"
+else
+    echo "skipped: cmake or g++ is missing"
+fi
+if is_there pkg-config && is_there gcc; then
+    export PKG_CONFIG_PATH=$moved/lib/pkgconfig LD_LIBRARY_PATH=$moved/lib
+    # shellcheck disable=SC2046 # words on purpose
+    try frames "$folder/output" gcc examples/frames.c $(pkg-config --define-prefix --cflags --libs selvedge)
+    # shellcheck disable=SC2046
+    try frames "$folder/output" gcc examples/frames.c $(pkg-config --define-prefix --cflags selvedge) "$moved/lib/libselvedge.a" \
+        $(pkg-config --define-prefix --static --libs-only-l selvedge | sed 's/-lselvedge//') -lm
+    echo "pkg-config, shared and static: passed"
+fi
+mv "$moved" "$prefix"
+
 make --no-print-directory uninstall PREFIX="$prefix"
 # An installation by root must not replace the null device by a file.
 [ -c /dev/null ] || give_up "/dev/null is no longer a device"

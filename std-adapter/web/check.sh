@@ -57,6 +57,11 @@ cp -r tests/bundle/. tests/types.mts tests/tsconfig.json "$work"
 tar -xzf "$out"/selvedge-0.1.0.tgz -C "$work/node_modules/selvedge" --strip-components 1
 ln -s "$PWD"/node_modules/{three,@types} "$work/node_modules/"
 node_modules/.bin/tsc --project "$work/tsconfig.json"
+cp tests/alone.mts "$work"
+for resolution in "nodenext --moduleResolution nodenext" "node16 --moduleResolution node16" "esnext --moduleResolution bundler"; do
+    # shellcheck disable=SC2086 # words on purpose
+    (cd "$work" && "$OLDPWD/node_modules/.bin/tsc" --noEmit --strict --target es2022 --lib es2022 --types "" --module $resolution alone.mts)
+done
 node_modules/.bin/vite build --logLevel warn "$work"
 
 say "the package in Node"

@@ -15,7 +15,7 @@ use bevy_time::{Fixed, Time};
 use bevy_transform::components::Transform;
 use selvedge::glam::{DMat3, DVec3};
 use selvedge_cloth::{
-    Body, BodyMotion, Cloth, FrameError, FrameSteps, Placement, Scene, Simulation, Tubes, ValueError, vertex_normals,
+    Body, BodyMotion, Cloth, FrameError, FrameSteps, Placement, Scene, Simulation, TeleportError, Tubes, ValueError, vertex_normals,
 };
 use std::collections::BTreeMap;
 
@@ -105,7 +105,7 @@ impl ClothSimulation {
     /// from the entity's place at the start.
     ///
     /// In a fixed step it moves to the place of the entity at a constant rate, and rotates the short way about the entity's
-    /// origin. If the entity loses its `Transform` or is despawned, the body stays where it is.
+    /// origin. An entity that jumps is a problem, and the cloth rests until it is back: call [`teleport`](Self::teleport). If the entity loses its `Transform` or is despawned, the body stays where it is.
     #[must_use]
     pub fn led_by(mut self, body: usize, entity: Entity) -> Self {
         self.leaders.insert(body, entity);
@@ -136,6 +136,21 @@ impl ClothSimulation {
             State::Planned(_) => None,
             State::Running(simulation) => Some(simulation),
             State::Ended(simulation) => simulation.as_deref_mut(),
+        }
+    }
+
+    /// Moves all bodies that [follow](Self::led_by) entities elsewhere at once, and with them the cloth that hangs on them and `cloths`, given by
+    /// their indices, such as a garment without pins. See [`Simulation::teleport`]. It does nothing before the simulation has started.
+    ///
+    /// Move the entities by the same `by` in the same fixed step: a body that has to follow faster than 100 m/s stays, and is reported.
+    ///
+    /// # Errors
+    /// Returns an error, and changes nothing, if something else holds the cloth, or there is no room.
+    pub fn teleport(&mut self, cloths: &[usize], by: Placement) -> Result<(), TeleportError> {
+        let bodies: Vec<usize> = self.leaders.keys().copied().collect();
+        match &mut self.state {
+            State::Running(simulation) => simulation.teleport(&bodies, cloths, by),
+            State::Planned(_) | State::Ended(_) => Ok(()),
         }
     }
 
@@ -305,6 +320,11 @@ impl ClothSimulation {
             Ok(FrameSteps { steps, needed }) if steps < needed => Err(SelvedgeError::ShortOfSteps { steps, needed }),
             Ok(_) => Ok(()),
             Err(FrameError::Seconds(error)) => Err(SelvedgeError::FixedStep(error)),
+            // The next fixed step may bring the entity back, or teleport the body.
+            Err(FrameError::Blocked(blocked)) if blocked.speed.is_some() => {
+                met.insert(Part::Whole, Err(SelvedgeError::TooFast(blocked)));
+                return;
+            }
             Err(FrameError::Blocked(blocked)) => {
                 met.insert(Part::Whole, Err(SelvedgeError::Blocked(blocked)));
                 if let State::Running(simulation) = std::mem::replace(&mut self.state, State::Ended(None)) {

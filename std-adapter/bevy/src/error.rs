@@ -45,6 +45,9 @@ pub enum SelvedgeError {
     /// A cloth cannot continue without an intersection, and its scene stops then; see `Scene::on_blocked`.
     #[error("the cloth stops: {0}")]
     Blocked(Blocked),
+    /// A body would have to follow its entity faster than 100 m/s. The cloth rests; see `ClothSimulation::teleport`.
+    #[error("the cloth rests: {0}")]
+    TooFast(Blocked),
     /// A followed body does not exist in the scene.
     #[error("there is no body {body}: the scene has {bodies}, numbered from 0")]
     NoBody {

@@ -269,7 +269,8 @@ selvedge_status selvedge_simulation_read(const char *path, size_t threads, struc
 
 /**
  * Runs one step. SELVEDGE_STATUS_BLOCKED means that no motion leaves the cloth free of intersections, in a scene that stops then. The
- * part of the step that was done remains, the message names the obstacle, and the state stays free of intersections.
+ * part of the step that was done remains, the message names the obstacle, and the state stays free of intersections. It also means
+ * that a body or pins were to move faster than 100 m/s, before anything moved; selvedge_simulation_teleport jumps.
  */
 selvedge_status selvedge_simulation_step(struct selvedge_simulation *simulation);
 
@@ -420,6 +421,25 @@ selvedge_status selvedge_simulation_mesh_in_files(struct selvedge_simulation *si
 selvedge_status selvedge_simulation_place_body(struct selvedge_simulation *simulation,
                                                size_t body,
                                                const selvedge_pose *placement);
+
+/**
+ * Moves driven bodies elsewhere at once, and with them their pins and the cloth that hangs on them, for a figure that teleports. No time
+ * passes, and nothing is swept on the way. `by` is applied to positions in the world: they are rotated about the origin, then translated.
+ * Velocities turn along. Cloth moves if it is pinned or attached to one of the bodies, or if it belongs to one of `cloths`, such as a garment
+ * without pins. Bodies and cloths have their numbers in the scene.
+ *
+ * On an error nothing has changed. SELVEDGE_STATUS_NOT_DRIVEN means that a body is not driven, or that something that stays holds the cloth as
+ * well, SELVEDGE_STATUS_BLOCKED that there is no room.
+ *
+ * The caller promises:
+ * `bodies` points to `body_count` numbers, `cloths` to `cloth_count`, `by` to one entry. Lists may be NULL if they have no entry.
+ */
+selvedge_status selvedge_simulation_teleport(struct selvedge_simulation *simulation,
+                                             const size_t *bodies,
+                                             size_t body_count,
+                                             const size_t *cloths,
+                                             size_t cloth_count,
+                                             const selvedge_pose *by);
 
 /**
  * Returns the current placement of a driven body. `*is_known` is false for other bodies and for one that was moved vertex by vertex;

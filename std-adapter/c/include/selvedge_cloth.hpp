@@ -157,6 +157,12 @@ class simulation {
     return is_known ? std::optional<selvedge_pose>(placement) : std::nullopt;
   }
 
+  /// Moves driven bodies, their pins and the cloth that hangs on them, and other cloths, elsewhere at once, without a step. `by` is applied to
+  /// positions in the world.
+  void teleport(const std::vector<std::size_t> &bodies, const selvedge_pose &by, const std::vector<std::size_t> &cloths = {}) {
+    check(selvedge_simulation_teleport(get(), bodies.data(), bodies.size(), cloths.data(), cloths.size(), &by));
+  }
+
   /// Moves each vertex of a driven body straight to a position in the next step.
   void move_body(std::size_t body, triples<double> positions) {
     check(selvedge_simulation_move_body(get(), body, positions.data(), positions.size()));

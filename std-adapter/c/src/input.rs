@@ -10,6 +10,7 @@ use std::slice;
 pub(crate) trait Plain: Copy {}
 impl Plain for u8 {}
 impl Plain for u32 {}
+impl Plain for usize {}
 impl Plain for f32 {}
 impl Plain for f64 {}
 impl<T: Plain, const N: usize> Plain for [T; N] {}

@@ -59,10 +59,12 @@ pub use selvedge_core::glam;
 pub use selvedge_files as files;
 pub use simulate::{
     Blocked, CHECKPOINT_STEPS, CheckpointError, DriveError, EdgeStretch, EffectTime, FASTEST, FrameError, FrameSteps, SetupError,
-    Simulation, Tangled, Untangled, UntanglingEnd, UntanglingProgress,
+    Simulation, Tangled, TeleportError, Untangled, UntanglingEnd, UntanglingProgress,
 };
 pub use solve::{Accuracy, SolveCounts};
-pub use world::{Animation, Body, BodyMotion, Cloth, Keyframe, KeyframeMotion, Material, MeshInFiles, Placement, sleeve};
+pub use world::{
+    Animation, Body, BodyMotion, Cloth, Interpolation, Keyframe, KeyframeMotion, Material, MeshInFiles, Placement, sleeve,
+};
 
 /// The scene of the paper's sleeve on a bending arm, as text for [`Scene::parse`].
 pub const ARM_SLEEVE: &str = include_str!("../scenes/arm-sleeve.toml");

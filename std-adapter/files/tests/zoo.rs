@@ -2,7 +2,9 @@
 //! face is reported.
 
 mod nonsense;
+mod random;
 
+use random::Numbers;
 use selvedge::CollisionDetector;
 use selvedge_files::mesh::{FileFormat, Findings, LooseMesh, ReadOptions, read_bytes, read_bytes_with, write_bytes};
 use std::path::{Path, PathBuf};
@@ -127,19 +129,6 @@ fn what_is_read_written_and_read_again_is_the_same_mesh() {
 /// The number of times that each file is damaged: more than a hundred thousand in all.
 const DAMAGED: usize = 500;
 
-/// A generator of reproducible pseudo-random numbers.
-struct Numbers(u64);
-
-impl Numbers {
-    fn below(&mut self, limit: usize) -> usize {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        ((self.0 >> 33) as usize) % limit.max(1)
-    }
-}
-
 /// Changes bytes, drops or doubles a line, or cuts the end off.
 fn damage(bytes: &[u8], numbers: &mut Numbers) -> Vec<u8> {
     let mut damaged = bytes.to_vec();
@@ -177,7 +166,8 @@ fn damage(bytes: &[u8], numbers: &mut Numbers) -> Vec<u8> {
 /// The least number of faces, edges and points that were read of a file, counted in another way than the readers count: by lines, and by the
 /// size of binary STL. `None`: they are not counted.
 fn least_count(bytes: &[u8], format: FileFormat, mesh: &LooseMesh) -> Option<usize> {
-    if format == FileFormat::Stl && !starts_with_word(bytes, "facet") {
+    let has_facets = || bytes.windows(5).any(|word| word.eq_ignore_ascii_case(b"facet"));
+    if format == FileFormat::Stl && !has_facets() {
         let triangles = bytes.get(84..)?.chunks_exact(50);
         return Some(triangles.filter(|triangle| triangle.iter().any(|&byte| byte != 0)).count());
     }
@@ -195,11 +185,19 @@ fn least_count(bytes: &[u8], format: FileFormat, mesh: &LooseMesh) -> Option<usi
     let besides = mesh.positions.len() + left_out;
     match format {
         FileFormat::Obj if !text.contains('\\') => Some(count(&["f", "fo"])),
-        FileFormat::Stl if !text.contains('\0') => Some(count(&["facet"])),
+        FileFormat::Stl if !text.contains('\0') => {
+            let words = lines().flat_map(str::split_ascii_whitespace);
+            Some(words.filter(|word| word.eq_ignore_ascii_case("endloop")).count())
+        }
         FileFormat::Off => {
-            let mut content = lines().filter(|line| !line.is_empty());
-            let has_counts = content.next()?.contains(|c: char| c.is_ascii_digit());
-            (content.count() + usize::from(has_counts)).checked_sub(1 + besides)
+            // A face that is not read is reported, or its words follow the last one, which is reported as well.
+            let content: String = lines().map(|line| format!("{line} ")).collect();
+            let counts = content
+                .trim_start_matches('\u{feff}')
+                .trim_start()
+                .trim_start_matches(|c: char| c.is_ascii_alphabetic());
+            let faces: usize = counts.split_ascii_whitespace().nth(1)?.parse().ok()?;
+            faces.checked_sub(left_out)
         }
         FileFormat::Ply(_) if text.contains("format ascii") && !text.contains("tristrips") && !text.contains('\0') => {
             let body = text.split_once("end_header")?.1.split(['\n', '\r']);

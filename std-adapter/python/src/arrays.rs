@@ -1,7 +1,7 @@
 //! Borrows the caller's arrays if their layout fits; `selvedge/_arrays.py` converts the others.
 
 use crate::errors::{self, InputError};
-use numpy::{Element, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
+use numpy::{Element, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyModule;
@@ -18,6 +18,10 @@ pub(crate) struct Rows<'py, T: Element, const N: usize>(PyReadonlyArray2<'py, T>
 impl<'py, T: Element, const N: usize> Rows<'py, T, N> {
     /// Returns the array if it is aligned, in C order and native byte order, and has `N` columns.
     fn as_it_is(value: &Bound<'py, PyAny>) -> Option<Self> {
+        // A subclass may mean something else by its numbers, as masked arrays do.
+        if !value.is_exact_instance_of::<PyUntypedArray>() {
+            return None;
+        }
         let array = value.cast::<PyArray2<T>>().ok()?;
         let fits = array.is_c_contiguous() && array.shape()[1] == N;
         let array = fits.then(|| array.try_readonly().ok())??;

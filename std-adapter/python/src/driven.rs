@@ -5,7 +5,7 @@ use crate::errors::InputError;
 use pyo3::prelude::*;
 use selvedge_cloth::glam::DVec3;
 
-/// A body, by its name or by its index.
+/// A body or a cloth, by its name or by its index.
 #[derive(FromPyObject)]
 pub(crate) enum Body {
     Name(String),
@@ -14,14 +14,22 @@ pub(crate) enum Body {
 
 impl Body {
     pub(crate) fn index(&self, simulation: &selvedge_cloth::Simulation) -> PyResult<usize> {
-        let names = simulation.body_names();
+        self.among(simulation.body_names(), "body")
+    }
+
+    /// Returns the index of the cloth that it names.
+    pub(crate) fn index_of_cloth(&self, simulation: &selvedge_cloth::Simulation) -> PyResult<usize> {
+        self.among(simulation.cloth_names(), "cloth")
+    }
+
+    fn among(&self, names: &[String], kind: &str) -> PyResult<usize> {
         let found = match self {
             Self::Name(name) => names.iter().position(|known| known == name),
             Self::Index(index) => (*index < names.len()).then_some(*index),
         };
         found.ok_or_else(|| match self {
-            Self::Name(name) => InputError::new_err(format!("there is no body '{name}'; the scene has {names:?}")),
-            Self::Index(index) => InputError::new_err(format!("there is no body {index}; the scene has {}", names.len())),
+            Self::Name(name) => InputError::new_err(format!("there is no {kind} '{name}'; the scene has {names:?}")),
+            Self::Index(index) => InputError::new_err(format!("there is no {kind} {index}; the scene has {}", names.len())),
         })
     }
 }

@@ -4,7 +4,7 @@ use crate::answers::{show_crossings, show_untangled};
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use selvedge::{StepError, ThreadError, TopologyError};
-use selvedge_cloth::{DriveError, SetupError};
+use selvedge_cloth::{DriveError, SetupError, TeleportError};
 
 macro_rules! exceptions {
     ($($name:ident),*) => { $(pyo3::import_exception!(selvedge.errors, $name);)* };
@@ -72,6 +72,13 @@ pub(crate) fn of_setup(py: Python<'_>, error: &SetupError) -> PyErr {
 
 pub(crate) fn of_scene(error: &selvedge_cloth::SceneError) -> PyErr {
     SceneError::new_err(error.to_string())
+}
+
+pub(crate) fn of_teleport(error: &TeleportError) -> PyErr {
+    match error {
+        TeleportError::NoRoom { .. } => BlockedError::new_err(error.to_string()),
+        error => InputError::new_err(error.to_string()),
+    }
 }
 
 pub(crate) fn of_driving(error: &DriveError) -> PyErr {

@@ -248,6 +248,19 @@ impl Simulation {
             .map_err(|error| errors::of_driving(&error))
     }
 
+    #[pyo3(signature = (bodies, translation=[0.0; 3], rotation=[0.0, 0.0, 0.0, 1.0], *, cloths=Vec::new()))]
+    fn teleport(&self, bodies: Vec<Body>, translation: [f64; 3], rotation: [f64; 4], cloths: Vec<Body>) -> PyResult<()> {
+        let mut simulation = self.simulation()?;
+        let bodies: Vec<usize> = bodies.iter().map(|body| body.index(&simulation)).collect::<PyResult<_>>()?;
+        let cloths: Vec<usize> = cloths.iter().map(|cloth| cloth.index_of_cloth(&simulation)).collect::<PyResult<_>>()?;
+        let by = Placement {
+            rotation: DQuat::from_array(rotation),
+            translation: translation.into(),
+        };
+        let teleported = simulation.teleport(&bodies, &cloths, by);
+        teleported.map_err(|error| errors::of_teleport(&error))
+    }
+
     fn placement(&self, body: Body) -> PyResult<Option<([f64; 3], [f64; 4])>> {
         let simulation = self.simulation()?;
         let placement = simulation.placement(body.index(&simulation)?);

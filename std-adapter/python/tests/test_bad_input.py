@@ -220,3 +220,11 @@ def test_ipc_says_what_it_does_not_have():
         ipc.CollisionMesh(START, [[0, 1]], FACES)
     with pytest.raises(errors.DataTypeError, match="CollisionMesh"):
         ipc.has_intersections(START, START)
+
+
+def test_masked_arrays_are_refused_since_masked_entries_have_no_value():
+    masked = np.ma.masked_array(START, mask=START > 1)
+    with pytest.raises(errors.InputError, match="start: this is a masked array"):
+        Detector(FACES, 6).contacts(masked, START)
+    with pytest.raises(errors.InputError, match="faces: this is a masked array"):
+        Detector(np.ma.masked_array(FACES, mask=[[0, 0, 1], [0, 0, 0]]), 6)

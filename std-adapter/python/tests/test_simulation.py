@@ -208,6 +208,22 @@ def test_bodies_pins_and_wind_go_where_python_leads_them():
     np.testing.assert_array_equal(simulation.positions[ball], (turned * 1.01).astype(np.float32))
 
 
+def test_a_body_that_jumps_is_refused_and_a_teleport_takes_the_cloth_along():
+    simulation = Simulation.from_dict(over_a_ball())
+    simulation.step(5)
+    before = simulation.positions.copy()
+    simulation.place_body("ball", [50, 0, 0])
+    with pytest.raises(errors.BlockedError, match="the body 'ball' is to move at 25000 m/s at 0.01"):
+        simulation.step()
+    np.testing.assert_array_equal(simulation.positions, before)
+    with pytest.raises(errors.InputError, match="no cloth 'cape'"):
+        simulation.teleport(["ball"], [50, 0, 0], cloths=["cape"])
+    simulation.teleport(["ball"], [50, 0, 0], cloths=["cloth"])
+    np.testing.assert_allclose(simulation.positions, before + [50, 0, 0], atol=1e-12)
+    simulation.step(5)
+    assert simulation.is_certified and np.linalg.norm(simulation.velocities, axis=1).max() < 1
+
+
 def test_near_pairs_say_where_the_cloth_nearly_touches():
     simulation = Simulation.from_dict(over_a_ball())
     assert len(simulation.near_pairs) == 0

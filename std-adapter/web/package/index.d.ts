@@ -1,8 +1,10 @@
+import type { ModuleSource } from "./load.js";
+
 export * from "./cloth/selvedge.js";
 
 /**
- * Loads the WebAssembly module. Call it once, before anything else.
+ * Loads the WebAssembly module. Call it once, before anything else: calls before it throw an `InputError`.
  *
  * `source`: where the module comes from, if not from beside this file: a URL, a response, its bytes, or a compiled module.
  */
-export function load(source?: URL | Response | BufferSource | WebAssembly.Module): Promise<void>;
+export function load(source?: ModuleSource): Promise<void>;

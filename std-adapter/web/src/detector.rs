@@ -1,15 +1,16 @@
 //! The class `Detector`.
 
+use crate::numbers::{Flags, Number, WholeNumbers, check_names, flags, large, number, optional, setting, whole, wholes};
 use crate::values::{
     Exception, Frame, Positions, array, floats, get, kind_number, object, rows_of, set, take_positions, view, whole_numbers,
 };
-use js_sys::{Float64Array, Uint8Array, Uint32Array};
+use js_sys::{Float64Array, Uint8Array};
 use selvedge::{
     CandidateBoxes, CollisionDetector, CollisionFilter, Contact, ContactGeometry, Criterion, Groups, Intersection, Topology,
 };
 use selvedge_core::elementary::Limits;
 use selvedge_core::glam::DVec3;
-use wasm_bindgen::{JsCast, JsValue, prelude::wasm_bindgen};
+use wasm_bindgen::{JsValue, prelude::wasm_bindgen};
 
 /// Finds the contacts of a moving triangle mesh, one step after another, and never misses one.
 ///
@@ -31,15 +32,17 @@ impl Detector {
     /// Throws an `InputError` if there is no primitive or one names a vertex that does not exist.
     #[wasm_bindgen(constructor)]
     pub fn new(
-        #[wasm_bindgen(js_name = vertexCount)] vertex_count: u32,
-        triangles: &[u32],
-        #[wasm_bindgen(js_name = looseEdges)] loose_edges: Option<Vec<u32>>,
-        #[wasm_bindgen(js_name = loosePoints)] loose_points: Option<Vec<u32>>,
+        #[wasm_bindgen(js_name = vertexCount)] vertex_count: &Number,
+        triangles: &WholeNumbers,
+        #[wasm_bindgen(js_name = looseEdges)] loose_edges: Option<WholeNumbers>,
+        #[wasm_bindgen(js_name = loosePoints)] loose_points: Option<WholeNumbers>,
     ) -> Result<Detector, Exception> {
-        let edges = rows_of(&loose_edges.unwrap_or_default(), "looseEdges")?;
-        let triangles = rows_of(triangles, "triangles")?;
-        let points = loose_points.unwrap_or_default();
-        let topology = Topology::with_loose_features(vertex_count as usize, triangles, &edges, &points);
+        let vertex_count = whole(vertex_count, "vertexCount")? as usize;
+        let list = |list: Option<WholeNumbers>, name| list.map_or_else(|| Ok(Vec::new()), |list| wholes(&list, name));
+        let triangles = rows_of(&wholes(triangles, "triangles")?, "triangles")?;
+        let edges = rows_of(&list(loose_edges, "looseEdges")?, "looseEdges")?;
+        let points = list(loose_points, "loosePoints")?;
+        let topology = Topology::with_loose_features(vertex_count, triangles, &edges, &points);
         let topology = topology.map_err(|error| Exception::input(&error))?;
         Ok(Self {
             start: vec![[0.0; 3]; topology.vertex_count()],
@@ -118,7 +121,8 @@ impl Detector {
 
     /// Finds all pairs of a mesh at rest within a distance, with their closest points. None is missed.
     #[wasm_bindgen(unchecked_return_type = "Contacts")]
-    pub fn near(&mut self, positions: &Positions, distance: f64) -> Result<JsValue, Exception> {
+    pub fn near(&mut self, positions: &Positions, distance: &Number) -> Result<JsValue, Exception> {
+        let distance = number(distance, "distance")?;
         take_positions(positions, "positions", &mut self.start)?;
         self.detector.near(&self.start, distance, &mut self.geometries)?;
         let contact = |near: &ContactGeometry| Contact {
@@ -175,9 +179,9 @@ impl Detector {
     /// Sets what counts as a contact.
     #[wasm_bindgen(js_name = setLimits)]
     pub fn set_limits(&mut self, #[wasm_bindgen(unchecked_param_type = "Limits")] limits: &JsValue) -> Result<(), Exception> {
-        let number = |name| get(limits, name).and_then(|value| value.as_f64());
-        let tolerance = number("tolerance").unwrap_or(Limits::<f64>::default().tolerance);
-        let separation = number("separation").unwrap_or(0.0);
+        check_names(limits, "limits", &["separation", "tolerance", "touching"])?;
+        let tolerance = setting(limits, "tolerance")?.unwrap_or(Limits::<f64>::default().tolerance);
+        let separation = setting(limits, "separation")?.unwrap_or(0.0);
         let touching = get(limits, "touching").is_some_and(|value| value.is_truthy());
         let criterion = match (touching, separation == 0.0) {
             (true, true) => Criterion::Touching { tolerance },
@@ -189,8 +193,8 @@ impl Detector {
 
     /// Names the moving vertices by a number that is not zero. Without an argument all vertices move.
     #[wasm_bindgen(js_name = setMoving)]
-    pub fn set_moving(&mut self, moving: Option<Vec<u8>>) -> Result<(), Exception> {
-        let moving: Option<Vec<bool>> = moving.map(|moving| moving.iter().map(|&moves| moves != 0).collect());
+    pub fn set_moving(&mut self, moving: Option<Flags>) -> Result<(), Exception> {
+        let moving = moving.map(|moving| flags(&moving, "moving")).transpose()?;
         Ok(self.detector.set_moving(moving.as_deref())?)
     }
 
@@ -200,13 +204,8 @@ impl Detector {
         &mut self,
         #[wasm_bindgen(unchecked_param_type = "CollisionFilter")] filter: &JsValue,
     ) -> Result<(), Exception> {
-        let list = |name: &str| match get(filter, name) {
-            None => Ok(None),
-            Some(list) => {
-                let list = list.dyn_ref().map(Uint32Array::to_vec).map(Some);
-                list.ok_or_else(|| Exception::input(&format!("{name} must be a Uint32Array")))
-            }
-        };
+        check_names(filter, "filter", &["groups", "patches", "excluded"])?;
+        let list = |name: &str| get(filter, name).map(|list| wholes(&list, name)).transpose();
         let mut made = CollisionFilter::new();
         if let Some(groups) = list("groups")? {
             let rows = rows_of::<2>(&groups, "groups")?.into_iter();
@@ -229,14 +228,16 @@ impl Detector {
 
     /// Limits the pairs that a step may look at; more throw a `TooManyPairsError`. Without an argument there is no limit.
     #[wasm_bindgen(js_name = setPairLimit)]
-    pub fn set_pair_limit(&mut self, limit: Option<f64>) {
-        self.detector.set_pair_limit(limit.map(|limit| limit as u64));
+    pub fn set_pair_limit(&mut self, limit: Option<Number>) -> Result<(), Exception> {
+        self.detector.set_pair_limit(optional(limit.as_ref(), "limit", large)?);
+        Ok(())
     }
 
     /// Limits the memory of pairs and contacts, in bytes; a step that needs more throws a `TooMuchMemoryError`.
     #[wasm_bindgen(js_name = setMemoryLimit)]
-    pub fn set_memory_limit(&mut self, limit: Option<f64>) {
-        self.detector.set_memory_limit(limit.map(|limit| limit as u64));
+    pub fn set_memory_limit(&mut self, limit: Option<Number>) -> Result<(), Exception> {
+        self.detector.set_memory_limit(optional(limit.as_ref(), "limit", large)?);
+        Ok(())
     }
 
     /// The counts of the last step.

@@ -7,6 +7,7 @@
 //! object, and as long as the memory does not grow. Read, draw or copy it at once. All other arrays are the caller's own.
 
 mod detector;
+mod numbers;
 mod pair;
 
 #[cfg(feature = "page")]

@@ -1,5 +1,6 @@
 //! Functions of one pair.
 
+use crate::numbers::{Number, number, optional};
 use crate::values::{Exception, Positions, floats, kind_of, object, take_positions};
 use selvedge_core::elementary::{ContactVerdict, Impact, Limits, Reason, advance, contact};
 use selvedge_core::filter::{Filter, Tier};
@@ -35,9 +36,11 @@ pub fn time_of_impact(
     #[wasm_bindgen(unchecked_param_type = "PairKind")] kind: &str,
     start: &Positions,
     end: &Positions,
-    separation: Option<f64>,
-    tolerance: Option<f64>,
+    separation: Option<Number>,
+    tolerance: Option<Number>,
 ) -> Result<Option<f64>, Exception> {
+    let separation = optional(separation.as_ref(), "separation", number)?;
+    let tolerance = optional(tolerance.as_ref(), "tolerance", number)?;
     let impact = advance::time_of_impact(&pair_of(kind, start, end)?, &limits(separation, tolerance));
     Ok(impact.time())
 }

@@ -1,5 +1,6 @@
 //! Scenes and mesh files that come from JavaScript.
 
+use crate::numbers::Bytes;
 use crate::values::{Exception, Files, array, floats, object, whole_numbers};
 use js_sys::{Array, Object, Uint8Array};
 use selvedge_cloth::Scene;
@@ -41,11 +42,12 @@ pub fn effect_names(text: &str, files: &Files) -> Result<Vec<String>, Exception>
 
 /// Reads a mesh file: OBJ, PLY, STL, OFF or glTF, as its name says. Throws a `MeshError` that names the place.
 #[wasm_bindgen(js_name = readMesh, unchecked_return_type = "{ positions: Float64Array; triangles: Uint32Array }")]
-pub fn read_mesh(name: &str, bytes: &[u8]) -> Result<JsValue, Exception> {
+pub fn read_mesh(name: &str, bytes: &Bytes) -> Result<JsValue, Exception> {
     let error = |words: &dyn ToString| Exception::new("MeshError", &format!("{name}: {}", words.to_string()));
     let format = FileFormat::from_path(Path::new(name))
         .ok_or_else(|| error(&"its ending must be .obj, .ply, .stl, .off, .glb or .gltf"))?;
-    let mesh = read_bytes(bytes, format).map_err(|problem| error(&problem))?.mesh;
+    let bytes = crate::numbers::bytes(bytes, "bytes")?;
+    let mesh = read_bytes(&bytes, format).map_err(|problem| error(&problem))?.mesh;
     let positions: Vec<f64> = mesh.positions.iter().flat_map(|position| position.to_array()).collect();
     let properties = [
         ("positions", floats(&positions)),

@@ -1,5 +1,6 @@
 //! The class `Simulation`.
 
+use crate::numbers::{Bytes, Number, Numbers, WholeNumbers, bytes, number, numbers, optional, whole, wholes};
 use crate::scene::{range, scene_of};
 use crate::values::{Exception, Files, Positions, floats, object, take_positions, view, whole_numbers};
 use js_sys::Float64Array;
@@ -45,7 +46,8 @@ impl Simulation {
 
     /// Runs steps. Throws a `BlockedError` if bodies or pins force the cloth where it cannot go and the scene stops then; the steps before
     /// it remain.
-    pub fn step(&mut self, count: Option<u32>) -> Result<(), Exception> {
+    pub fn step(&mut self, count: Option<Number>) -> Result<(), Exception> {
+        let count = optional(count.as_ref(), "count", whole)?;
         for _ in 0..count.unwrap_or(1) {
             self.cloth.step()?;
         }
@@ -54,7 +56,9 @@ impl Simulation {
 
     /// Lets seconds pass, in as many steps as the cloth needs, and at most `most` (default 64). Returns both numbers.
     #[wasm_bindgen(unchecked_return_type = "{ steps: number; needed: number }")]
-    pub fn advance(&mut self, seconds: f64, most: Option<u32>) -> Result<JsValue, Exception> {
+    pub fn advance(&mut self, seconds: &Number, most: Option<Number>) -> Result<JsValue, Exception> {
+        let most = optional(most.as_ref(), "most", whole)?;
+        let seconds = number(seconds, "seconds")?;
         let frame = self.cloth.advance_within(seconds, most.unwrap_or(64));
         let frame = frame.map_err(|error| match error {
             FrameError::Blocked(blocked) => blocked.into(),
@@ -237,12 +241,28 @@ impl Simulation {
 
     /// Moves a driven body in the next step: its mesh in the scene is rotated by a quaternion (x, y, z, w) and then translated.
     #[wasm_bindgen(js_name = placeBody)]
-    pub fn place_body(&mut self, body: &str, translation: &[f64], rotation: Option<Vec<f64>>) -> Result<(), Exception> {
-        let rotation = rotation.unwrap_or_else(|| DQuat::IDENTITY.to_array().to_vec());
-        let rotation = <[f64; 4]>::try_from(rotation).map_err(|_| Exception::input(&"rotation must have four numbers"))?;
-        let placement = Placement::new(DQuat::from_array(rotation), vector(translation, "translation")?);
-        let body = self.body(body)?;
+    pub fn place_body(&mut self, body: &str, translation: &Numbers, rotation: Option<Numbers>) -> Result<(), Exception> {
+        let (body, placement) = (self.body(body)?, placement(translation, rotation)?);
         Ok(self.cloth.place_body(body, placement)?)
+    }
+
+    /// Moves driven bodies, their pins and the cloth that hangs on them elsewhere at once, without a step: positions in the world are rotated by
+    /// a quaternion (x, y, z, w), and then translated. `cloths` names further cloths that move along, such as a garment without pins.
+    ///
+    /// Throws an `InputError`, and changes nothing, if something else holds the cloth or there is no room.
+    pub fn teleport(
+        &mut self,
+        bodies: Vec<String>,
+        translation: &Numbers,
+        rotation: Option<Numbers>,
+        cloths: Option<Vec<String>>,
+    ) -> Result<(), Exception> {
+        let by = placement(translation, rotation)?;
+        let bodies: Vec<usize> = bodies.iter().map(|name| self.body(name)).collect::<Result<_, _>>()?;
+        let cloths = cloths.unwrap_or_default();
+        let cloths: Vec<usize> = cloths.iter().map(|name| self.cloth(name)).collect::<Result<_, _>>()?;
+        let teleported = self.cloth.teleport(&bodies, &cloths, by);
+        teleported.map_err(|error| Exception::input(&error))
     }
 
     /// Moves each vertex of a driven body straight to a position in the next step.
@@ -254,20 +274,22 @@ impl Simulation {
 
     /// Moves each vertex of a driven group of pins, given by its index, in the next step.
     #[wasm_bindgen(js_name = movePins)]
-    pub fn move_pins(&mut self, group: usize, positions: &Positions) -> Result<(), Exception> {
+    pub fn move_pins(&mut self, group: &Number, positions: &Positions) -> Result<(), Exception> {
+        let group = whole(group, "group")? as usize;
         Ok(self.cloth.move_pins(group, &vectors(positions)?)?)
     }
 
     /// Sets the velocity of the scene's wind from now on, in m/s.
     #[wasm_bindgen(js_name = setWind)]
-    pub fn set_wind(&mut self, velocity: &[f64]) -> Result<(), Exception> {
+    pub fn set_wind(&mut self, velocity: &Numbers) -> Result<(), Exception> {
         Ok(self.cloth.set_wind(vector(velocity, "velocity")?)?)
     }
 
     /// Sets the velocity, in m/s, with which vertices of cloth start the next step, as if a hand pulled them.
     #[wasm_bindgen(js_name = setVelocity)]
-    pub fn set_velocity(&mut self, vertices: &[u32], velocity: &[f64]) -> Result<(), Exception> {
-        Ok(self.cloth.set_velocity(vertices, vector(velocity, "velocity")?)?)
+    pub fn set_velocity(&mut self, vertices: &WholeNumbers, velocity: &Numbers) -> Result<(), Exception> {
+        let vertices = wholes(vertices, "vertices")?;
+        Ok(self.cloth.set_velocity(&vertices, vector(velocity, "velocity")?)?)
     }
 
     /// Returns the state as bytes after every 200th step; undefined in between.
@@ -277,8 +299,8 @@ impl Simulation {
     }
 
     /// Continues from a checkpoint of the same scene, with the same bits as an uninterrupted simulation.
-    pub fn resume(&mut self, checkpoint: &[u8]) -> Result<(), Exception> {
-        let resumed = self.cloth.resume(checkpoint);
+    pub fn resume(&mut self, checkpoint: &Bytes) -> Result<(), Exception> {
+        let resumed = self.cloth.resume(&bytes(checkpoint, "checkpoint")?);
         resumed.map_err(|error| Exception::new("CheckpointError", &error))
     }
 
@@ -286,6 +308,12 @@ impl Simulation {
         let names = self.cloth.body_names();
         let found = names.iter().position(|known| known == name);
         found.ok_or_else(|| Exception::input(&format!("there is no body '{name}'; the scene has {names:?}")))
+    }
+
+    fn cloth(&self, name: &str) -> Result<usize, Exception> {
+        let names = self.cloth.cloth_names();
+        let found = names.iter().position(|known| known == name);
+        found.ok_or_else(|| Exception::input(&format!("there is no cloth '{name}'; the scene has {names:?}")))
     }
 }
 
@@ -305,8 +333,20 @@ fn by_name<'a>(values: impl IntoIterator<Item = (&'a str, f64)>) -> JsValue {
     object(values.into_iter().map(|(name, value)| (name, value.into()))).into()
 }
 
-fn vector(values: &[f64], name: &str) -> Result<DVec3, Exception> {
-    let values = <[f64; 3]>::try_from(values).map_err(|_| Exception::input(&format!("{name} must have three numbers")))?;
+/// Returns a placement: without a rotation if that is left out.
+fn placement(translation: &Numbers, rotation: Option<Numbers>) -> Result<Placement, Exception> {
+    let rotation = match rotation {
+        None => DQuat::IDENTITY,
+        Some(rotation) => {
+            let rotation = <[f64; 4]>::try_from(numbers(&rotation, "rotation")?);
+            DQuat::from_array(rotation.map_err(|_| Exception::input(&"rotation must have four numbers"))?)
+        }
+    };
+    Ok(Placement::new(rotation, vector(translation, "translation")?))
+}
+
+fn vector(values: &Numbers, name: &str) -> Result<DVec3, Exception> {
+    let values = <[f64; 3]>::try_from(numbers(values, name)?).map_err(|_| Exception::input(&format!("{name} must have three numbers")))?;
     Ok(values.into())
 }
 

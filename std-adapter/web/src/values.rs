@@ -1,5 +1,6 @@
 //! Conversion of values to JavaScript and back.
 
+use crate::numbers::numbers;
 use js_sys::{Error, Float64Array, Object, Reflect, Uint32Array, WebAssembly};
 use selvedge::StepError;
 use selvedge_core::PairKind;
@@ -86,17 +87,23 @@ pub(crate) fn view(address: usize, rows: usize) -> Float64Array {
 
 /// Copies positions of any number format into `rows`.
 pub(crate) fn take_positions(positions: &JsValue, name: &str, rows: &mut Vec<[f64; 3]>) -> Result<(), Exception> {
-    let error = |words: &str| Exception::input(&format!("{name}: {words}"));
-    let length = get(positions, "length").and_then(|length| length.as_f64());
-    let length = length.ok_or_else(|| error("positions must be an array of numbers"))? as usize;
-    if !length.is_multiple_of(3) {
-        return Err(error(&format!("{length} numbers are not three for each vertex")));
+    let mut take = |length: usize| {
+        if !length.is_multiple_of(3) {
+            let words = format!("{name}: {length} numbers are not three for each vertex");
+            return Err(Exception::input(&words));
+        }
+        rows.resize(length / 3, [0.0; 3]);
+        Ok(())
+    };
+    // Nothing is copied twice.
+    if let Some(array) = positions.dyn_ref::<Float64Array>() {
+        take(array.length() as usize)?;
+        array.copy_to(rows.as_flattened_mut());
+        return Ok(());
     }
-    rows.resize(length / 3, [0.0; 3]);
-    match positions.dyn_ref::<Float64Array>() {
-        Some(array) => array.copy_to(rows.as_flattened_mut()),
-        None => Float64Array::new(positions).copy_to(rows.as_flattened_mut()),
-    }
+    let numbers = numbers(positions, name)?;
+    take(numbers.len())?;
+    rows.as_flattened_mut().copy_from_slice(&numbers);
     Ok(())
 }
 

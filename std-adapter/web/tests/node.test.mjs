@@ -11,7 +11,12 @@ const built = process.env.SELVEDGE_WEB;
 const scenes = new URL("../../cloth/scenes/", import.meta.url);
 const scene = (name) => readFileSync(new URL(name, scenes), "utf8");
 const { load, Detector, Simulation, pairVerdicts, timeOfImpact, readMesh, effectNames } = await import(join(built, "package/index.js"));
-before(() => load());
+before(async () => {
+  const early = (call) => assert.throws(call, (error) => error.name === "InputError" && error.message.includes("call `await load()` before"));
+  early(() => new Detector(1, [0, 0, 0]));
+  early(() => timeOfImpact("edge-edge", [], []));
+  await load();
+});
 
 const triangles = Uint32Array.of(0, 1, 2, 3, 4, 5);
 const start = Float64Array.of(-5, -5, 0, 5, -5, 0, 0, 5, 0, 0, 0, 1, 1, 0, 1.1, 0, 1, 1.2);
@@ -87,6 +92,66 @@ test("errors are exceptions with the library's words", () => {
   assert.equal(cloth.stepsDone, 2);
 });
 
+test("every number is checked, and errors name the argument and the place", () => {
+  const bad = [
+    [[0, 1, NaN, 3, 4, 5], "triangles: entry 2 must be a whole number from 0 to 4294967295, not NaN"],
+    [[0, 1, undefined, 3, 4, 5], "triangles: entry 2 must be a number, not undefined"],
+    [[0, 1, 2 ** 32, 3, 4, 5], "triangles: entry 2 must be a whole number from 0 to 4294967295, not 4294967296"],
+    [[0, 1, 2.5, 3, 4, 5], "triangles: entry 2 must be a whole number from 0 to 4294967295, not 2.5"],
+    [[0, 1, -1, 3, 4, 5], "triangles: entry 2 must be a whole number from 0 to 4294967295, not -1"],
+    [[0, 1, "2", 3, 4, 5], "triangles: entry 2 must be a number, not the text '2'"],
+    [[[0, 1, 2], [3, 4, 5]], "triangles: entry 0 must be a number, not an array"],
+    [[0, 1, null, 3, 4, 5], "triangles: entry 2 must be a number, not null"],
+    [BigInt64Array.of(0n, 1n, 2n), "triangles must hold numbers, not values of type bigint"],
+    [Int32Array.of(0, 1, -2), "triangles: entry 2 must be a whole number from 0 to 4294967295, not -2"],
+    [undefined, "triangles must be an array of numbers, not undefined"],
+    ["012", "triangles must be an array of numbers, not the text '012'"],
+    [{}, "triangles must be an array of numbers, not a value of type object"],
+  ];
+  for (const [faces, words] of bad) assert.throws(() => new Detector(6, faces), fails("InputError", words));
+  for (const count of [2 ** 32 + 6, 6.5, -1, NaN, undefined, "6", [6]])
+    assert.throws(() => new Detector(count, triangles), fails("InputError", "vertexCount must be a whole number from 0 to 4294967295, not "));
+  const lists = [[...triangles], Uint16Array.from(triangles), Float64Array.from(triangles), { length: 6, 0: 0, 1: 1, 2: 2, 3: 3, 4: 4, 5: 5 }];
+  for (const good of lists) assert.equal(new Detector(6, good).contacts(start, end).count, 3);
+  const detector = new Detector(6, triangles);
+  const holed = [...start].with(4, undefined);
+  assert.throws(() => detector.contacts(holed, end), fails("InputError", "start: entry 4 must be a number, not undefined"));
+  assert.throws(() => detector.contacts([[0, 0, 0]], end), fails("InputError", "start: entry 0 must be a number, not an array"));
+  assert.throws(() => detector.near(start), fails("InputError", "distance must be a number, not undefined"));
+  assert.throws(() => detector.near(start, "1"), fails("InputError", "distance must be a number, not the text '1'"));
+  assert.throws(() => detector.setPairLimit(-1), fails("InputError", "limit must be a whole number"));
+  assert.throws(() => detector.setMemoryLimit(NaN), fails("InputError", "limit must be a whole number"));
+  assert.throws(() => detector.setLimits({ separation: "1" }), fails("InputError", "separation must be a number"));
+  assert.throws(() => detector.setLimits({ seperation: 1 }), fails("InputError", "limits has no property 'seperation'"));
+  assert.throws(() => detector.setMoving([1, 1, 1, NaN, 1, 1]), fails("InputError", "moving: entry 3"));
+  detector.setMoving([true, false, 256, 1, 1, 1]);
+  detector.setMoving();
+  assert.throws(() => detector.setCollisionFilter({ patches: [0, 0, 0, 1.5, 1, 1] }), fails("InputError", "patches: entry 3"));
+  assert.throws(() => timeOfImpact("edge-edge", start, end, "0"), fails("InputError", "separation must be a number"));
+  assert.throws(() => readMesh("a.obj", [1, 2, 300]), fails("InputError", "bytes must be a Uint8Array"));
+  const cloth = new Simulation(scene("drop.toml").replace('shape = "ball"', 'shape = "ball"\ndriven = true'));
+  assert.throws(() => cloth.step(-1), fails("InputError", "count must be a whole number"));
+  assert.throws(() => cloth.advance(), fails("InputError", "seconds must be a number, not undefined"));
+  assert.throws(() => cloth.advance(1 / 60, 1.5), fails("InputError", "most must be a whole number"));
+  assert.throws(() => cloth.placeBody("ball", [[0], 0, 1]), fails("InputError", "translation: entry 0 must be a number, not an array"));
+  assert.throws(() => cloth.setVelocity([2.5], [0, 0, 1]), fails("InputError", "vertices: entry 0"));
+  assert.throws(() => cloth.resume([1, 2]), fails("InputError", "checkpoint must be a Uint8Array"));
+  cloth.step(1);
+});
+
+test("a driven body that is to jump is refused, and teleports", () => {
+  const text = scene("drop.toml").replace('shape = "ball"', 'shape = "ball"\ndriven = true');
+  const cloth = new Simulation(text);
+  cloth.placeBody("ball", [5, 0, 0]);
+  assert.throws(() => cloth.advance(1 / 60), fails("BlockedError", "must not be faster than 100 m/s"));
+  const z = cloth.positions[2];
+  cloth.teleport(["ball"], [0, 0, 5], undefined, ["cloth"]);
+  assert.ok(Math.abs(cloth.positions[2] - z - 5) < 1e-12);
+  assert.throws(() => cloth.teleport(["ball"], [0, 0, NaN]), fails("InputError", "translation"));
+  cloth.step(2);
+  assert.equal(cloth.isCertified, true);
+});
+
 test("one pair: control values, tiers, time of impact and exact verdict", () => {
   const [from, to] = [[0.2, 0.2, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0], [0.2, 0.2, -3, 0, 0, 0, 1, 0, 0, 0, 1, 0]];
   const verdicts = pairVerdicts("vertex-face", from, to);
@@ -128,7 +193,10 @@ test("a simulation is driven, measured, and resumed with the same bits; its cloc
 test("objects are freed by hand, by `using`, and by the garbage collector", () => {
   const detector = new Detector(6, triangles);
   detector[Symbol.dispose]();
-  assert.throws(() => detector.contacts(start, end), /null pointer/);
+  assert.throws(() => detector.contacts(start, end), fails("InputError", "this Detector was freed"));
+  assert.throws(() => detector.start, fails("InputError", "this Detector was freed"));
+  detector.free();
+  detector[Symbol.dispose]();
   assert.ok(readFileSync(join(built, "package/cloth/selvedge.js"), "utf8").includes("FinalizationRegistry"));
   // A thousand detectors of 10,000 vertices would take 480 MB.
   const some = new Detector(10_000, triangles);

@@ -7,7 +7,7 @@ use crate::input::{Out, view};
 use crate::status::{Failure, Status};
 use crate::world::steps::Pose;
 use selvedge_cloth::glam::{DQuat, DVec3};
-use selvedge_cloth::{DriveError, Placement, Simulation};
+use selvedge_cloth::{DriveError, Placement, Simulation, TeleportError};
 
 impl From<DriveError> for Failure {
     fn from(error: DriveError) -> Self {
@@ -30,6 +30,29 @@ impl From<DriveError> for Failure {
     }
 }
 
+impl From<TeleportError> for Failure {
+    fn from(error: TeleportError) -> Self {
+        let status = match error {
+            TeleportError::Drive(error) => return error.into(),
+            TeleportError::NoCloth { .. } => Status::NoSuchPart,
+            TeleportError::Held { .. } => Status::NotDriven,
+            _ => Status::Blocked,
+        };
+        Self::new(status, error)
+    }
+}
+
+/// Returns a placement from C: seven numbers, as fields or as an array.
+///
+/// # Safety
+/// `placement` points to one entry.
+unsafe fn placement_at(name: &str, placement: *const Pose) -> Result<Placement, Failure> {
+    // SAFETY: the caller's promise.
+    let given = unsafe { view::<f64, 7>(name, placement.cast(), 1) }?;
+    let [x, y, z, w, a, b, c] = given[0];
+    Ok(Placement::new(DQuat::from_xyzw(x, y, z, w), DVec3::new(a, b, c)))
+}
+
 /// Moves a driven body to a placement in the next step: its mesh in the scene is rotated and then translated. It rotates the short way
 /// about its origin while it moves, both at a constant rate. It then stays there. A step that is cut or has to wait leaves it on its
 /// way; selvedge_simulation_placement says where.
@@ -43,13 +66,48 @@ pub unsafe extern "C" fn selvedge_simulation_place_body(
     placement: *const Pose,
 ) -> Status {
     on(simulation, |it| {
-        // SAFETY: the caller's promise. The layout is seven numbers, as fields or as an array.
-        let given = unsafe { view::<f64, 7>("placement", placement.cast(), 1) }?;
-        for &[x, y, z, w, a, b, c] in given {
-            let placement = Placement::new(DQuat::from_xyzw(x, y, z, w), DVec3::new(a, b, c));
-            it.simulation.place_body(body, placement)?;
+        // SAFETY: the caller's promise.
+        let placement = unsafe { placement_at("placement", placement) }?;
+        Ok(it.simulation.place_body(body, placement)?)
+    })
+}
+
+/// Moves driven bodies elsewhere at once, and with them their pins and the cloth that hangs on them, for a figure that teleports. No time
+/// passes, and nothing is swept on the way. `by` is applied to positions in the world: they are rotated about the origin, then translated.
+/// Velocities turn along. Cloth moves if it is pinned or attached to one of the bodies, or if it belongs to one of `cloths`, such as a garment
+/// without pins. Bodies and cloths have their numbers in the scene.
+///
+/// On an error nothing has changed. SELVEDGE_STATUS_NOT_DRIVEN means that a body is not driven, or that something that stays holds the cloth as
+/// well, SELVEDGE_STATUS_BLOCKED that there is no room.
+///
+/// # Safety
+/// `bodies` points to `body_count` numbers, `cloths` to `cloth_count`, `by` to one entry. Lists may be NULL if they have no entry.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selvedge_simulation_teleport(
+    simulation: *mut SimulationHandle,
+    bodies: *const usize,
+    body_count: usize,
+    cloths: *const usize,
+    cloth_count: usize,
+    by: *const Pose,
+) -> Status {
+    on(simulation, |it| {
+        let most = it.simulation.body_names().len().max(it.simulation.cloth_names().len());
+        for (name, count) in [("bodies", body_count), ("cloths", cloth_count)] {
+            if count > most {
+                // The count is checked before any number is read.
+                check_count(&format!("{name} in the scene"), count, most)?;
+            }
         }
-        Ok(())
+        // SAFETY: the caller's promises.
+        let (bodies, cloths, by) = unsafe {
+            (
+                view::<usize, 1>("bodies", bodies, body_count)?,
+                view::<usize, 1>("cloths", cloths, cloth_count)?,
+                placement_at("by", by)?,
+            )
+        };
+        Ok(it.simulation.teleport(bodies.as_flattened(), cloths.as_flattened(), by)?)
     })
 }
 

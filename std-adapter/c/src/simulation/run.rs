@@ -77,7 +77,8 @@ pub unsafe extern "C" fn selvedge_simulation_read(
 }
 
 /// Runs one step. SELVEDGE_STATUS_BLOCKED means that no motion leaves the cloth free of intersections, in a scene that stops then. The
-/// part of the step that was done remains, the message names the obstacle, and the state stays free of intersections.
+/// part of the step that was done remains, the message names the obstacle, and the state stays free of intersections. It also means
+/// that a body or pins were to move faster than 100 m/s, before anything moved; selvedge_simulation_teleport jumps.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_simulation_step(simulation: *mut SimulationHandle) -> Status {
     on(simulation, |it| {

@@ -226,6 +226,40 @@ fn a_simulation_goes_as_in_rust_bit_for_bit_and_goes_on_from_rusts_checkpoint() 
 }
 
 #[test]
+fn a_teleport_is_that_of_rust_and_a_jump_is_refused() {
+    let (handle, mut simulation) = (in_c(1), in_rust());
+    for step in 1..=20 {
+        lead(handle, &mut simulation, step);
+        simulation.step().unwrap();
+        assert_eq!(selvedge_simulation_step(handle), Status::Ok);
+    }
+    let by = Placement::new(selvedge_cloth::glam::DQuat::from_rotation_x(0.5), DVec3::new(20.0, 0.0, 1.0));
+    let pose = Pose {
+        rotation: by.rotation.to_array(),
+        origin: by.translation.to_array(),
+    };
+    let number = [0_usize];
+    let teleport = |bodies: usize, cloths: usize| {
+        let first = number.as_ptr();
+        // SAFETY: there is one number in each list, and counts above that of the scene are refused before the list is read.
+        unsafe { selvedge_simulation_teleport(handle, first, bodies, first, cloths, &raw const pose) }
+    };
+    simulation.teleport(&[0], &[0], by).unwrap();
+    assert_eq!(teleport(2, 1), Status::WrongLength);
+    assert_eq!(teleport(1, 1), Status::Ok);
+    are_alike(handle, &simulation);
+    simulation.step().unwrap();
+    assert_eq!(selvedge_simulation_step(handle), Status::Ok);
+    are_alike(handle, &simulation);
+    // Twenty metres in a step of 2 ms are too fast.
+    let far = Pose { origin: [0.0; 3], ..pose };
+    // SAFETY: there is one entry.
+    let status = unsafe { selvedge_simulation_place_body(handle, 0, &raw const far) };
+    assert_eq!((status, selvedge_simulation_step(handle)), (Status::Ok, Status::Blocked));
+    assert_eq!(selvedge_simulation_free(handle), Status::Ok);
+}
+
+#[test]
 fn a_panic_breaks_its_simulation_and_no_other() {
     let [broken, other] = [in_c(1), in_c(1)];
     assert_eq!(on(broken, |_| panic!("on purpose")), Status::Internal);

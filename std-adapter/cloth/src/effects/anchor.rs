@@ -33,6 +33,14 @@ impl Anchor {
         Self::On(*triangle, [shares[0], shares[1], way.dot(normal.normalize_or_zero())])
     }
 
+    /// Returns a vertex of the body that it is on.
+    pub(super) fn vertex_of_body(&self) -> Option<u32> {
+        match self {
+            Self::Carried(..) => None,
+            Self::On([vertex, ..], _) => Some(*vertex),
+        }
+    }
+
     /// Returns the position at the end of a step, where bodies are then.
     pub(super) fn at(&self, step: &TimeStep<'_>, positions: &[DVec3]) -> DVec3 {
         match *self {

@@ -81,7 +81,9 @@ impl AttachmentGroup {
         GIVE.check(self.give)?;
         match &self.motion {
             &PinMotion::Body(body) => check_body(body, world),
-            PinMotion::Own(motion @ BodyMotion::Keyframes(_)) => motion.check(self.vertices.len(), world.time_step),
+            PinMotion::Own(motion @ BodyMotion::Keyframes(_)) => {
+                motion.check(&world.positions_of(&self.vertices), world.time_step)
+            }
             PinMotion::Own(_) => {
                 let message =
                     "attachments follow keyframes or a body (`follow`), which may be driven; they cannot be driven themselves";
@@ -224,6 +226,17 @@ impl Memory for Holding {
         for (held, own) in self.0.iter_mut().zip(numbers.chunks_exact(4)) {
             held.released = (own[0] >= 0.0).then_some(own[0]);
             held.last = DVec3::new(own[1], own[2], own[3]);
+        }
+    }
+
+    fn held_by(&self) -> Vec<(u32, Option<u32>)> {
+        let held = self.0.iter().filter(|held| held.released.is_none());
+        held.map(|held| (held.vertex, held.anchor.vertex_of_body())).collect()
+    }
+
+    fn teleport(&mut self, is_moved: &[bool], to: &dyn Fn(DVec3) -> DVec3) {
+        for held in self.0.iter_mut().filter(|held| is_moved[held.vertex as usize]) {
+            held.last = to(held.last);
         }
     }
 

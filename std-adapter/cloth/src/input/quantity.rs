@@ -25,6 +25,7 @@ quantities! {
     TIME = "a time" ["s" 1.0, "ms" 1e-3, "us" 1e-6];
     CURVATURE = "a curvature" ["1/m" 1.0, "1/cm" 1e2, "1/mm" 1e3];
     ANGLE = "an angle" ["rad" 1.0, "deg" DEGREE];
+    ANGULAR_SPEED = "an angular speed" ["rad/s" 1.0, "deg/s" DEGREE, "rpm" 6.0 * DEGREE];
     SPEED = "a speed" ["m/s" 1.0, "cm/s" 1e-2, "km/h" 1.0 / 3.6];
     ACCELERATION = "an acceleration" ["m/s2" 1.0];
     FREQUENCY = "a frequency" ["Hz" 1.0, "1/s" 1.0];

@@ -137,6 +137,14 @@ pub trait Memory {
         Vec::new()
     }
 
+    /// Returns the vertices of cloth that it holds, each with a vertex of the body that holds it; `None` for something else.
+    fn held_by(&self) -> Vec<(u32, Option<u32>)> {
+        Vec::new()
+    }
+
+    /// Moves what it remembers of those places that belong to moved vertices.
+    fn teleport(&mut self, _is_moved: &[bool], _to: &dyn Fn(DVec3) -> DVec3) {}
+
     /// Returns the vertices released so far.
     fn released(&self) -> Vec<Release> {
         Vec::new()

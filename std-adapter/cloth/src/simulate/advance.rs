@@ -6,6 +6,7 @@ use super::errors::Blocked;
 use super::frame::MOST_STEPS;
 use super::simulation::Simulation;
 use super::state::FASTEST;
+use super::waiting::Waits;
 use crate::contact::Blocker;
 use crate::model::step::Carrier;
 use crate::scene::OnBlocked;
@@ -80,6 +81,10 @@ impl Simulation {
         for driven in self.made.motions.iter_mut().filter_map(Kinematic::driven_mut) {
             driven.begin(clock, seconds, &self.state.positions, &self.carried);
         }
+        if let Some(too_fast) = self.too_fast() {
+            self.threads = threads;
+            return Err(too_fast);
+        }
         let done = self.state.step;
         self.is_fresh = false;
         let result = threads.run(|| {
@@ -92,6 +97,7 @@ impl Simulation {
                 if let Some(tearing) = &mut self.tearing {
                     tearing.waiting.clear();
                 }
+                self.waiting = None;
                 self.is_fresh = true;
             }
             result
@@ -109,8 +115,15 @@ impl Simulation {
         let mut left = h;
         let mut of_the_step = BodyClock::Went;
         let mut was_blocked = false;
-        let mut longest = left;
         let shortest = SHORTEST * self.without_large_turn(left);
+        let waited = self.waits_again(h);
+        // The same motion failed a moment ago, so that not even a short part of it is likely to be possible.
+        let mut longest = if waited == Waits::Tries { shortest } else { left };
+        if waited == Waits::Stays {
+            self.attempt(left, 0.0).map_err(|blocker| self.described(blocker))?;
+            left = 0.0;
+            (of_the_step, was_blocked) = (BodyClock::Waited, true);
+        }
         while left > 0.0 {
             let blocker = match self.part(left.min(longest), shortest) {
                 Ok(h) => {
@@ -125,6 +138,7 @@ impl Simulation {
             match (self.on_blocked, blocker.body, &mut self.made.contact) {
                 (OnBlocked::Yield, Some(body), Some(contact)) => contact.let_pass(body),
                 (OnBlocked::Yield | OnBlocked::Hold, ..) => {
+                    self.has_waited(left);
                     // If nothing is forced to move, a step can always be made.
                     self.attempt(left, 0.0).map_err(|blocker| self.described(blocker))?;
                     left = 0.0;
@@ -222,6 +236,7 @@ impl Simulation {
             time: blocker.time,
             what: blocker.pair(),
             body: blocker.body.map(|body| self.body_names[body].clone()),
+            speed: None,
         }
     }
 }

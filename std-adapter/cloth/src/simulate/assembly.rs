@@ -185,6 +185,14 @@ impl Assembly {
         all.filter_map(|&index| self.constraints[index].action.memory())
             .chain(terms.filter_map(|entry| entry.action.memory()))
     }
+
+    /// The same, to change them.
+    pub(super) fn memories_mut(&mut self) -> impl Iterator<Item = &mut dyn Memory> {
+        let terms = self.solve.iter_mut().flat_map(|solve| &mut solve.terms);
+        let constraints = self.constraints.iter_mut();
+        let memories = constraints.filter_map(|entry| entry.action.memory_mut());
+        memories.chain(terms.filter_map(|entry| entry.action.memory_mut()))
+    }
 }
 
 /// Adds the vertices to which the ends of a rope are tied.

@@ -1,10 +1,12 @@
 //! Motions that the caller sets from step to step: of bodies and pins, and of the wind.
 
+use super::assembly::Assembly;
+use super::errors::Blocked;
 use super::simulation::Simulation;
 use super::state::FASTEST;
 use crate::effects::Wind;
 use crate::input::{Field, LARGEST_COORDINATE, LENGTH, ValueError};
-use crate::world::{Driven, Placement};
+use crate::world::{Driven, FASTEST_VERTEX, Kinematic, Placement};
 use selvedge_core::glam::DVec3;
 
 /// A motion that cannot be set; nothing has changed.
@@ -57,7 +59,8 @@ pub enum DriveError {
 }
 
 impl Simulation {
-    /// Moves a [driven](crate::BodyMotion::Driven) body to another placement in the next step. It turns about its origin, the
+    /// Moves a [driven](crate::BodyMotion::Driven) body to another placement in the next step. A step in which a vertex would be faster than
+    /// 100 m/s fails, before anything moves; [`teleport`](Self::teleport) jumps. It turns about its origin, the
     /// shorter way round, and moves along, both evenly. After a step that is cut or has to wait the body is on the way, where
     /// [`placement`](Self::placement) says. It stays there until the next call.
     ///
@@ -147,7 +150,38 @@ impl Simulation {
         Ok(())
     }
 
-    fn driven_body(&mut self, body: usize) -> Result<&mut Driven, DriveError> {
+    /// Returns the first body or group of pins that the caller moves faster than [`FASTEST_VERTEX`] in the step that begins. Drops all goals then.
+    pub(super) fn too_fast(&mut self) -> Option<Blocked> {
+        let Assembly { motions, carriers, .. } = &self.made;
+        let driven = (0_u32..)
+            .zip(motions)
+            .filter_map(|(carrier, motion)| Some((carrier, motion.driven()?)));
+        let mut speeds = driven.map(|(carrier, driven)| {
+            let own = self
+                .state
+                .positions
+                .iter()
+                .zip(carriers)
+                .filter(|(_, whose)| **whose == carrier);
+            (carrier, driven.speed(own.map(|(position, _)| *position)))
+        });
+        let (carrier, speed) = speeds.find(|(_, speed)| *speed > FASTEST_VERTEX)?;
+        let body = self.body_names.get(carrier as usize).cloned();
+        let what = match &body {
+            Some(name) => format!("the body '{name}'"),
+            None => {
+                let group = self.made.pins.iter().position(|pins| *pins == carrier);
+                format!("the group {} of pins", group.unwrap_or_default())
+            }
+        };
+        for driven in self.made.motions.iter_mut().filter_map(Kinematic::driven_mut) {
+            driven.stand(driven.placement);
+        }
+        let (time, speed) = (self.time(), Some(speed));
+        Some(Blocked { time, what, body, speed })
+    }
+
+    pub(super) fn driven_body(&mut self, body: usize) -> Result<&mut Driven, DriveError> {
         let bodies = self.body_names.len();
         if body >= bodies {
             return Err(DriveError::NoBody { body, bodies });

@@ -27,7 +27,9 @@ mod substep;
 mod tangled;
 mod tear;
 mod tearing;
+mod teleport;
 mod untangle;
+mod waiting;
 
 pub use checkpoint::{CHECKPOINT_STEPS, CheckpointError};
 pub use drive::DriveError;
@@ -37,3 +39,4 @@ pub use measures::{EdgeStretch, EffectTime};
 pub use simulation::Simulation;
 pub use state::FASTEST;
 pub use tangled::{Tangled, Untangled, UntanglingEnd, UntanglingProgress};
+pub use teleport::TeleportError;

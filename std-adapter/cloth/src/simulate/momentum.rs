@@ -86,6 +86,12 @@ impl Pieces {
         }
     }
 
+    /// The vertices of each piece. A vertex that nothing connects is in none.
+    pub(super) fn vertices(&self) -> impl Iterator<Item = impl Iterator<Item = u32> + Clone> {
+        let pieces = self.pieces.iter();
+        pieces.map(|piece| piece.free.iter().chain(&piece.pinned).copied())
+    }
+
     /// Stores the positions before corrections, unless nothing is projected.
     pub(super) fn begin(&mut self, step: &TimeStep<'_>, positions: &[DVec3]) {
         self.before.clear();

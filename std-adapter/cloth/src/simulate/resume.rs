@@ -93,6 +93,7 @@ impl Simulation {
             solve.keep(kept, &mut self.work.solving.history);
         }
         self.state = checkpoint.state;
+        self.waiting = None;
         self.is_fresh = true;
         Ok(())
     }

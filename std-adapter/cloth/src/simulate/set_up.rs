@@ -85,6 +85,7 @@ impl Simulation {
             },
             carried,
             untangled: None,
+            waiting: None,
             tearing: (!made.tearable.is_empty()).then(|| Box::new(Tearing::new(scene))),
             made,
         };

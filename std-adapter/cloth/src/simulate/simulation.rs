@@ -1,16 +1,17 @@
 //! A simulation, and the results that a caller can read between two steps.
 
 use super::assembly::Assembly;
-use super::solving::Solving;
 use super::measures::{EdgeStretch, EffectTime};
+use super::solving::Solving;
 use super::state::State;
 use super::tangled::Untangled;
 use super::tearing::Tearing;
+use super::waiting::Waiting;
 use crate::contact::{ContactCounts, ContactSeconds, Crossing, ProximityPair};
 use crate::model::energy::{Configuration, Energy};
 use crate::model::step::{Release, Touches};
-use crate::solve::SolveCounts;
 use crate::scene::{OnBlocked, TangledStart};
+use crate::solve::SolveCounts;
 use crate::world::{FileNumbering, MeshInFiles, Pose};
 use selvedge::Mesh;
 use selvedge::parallel::Workers;
@@ -67,6 +68,8 @@ pub struct Simulation {
     pub(super) state: State,
     pub(super) work: Work,
     pub(super) untangled: Option<Untangled>,
+    /// The motion for which bodies and pins wait.
+    pub(super) waiting: Option<Waiting>,
     /// The state of tears, if cloths may tear.
     pub(super) tearing: Option<Box<Tearing>>,
 }
@@ -190,7 +193,11 @@ impl Simulation {
             normal: row.normal,
             thickness: row.thickness,
         });
-        self.made.contact.iter().flat_map(|contact| contact.near_pairs()).chain(of_solve)
+        self.made
+            .contact
+            .iter()
+            .flat_map(|contact| contact.near_pairs())
+            .chain(of_solve)
     }
 
     /// Returns the number of the cloths' vertices.

@@ -1,7 +1,8 @@
 //! Bodies, `[[body]]`: the obstacles of the cloth.
 
 use super::animation::{Animation, RATE, START};
-use super::motion::{BodyMotion, KeyframeMotion};
+use super::keyframes::KeyframeMotion;
+use super::motion::BodyMotion;
 use super::shapes;
 use crate::input::{Count, Field, LARGEST_COORDINATE, LENGTH, SceneError, Table, ValueError};
 use selvedge::Mesh;
@@ -102,7 +103,7 @@ impl Body {
     }
 
     pub(crate) fn check(&self, time_step: f64) -> Result<(), ValueError> {
-        let motion = || self.motion.check(self.mesh.positions.len(), time_step);
+        let motion = || self.motion.check(&self.mesh.positions, time_step);
         let checked = shapes::check(&self.mesh).and_then(|()| motion());
         checked.map_err(|error| error.of(&self.name))
     }
@@ -157,6 +158,8 @@ impl Body {
         };
         let mut body = made.map_err(|error| table.placed(&error))?;
         body.motion = BodyMotion::read(table, time_step)?;
+        let checked = body.motion.check(&body.mesh.positions, time_step);
+        checked.map_err(|error| table.placed(&error.of(name)))?;
         Ok(body)
     }
 

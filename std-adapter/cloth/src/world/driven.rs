@@ -4,7 +4,8 @@
 //! their own move straight. If a step is cut or waits, they are on the way, and the next step starts from there.
 
 use super::animation::Animation;
-use super::motion::{BodyMotion, KeyframeMotion, Pose};
+use super::keyframes::KeyframeMotion;
+use super::motion::{BodyMotion, Pose};
 use super::placement::Placement;
 use selvedge_core::glam::DVec3;
 
@@ -137,6 +138,15 @@ impl Leg {
             to: placement,
         }
     }
+
+    /// Returns the leg of points that stay where they are.
+    fn at_points() -> Self {
+        Self::Points {
+            from: Vec::new(),
+            to: Vec::new(),
+            then: None,
+        }
+    }
 }
 
 impl Driven {
@@ -174,6 +184,36 @@ impl Driven {
                 then: None,
             },
         };
+    }
+
+    /// Returns a bound on the speed in m/s of its points in the step that [began](Self::begin). `positions` are those of the points that a rigid
+    /// motion moves.
+    pub(crate) fn speed(&self, positions: impl Iterator<Item = DVec3>) -> f64 {
+        let way = match &self.leg {
+            Leg::Rigid { from, to, .. } if from == to => 0.0,
+            Leg::Rigid { axis, angle, from, to } => {
+                let arm = |point: DVec3| axis.cross(point - from.translation).length();
+                let longest = positions.map(arm).fold(0.0, f64::max);
+                from.translation.distance(to.translation) + angle.abs() * longest
+            }
+            Leg::Points { from, to, .. } => {
+                let ways = from.iter().zip(to).map(|(from, to)| from.distance(*to));
+                ways.fold(0.0, f64::max)
+            }
+        };
+        way / (self.clock[1] - self.clock[0])
+    }
+
+    /// Drops the goal, and stays at a placement, or where the points are.
+    pub(crate) fn stand(&mut self, placement: Option<Placement>) {
+        self.goal = None;
+        self.placement = placement;
+        self.leg = placement.map_or_else(Leg::at_points, Leg::standing);
+    }
+
+    /// Returns whether points move on paths of their own in the present step.
+    pub(crate) fn deforms(&self) -> bool {
+        matches!(&self.leg, Leg::Points { from, to, .. } if from != to)
     }
 
     /// Ends the step at a time of the clock, and keeps the goal unless the body has arrived.

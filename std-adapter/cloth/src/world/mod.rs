@@ -5,6 +5,7 @@ mod body;
 pub(crate) mod cloth;
 mod driven;
 pub(crate) mod file_mesh;
+mod keyframes;
 mod material;
 mod motion;
 mod placement;
@@ -14,21 +15,24 @@ pub(crate) mod shapes;
 pub mod sleeve;
 
 use crate::input::ValueError;
+use selvedge_core::glam::DVec3;
 use std::ops::Range;
 
 pub use animation::Animation;
 pub use body::Body;
 pub use cloth::Cloth;
+pub use keyframes::{Interpolation, Keyframe, KeyframeMotion};
 pub use material::Material;
-pub use motion::{BodyMotion, Keyframe, KeyframeMotion};
+pub use motion::BodyMotion;
 pub use placement::Placement;
 
+use crate::solve::Accuracy;
 pub(crate) use animation::FASTEST_VERTEX;
 pub(crate) use driven::{Driven, Kinematic};
 pub(crate) use file_mesh::FileNumbering;
-use crate::solve::Accuracy;
 pub use file_mesh::MeshInFiles;
-pub(crate) use motion::{KEY_TIME, Pose, check_key_time};
+pub(crate) use keyframes::{KEY_TIME, check_key_time};
+pub(crate) use motion::Pose;
 pub(crate) use runs::runs;
 pub(crate) use selvedge::Adjacency as Incidence;
 #[cfg(test)]
@@ -102,6 +106,16 @@ impl<'a> SceneParts<'a> {
         let mut is_named = vec![false; self.vertices_as_made().map(|own| own.len()).sum()];
         named.iter().for_each(|&vertex| is_named[vertex as usize] = true);
         is_named
+    }
+
+    /// Returns the positions at rest of vertices of an effect's settings. Vertices that do not exist are left out.
+    pub(crate) fn positions_of(self, named: &[u32]) -> Vec<DVec3> {
+        let at = |vertex: u32| {
+            let mut cloths = self.vertices_of_cloths().zip(self.cloths);
+            let (own, cloth) = cloths.find(|(own, _)| own.contains(&(vertex as usize)))?;
+            Some(cloth.mesh.positions[vertex as usize - own.start])
+        };
+        self.numbered(named).into_iter().filter_map(at).collect()
     }
 
     pub(crate) fn cloth_vertices(self) -> usize {

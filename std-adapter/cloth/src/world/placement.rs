@@ -47,6 +47,14 @@ impl Placement {
         self.rotation.inverse() * (place - self.translation)
     }
 
+    /// Returns the placement after `first` and then this one.
+    pub(crate) fn after(&self, first: &Self) -> Self {
+        Self {
+            rotation: self.rotation * first.rotation,
+            translation: self.apply(first.translation),
+        }
+    }
+
     pub(crate) fn checked(&self) -> Result<Self, ValueError> {
         TRANSLATION.check_vector(self.translation)?;
         let length = self.rotation.length();

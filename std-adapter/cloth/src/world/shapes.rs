@@ -2,7 +2,7 @@
 //! sines.
 
 use super::file_mesh::{FileMesh, LEFT_OUT};
-use super::motion::{AXIS, KEY_ANGLE, unit_axis};
+use super::keyframes::{AXIS, KEY_ANGLE, unit_axis};
 use super::placement::{Placement, TRANSLATION};
 use crate::input::{Field, LARGEST_COORDINATE, LENGTH, RATIO, SceneError, Table, ValueError};
 use libm::{cos, sin};

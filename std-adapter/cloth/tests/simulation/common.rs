@@ -80,16 +80,15 @@ pub(crate) fn pinned(vertices: impl Into<Vec<u32>>, motion: PinMotion) -> Pins {
     }
 }
 
-/// Returns a motion along straight lines between the translations at these times.
+/// Returns a motion along straight lines between the translations at these times, at rest at each of them.
 pub(crate) fn along<const N: usize>(keys: [(f64, DVec3); N]) -> BodyMotion {
     let key = |(time, translation)| Keyframe {
         time,
         translation,
         ..Keyframe::default()
     };
-    KeyframeMotion::new(DVec3::ZERO, DVec3::Z, keys.map(key).to_vec())
-        .unwrap()
-        .into()
+    let motion = KeyframeMotion::new(DVec3::ZERO, DVec3::Z, keys.map(key).to_vec()).unwrap();
+    motion.interpolated(Interpolation::Smooth).into()
 }
 
 /// Makes a square of 1 m in two triangles. One group of vertices is held, the other moves by `way` until `time`.

@@ -62,7 +62,8 @@ fn code_and_file_make_the_same_scene_to_the_last_bit() {
         translation: 0.02 * DVec3::Z,
     };
     let keyframes = vec![Keyframe::default(), later];
-    arm.motion = KeyframeMotion::new(0.1 * DVec3::Z, 2.0 * DVec3::Y, keyframes).unwrap().into();
+    let motion = KeyframeMotion::new(0.1 * DVec3::Z, 2.0 * DVec3::Y, keyframes).unwrap();
+    arm.motion = motion.interpolated(Interpolation::Smooth).into();
     scene.bodies.push(arm);
     // The order of these calls does not matter.
     scene.add(Friction { coefficient: 0.3 });
@@ -429,7 +430,9 @@ fn thirty_wrong_ways_to_use_it_from_code_get_thirty_errors_that_say_what_would_b
         |s| _ = s.add(pins(vec![PinGroup::resting([])])) => "pins: no vertex of the cloth is in this group…";
         |s| _ = s.add(pins(vec![PinGroup::resting([169])]))
             => "pins: the scene has no vertex 169 of cloth: it has 169, numbered from 0…";
-        |s| _ = s.add(pins(vec![PinGroup::resting([3]), PinGroup::resting([2, 3])])) => "pins: vertex 3 is pinned twice…";
+        |s| _ = s.add(pins(vec![PinGroup::resting([2, 3, 3])])) => "pins: vertex 3 is pinned twice";
+        |s| _ = s.add(pins(vec![PinGroup::resting([3]), PinGroup { vertices: vec![2, 3], motion: PinMotion::Body(0) }]))
+            => "pins: vertex 3 is pinned twice, with different motions";
         |s| _ = s.add(pinned([0], PinMotion::Body(4)))
             => "pins: there is no body 4: the scene has 1, numbered from 0…";
         |s| s.bodies[0].motion = BodyMotion::Driven(Placement::at(0.1 * up)) => "the scene starts with an intersection…";
@@ -459,6 +462,18 @@ fn shapes_that_cannot_be_are_refused_where_they_are_made() {
         Body::capsule("arm", [x, y], 0.0, 24) => "arm: `radius` is 0 m…";
         KeyframeMotion::new(x, DVec3::ZERO, Vec::new()) => "`axis` must not be zero…";
     }
+}
+
+#[test]
+fn a_corner_that_two_pinned_sides_share_is_pinned_once() {
+    let mut scene = Scene::new(sheet(0.1), 2e-3);
+    let sides = ["left", "right", "bottom", "top"].map(|part| PinGroup::resting(scene.part("cloth", part).unwrap()));
+    scene.add(pins(sides.to_vec())).add(Gravity::default());
+    let mut simulation = Simulation::new(scene, 1).unwrap();
+    let before = simulation.positions().to_vec();
+    simulation.step().unwrap();
+    let still = simulation.positions().iter().zip(&before).filter(|(now, before)| now == before);
+    assert_eq!(still.count(), 48, "the border of 12 by 12 cells");
 }
 
 #[test]

@@ -11,6 +11,8 @@ mod far_bodies;
 mod files;
 mod from_code;
 mod garments;
+mod jumps;
+mod keyframes;
 mod materials;
 mod paying_only;
 mod plastic_folds;

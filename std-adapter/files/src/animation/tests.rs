@@ -326,22 +326,27 @@ fn numbers_that_are_not_finite_or_out_of_range_are_refused() {
     let end = begin + good[begin..].find('"').unwrap();
     let engine = &base64::engine::general_purpose::STANDARD;
     let bytes = engine.decode(&good[begin..end]).unwrap();
-    let message = |offset: usize, by: &[u8]| {
+    let changed = |offset: usize, by: &[u8]| {
         let mut changed = bytes.clone();
         changed[offset..offset + by.len()].copy_from_slice(by);
         let text = [&good[..begin], &engine.encode(&changed), &good[end..]].concat();
-        read_text(&text, &Choice::default()).unwrap_err().to_string()
+        read_text(&text, &Choice::default())
     };
+    let message = |offset: usize, by: &[u8]| changed(offset, by).unwrap_err().to_string();
     let nan = f32::NAN.to_le_bytes();
     let offset = |index: usize| NUMBERS[..index].iter().map(|(_, numbers)| 4 * numbers.len()).sum::<usize>();
     assert!(message(offset(0), &nan).ends_with("primitive 0 of the mesh, positions: number 0 is NaN, but must be finite"));
     assert!(message(offset(1), &nan).contains("WEIGHTS_0: number 0 is NaN"));
     assert!(message(offset(1), &(-1.0_f32).to_le_bytes()).contains("vertex 0 has the weight -1"));
-    assert!(message(offset(1), &0.0_f32.to_le_bytes()).contains("vertex 0 follows no joint: its weights are zero"));
     assert!(message(offset(3) + 4, &1.0_f32.to_le_bytes()).contains("each later than the one before"));
     assert!(message(offset(4) + 12, &[0; 4]).contains("the rotation of key 0 is zero"));
     assert!(message(offset(7), &9_u16.to_le_bytes()).contains("face 0 names vertex 9, but there are 4 vertices"));
     assert!(message(offset(7) + 12, &[7; 4]).contains("vertex 0 follows joint 7, but the skin has 2"));
+    let figure = changed(offset(1), &0.0_f32.to_le_bytes()).unwrap();
+    let left_out: Vec<String> = figure.left_out().iter().map(ToString::to_string).collect();
+    assert_eq!(left_out, ["1 vertex 'of weight zero, which follow joint 0'"]);
+    // The vertex follows that joint in the unchanged file as well.
+    assert_eq!(at(&figure, 1.5), at(&read_text(&good, &Choice::default()).unwrap(), 1.5));
 }
 
 #[test]

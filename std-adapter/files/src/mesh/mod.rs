@@ -347,12 +347,14 @@ fn corner(face: usize, vertex: i64, vertex_count: usize, line: Option<usize>) ->
     })
 }
 
-/// Reads the coordinates of a vertex.
-fn read_vertex<'a>(vertex: usize, line: usize, mut fields: impl Iterator<Item = &'a [u8]>) -> Result<DVec3, FileProblem> {
-    let mut coordinates = [0.0; 3];
+/// Reads the three coordinates of a vertex. `next` returns a word and its line.
+fn read_vertex<'a>(vertex: usize, mut next: impl FnMut() -> (Option<&'a [u8]>, usize)) -> Result<DVec3, FileProblem> {
+    let (mut coordinates, mut line) = ([0.0; 3], 0);
     for (value, name) in coordinates.iter_mut().zip(['x', 'y', 'z']) {
-        let field = fields.next().unwrap_or_default();
-        *value = text::number(field).ok_or_else(|| not_a_number(vertex, line, name, field))?;
+        let word;
+        (word, line) = next();
+        let word = word.unwrap_or_default();
+        *value = text::number(word).ok_or_else(|| not_a_number(vertex, line, name, word))?;
     }
     let position = DVec3::from_array(coordinates);
     check_finite(vertex, position, Some(line))?;

@@ -101,6 +101,8 @@ pub enum FilePart {
     Node,
     /// Channels of a glTF animation.
     Channel,
+    /// Vertices of a glTF figure that follow no joint of their own.
+    Vertex,
 }
 
 /// A part of a file that is not in the mesh.
@@ -141,6 +143,7 @@ impl fmt::Display for LeftOut {
             FilePart::Primitive => ["primitive", "primitives"],
             FilePart::Node => ["node", "nodes"],
             FilePart::Channel => ["channel", "channels"],
+            FilePart::Vertex => ["vertex", "vertices"],
         };
         write!(f, "{} {}", self.count, if self.count == 1 { singular } else { plural })?;
         if !self.name.is_empty() {

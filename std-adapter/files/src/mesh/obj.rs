@@ -74,6 +74,33 @@ pub(super) fn write(out: &mut impl Write, mesh: &Mesh, loose_edges: &[[u32; 2]])
     Ok(())
 }
 
+/// Returns the number of the vertex that a corner names. Numbers of texture coordinates and of a normal may follow.
+fn corner_name(field: &[u8]) -> Option<i64> {
+    let mut parts = field.split(|&byte| byte == b'/');
+    let vertex = parts.next().and_then(integer);
+    let is_number = |part: &[u8]| part.is_empty() || integer(part).is_some();
+    vertex.filter(|_| parts.clone().count() <= 2 && parts.all(is_number))
+}
+
+/// Finds a face or a vertex among the words of a line that is not read. The line end before it was lost.
+fn hidden_statement<'a>(mut words: impl Iterator<Item = &'a [u8]> + Clone) -> Option<&'a [u8]> {
+    while let Some(word) = words.next() {
+        let follow = |is: fn(&[u8]) -> bool| {
+            let rest = words.clone();
+            rest.clone().all(is) && rest.count() >= 3
+        };
+        let is_statement = match word {
+            b"f" | b"fo" => follow(|word| corner_name(word).is_some()),
+            b"v" => follow(|word| number(word).is_some()),
+            _ => false,
+        };
+        if is_statement {
+            return Some(word);
+        }
+    }
+    None
+}
+
 struct Reader<'a> {
     options: ReadOptions<'a>,
     parsed: Parsed,
@@ -129,6 +156,19 @@ impl<'a> Reader<'a> {
         let Some(keyword) = fields.next() else {
             return Ok(());
         };
+        let is_read = match keyword {
+            b"v" | b"f" | b"fo" => true,
+            b"l" | b"p" => self.options.loose_features,
+            _ => false,
+        };
+        if !is_read && let Some(word) = hidden_statement(fields.clone()) {
+            let reason = format!(
+                "the line begins with '{}', but '{}' follows on it; give it a line of its own",
+                quoted(keyword, 40),
+                quoted(word, 60)
+            );
+            return Err(FileProblem::Line { line, reason });
+        }
         match keyword {
             b"v" => self.vertex(line, fields),
             // The keyword `fo` is an old spelling of `f`.
@@ -197,11 +237,20 @@ impl<'a> Reader<'a> {
             *value = number(field).ok_or_else(|| not_a_number(vertex, line, name, field))?;
         }
         // A backslash has joined two lines by mistake.
-        let is_word = |field: &&[u8]| field[0].is_ascii_alphabetic() && number(field).is_none();
-        if let Some(word) = fields.find(is_word) {
+        let is_word = |field: &&[u8]| number(field).is_none();
+        let mut rest = 0;
+        if let Some(word) = fields.inspect(|_| rest += 1).find(is_word) {
             let reason = format!(
                 "vertex {vertex} has '{}' after its coordinates, which is not a number",
                 quoted(word, 40)
+            );
+            return Err(FileProblem::Line { line, reason });
+        }
+        // The most are a weight and a colour of four numbers.
+        if rest > 5 {
+            let reason = format!(
+                "vertex {vertex} has {} numbers, but the most are eight; is it one vertex?",
+                3 + rest
             );
             return Err(FileProblem::Line { line, reason });
         }
@@ -261,11 +310,10 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// Returns the vertex that a corner names. Numbers count from 1 for the file's first vertex, or from −1 for the one just
+    /// Returns the vertex that a corner names, as in `7`, `7/3` and `7//2`. Numbers count from 1 for the file's first vertex, or from −1 for the one just
     /// above the face.
     fn corner(&mut self, line: usize, field: &[u8], owner: Owner) -> Result<u32, FileProblem> {
-        let name = field.split(|&byte| byte == b'/').next().unwrap_or_default();
-        let vertex = integer(name).ok_or_else(|| {
+        let vertex = corner_name(field).ok_or_else(|| {
             FileProblem::at_line(
                 line,
                 format!(

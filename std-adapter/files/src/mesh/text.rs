@@ -40,6 +40,104 @@ impl<'a> Iterator for Lines<'a> {
     }
 }
 
+/// The words of a text, with the numbers of their lines. White space and line ends separate words alike.
+#[derive(Clone)]
+pub(super) struct Words<'a> {
+    lines: Lines<'a>,
+    /// The part of the current line after the last word that was returned.
+    line: &'a [u8],
+    is_first: bool,
+    /// True if `#` begins a comment, which ends with its line.
+    has_comments: bool,
+}
+
+impl<'a> Words<'a> {
+    pub(super) fn new(text: &'a [u8], has_comments: bool) -> Self {
+        Self {
+            lines: Lines::new(text),
+            line: &[],
+            is_first: false,
+            has_comments,
+        }
+    }
+
+    /// The line of the last word that was returned, from 1.
+    pub(super) fn number(&self) -> usize {
+        self.lines.number
+    }
+
+    /// Returns whether the last word that was returned is the first of its line.
+    pub(super) fn is_first(&self) -> bool {
+        self.is_first
+    }
+
+    /// The number of bytes after the last word that was returned.
+    pub(super) fn bytes_left(&self) -> usize {
+        self.line.len() + self.lines.rest().len()
+    }
+
+    /// Returns how many words are left on the current line.
+    pub(super) fn words_in_line(&self) -> usize {
+        fields(self.line).count()
+    }
+
+    /// Returns the letters at the begin of the next word, and leaves the rest of it.
+    pub(super) fn next_letters(&mut self) -> Option<&'a [u8]> {
+        let mut ahead = self.clone();
+        let word = ahead.next()?;
+        let letters = word.iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
+        if letters == word.len() {
+            *self = ahead;
+        } else {
+            // Move to the begin of the word.
+            while trim(self.line).is_empty() {
+                self.next_line()?;
+            }
+            self.line = &trim(self.line)[letters..];
+        }
+        Some(&word[..letters])
+    }
+
+    fn next_line(&mut self) -> Option<()> {
+        self.line = self.lines.next()?;
+        if self.has_comments {
+            self.line = self.line.split(|&byte| byte == b'#').next().unwrap_or_default();
+        }
+        Some(())
+    }
+
+    /// Returns the next word if it stands on the current line.
+    pub(super) fn next_in_line(&mut self) -> Option<&'a [u8]> {
+        let line = trim(self.line);
+        if line.is_empty() {
+            return None;
+        }
+        let (word, rest) = line.split_at(line.iter().position(is_space).unwrap_or(line.len()));
+        self.line = rest;
+        Some(word)
+    }
+
+    /// Returns the words that are left on the current line.
+    pub(super) fn rest_of_line(&mut self) -> &'a [u8] {
+        trim(std::mem::take(&mut self.line))
+    }
+}
+
+impl<'a> Iterator for Words<'a> {
+    type Item = &'a [u8];
+
+    fn next(&mut self) -> Option<&'a [u8]> {
+        self.is_first = false;
+        loop {
+            if let Some(word) = self.next_in_line() {
+                return Some(word);
+            }
+            self.is_first = true;
+            self.next_line()?;
+        }
+    }
+}
+
 /// Removes a byte order mark in front of UTF-8 text.
 ///
 /// # Errors

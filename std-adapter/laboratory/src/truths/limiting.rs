@@ -12,7 +12,7 @@ use super::setting::{DENSITY, elastic, pinned, scene, sheet, vertices_where, wei
 use super::{ErrorUnit, Failure, Law, Outcome, Sample};
 use selvedge_cloth::effects::{AirDrag, BodyContact, PinGroup, PinMotion, Pins, StrainLimit, Thickness};
 use selvedge_cloth::glam::DVec3;
-use selvedge_cloth::{Body, BodyMotion, Cloth, Keyframe, KeyframeMotion, Mesh, Placement, Simulation};
+use selvedge_cloth::{Body, BodyMotion, Cloth, Interpolation, Keyframe, KeyframeMotion, Mesh, Placement, Simulation};
 use std::f64::consts::FRAC_PI_2;
 
 /// The edges of a cloth, and the largest stretch of theirs so far.
@@ -209,9 +209,10 @@ pub(super) const TAUT: Law = Law {
                 ..Keyframe::default()
             };
             let keys = vec![key(0.0, 0.0), key(0.4, -0.07), key(0.5, -depth - taut)];
+            let motion = KeyframeMotion::new(DVec3::ZERO, DVec3::Z, keys)?;
             Ok(PinGroup {
                 vertices: vertices_where(cloth.mesh(), |point| point.x * side > half - 1e-9),
-                motion: PinMotion::Own(KeyframeMotion::new(DVec3::ZERO, DVec3::Z, keys)?.into()),
+                motion: PinMotion::Own(motion.interpolated(Interpolation::Smooth).into()),
             })
         };
         let groups = vec![group(-1.0)?, group(1.0)?];

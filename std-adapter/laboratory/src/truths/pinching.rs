@@ -7,7 +7,7 @@ use super::stepping::slowed;
 use super::{ErrorUnit, Failure, Law, Outcome, Sample};
 use selvedge_cloth::effects::AirDrag;
 use selvedge_cloth::glam::{BVec3, DVec3};
-use selvedge_cloth::{Body, BodyMotion, Cloth, Keyframe, KeyframeMotion, Mesh, OnBlocked, Simulation};
+use selvedge_cloth::{Body, BodyMotion, Cloth, Interpolation, Keyframe, KeyframeMotion, Mesh, OnBlocked, Simulation};
 
 /// The rate of the air's drag, in 1/s.
 const DRAG: f64 = 1.0;
@@ -46,7 +46,8 @@ fn pinched(conditions: &Conditions, friction: f64) -> Result<Run, Failure> {
             ..Keyframe::default()
         };
         let keys = vec![key(0.0, 4e-3), key(0.02, 2e-3)];
-        pad.motion = BodyMotion::Keyframes(KeyframeMotion::new(DVec3::ZERO, DVec3::Z, keys)?);
+        let motion = KeyframeMotion::new(DVec3::ZERO, DVec3::Z, keys)?;
+        pad.motion = BodyMotion::Keyframes(motion.interpolated(Interpolation::Smooth));
         scene.bodies.push(pad);
     }
     scene.add(AirDrag { rate: DRAG });

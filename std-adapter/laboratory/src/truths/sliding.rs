@@ -9,7 +9,7 @@ use selvedge_cloth::effects::{
     AirDrag, BodyContact, Effect, Force, Friction, Gravity, PinGroup, PinMotion, Pins, Plan, RopeStretch, Thickness, TimeStep,
 };
 use selvedge_cloth::glam::DVec3;
-use selvedge_cloth::{Body, Cloth, Keyframe, KeyframeMotion};
+use selvedge_cloth::{Body, Cloth, Interpolation, Keyframe, KeyframeMotion};
 use std::f64::consts::{FRAC_PI_4, PI};
 
 const THICKNESS: f64 = 3e-3;
@@ -171,7 +171,8 @@ fn tensions_at_cylinder([angle, friction]: [f64; 2], conditions: &Conditions) ->
         translation: speed * time * ahead(angle),
         ..Keyframe::default()
     };
-    let motion = PinMotion::Own(KeyframeMotion::new(DVec3::ZERO, DVec3::Z, vec![key(0.0), key(time)])?.into());
+    let motion = KeyframeMotion::new(DVec3::ZERO, DVec3::Z, vec![key(0.0), key(time)])?;
+    let motion = PinMotion::Own(motion.interpolated(Interpolation::Smooth).into());
     let vertices = vec![segments];
     scene.add(Pins {
         groups: vec![PinGroup { vertices, motion }],

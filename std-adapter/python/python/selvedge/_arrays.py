@@ -11,7 +11,13 @@ from .errors import DataTypeError, InputError
 _EXACT = 2**53
 
 
+def _refuse_masked(value: object, name: str) -> None:
+    if isinstance(value, np.ma.MaskedArray):
+        raise InputError(f"{name}: this is a masked array, whose masked entries have no value; pass a plain array, such as {name}.filled(...)")
+
+
 def _array(value: object, name: str) -> NDArray[Any]:
+    _refuse_masked(value, name)
     try:
         array = np.asarray(value)
     except ValueError as error:
@@ -61,6 +67,7 @@ def indices(value: object, name: str, columns: int) -> NDArray[np.uint32]:
 
 def flags(value: object, name: str) -> NDArray[np.bool_]:
     """Returns an array of bool of shape (n,)."""
+    _refuse_masked(value, name)
     array = np.asarray(value)
     if array.dtype != np.bool_ or array.ndim != 1:
         raise DataTypeError(f"{name}: expected an array of bool of shape (n,), not {array.dtype} of shape {array.shape}")

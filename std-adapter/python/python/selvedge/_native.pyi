@@ -260,6 +260,18 @@ class Simulation:
         and then translated. It rotates the short way. If it leaves the cloth no room, it stops on its way or the step fails, depending on
         the scene's ``on_blocked``."""
 
+    def teleport(
+        self,
+        bodies: Sequence[str | int],
+        translation: Sequence[float] | NDArray[np.floating[Any]] = ...,
+        rotation: Sequence[float] | NDArray[np.floating[Any]] = ...,
+        *,
+        cloths: Sequence[str | int] = ...,
+    ) -> None:
+        """Moves driven bodies elsewhere at once, with their pins and the cloth that hangs on them, as for a figure that teleports. No time
+        passes. Positions in the world are rotated about the origin, then translated; velocities turn along. ``cloths`` move as well, such as a
+        garment without pins. On an error nothing has changed."""
+
     def placement(self, body: str | int) -> tuple[list[float], list[float]] | None:
         """Returns the translation and rotation of a driven body; None for other bodies and for one that was moved vertex by vertex."""
 

@@ -44,7 +44,7 @@ impl<'a> File<'a> {
         if mode == Mode::Triangles && indices.len() % 3 != 0 {
             return Err(wrong(&what, format!("has {} indices, no multiple of three", indices.len())));
         }
-        if let Some(place) = indices.iter().position(|&vertex| vertex >= count as f64) {
+        if let Some(place) = indices.iter().position(|&vertex| !is_index(vertex, count)) {
             let problem = FileProblem::IndexOutOfRange {
                 line: None,
                 face: parts.triangles.len()
@@ -76,11 +76,19 @@ impl<'a> File<'a> {
         parts.positions.extend(positions);
         match skin {
             None => Ok(()),
-            Some(skin) => self.add_influences(primitive, &what, skin.joints().count(), count, parts),
+            Some(skin) => {
+                let without = self.add_influences(primitive, &what, skin.joints().count(), count, parts)?;
+                if without > 0 {
+                    let name = "of weight zero, which follow joint 0";
+                    left_out.push(LeftOut::new(FilePart::Vertex, name, without, None, false));
+                }
+                Ok(())
+            }
         }
     }
 
-    /// Adds the joints of the `count` vertices of a primitive.
+    /// Adds the joints of the `count` vertices of a primitive. Vertices whose weights are all zero follow joint 0; returns how
+    /// many there are.
     fn add_influences(
         &self,
         primitive: &Primitive<'a>,
@@ -88,7 +96,7 @@ impl<'a> File<'a> {
         joint_count: usize,
         count: usize,
         parts: &mut Parts,
-    ) -> Result<(), AnimationProblem> {
+    ) -> Result<usize, AnimationProblem> {
         let mut sets = Vec::new();
         while let Some(joints) = primitive.get(&Semantic::Joints(sets.len() as u32)) {
             let set = sets.len();
@@ -103,6 +111,11 @@ impl<'a> File<'a> {
                 "has a skin, but no JOINTS_0 that say which joints its vertices follow",
             ));
         }
+        if primitive.get(&Semantic::Weights(sets.len() as u32)).is_some() {
+            let set = sets.len();
+            return Err(wrong(what, format!("has WEIGHTS_{set}, but no JOINTS_{set}")));
+        }
+        let mut without = 0;
         for vertex in 0..count {
             let of_vertex = 4 * vertex..4 * vertex + 4;
             let all = sets
@@ -116,22 +129,28 @@ impl<'a> File<'a> {
                         format!("vertex {vertex} has the weight {weight}, but none may be negative"),
                     ));
                 }
-                if joint >= joint_count as f64 {
+                if !is_index(joint, joint_count) {
                     let reason = format!("vertex {vertex} follows joint {joint}, but the skin has {joint_count}, from 0 on");
                     return Err(wrong(what, reason));
                 }
                 parts.influences.push((joint as u32, weight));
             }
+            if parts.influences.len() == begin {
+                without += 1;
+                parts.influences.push((0, 1.0));
+            }
             let own = &mut parts.influences[begin..];
             let sum: f64 = own.iter().map(|(_, weight)| weight).sum();
-            if sum <= 0.0 {
-                return Err(wrong(what, format!("vertex {vertex} follows no joint: its weights are zero")));
-            }
             own.iter_mut().for_each(|(_, weight)| *weight /= sum);
             parts.ends.push(parts.influences.len() as u32);
         }
-        Ok(())
+        Ok(without)
     }
+}
+
+/// Returns whether a number is one of the `count` indices from 0 on. A file may store indices as any type.
+fn is_index(number: f64, count: usize) -> bool {
+    number >= 0.0 && number < count as f64 && number.fract() == 0.0
 }
 
 /// Appends the triangles of a list, a strip or a fan of vertices. Those of a strip or fan that name a vertex twice only join two parts.

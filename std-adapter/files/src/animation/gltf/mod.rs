@@ -27,7 +27,7 @@ pub(crate) fn parse(bytes: &[u8], path: &Path, choice: &Choice<'_>) -> Result<Fi
     if bytes.is_empty() {
         return Err(FileProblem::Empty.into());
     }
-    trusted::check_length(bytes)?;
+    let trailing = trusted::check_length(bytes)?;
     // Messages of serde quote texts of the file whole.
     let invalid = |error: &dyn Display| AnimationProblem::NotGltf(excerpt(&error.to_string(), 200));
     let (json, blob) = if bytes.starts_with(b"glTF") {
@@ -39,6 +39,7 @@ pub(crate) fn parse(bytes: &[u8], path: &Path, choice: &Choice<'_>) -> Result<Fi
     };
     let mut root: serde_json::Value = serde_json::from_slice(&json).map_err(|error| invalid(&error))?;
     let mut left_out = lenient::reduce(&mut root)?;
+    left_out.extend(trailing);
     let root: gltf::json::Root = serde_json::from_value(root).map_err(|error| invalid(&error))?;
     trusted::check_indices(&root)?;
     let document = gltf::Document::from_json(root).map_err(|error| invalid(&error))?;

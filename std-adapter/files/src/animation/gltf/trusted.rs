@@ -2,13 +2,14 @@
 
 use super::short;
 use crate::animation::error::AnimationProblem;
+use crate::mesh::{FilePart, LeftOut};
 use gltf::json::validation::Checked;
 
-/// Checks that a binary file is as long as its header says. The `gltf` crate would take a length below that of the header for an
-/// enormous one.
-pub(super) fn check_length(bytes: &[u8]) -> Result<(), AnimationProblem> {
+/// Checks that a binary file is as long as its header says, and reports bytes after that. The `gltf` crate would take a length
+/// below that of the header for an enormous one.
+pub(super) fn check_length(bytes: &[u8]) -> Result<Option<LeftOut>, AnimationProblem> {
     if !bytes.starts_with(b"glTF") {
-        return Ok(());
+        return Ok(None);
     }
     let length = bytes.get(8..12).and_then(|length| length.try_into().ok());
     let length = length.map_or(0, u32::from_le_bytes) as usize;
@@ -19,7 +20,9 @@ pub(super) fn check_length(bytes: &[u8]) -> Result<(), AnimationProblem> {
         );
         return Err(AnimationProblem::NotGltf(message));
     }
-    Ok(())
+    let rest = &bytes[length..];
+    let is_padding = rest.iter().all(|&byte| byte == 0);
+    Ok((!is_padding).then(|| LeftOut::new(FilePart::TrailingByte, "", rest.len(), None, true)))
 }
 
 /// Checks that all indices in attributes of primitives and in animations exist. The `gltf` crate uses the former before it checks
