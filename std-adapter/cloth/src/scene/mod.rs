@@ -206,12 +206,13 @@ impl Scene {
         self
     }
 
-    /// Returns all cloths at rest as one mesh; vertices have the scene's numbers.
+    /// Returns all cloths as they start, as one mesh; vertices have the scene's numbers.
     #[must_use]
     pub fn all_cloth(&self) -> Mesh {
         let mut all = Mesh::default();
-        for Cloth { mesh, .. } in &self.cloths {
-            append(&mut all, mesh);
+        for cloth in &self.cloths {
+            let vertices = append(&mut all, cloth.mesh());
+            all.positions[vertices].copy_from_slice(cloth.start());
         }
         all
     }
@@ -445,6 +446,8 @@ impl Scene {
             coordinates.for_each(|x| take(&x.to_le_bytes()));
             mesh.triangles.iter().flatten().for_each(|vertex| take(&vertex.to_le_bytes()));
         }
+        let starts = self.cloths.iter().flat_map(Cloth::own_start).flatten();
+        starts.flat_map(|position| position.to_array()).for_each(|x| take(&x.to_le_bytes()));
         fingerprint.value()
     }
 }

@@ -32,7 +32,7 @@ mod untangle;
 pub use checkpoint::{CHECKPOINT_STEPS, CheckpointError};
 pub use drive::DriveError;
 pub use errors::{Blocked, SetupError};
-pub use frame::{FrameError, FrameSteps};
+pub use frame::{FrameError, FrameProgress, FrameSteps};
 pub use measures::{EdgeStretch, EffectTime};
 pub use simulation::Simulation;
 pub use state::FASTEST;

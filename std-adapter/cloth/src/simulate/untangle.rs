@@ -50,6 +50,7 @@ impl Simulation {
             return Ok(());
         }
         Err(SetupError::Tangled(Box::new(Tangled {
+            pinned: Tangled::pinned_of(&crossings, &self.made.carriers[..self.made.cloth_vertices]),
             crossings,
             numbers_in_files: self.mesh_in_files().number_of,
             mesh: self.mesh(),

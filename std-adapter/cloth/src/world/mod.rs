@@ -9,10 +9,12 @@ mod incidence;
 mod material;
 mod motion;
 mod placement;
+pub(crate) mod read_mesh;
 mod rope;
 mod runs;
 pub(crate) mod shapes;
 pub mod sleeve;
+mod start;
 
 use crate::input::ValueError;
 use std::ops::Range;
