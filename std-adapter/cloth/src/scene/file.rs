@@ -18,10 +18,18 @@ impl Scene {
     /// # Errors
     /// Returns an error if the file cannot be read or contains an error. The message names file, line and column.
     pub fn read(path: &Path) -> Result<Self, SceneError> {
+        Self::read_in(path, &SceneContext::default())
+    }
+
+    /// Reads a scene file like [`read`](Self::read), with the files and meshes that it names.
+    ///
+    /// # Errors
+    /// Those of [`read`](Self::read).
+    pub fn read_in(path: &Path, context: &SceneContext) -> Result<Self, SceneError> {
         let bytes = std::fs::read(path).map_err(|error| SceneError::whole(path, format!("cannot be read: {error}")))?;
         let text = String::from_utf8(bytes)
             .map_err(|_| SceneError::whole(path, "is not UTF-8 text; a scene is a TOML file".to_owned()))?;
-        Self::parse(&text, path)
+        Self::parse_in(&text, path, context)
     }
 
     /// Reads a scene from the text of a file. `path` appears in messages, and paths in the text are relative to its folder.

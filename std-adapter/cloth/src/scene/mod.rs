@@ -387,6 +387,12 @@ impl Scene {
         }
     }
 
+    /// Returns whether the scene has a duration: a scene that code makes or runs may have none.
+    #[must_use]
+    pub fn has_duration(&self) -> bool {
+        self.duration < LARGEST_TIME
+    }
+
     /// Returns the number of steps in the duration; of frames in a scene [by frames](Self::by_frames).
     #[must_use]
     pub fn steps(&self) -> u64 {

@@ -14,6 +14,7 @@ mod garments;
 mod materials;
 mod paying_only;
 mod plastic_folds;
+mod rest_shape;
 mod ropes;
 mod seams;
 mod several_cloths;
