@@ -58,8 +58,8 @@ pub use selvedge_core::glam;
 /// Readers of meshes, numbered frames and figures, from which [`Animation`]s are made.
 pub use selvedge_files as files;
 pub use simulate::{
-    Blocked, CHECKPOINT_STEPS, CheckpointError, DriveError, EdgeStretch, EffectTime, FASTEST, FrameError, FrameProgress, FrameSteps,
-    SetupError, Simulation, Tangled, Untangled, UntanglingEnd, UntanglingProgress,
+    Blocked, CHECKPOINT_STEPS, CheckpointError, DriveError, EdgeStretch, EffectTime, FASTEST, FrameError, FrameProgress,
+    FrameSteps, SetupError, Simulation, Tangled, Untangled, UntanglingEnd, UntanglingProgress,
 };
 pub use solve::{Accuracy, SolveCounts};
 pub use world::{Animation, Body, BodyMotion, Cloth, Keyframe, KeyframeMotion, Material, MeshInFiles, Placement, sleeve};

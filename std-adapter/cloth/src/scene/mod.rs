@@ -453,7 +453,9 @@ impl Scene {
             mesh.triangles.iter().flatten().for_each(|vertex| take(&vertex.to_le_bytes()));
         }
         let starts = self.cloths.iter().flat_map(Cloth::own_start).flatten();
-        starts.flat_map(|position| position.to_array()).for_each(|x| take(&x.to_le_bytes()));
+        starts
+            .flat_map(|position| position.to_array())
+            .for_each(|x| take(&x.to_le_bytes()));
         fingerprint.value()
     }
 }

@@ -52,7 +52,8 @@ impl Simulation {
             None => self.step(),
             Some(seconds) => {
                 let steps = self.steps_needed(seconds).min(MOST_STEPS);
-                self.steps_of_frame(seconds, steps, &mut |_| ControlFlow::Continue(())).map(drop)
+                self.steps_of_frame(seconds, steps, &mut |_| ControlFlow::Continue(()))
+                    .map(drop)
             }
         }
     }

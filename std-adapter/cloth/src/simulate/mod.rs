@@ -16,6 +16,7 @@ mod checkpoint;
 mod drive;
 mod errors;
 mod frame;
+mod growth;
 mod measures;
 mod momentum;
 mod resume;

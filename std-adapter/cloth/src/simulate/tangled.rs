@@ -92,8 +92,14 @@ impl Tangled {
 
     /// Returns the vertices of cloth in crossings that a motion carries, in their order.
     pub(super) fn pinned_of(crossings: &[Crossing], carriers_of_cloth: &[Carrier]) -> Vec<u32> {
-        let vertices = crossings.iter().flat_map(|crossing| crossing.edge.into_iter().chain(crossing.face));
-        let is_pinned = |vertex: &u32| carriers_of_cloth.get(*vertex as usize).is_some_and(|&carrier| carrier != FREE);
+        let vertices = crossings
+            .iter()
+            .flat_map(|crossing| crossing.edge.into_iter().chain(crossing.face));
+        let is_pinned = |vertex: &u32| {
+            carriers_of_cloth
+                .get(*vertex as usize)
+                .is_some_and(|&carrier| carrier != FREE)
+        };
         let mut pinned: Vec<u32> = vertices.filter(is_pinned).collect();
         pinned.sort_unstable();
         pinned.dedup();
@@ -110,7 +116,11 @@ impl Tangled {
         let number = |&vertex: &u32| self.numbers_in_files[vertex as usize].to_string();
         let named: Vec<String> = self.pinned.iter().take(NAMED).map(number).collect();
         let more = if self.pinned.len() > NAMED { ", …" } else { "" };
-        let what = if self.pinned.len() == 1 { "pinned vertex is" } else { "pinned vertices are" };
+        let what = if self.pinned.len() == 1 {
+            "pinned vertex is"
+        } else {
+            "pinned vertices are"
+        };
         write!(
             f,
             "; {} {what} there ({}{more}): nothing moves pins, so start them in free space",

@@ -155,7 +155,9 @@ impl Body {
             }
             BodyShape::Ball => Self::ball(name, table.required_vector(&CENTRE)?, radius()?, around()?),
             BodyShape::File => Ok(Self::from_mesh(name, read_mesh::of_file(table)?)),
-            BodyShape::Mesh if !table.named_mesh()?.frames.is_empty() => return Self::read_frames_of_code(name, table, time_step),
+            BodyShape::Mesh if !table.named_mesh()?.frames.is_empty() => {
+                return Self::read_frames_of_code(name, table, time_step);
+            }
             BodyShape::Mesh => Ok(Self::from_mesh(name, read_mesh::of_code(table)?)),
             BodyShape::Frames => return Self::read_frames(name, table, time_step),
             BodyShape::Figure => return Self::read_figure(name, table, time_step),

@@ -418,7 +418,10 @@ pub(super) fn check_triangles(mesh: &Mesh) -> Result<(), ValueError> {
         let lengths = [a.distance(b), b.distance(c), c.distance(a)];
         let height = 2.0 * area / lengths.into_iter().fold(0.0, f64::max);
         let message = if area < SMALLEST_AREA {
-            format!("has an area below {} square millimetres; are the units metres?", 1e6 * SMALLEST_AREA)
+            format!(
+                "has an area below {} square millimetres; are the units metres?",
+                1e6 * SMALLEST_AREA
+            )
         } else if height < SMALLEST_HEIGHT {
             let [a, b, c] = corners;
             format!(

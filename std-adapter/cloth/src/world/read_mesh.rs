@@ -77,7 +77,9 @@ pub(crate) fn cloth_of_file(table: &Table<'_>, with_loose_edges: bool) -> Result
     if is_whole && !(mesh.triangles.is_empty() && loose_edges.is_empty()) {
         left_out = leave_out_isolated(&mut mesh, &mut loose_edges, &mut file);
     }
-    let rest = rest.map(|rest| of_cloth(table, &rest, &file, mesh.positions.len())).transpose()?;
+    let rest = rest
+        .map(|rest| of_cloth(table, &rest, &file, mesh.positions.len()))
+        .transpose()?;
     Ok(ClothMesh {
         mesh,
         loose_edges,
@@ -104,7 +106,9 @@ pub(crate) fn cloth_of_code(table: &Table<'_>, given: &NamedMesh) -> Result<Clot
         let message = format!("vertex {vertex} of the mesh belongs to no face and no edge; leave such vertices out");
         return Err(table.error("mesh", message));
     }
-    let rest = rest.map(|rest| of_cloth(table, &rest, &file, mesh.positions.len())).transpose()?;
+    let rest = rest
+        .map(|rest| of_cloth(table, &rest, &file, mesh.positions.len()))
+        .transpose()?;
     Ok(ClothMesh {
         mesh,
         loose_edges,
@@ -192,7 +196,11 @@ impl Read {
         } = self;
         let wrong = |error: ValueError| table.error(key, error.message);
         check(&mesh).map_err(wrong)?;
-        if let Some(end) = loose_edges.as_flattened().iter().find(|&&end| end as usize >= mesh.positions.len()) {
+        if let Some(end) = loose_edges
+            .as_flattened()
+            .iter()
+            .find(|&&end| end as usize >= mesh.positions.len())
+        {
             let count = mesh.positions.len();
             let message = format!("an edge of the mesh names the vertex {end}, but there are {count}, numbered from 0");
             return Err(table.error(key, message));

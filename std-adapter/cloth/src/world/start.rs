@@ -35,7 +35,10 @@ impl Cloth {
     pub fn starting_at(mut self, positions: Vec<DVec3>) -> Result<Self, ValueError> {
         let expected = self.mesh.positions.len();
         if positions.len() != expected {
-            let message = format!("there are {} positions to start at, but the cloth has {expected} vertices", positions.len());
+            let message = format!(
+                "there are {} positions to start at, but the cloth has {expected} vertices",
+                positions.len()
+            );
             return Err(ValueError::new("mesh", message));
         }
         let mesh = Mesh::new(positions, std::mem::take(&mut self.mesh.triangles));

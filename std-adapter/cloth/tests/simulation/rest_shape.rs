@@ -37,10 +37,16 @@ fn lengths_and_angles_at_rest_are_those_of_the_rest_shape() {
 #[test]
 fn pins_hold_vertices_where_they_start() {
     let mut scene = Scene::new(sheet().starting_at(bent()).unwrap(), 2e-3);
-    scene.add(Gravity::default()).add(Stretch::isotropic(500.0)).add(resting(vec![0, 10]));
+    scene
+        .add(Gravity::default())
+        .add(Stretch::isotropic(500.0))
+        .add(resting(vec![0, 10]));
     let mut simulation = Simulation::new(scene, 1).unwrap();
     simulation.step().unwrap();
-    assert_eq!([0, 10].map(|vertex| simulation.positions()[vertex]), [0, 10].map(|vertex| bent()[vertex]));
+    assert_eq!(
+        [0, 10].map(|vertex| simulation.positions()[vertex]),
+        [0, 10].map(|vertex| bent()[vertex])
+    );
 }
 
 #[test]
@@ -87,7 +93,10 @@ fn a_mesh_from_code_has_a_rest_shape_in_the_place_of_the_start() {
     assert!(!scene.has_duration());
     let error = Scene::parse_in(&text.replace("\"sheet\"", "\"shet\""), Path::new("scene.toml"), &context).unwrap_err();
     assert!(error.message.contains("did you mean 'sheet'"), "{error}");
-    assert_eq!(error.field(&text.replace("\"sheet\"", "\"shet\"")).as_deref(), Some("cloth.mesh"));
+    assert_eq!(
+        error.field(&text.replace("\"sheet\"", "\"shet\"")).as_deref(),
+        Some("cloth.mesh")
+    );
 }
 
 #[test]
@@ -98,7 +107,11 @@ fn a_frame_that_is_stopped_has_made_whole_steps_and_goes_on() {
     let mut told = Vec::new();
     let frame = simulation.advance_while(0.1, 64, &mut |now| {
         told.push(now);
-        if now.steps == 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if now.steps == 3 {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
     });
     assert_eq!(frame.unwrap().steps, 3);
     assert_eq!(told.iter().map(|now| now.steps).collect::<Vec<_>>(), [1, 2, 3]);
@@ -114,7 +127,9 @@ fn pinned_vertices_in_a_tangled_start_are_named() {
     let cloth = sheet();
     let pinned = 60;
     let mut scene = Scene::new(cloth, 2e-3);
-    scene.bodies.push(Body::ball("ball", DVec3::new(0.0, 0.0, 0.01), 0.02, 12).unwrap());
+    scene
+        .bodies
+        .push(Body::ball("ball", DVec3::new(0.0, 0.0, 0.01), 0.02, 12).unwrap());
     scene.add(BodyContact(Thickness::new(2e-3))).add(resting(vec![pinned]));
     scene.tangled_start = TangledStart::Refuse;
     let error = Simulation::new(scene, 1).unwrap_err().to_string();
