@@ -1,4 +1,4 @@
-"""The pictures and the table of docs/blender.md: python pictures.py [FOLDER], with bpy and selvedge installed.
+"""Pictures of a skirt and of two layers, and the skirt beside Blender's own cloth: python pictures.py [FOLDER], with bpy and selvedge.
 
 Each scene is a process of its own, as in the tests. A picture takes up to a minute.
 """
@@ -131,4 +131,4 @@ if __name__ == "__main__":
         folder, name, *values = sys.argv[2:]
         on_stage(lambda scene: globals()[name](scene, Path(folder), *map(int, values)))
     else:
-        main(Path(sys.argv[1]).resolve() if sys.argv[1:] else HERE / "../../docs")
+        main(Path(sys.argv[1] if sys.argv[1:] else ".").resolve())
