@@ -31,6 +31,8 @@ if ! "$tools/bin/python" -c 'import maturin, pytest, mypy, numpy, matplotlib' 2>
     "$python" -m venv "$tools" || missing "Python's module venv is missing (Debian: apt install python3-venv)"
     "$tools/bin/pip" install --quiet --disable-pip-version-check "maturin>=1.16,<2" "pytest>=9,<10" "mypy>=2.4,<2.5" numpy matplotlib ||
         missing "no package index can be reached"
+    # Not every Python has it; without it the tests of selvedge.usd are skipped.
+    "$tools/bin/pip" install --quiet --disable-pip-version-check usd-core || echo "check.sh: usd-core is missing"
 fi
 
 say "Python: the wheel"
@@ -57,5 +59,6 @@ say "Python: tests, types, stubs"
 "$tools/bin/pip" install --quiet --disable-pip-version-check --force-reinstall --no-deps "$wheels"/*.whl
 "$tools/bin/python" -m pytest -q --no-header -p no:cacheprovider
 "$tools/bin/python" -m mypy --strict --cache-dir "$target/mypy" python/selvedge
-(cd "$target" && "$tools/bin/python" -m mypy.stubtest selvedge --concise)
+configuration=$PWD/pyproject.toml
+(cd "$target" && "$tools/bin/python" -m mypy.stubtest selvedge --concise --mypy-config-file "$configuration")
 say "Python: everything passed"

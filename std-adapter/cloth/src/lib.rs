@@ -49,7 +49,7 @@ mod world;
 pub use contact::{ContactCounts, ContactSeconds, Crossing, ProximityPair};
 pub use display::{Tubes, vertex_normals};
 pub use effects::effect_names;
-pub use input::{SceneError, ValueError};
+pub use input::{NamedMesh, SceneContext, SceneError, ValueError};
 pub use model::energy::{Energy, StoredEnergy};
 pub use model::tearing::TornEdge;
 pub use scene::{OnBlocked, Scene, TangledStart};
@@ -58,8 +58,8 @@ pub use selvedge_core::glam;
 /// Readers of meshes, numbered frames and figures, from which [`Animation`]s are made.
 pub use selvedge_files as files;
 pub use simulate::{
-    Blocked, CHECKPOINT_STEPS, CheckpointError, DriveError, EdgeStretch, EffectTime, FASTEST, FrameError, FrameSteps, SetupError,
-    Simulation, Tangled, TeleportError, Untangled, UntanglingEnd, UntanglingProgress,
+    Blocked, CHECKPOINT_STEPS, CheckpointError, DriveError, EdgeStretch, EffectTime, FASTEST, FrameError, FrameProgress,
+    FrameSteps, SetupError, Simulation, Tangled, TeleportError, Untangled, UntanglingEnd, UntanglingProgress,
 };
 pub use solve::{Accuracy, SolveCounts};
 pub use world::{

@@ -132,7 +132,13 @@ pub(crate) fn show_contact<'py, S: Scalar>(
     class(py, "Contact")?.call1((kind, (a, b), contact.time.to_f64(), (p, q, r, s)))
 }
 
-pub(crate) fn show_intersections<'py>(py: Python<'py>, found: &[Intersection]) -> PyResult<Bound<'py, PyAny>> {
+/// Converts the intersections of a mesh, with their pairs of faces and their points.
+pub(crate) fn show_intersections<'py>(
+    py: Python<'py>,
+    found: &[Intersection],
+    face_pairs: Vec<[u32; 2]>,
+    points: Vec<[f64; 3]>,
+) -> PyResult<Bound<'py, PyAny>> {
     let (kinds, pairs): (Vec<u8>, Vec<[u32; 2]>) = found
         .iter()
         .map(|intersection| match *intersection {
@@ -141,7 +147,7 @@ pub(crate) fn show_intersections<'py>(py: Python<'py>, found: &[Intersection]) -
             Intersection::EdgeEdge { edges } => (2, edges),
         })
         .unzip();
-    class(py, "Intersections")?.call1((column(py, kinds), rows(py, pairs)?))
+    class(py, "Intersections")?.call1((column(py, kinds), rows(py, pairs)?, rows(py, face_pairs)?, rows(py, points)?))
 }
 
 /// Converts the near pairs of a simulation.

@@ -60,7 +60,8 @@ pub(crate) fn interruptible<T: Send>(
     })
 }
 
-fn is_main_thread(py: Python<'_>) -> PyResult<bool> {
+/// Returns whether Python runs signal handlers on this thread.
+pub(crate) fn is_main_thread(py: Python<'_>) -> PyResult<bool> {
     let threading = py.import("threading")?;
     let main = threading.call_method0("main_thread")?.getattr("ident")?;
     main.eq(threading.call_method0("get_ident")?)

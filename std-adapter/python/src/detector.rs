@@ -5,6 +5,7 @@ use crate::arrays::{Frames, flags, indices, with_frames};
 use crate::call::{Length, interruptible};
 use crate::errors::{self, BrokenError, ForkedError, InputError};
 use crate::finder::{Finder, Finders, Format, Part, SettingError, Settings, length};
+use crate::intersections;
 use numpy::IntoPyArray;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -17,7 +18,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 /// meshes.
 const FEW_PAIRS: usize = 1 << 22;
 
-/// The stub, `_native.pyi`, documents the class.
+#[doc = crate::stub!("Detector")]
 #[pyclass(frozen, module = "selvedge")]
 pub(crate) struct Detector {
     topology: Arc<Topology>,
@@ -189,6 +190,7 @@ impl Detector {
         })
     }
 
+    #[doc = crate::stub!("Detector.contacts")]
     #[pyo3(signature = (start, end, *, geometry=true))]
     fn contacts<'py>(
         &self,
@@ -204,6 +206,7 @@ impl Detector {
         })
     }
 
+    #[doc = crate::stub!("Detector.contacts_of")]
     #[pyo3(signature = (start, end, vertex_face, edge_edge, *, geometry=true))]
     fn contacts_of<'py>(
         &self,
@@ -227,6 +230,7 @@ impl Detector {
         })
     }
 
+    #[doc = crate::stub!("Detector.earliest")]
     fn earliest<'py>(
         &self,
         py: Python<'py>,
@@ -240,6 +244,7 @@ impl Detector {
         })
     }
 
+    #[doc = crate::stub!("Detector.is_free")]
     fn is_free(&self, py: Python<'_>, start: &Bound<'_, PyAny>, end: &Bound<'_, PyAny>) -> PyResult<bool> {
         with_frames!(step(start, end)?, [start, end] => {
             let (start, end) = (start.rows()?, end.rows()?);
@@ -247,6 +252,7 @@ impl Detector {
         })
     }
 
+    #[doc = crate::stub!("Detector.candidates")]
     #[pyo3(signature = (start, end, *, swept=false))]
     fn candidates<'py>(
         &self,
@@ -271,18 +277,22 @@ impl Detector {
         class(py, "CandidatePairs")?.call1((rows(py, vertex_face)?, rows(py, edge_edge)?))
     }
 
+    #[doc = crate::stub!("Detector.intersections")]
     fn intersections<'py>(&self, py: Python<'py>, positions: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let found = with_frames!(Frames::of([("positions", positions)])?, [positions] => {
             let positions = positions.rows()?;
             self.ask(py, |finder: &mut Finder<_>| {
                 let mut found = Vec::new();
                 finder.detector.intersections(positions, &mut found)?;
-                Ok(found)
+                let points = intersections::points(&found, &self.topology, positions).collect();
+                Ok((intersections::face_pairs(&found, &self.topology), points, found))
             })
         })?;
-        show_intersections(py, &found)
+        let (faces, points, found) = found;
+        show_intersections(py, &found, faces, points)
     }
 
+    #[doc = crate::stub!("Detector.has_intersections")]
     fn has_intersections(&self, py: Python<'_>, positions: &Bound<'_, PyAny>) -> PyResult<bool> {
         with_frames!(Frames::of([("positions", positions)])?, [positions] => {
             let positions = positions.rows()?;
@@ -290,6 +300,7 @@ impl Detector {
         })
     }
 
+    #[doc = crate::stub!("Detector.near")]
     fn near<'py>(&self, py: Python<'py>, positions: &Bound<'py, PyAny>, distance: f64) -> PyResult<Bound<'py, PyAny>> {
         with_frames!(Frames::of([("positions", positions)])?, [positions] => {
             let positions = positions.rows()?;
@@ -297,6 +308,7 @@ impl Detector {
         })
     }
 
+    #[doc = crate::stub!("Detector.truncate")]
     fn truncate<'py>(
         &self,
         py: Python<'py>,
@@ -315,12 +327,14 @@ impl Detector {
     }
 
     /// Cancels the running call. Any thread may call this.
+    #[doc = crate::stub!("Detector.cancel")]
     fn cancel(&self) {
         if let Some(asked) = &*self.asked() {
             asked.cancel();
         }
     }
 
+    #[doc = crate::stub!("Detector.set_threads")]
     fn set_threads(&self, py: Python<'_>, threads: usize) -> PyResult<()> {
         let mut finders = self.finders()?;
         let finders = &mut *finders;
@@ -329,6 +343,7 @@ impl Detector {
         changed.map_err(setting_error)
     }
 
+    #[doc = crate::stub!("Detector.set_limits")]
     #[pyo3(signature = (separation=0.0, tolerance=None, *, touching=false))]
     fn set_limits(&self, separation: f64, tolerance: Option<f64>, touching: bool) -> PyResult<()> {
         if touching && separation != 0.0 {
@@ -347,12 +362,14 @@ impl Detector {
         finders.change(Part::Limits, change).map_err(setting_error)
     }
 
+    #[doc = crate::stub!("Detector.set_moving")]
     #[pyo3(signature = (moving=None))]
     fn set_moving(&self, moving: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
         let moving = moving.map(|moving| flags(moving, "moving")).transpose()?;
         self.change(Part::Moving, |settings| settings.moving = moving)
     }
 
+    #[doc = crate::stub!("Detector.set_collision_filter")]
     #[pyo3(signature = (*, groups=None, patches=None, excluded=None))]
     fn set_collision_filter(
         &self,
@@ -370,40 +387,48 @@ impl Detector {
         })
     }
 
+    #[doc = crate::stub!("Detector.set_coherent")]
     fn set_coherent(&self, coherent: bool) -> PyResult<()> {
         self.change(Part::Coherent, |settings| settings.coherent = coherent)
     }
 
+    #[doc = crate::stub!("Detector.set_pair_limit")]
     #[pyo3(signature = (limit=None))]
     fn set_pair_limit(&self, limit: Option<u64>) -> PyResult<()> {
         self.change(Part::PairLimit, |settings| settings.pair_limit = limit)
     }
 
+    #[doc = crate::stub!("Detector.set_memory_limit")]
     #[pyo3(signature = (limit=Some(selvedge::DEFAULT_MEMORY_LIMIT)), text_signature = "($self, limit=2147483648)")]
     fn set_memory_limit(&self, limit: Option<u64>) -> PyResult<()> {
         self.change(Part::MemoryLimit, |settings| settings.memory_limit = limit)
     }
 
+    #[doc = crate::stub!("Detector.vertex_count")]
     #[getter]
     fn vertex_count(&self) -> usize {
         self.topology.vertex_count()
     }
 
+    #[doc = crate::stub!("Detector.faces")]
     #[getter]
     fn faces<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         rows(py, self.topology.triangles().to_vec())
     }
 
+    #[doc = crate::stub!("Detector.edges")]
     #[getter]
     fn edges<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         rows(py, self.topology.edges().to_vec())
     }
 
+    #[doc = crate::stub!("Detector.components")]
     #[getter]
     fn components<'py>(&self, py: Python<'py>) -> Bound<'py, PyAny> {
         self.topology.components().into_pyarray(py).into_any()
     }
 
+    #[doc = crate::stub!("Detector.threads")]
     #[getter]
     fn threads(&self) -> PyResult<usize> {
         Ok(self.finders()?.of::<f64>().map_err(setting_error)?.detector.threads())

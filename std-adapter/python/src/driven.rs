@@ -1,7 +1,8 @@
-//! Reads the names and positions with which a caller moves bodies and pins.
+//! Reads the names, vertices and positions with which a caller addresses cloths, bodies and pins.
 
-use crate::arrays::{Frames, with_frames};
+use crate::arrays::{Frames, indices, with_frames};
 use crate::errors::InputError;
+use numpy::PyUntypedArrayMethods;
 use pyo3::prelude::*;
 use selvedge_cloth::glam::DVec3;
 
@@ -13,31 +14,67 @@ pub(crate) enum Body {
 }
 
 impl Body {
-    pub(crate) fn index(&self, simulation: &selvedge_cloth::Simulation) -> PyResult<usize> {
-        self.among(simulation.body_names(), "body")
+    pub(crate) fn index(&self, names: &[String]) -> PyResult<usize> {
+        match self {
+            Self::Name(name) => named("body", name, names),
+            Self::Index(index) => numbered("body", *index, names),
+        }
     }
+}
 
-    /// Returns the index of the cloth that it names.
-    pub(crate) fn index_of_cloth(&self, simulation: &selvedge_cloth::Simulation) -> PyResult<usize> {
-        self.among(simulation.cloth_names(), "cloth")
-    }
+/// A cloth, by its name or by its index.
+#[derive(FromPyObject)]
+pub(crate) enum Cloth {
+    Name(String),
+    Index(usize),
+}
 
-    fn among(&self, names: &[String], kind: &str) -> PyResult<usize> {
-        let found = match self {
-            Self::Name(name) => names.iter().position(|known| known == name),
-            Self::Index(index) => (*index < names.len()).then_some(*index),
-        };
-        found.ok_or_else(|| match self {
-            Self::Name(name) => InputError::new_err(format!("there is no {kind} '{name}'; the scene has {names:?}")),
-            Self::Index(index) => InputError::new_err(format!("there is no {kind} {index}; the scene has {}", names.len())),
-        })
+impl Cloth {
+    pub(crate) fn index(&self, names: &[String]) -> PyResult<usize> {
+        match self {
+            Self::Name(name) => named("cloth", name, names),
+            Self::Index(index) => numbered("cloth", *index, names),
+        }
     }
+}
+
+fn named(what: &str, name: &str, names: &[String]) -> PyResult<usize> {
+    let found = names.iter().position(|known| known == name);
+    found.ok_or_else(|| InputError::new_err(format!("there is no {what} '{name}'; the scene has {names:?}")))
+}
+
+fn numbered(what: &str, index: usize, names: &[String]) -> PyResult<usize> {
+    let count = names.len();
+    (index < count)
+        .then_some(index)
+        .ok_or_else(|| InputError::new_err(format!("there is no {what} {index}; the scene has {count}")))
 }
 
 /// Converts positions of either format to those of the simulation.
 pub(crate) fn copied(positions: &Bound<'_, PyAny>) -> PyResult<Vec<DVec3>> {
-    with_frames!(Frames::of([("positions", positions)])?, [positions] => {
+    copied_as(positions, "positions")
+}
+
+/// Converts positions like [`copied`]; messages name them `name`.
+pub(crate) fn copied_as(positions: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<DVec3>> {
+    with_frames!(Frames::of([(name, positions)])?, [positions] => {
         let rows = positions.rows()?.iter();
         Ok(rows.map(|row| DVec3::from(row.map(f64::from))).collect())
     })
+}
+
+/// Converts vertices: their numbers, or one truth value for each of `count` vertices.
+pub(crate) fn whole_numbers(vertices: &Bound<'_, PyAny>, name: &str, count: usize) -> PyResult<Vec<u32>> {
+    if let Ok(mask) = vertices.cast::<numpy::PyArray1<bool>>() {
+        if mask.len() != count {
+            let text = format!("{name}: the mask has {} entries for {count} vertices", mask.len());
+            return Err(InputError::new_err(text));
+        }
+        let mask = numpy::PyArrayMethods::to_vec(mask)?;
+        return Ok((0..)
+            .zip(mask)
+            .filter_map(|(vertex, is_in)| is_in.then_some(vertex))
+            .collect());
+    }
+    Ok(indices::<1>(vertices, name)?.into_iter().map(|[vertex]| vertex).collect())
 }

@@ -12,11 +12,22 @@ mod detector;
 mod driven;
 mod errors;
 mod finder;
+mod intersections;
 mod meshes;
 mod pairs;
+mod scenes;
+mod simulated;
 mod simulation;
 
 use pyo3::prelude::*;
+
+/// The docstring of a name in the stub, `_native.pyi`: the one source of the package's documentation.
+macro_rules! stub {
+    ($name:literal) => {
+        include_str!(concat!(env!("OUT_DIR"), "/", $name, ".txt"))
+    };
+}
+pub(crate) use stub;
 
 /// Defines the names that `selvedge/__init__.py` re-exports.
 #[pymodule]
@@ -28,7 +39,7 @@ mod _native {
     #[pymodule_export]
     use crate::pairs::{time_of_impact, touches};
     #[pymodule_export]
-    use crate::simulation::Simulation;
+    use crate::simulated::Simulation;
 
     use pyo3::prelude::*;
 

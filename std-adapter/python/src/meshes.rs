@@ -18,6 +18,7 @@ fn check_distance(name: &str, distance: f64) -> PyResult<f64> {
     }
 }
 
+#[doc = crate::stub!("read_mesh")]
 #[pyfunction]
 #[pyo3(signature = (path, *, only=None, weld=None))]
 pub(crate) fn read_mesh<'py>(
@@ -47,6 +48,7 @@ pub(crate) fn read_mesh<'py>(
     ))
 }
 
+#[doc = crate::stub!("welded")]
 #[pyfunction]
 #[pyo3(signature = (positions, faces, tolerance=0.0))]
 pub(crate) fn welded<'py>(

@@ -49,7 +49,7 @@ fn time_of<S: Scalar + Element>(
     Ok(impact.time().map(S::to_f64).filter(|&time| time <= until))
 }
 
-/// Returns the time at which a pair comes into contact, or None if it certainly does not. The stub documents it.
+#[doc = crate::stub!("time_of_impact")]
 #[pyfunction]
 #[pyo3(signature = (kind, start, end, *, separation=0.0, tolerance=None, until=1.0))]
 pub(crate) fn time_of_impact(
@@ -64,7 +64,7 @@ pub(crate) fn time_of_impact(
     with_frames!(frames, [start, end] => time_of(kind, [start.rows()?, end.rows()?], separation, tolerance, until))
 }
 
-/// Decides exactly whether a pair touches during the step.
+#[doc = crate::stub!("touches")]
 #[pyfunction]
 pub(crate) fn touches(kind: u8, start: &Bound<'_, PyAny>, end: &Bound<'_, PyAny>) -> PyResult<bool> {
     let frames = Frames::of([("start", start), ("end", end)])?;

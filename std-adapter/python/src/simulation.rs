@@ -1,180 +1,42 @@
-//! The class `Simulation`.
+//! The class `Simulation`. Its state and its calls without the interpreter lock are in `simulated.rs`.
 
 use crate::answers::{class, rows, show_crossings, show_near_pairs, show_released, show_torn_edges, show_untangled};
 use crate::call::{Length, interruptible};
-use crate::driven::{Body, copied};
-use crate::errors::{self, BlockedError, BrokenError, CheckpointError, ForkedError, InputError};
-use numpy::{PyArray1, PyArray2, PyArrayMethods};
-use pyo3::exceptions::PyRuntimeWarning;
+use crate::driven::{Body, Cloth, copied, whole_numbers};
+use crate::errors::{self, BlockedError, CheckpointError, InputError};
+use crate::scenes;
+use crate::simulated::{Call, Simulation};
+use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyBytes, PyDict, PySlice, PyType};
 use selvedge_cloth::glam::{DQuat, DVec3};
-use selvedge_cloth::{ContactCounts, ContactSeconds, FrameError, Placement, Scene, vertex_normals};
-use std::ffi::CString;
+use selvedge_cloth::{ContactCounts, ContactSeconds, FrameError, Placement, Scene, SceneContext, vertex_normals};
+use std::ops::{ControlFlow, Range};
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
-
-/// The name of a scene without a file, in messages.
-const SCENE: &str = "scene.toml";
-
-/// The stub, `_native.pyi`, documents the class.
-#[pyclass(frozen, module = "selvedge")]
-pub(crate) struct Simulation {
-    simulation: Mutex<selvedge_cloth::Simulation>,
-    shown: Mutex<Shown>,
-    of_scene: OfScene,
-    /// The process that started its threads, if it has any.
-    threads_of: Option<u32>,
-    is_broken: AtomicBool,
-}
-
-/// The positions that the caller sees.
-struct Shown {
-    /// The positions, updated after each call that runs steps.
-    written: Py<PyArray2<f64>>,
-    /// The read-only view that the caller sees.
-    view: Py<PyAny>,
-    vertices: usize,
-}
-
-impl Shown {
-    fn new(py: Python<'_>, vertices: usize) -> PyResult<Self> {
-        let written = PyArray2::zeros(py, [vertices, 3], false);
-        let view = written.call_method0("view")?;
-        view.getattr("flags")?.setattr("writeable", false)?;
-        Ok(Self {
-            written: written.unbind(),
-            view: view.unbind(),
-            vertices,
-        })
-    }
-}
-
-/// Facts of the scene that the simulation does not store.
-struct OfScene {
-    steps: u64,
-    steps_per_frame: u64,
-    time_step: f64,
-    /// The length of a frame, in seconds.
-    frame: f64,
-    settings: Vec<(String, String)>,
-}
-
-impl Simulation {
-    fn of(py: Python<'_>, scene: PyResult<Scene>, threads: usize) -> PyResult<Self> {
-        let scene = scene?;
-        let of_scene = OfScene {
-            steps: scene.steps(),
-            steps_per_frame: scene.steps_per_frame(),
-            time_step: scene.time_step,
-            frame: scene.frame_rate.recip(),
-            settings: scene.settings(),
-        };
-        let made = interruptible(py, Length::Long, || (), || selvedge_cloth::Simulation::new(scene, threads))?;
-        let simulation = made
-            .map_err(|words| errors::broken(&words))?
-            .map_err(|error| errors::of_setup(py, &error))?;
-        let shown = Shown::new(py, simulation.positions().len())?;
-        let made = Self {
-            simulation: Mutex::new(simulation),
-            shown: Mutex::new(shown),
-            of_scene,
-            threads_of: (threads != 1).then(std::process::id),
-            is_broken: AtomicBool::new(false),
-        };
-        let simulation = made.simulation()?;
-        made.show(py, &simulation)?;
-        drop(simulation);
-        Ok(made)
-    }
-
-    fn simulation(&self) -> PyResult<MutexGuard<'_, selvedge_cloth::Simulation>> {
-        if self.is_broken.load(Ordering::Relaxed) {
-            return Err(BrokenError::new_err(
-                "a step failed because of a bug in Selvedge: create the simulation again",
-            ));
-        }
-        if self.threads_of.is_some_and(|process| process != std::process::id()) {
-            return Err(ForkedError::new_err(
-                "the simulation's threads are in the parent process: create a simulation in the child, or start children by 'spawn'",
-            ));
-        }
-        match self.simulation.try_lock() {
-            Ok(simulation) => Ok(simulation),
-            Err(TryLockError::WouldBlock) => Err(errors::busy()),
-            // A panic is caught earlier and marks the simulation.
-            Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
-        }
-    }
-
-    fn shown(&self) -> MutexGuard<'_, Shown> {
-        self.shown.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// Shows the steps that were done, which remain even after an interruption, and warns if one of them was too long: `before` is the
-    /// number of such steps before them.
-    fn shown_after<T>(
-        &self,
-        py: Python<'_>,
-        simulation: &selvedge_cloth::Simulation,
-        before: u64,
-        done: PyResult<Result<T, String>>,
-    ) -> PyResult<T> {
-        if let Ok(Err(words)) = &done {
-            self.is_broken.store(true, Ordering::Relaxed);
-            return Err(errors::broken(words));
-        }
-        self.show(py, simulation)?;
-        let done = done?.map_err(|words| errors::broken(&words))?;
-        if simulation.overstretched_steps() > before {
-            let text = format!(
-                "at {:.6} s an edge is more than 5 % above its limit: use a shorter time step, or advance()",
-                simulation.time()
-            );
-            PyErr::warn(py, &py.get_type::<PyRuntimeWarning>(), &CString::new(text)?, 1)?;
-        }
-        Ok(done)
-    }
-
-    fn show(&self, py: Python<'_>, simulation: &selvedge_cloth::Simulation) -> PyResult<()> {
-        let vertices = simulation.positions().len();
-        // No Python code runs while it is locked.
-        let known = self.shown().vertices;
-        if known != vertices {
-            // Tearing has added vertices.
-            let torn = Shown::new(py, vertices)?;
-            *self.shown() = torn;
-        }
-        let written = self.shown().written.clone_ref(py);
-        let mut written = written.bind(py).try_readwrite()?;
-        let (rows, _) = written.as_slice_mut()?.as_chunks_mut::<3>();
-        for (row, position) in rows.iter_mut().zip(simulation.positions()) {
-            *row = position.to_array();
-        }
-        Ok(())
-    }
-}
 
 #[pymethods]
 impl Simulation {
     #[new]
     #[pyo3(signature = (scene, threads=1))]
     fn new(py: Python<'_>, scene: PathBuf, threads: usize) -> PyResult<Self> {
-        Self::of(py, Scene::read(&scene).map_err(|error| errors::of_scene(&error)), threads)
+        let scene = scenes::of_file(&scene).map_err(|error| errors::of_scene(&error))?;
+        Self::of(py, scene, threads)
     }
 
+    #[doc = crate::stub!("Simulation.from_text")]
     #[classmethod]
     #[pyo3(signature = (text, threads=1, *, path=None))]
     fn from_text(class: &Bound<'_, PyType>, text: &str, threads: usize, path: Option<PathBuf>) -> PyResult<Self> {
-        let path = path.unwrap_or_else(|| SCENE.into());
-        Self::of(
-            class.py(),
-            Scene::parse(text, &path).map_err(|error| errors::of_scene(&error)),
-            threads,
-        )
+        let path = path.unwrap_or_else(|| scenes::NAME.into());
+        let context = SceneContext {
+            is_run_by_code: true,
+            ..SceneContext::default()
+        };
+        let scene = Scene::parse_in(text, &path, &context).map_err(|error| errors::of_scene(&error))?;
+        Self::of(class.py(), scene, threads)
     }
 
+    #[doc = crate::stub!("Simulation.from_dict")]
     #[classmethod]
     #[pyo3(signature = (scene, threads=1, *, folder=None))]
     fn from_dict(
@@ -183,62 +45,139 @@ impl Simulation {
         threads: usize,
         folder: Option<PathBuf>,
     ) -> PyResult<Self> {
-        let text = class.py().import("selvedge._scenes")?.call_method1("text_of", (scene,))?;
-        let path = folder.unwrap_or_default().join(SCENE);
-        let scene = Scene::parse(text.extract()?, &path).map_err(|error| errors::of_scene(&error));
-        Self::of(class.py(), scene, threads)
+        Self::of(class.py(), scenes::of_dict(scene, folder)?, threads)
     }
 
+    #[doc = crate::stub!("Simulation.step")]
     #[pyo3(signature = (count=1))]
     fn step(&self, py: Python<'_>, count: u64) -> PyResult<()> {
         let mut simulation = self.simulation()?;
         let simulation = &mut *simulation;
-        // Runs on the caller's thread: nothing interrupts a step, and signals are checked after each.
         let before = simulation.overstretched_steps();
-        let mut done = Ok(Ok(Ok(())));
-        for _ in 0..count {
-            done = interruptible(py, Length::Short, || (), || simulation.step());
-            if let Ok(Ok(Ok(()))) = done {
-                done = py.check_signals().map(|()| Ok(Ok(())));
-            }
-            if !matches!(done, Ok(Ok(Ok(())))) {
-                break;
-            }
+        let mut call = Call::begin(self, py, count)?;
+        // Nothing interrupts a step, and signals are checked between steps: it runs on the caller's thread.
+        let done = interruptible(
+            py,
+            Length::Short,
+            || (),
+            || {
+                for done in 1..=count {
+                    simulation.step()?;
+                    if call.is_to_stop(done, simulation.time(), simulation.steps_done()) && done < count {
+                        break;
+                    }
+                }
+                Ok(())
+            },
+        );
+        let stopped = call.end();
+        let done = self.shown_after(py, simulation, done)?;
+        stopped?;
+        if simulation.overstretched_steps() > before {
+            self.warn_of_stretch(py, "use a shorter time step, or advance()")?;
         }
-        let done = self.shown_after(py, simulation, before, done)?;
-        done.map_err(|blocked| BlockedError::new_err(blocked.to_string()))
+        done.map_err(|blocked: selvedge_cloth::Blocked| BlockedError::new_err(blocked.to_string()))
     }
 
+    #[doc = crate::stub!("Simulation.advance")]
     #[pyo3(signature = (seconds=None, *, most=64))]
     fn advance(&self, py: Python<'_>, seconds: Option<f64>, most: u32) -> PyResult<(u32, u32)> {
         let mut simulation = self.simulation()?;
         let simulation = &mut *simulation;
         let before = simulation.overstretched_steps();
         let seconds = seconds.unwrap_or(self.of_scene.frame);
-        let done = interruptible(py, Length::Short, || (), || simulation.advance_within(seconds, most));
-        let done = self.shown_after(py, simulation, before, done)?;
+        let mut call = Call::begin(self, py, 0)?;
+        // Nothing interrupts a step, and signals are checked between steps: it runs on the caller's thread.
+        let done = interruptible(
+            py,
+            Length::Short,
+            || (),
+            || {
+                simulation.advance_while(seconds, most, &mut |now| {
+                    call.of(now.of.into());
+                    match call.is_to_stop(now.steps.into(), now.time, now.steps_done) {
+                        true => ControlFlow::Break(()),
+                        false => ControlFlow::Continue(()),
+                    }
+                })
+            },
+        );
+        let stopped = call.end();
+        let done = self.shown_after(py, simulation, done)?;
+        stopped?;
         let frame = done.map_err(|error| match error {
             FrameError::Seconds(error) => InputError::new_err(error.to_string()),
             FrameError::Blocked(blocked) => BlockedError::new_err(blocked.to_string()),
         })?;
+        // A frame with all the steps that it needs has none that is too long.
+        if frame.needed > frame.steps && simulation.overstretched_steps() > before {
+            self.warn_of_stretch(py, "allow more steps with `most`")?;
+        }
+        self.log_frame(py, frame)?;
         Ok((frame.steps, frame.needed))
     }
 
+    #[doc = crate::stub!("Simulation.cancel")]
+    fn cancel(&self) {
+        self.progress.cancel();
+    }
+
+    #[doc = crate::stub!("Simulation.progress")]
     #[getter]
-    fn body_names(&self) -> PyResult<Vec<String>> {
-        Ok(self.simulation()?.body_names().to_vec())
+    fn progress(&self) -> (u64, u64) {
+        self.progress.now()
     }
 
+    #[doc = crate::stub!("Simulation.remarks")]
+    #[getter]
+    fn remarks(&self) -> Vec<String> {
+        self.of_scene.remarks.clone()
+    }
+
+    #[doc = crate::stub!("Simulation.cloth_names")]
+    #[getter]
+    fn cloth_names(&self) -> Vec<String> {
+        self.of_scene.cloth_names.clone()
+    }
+
+    #[doc = crate::stub!("Simulation.vertices_of_cloth")]
+    fn vertices_of_cloth<'py>(&self, py: Python<'py>, cloth: Cloth) -> PyResult<Bound<'py, PySlice>> {
+        let cloth = cloth.index(&self.of_scene.cloth_names)?;
+        Ok(slice_of(py, &self.known().vertices_of_cloths[cloth]))
+    }
+
+    #[doc = crate::stub!("Simulation.positions_of_cloth")]
+    fn positions_of_cloth<'py>(&self, py: Python<'py>, cloth: Cloth) -> PyResult<Bound<'py, PyAny>> {
+        let cloth = cloth.index(&self.of_scene.cloth_names)?;
+        let made = self.simulation()?.mesh_in_files();
+        let own = &made.mesh.positions[made.vertices_of_cloths[cloth].clone()];
+        rows(py, own.iter().map(DVec3::to_array).collect())
+    }
+
+    #[doc = crate::stub!("Simulation.set_velocity")]
+    fn set_velocity(&self, vertices: &Bound<'_, PyAny>, velocity: [f64; 3]) -> PyResult<()> {
+        let vertices = whole_numbers(vertices, "vertices", self.known().cloth_vertices)?;
+        let set = self.simulation()?.set_velocity(&vertices, velocity.into());
+        set.map_err(|error| errors::of_driving(&error))
+    }
+
+    #[doc = crate::stub!("Simulation.body_names")]
+    #[getter]
+    fn body_names(&self) -> Vec<String> {
+        self.of_scene.body_names.clone()
+    }
+
+    #[doc = crate::stub!("Simulation.body_vertices")]
     fn body_vertices<'py>(&self, py: Python<'py>, body: Body) -> PyResult<Bound<'py, PySlice>> {
-        let simulation = self.simulation()?;
-        let vertices = simulation.body_vertices(body.index(&simulation)?).unwrap_or_default();
-        Ok(PySlice::new(py, vertices.start as isize, vertices.end as isize, 1))
+        let body = body.index(&self.of_scene.body_names)?;
+        Ok(slice_of(py, &self.known().body_vertices[body]))
     }
 
+    #[doc = crate::stub!("Simulation.place_body")]
     #[pyo3(signature = (body, translation=[0.0; 3], rotation=[0.0, 0.0, 0.0, 1.0]))]
     fn place_body(&self, body: Body, translation: [f64; 3], rotation: [f64; 4]) -> PyResult<()> {
         let mut simulation = self.simulation()?;
-        let body = body.index(&simulation)?;
+        let body = body.index(&self.of_scene.body_names)?;
         let placement = Placement {
             rotation: DQuat::from_array(rotation),
             translation: translation.into(),
@@ -248,51 +187,58 @@ impl Simulation {
             .map_err(|error| errors::of_driving(&error))
     }
 
+    #[doc = crate::stub!("Simulation.teleport")]
     #[pyo3(signature = (bodies, translation=[0.0; 3], rotation=[0.0, 0.0, 0.0, 1.0], *, cloths=Vec::new()))]
-    fn teleport(&self, bodies: Vec<Body>, translation: [f64; 3], rotation: [f64; 4], cloths: Vec<Body>) -> PyResult<()> {
-        let mut simulation = self.simulation()?;
-        let bodies: Vec<usize> = bodies.iter().map(|body| body.index(&simulation)).collect::<PyResult<_>>()?;
-        let cloths: Vec<usize> = cloths.iter().map(|cloth| cloth.index_of_cloth(&simulation)).collect::<PyResult<_>>()?;
+    fn teleport(&self, bodies: Vec<Body>, translation: [f64; 3], rotation: [f64; 4], cloths: Vec<Cloth>) -> PyResult<()> {
+        let names = &self.of_scene;
+        let bodies: Vec<usize> = bodies.iter().map(|body| body.index(&names.body_names)).collect::<PyResult<_>>()?;
+        let cloths: Vec<usize> = cloths.iter().map(|cloth| cloth.index(&names.cloth_names)).collect::<PyResult<_>>()?;
         let by = Placement {
             rotation: DQuat::from_array(rotation),
             translation: translation.into(),
         };
-        let teleported = simulation.teleport(&bodies, &cloths, by);
+        let teleported = self.simulation()?.teleport(&bodies, &cloths, by);
         teleported.map_err(|error| errors::of_teleport(&error))
     }
 
+    #[doc = crate::stub!("Simulation.placement")]
     fn placement(&self, body: Body) -> PyResult<Option<([f64; 3], [f64; 4])>> {
         let simulation = self.simulation()?;
-        let placement = simulation.placement(body.index(&simulation)?);
+        let placement = simulation.placement(body.index(&self.of_scene.body_names)?);
         Ok(placement.map(|placement| (placement.translation.to_array(), placement.rotation.to_array())))
     }
 
+    #[doc = crate::stub!("Simulation.move_body")]
     fn move_body(&self, body: Body, positions: &Bound<'_, PyAny>) -> PyResult<()> {
         let positions = copied(positions)?;
         let mut simulation = self.simulation()?;
-        let body = body.index(&simulation)?;
+        let body = body.index(&self.of_scene.body_names)?;
         simulation
             .move_body(body, &positions)
             .map_err(|error| errors::of_driving(&error))
     }
 
+    #[doc = crate::stub!("Simulation.move_pins")]
     fn move_pins(&self, group: usize, positions: &Bound<'_, PyAny>) -> PyResult<()> {
         let positions = copied(positions)?;
         let moved = self.simulation()?.move_pins(group, &positions);
         moved.map_err(|error| errors::of_driving(&error))
     }
 
+    #[doc = crate::stub!("Simulation.set_wind")]
     fn set_wind(&self, velocity: [f64; 3]) -> PyResult<()> {
         let set = self.simulation()?.set_wind(velocity.into());
         set.map_err(|error| errors::of_driving(&error))
     }
 
+    #[doc = crate::stub!("Simulation.velocities")]
     #[getter]
     fn velocities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let simulation = self.simulation()?;
         rows(py, simulation.velocities().iter().map(DVec3::to_array).collect())
     }
 
+    #[doc = crate::stub!("Simulation.normals")]
     #[getter]
     fn normals<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let simulation = self.simulation()?;
@@ -301,52 +247,62 @@ impl Simulation {
         rows(py, normals.iter().map(DVec3::to_array).collect())
     }
 
+    #[doc = crate::stub!("Simulation.near_pairs")]
     #[getter]
     fn near_pairs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let pairs: Vec<_> = self.simulation()?.near_pairs().collect();
         show_near_pairs(py, &pairs)
     }
 
+    #[doc = crate::stub!("Simulation.crossings")]
     #[getter]
     fn crossings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         show_crossings(py, self.simulation()?.crossings())
     }
 
+    #[doc = crate::stub!("Simulation.tolerated_pairs")]
     #[getter]
-    fn tolerated_pairs(&self) -> PyResult<usize> {
-        Ok(self.simulation()?.tolerated_pairs())
+    fn tolerated_pairs(&self) -> usize {
+        self.known().tolerated_pairs
     }
 
+    #[doc = crate::stub!("Simulation.untangled")]
     #[getter]
     fn untangled<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         show_untangled(py, self.simulation()?.untangled())
     }
 
+    #[doc = crate::stub!("Simulation.released")]
     #[getter]
     fn released<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyAny>>> {
         show_released(py, &self.simulation()?.released())
     }
 
+    #[doc = crate::stub!("Simulation.torn_edges")]
     #[getter]
     fn torn_edges<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyAny>>> {
         show_torn_edges(py, self.simulation()?.torn_edges())
     }
 
+    #[doc = crate::stub!("Simulation.positions")]
     #[getter]
     fn positions(&self, py: Python<'_>) -> Py<PyAny> {
-        self.shown().view.clone_ref(py)
+        self.view(py)
     }
 
+    #[doc = crate::stub!("Simulation.faces")]
     #[getter]
     fn faces<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         rows(py, self.simulation()?.triangles().to_vec())
     }
 
+    #[doc = crate::stub!("Simulation.loose_edges")]
     #[getter]
     fn loose_edges<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         rows(py, self.simulation()?.loose_edges().to_vec())
     }
 
+    #[doc = crate::stub!("Simulation.mesh_in_files")]
     fn mesh_in_files<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let now = self.simulation()?.mesh_in_files();
         class(py, "MeshInFiles")?.call1((
@@ -357,36 +313,43 @@ impl Simulation {
         ))
     }
 
+    #[doc = crate::stub!("Simulation.cloth_vertex_count")]
     #[getter]
-    fn cloth_vertex_count(&self) -> PyResult<usize> {
-        Ok(self.simulation()?.cloth_vertices())
+    fn cloth_vertex_count(&self) -> usize {
+        self.known().cloth_vertices
     }
 
+    #[doc = crate::stub!("Simulation.cloth_face_count")]
     #[getter]
-    fn cloth_face_count(&self) -> PyResult<usize> {
-        Ok(self.simulation()?.cloth_triangles())
+    const fn cloth_face_count(&self) -> usize {
+        self.of_scene.cloth_triangles
     }
 
+    #[doc = crate::stub!("Simulation.name")]
     #[getter]
-    fn name(&self) -> PyResult<String> {
-        Ok(self.simulation()?.name().to_owned())
+    fn name(&self) -> &str {
+        &self.of_scene.name
     }
 
+    #[doc = crate::stub!("Simulation.time_step")]
     #[getter]
     const fn time_step(&self) -> f64 {
         self.of_scene.time_step
     }
 
+    #[doc = crate::stub!("Simulation.steps")]
     #[getter]
-    const fn steps(&self) -> u64 {
+    const fn steps(&self) -> Option<u64> {
         self.of_scene.steps
     }
 
+    #[doc = crate::stub!("Simulation.steps_per_frame")]
     #[getter]
     const fn steps_per_frame(&self) -> u64 {
         self.of_scene.steps_per_frame
     }
 
+    #[doc = crate::stub!("Simulation.settings")]
     #[getter]
     fn settings(&self, py: Python<'_>) -> PyResult<Py<PyDict>> {
         let settings = PyDict::new(py);
@@ -396,42 +359,50 @@ impl Simulation {
         Ok(settings.unbind())
     }
 
+    #[doc = crate::stub!("Simulation.steps_done")]
     #[getter]
-    fn steps_done(&self) -> PyResult<u64> {
-        Ok(self.simulation()?.steps_done())
+    fn steps_done(&self) -> u64 {
+        self.known().steps_done
     }
 
+    #[doc = crate::stub!("Simulation.time")]
     #[getter]
-    fn time(&self) -> PyResult<f64> {
-        Ok(self.simulation()?.time())
+    fn time(&self) -> f64 {
+        self.known().time
     }
 
+    #[doc = crate::stub!("Simulation.lag")]
     #[getter]
-    fn lag(&self) -> PyResult<f64> {
-        Ok(self.simulation()?.lag())
+    fn lag(&self) -> f64 {
+        self.known().lag
     }
 
+    #[doc = crate::stub!("Simulation.is_certified")]
     #[getter]
-    fn is_certified(&self) -> PyResult<bool> {
-        Ok(self.simulation()?.is_certified())
+    fn is_certified(&self) -> bool {
+        self.known().is_certified
     }
 
+    #[doc = crate::stub!("Simulation.blocked_steps")]
     #[getter]
-    fn blocked_steps(&self) -> PyResult<u64> {
-        Ok(self.simulation()?.blocked_steps())
+    fn blocked_steps(&self) -> u64 {
+        self.known().blocked_steps
     }
 
+    #[doc = crate::stub!("Simulation.overstretched_steps")]
     #[getter]
-    fn overstretched_steps(&self) -> PyResult<u64> {
-        Ok(self.simulation()?.overstretched_steps())
+    fn overstretched_steps(&self) -> u64 {
+        self.known().overstretched_steps
     }
 
+    #[doc = crate::stub!("Simulation.edge_stretch")]
     #[getter]
     fn edge_stretch(&self) -> PyResult<(f64, f64)> {
         let stretch = self.simulation()?.edge_stretch();
         Ok((stretch.percentile_99, stretch.largest))
     }
 
+    #[doc = crate::stub!("Simulation.effect_seconds")]
     #[getter]
     fn effect_seconds(&self, py: Python<'_>) -> PyResult<Py<PyDict>> {
         let seconds = PyDict::new(py);
@@ -441,6 +412,7 @@ impl Simulation {
         Ok(seconds.unbind())
     }
 
+    #[doc = crate::stub!("Simulation.contact_counts")]
     #[getter]
     fn contact_counts<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
         let simulation = self.simulation()?;
@@ -468,6 +440,7 @@ impl Simulation {
         named.into_py_dict(py).map(Some)
     }
 
+    #[doc = crate::stub!("Simulation.contact_seconds")]
     #[getter]
     fn contact_seconds<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
         let simulation = self.simulation()?;
@@ -489,10 +462,12 @@ impl Simulation {
         named.into_py_dict(py).map(Some)
     }
 
+    #[doc = crate::stub!("Simulation.checkpoint")]
     fn checkpoint<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyBytes>>> {
         Ok(self.simulation()?.checkpoint().map(|bytes| PyBytes::new(py, &bytes)))
     }
 
+    #[doc = crate::stub!("Simulation.resume")]
     fn resume(&self, py: Python<'_>, checkpoint: &[u8]) -> PyResult<()> {
         let mut simulation = self.simulation()?;
         simulation
@@ -501,12 +476,11 @@ impl Simulation {
         self.show(py, &simulation)
     }
 
-    fn __repr__(&self) -> PyResult<String> {
-        let simulation = self.simulation()?;
-        Ok(format!(
-            "<selvedge.Simulation '{}' at {:.6} s>",
-            simulation.name(),
-            simulation.time()
-        ))
+    fn __repr__(&self) -> String {
+        format!("<selvedge.Simulation '{}' at {:.6} s>", self.of_scene.name, self.known().time)
     }
+}
+
+fn slice_of<'py>(py: Python<'py>, vertices: &Range<usize>) -> Bound<'py, PySlice> {
+    PySlice::new(py, vertices.start as isize, vertices.end as isize, 1)
 }

@@ -186,7 +186,7 @@ def test_every_exception_is_one_of_pythons_too():
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("", r"scene.toml:1:1: a scene needs `duration`"),
+        ("", r"scene.toml:1:1: the scene has no \[cloth\]"),
         ("name = ", "scene.toml"),
         ('name = "x"\ntime_step = "1 parsec"', "parsec"),
     ],

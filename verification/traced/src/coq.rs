@@ -165,7 +165,7 @@ fn proofs_of_advance<const N: usize>(of: &str, corners: fn(&PairPoints<Traced>) 
         let held = corners.apart_along(&first, &now, in_range);
         let volume = SignedVolume::new(&corners);
         let margins = volume.margins_from(moments[0]);
-        let clipped = volume.clipped::<false>(moments[0]);
+        let clipped = volume.clipped(moments[0]);
         let masks = [
             ("in_range", in_range),
             ("held", held.is_apart),

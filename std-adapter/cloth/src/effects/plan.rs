@@ -314,7 +314,7 @@ impl<'a> Plan<'a> {
     /// Returns the initial positions of all vertices, cloths' then bodies', except for pinned ones.
     pub(crate) fn start(&mut self) -> Vec<DVec3> {
         let cloths = self.scene.cloths.iter();
-        let mut positions: Vec<DVec3> = cloths.flat_map(|cloth| cloth.mesh.positions.iter().copied()).collect();
+        let mut positions: Vec<DVec3> = cloths.flat_map(|cloth| cloth.start().iter().copied()).collect();
         for (body, motion) in self.scene.bodies.iter().zip(&self.motions) {
             let pose = motion.pose(0.0);
             let place = |&point: &DVec3| if pose.is_rigid() { pose.apply(point) } else { point };

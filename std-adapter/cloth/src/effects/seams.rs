@@ -107,13 +107,13 @@ impl Seam {
     }
 
     /// Returns the stitches, each with the initial distance of its points, in metres.
-    fn stitches(&self, rest: &[DVec3]) -> Vec<(Stitch, f64)> {
+    fn stitches(&self, [rest, start]: [&[DVec3]; 2]) -> Vec<(Stitch, f64)> {
         let made = stitches(&self.first, &self.second, rest).into_iter();
-        made.map(|stitch| (stitch, stitch.length(rest))).collect()
+        made.map(|stitch| (stitch, stitch.length(start))).collect()
     }
 
     /// Checks that the closed seam leaves contact its thickness, and that it does not close too fast.
-    fn check_ways(&self, rest: &[DVec3], thickness: f64) -> Result<(), ValueError> {
+    fn check_ways(&self, shapes: [&[DVec3]; 2], thickness: f64) -> Result<(), ValueError> {
         let gap = self.gap.unwrap_or(thickness);
         if gap < thickness {
             let [gap, thickness] = [gap, thickness].map(|length| LENGTH.written(length));
@@ -123,7 +123,7 @@ impl Seam {
             return Err(ValueError::new(GAP.name, message));
         }
         let Some(closing) = self.closing else { return Ok(()) };
-        let farthest = self.stitches(rest).iter().map(|(_, start)| *start).fold(0.0, f64::max);
+        let farthest = self.stitches(shapes).iter().map(|(_, start)| *start).fold(0.0, f64::max);
         let speed = (farthest - gap) / closing;
         if speed > FASTEST_VERTEX {
             let [speed, most] = [speed, FASTEST_VERTEX].map(|speed| SPEED.written(speed));
@@ -137,6 +137,10 @@ impl Seam {
 
 fn rest_of(world: &SceneParts<'_>) -> Vec<DVec3> {
     world.cloths.iter().flat_map(|cloth| &cloth.mesh.positions).copied().collect()
+}
+
+fn start_of(world: &SceneParts<'_>) -> Vec<DVec3> {
+    world.cloths.iter().flat_map(|cloth| cloth.start()).copied().collect()
 }
 
 /// Returns the largest thickness that contact keeps between the rows of a seam, in metres; zero without contact.
@@ -188,14 +192,14 @@ impl Effect for Seams {
     }
 
     fn check_fabrics(&self, world: &SceneParts<'_>, fabrics: &[Fabric]) -> Result<(), ValueError> {
-        let rest = rest_of(world);
+        let (rest, start) = (rest_of(world), start_of(world));
         let mut seams = self.seams.iter();
-        seams.try_for_each(|seam| seam.check_ways(&rest, thickness(seam, world, fabrics)))
+        seams.try_for_each(|seam| seam.check_ways([&rest, &start], thickness(seam, world, fabrics)))
     }
 
     fn register(&self, plan: &mut Plan<'_>) {
         let world = plan.scene();
-        let rest = rest_of(&world);
+        let (rest, start) = (rest_of(&world), start_of(&world));
         for seam in &self.seams {
             let seam = &Seam {
                 first: world.numbered(&seam.first),
@@ -205,7 +209,7 @@ impl Effect for Seams {
             let gap = seam.gap.unwrap_or_else(|| thickness(seam, &world, &plan.fabrics));
             let gap = if seam.first.len() == 1 { gap.max(TIED) } else { gap };
             let sewing = Sewing {
-                stitches: seam.stitches(&rest),
+                stitches: seam.stitches([&rest, &start]),
                 gap,
                 closing: seam.closing,
             };

@@ -94,7 +94,7 @@ fn within(table: &Table<'_>, world: &SceneParts<'_>, is_inside: impl Fn(DVec3) -
     };
     let cloths = world.cloths.iter().zip(world.vertices_of_cloths()).enumerate();
     let wanted = cloths.filter(|(index, _)| only.is_none_or(|only| only == *index));
-    let vertices = wanted.flat_map(|(_, (cloth, vertices))| vertices.zip(&cloth.mesh.positions));
+    let vertices = wanted.flat_map(|(_, (cloth, vertices))| vertices.zip(cloth.start()));
     let inside = vertices.filter(|(_, position)| is_inside(**position));
     Ok(inside.map(|(vertex, _)| vertex as u32).collect())
 }

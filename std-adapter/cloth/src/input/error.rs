@@ -4,6 +4,7 @@ use selvedge_files::excerpt::excerpt;
 use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use toml::de::{DeTable, DeValue};
 
 /// An error in a scene. `Display` writes `FILE:LINE:COLUMN:`, the error and its remedy.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -47,6 +48,47 @@ impl SceneError {
             path: path.to_owned(),
             place: None,
             message: readable(message),
+        }
+    }
+}
+
+impl SceneError {
+    /// Returns the path of the field that the error is about, such as `effects.friction.coefficient` or `cloth[1].density`; `None` if it is
+    /// about the scene as a whole. `text` is that of the scene. This suits scenes that code writes, whose lines nobody sees.
+    #[must_use]
+    pub fn field(&self, text: &str) -> Option<String> {
+        let (line, column) = self.place?;
+        let before: usize = text.split_inclusive('\n').take(line - 1).map(str::len).sum();
+        let in_line = text[before..].char_indices().nth(column - 1).map_or(0, |(byte, _)| byte);
+        let root = DeTable::parse(text).ok()?;
+        let mut path = String::new();
+        follow(root.get_ref(), before + in_line, &mut path);
+        (!path.is_empty()).then_some(path)
+    }
+}
+
+/// Appends the path of the deepest key or value at a byte of the text.
+fn follow(table: &DeTable<'_>, place: usize, path: &mut String) {
+    let is_at = |span: Range<usize>| span.contains(&place);
+    let Some((key, mut value)) = table.iter().find(|(key, value)| is_at(key.span()) || is_at(value.span())) else {
+        // A table of a file begins with its header, and may have its keys after those of others.
+        return;
+    };
+    if !path.is_empty() {
+        path.push('.');
+    }
+    path.push_str(key.get_ref());
+    loop {
+        match value.get_ref() {
+            DeValue::Table(table) => return follow(table, place, path),
+            DeValue::Array(array) => {
+                let Some((index, entry)) = array.iter().enumerate().find(|(_, entry)| is_at(entry.span())) else {
+                    return;
+                };
+                path.push_str(&format!("[{index}]"));
+                value = entry;
+            }
+            _ => return,
         }
     }
 }
@@ -97,6 +139,21 @@ mod tests {
         let at = text.find("= 2").unwrap();
         let error = SceneError::at(Path::new("s.toml"), text, &(at..at + 1), "no".into());
         assert_eq!(error.to_string(), "s.toml:2:4: no");
+    }
+
+    #[test]
+    fn the_field_of_an_error_is_its_path_in_a_scene_that_code_wrote() {
+        let text = "cloth = [{a = 1}, {b = {c = [0, 7]}}]\nname = \"ö\"\neffects = {friction = {coefficient = 30}}\n";
+        let field = |part: &str| {
+            let at = text.find(part).unwrap();
+            SceneError::at(Path::new("s.toml"), text, &(at..at + 1), "no".into()).field(text)
+        };
+        assert_eq!(field("30").as_deref(), Some("effects.friction.coefficient"));
+        assert_eq!(field("7").as_deref(), Some("cloth[1].b.c[1]"));
+        assert_eq!(field("{b").as_deref(), Some("cloth[1]"));
+        assert_eq!(field("friction").as_deref(), Some("effects.friction"));
+        assert_eq!(field("cloth =").as_deref(), Some("cloth"));
+        assert_eq!(SceneError::whole(Path::new("s.toml"), "no".into()).field(text), None);
     }
 
     #[test]

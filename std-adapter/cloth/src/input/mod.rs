@@ -1,10 +1,12 @@
 //! Input: ranges of numbers ([`Field`]), and the tables and quantities of a scene file. Every error names its place.
 
+mod context;
 mod error;
 mod field;
 mod quantity;
 mod table;
 
+pub use context::{NamedMesh, SceneContext};
 pub use error::SceneError;
 pub(crate) use error::suggestion;
 pub use field::ValueError;

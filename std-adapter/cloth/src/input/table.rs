@@ -1,5 +1,6 @@
 //! A table of a scene file, read key by key. Every error names its place.
 
+use super::context::{NamedMesh, SceneContext};
 use super::error::{SceneError, suggestion};
 use super::field::{Count, Field, ValueError};
 use selvedge_core::glam::DVec3;
@@ -14,7 +15,7 @@ use toml::de::{DeTable, DeValue};
 #[derive(Debug)]
 pub(crate) struct Source<'a> {
     pub(crate) path: &'a Path,
-    pub(crate) files: &'a FileSource,
+    pub(crate) context: &'a SceneContext,
     pub(crate) text: &'a str,
 }
 
@@ -209,13 +210,18 @@ impl<'a> Table<'a> {
 
     /// Returns the table of this name (`[key]`), or the tables (`[[key]]`); at least one is required.
     pub(crate) fn one_or_more_tables(&self, key: &str) -> Result<Vec<Table<'a>>, SceneError> {
-        let is_list = self
-            .get(key)
-            .is_some_and(|value| matches!(value.get_ref(), DeValue::Array(array) if !array.is_empty()));
-        if is_list {
-            self.tables(key)
-        } else {
-            Ok(vec![self.required_table(key)?])
+        let tables = self.any_tables(key)?;
+        if tables.is_empty() {
+            return Ok(vec![self.required_table(key)?]);
+        }
+        Ok(tables)
+    }
+
+    /// Returns the table of this name (`[key]`), or the tables (`[[key]]`); empty if the key is missing.
+    pub(crate) fn any_tables(&self, key: &str) -> Result<Vec<Table<'a>>, SceneError> {
+        match self.get(key).map(Spanned::get_ref) {
+            Some(DeValue::Table(_)) => Ok(vec![self.required_table(key)?]),
+            _ => self.tables(key),
         }
     }
 
@@ -258,7 +264,21 @@ impl<'a> Table<'a> {
 
     /// Returns the source of the files that the scene names.
     pub(crate) fn files(&self) -> &FileSource {
-        self.source.files
+        &self.source.context.files
+    }
+
+    /// Returns the mesh from code that the value of `mesh` names.
+    pub(crate) fn named_mesh(&self) -> Result<&'a NamedMesh, SceneError> {
+        let name = self.required_text("mesh", "\"shirt\"")?;
+        let meshes = &self.source.context.meshes;
+        meshes.iter().find(|mesh| mesh.name == name).ok_or_else(|| {
+            let remedy = if meshes.is_empty() {
+                "; meshes come from code, and files have the shape \"file\"".to_owned()
+            } else {
+                suggestion(name, meshes.iter().map(|mesh| mesh.name.as_str()))
+            };
+            self.error("mesh", format!("there is no mesh '{}'{remedy}", shortened(name)))
+        })
     }
 
     fn get(&self, key: &str) -> Option<&'a Value<'a>> {

@@ -4,7 +4,7 @@ use super::{
     OnBlocked, START, Scene, TIME_STEP, TangledStart, check_name, check_start, duration_field, frame_rate_field, steps_of_frame,
 };
 use crate::effects::{self, Called, Effects, Gravity, Wrong};
-use crate::input::{SceneError, Source, Table};
+use crate::input::{LARGEST_TIME, SceneContext, SceneError, Source, Table};
 use crate::solve::Accuracy;
 use crate::world::{Body, Cloth, SceneParts};
 use selvedge_core::glam::DVec3;
@@ -18,10 +18,18 @@ impl Scene {
     /// # Errors
     /// Returns an error if the file cannot be read or contains an error. The message names file, line and column.
     pub fn read(path: &Path) -> Result<Self, SceneError> {
+        Self::read_in(path, &SceneContext::default())
+    }
+
+    /// Reads a scene file like [`read`](Self::read), with the files and meshes that it names.
+    ///
+    /// # Errors
+    /// Those of [`read`](Self::read).
+    pub fn read_in(path: &Path, context: &SceneContext) -> Result<Self, SceneError> {
         let bytes = std::fs::read(path).map_err(|error| SceneError::whole(path, format!("cannot be read: {error}")))?;
         let text = String::from_utf8(bytes)
             .map_err(|_| SceneError::whole(path, "is not UTF-8 text; a scene is a TOML file".to_owned()))?;
-        Self::parse(&text, path)
+        Self::parse_in(&text, path, context)
     }
 
     /// Reads a scene from the text of a file. `path` appears in messages, and paths in the text are relative to its folder.
@@ -29,7 +37,7 @@ impl Scene {
     /// # Errors
     /// Returns an error if the text contains an error. The message names file, line and column.
     pub fn parse(text: &str, path: &Path) -> Result<Self, SceneError> {
-        Self::parse_with_files(text, path, &FileSource::Disk)
+        Self::parse_in(text, path, &SceneContext::default())
     }
 
     /// Reads a scene from the text of a file like [`parse`](Self::parse), and the files that it names from `files`.
@@ -50,11 +58,27 @@ impl Scene {
     /// # Errors
     /// Those of [`parse`](Self::parse).
     pub fn parse_with_files(text: &str, path: &Path, files: &FileSource) -> Result<Self, SceneError> {
+        let files = files.clone();
+        Self::parse_in(
+            text,
+            path,
+            &SceneContext {
+                files,
+                ..SceneContext::default()
+            },
+        )
+    }
+
+    /// Reads a scene from the text of a file like [`parse`](Self::parse), with the files and meshes that it names.
+    ///
+    /// # Errors
+    /// Those of [`parse`](Self::parse).
+    pub fn parse_in(text: &str, path: &Path, context: &SceneContext) -> Result<Self, SceneError> {
         let root = toml::de::DeTable::parse(text).map_err(|error| {
             let span = error.span().unwrap_or(0..0);
             SceneError::at(path, text, &span, error.message().trim().replace('\n', ", "))
         })?;
-        let source = Source { path, files, text };
+        let source = Source { path, context, text };
         let root = Table::root(&source, root.get_ref());
         root.expect_keys(&[
             "name",
@@ -71,7 +95,8 @@ impl Scene {
         let fixed = root.number(&TIME_STEP)?;
         let frame_rate = root.number(&frame_rate_field(fixed.is_none()))?.unwrap_or(60.0);
         let time_step = fixed.unwrap_or_else(|| 1.0 / frame_rate / steps_of_frame(1.0 / frame_rate));
-        let duration = root.required_number(&duration_field(time_step))?;
+        let unlimited = context.is_run_by_code.then_some(LARGEST_TIME);
+        let duration = root.number_or(&duration_field(time_step), |duration| duration, unlimited)?;
         let (cloths, remarks) = read_cloths(&root)?;
         let bodies = read_bodies(&root, time_step)?;
         let (effects, own) = read_effects(&root, &cloths, &bodies, time_step)?;
@@ -146,7 +171,7 @@ fn read_cloths(root: &Table<'_>) -> Result<(Vec<Cloth>, Vec<String>), SceneError
 
 fn read_bodies(root: &Table<'_>, time_step: f64) -> Result<Vec<Body>, SceneError> {
     let mut bodies: Vec<Body> = Vec::new();
-    for table in root.tables("body")? {
+    for table in root.any_tables("body")? {
         let body = Body::read(&table, time_step)?;
         check_name("bodies", bodies.iter().map(|other| &other.name), &body.name).map_err(|error| table.placed(&error))?;
         bodies.push(body);

@@ -206,12 +206,13 @@ impl Scene {
         self
     }
 
-    /// Returns all cloths at rest as one mesh; vertices have the scene's numbers.
+    /// Returns all cloths as they start, as one mesh; vertices have the scene's numbers.
     #[must_use]
     pub fn all_cloth(&self) -> Mesh {
         let mut all = Mesh::default();
-        for Cloth { mesh, .. } in &self.cloths {
-            append(&mut all, mesh);
+        for cloth in &self.cloths {
+            let vertices = append(&mut all, cloth.mesh());
+            all.positions[vertices].copy_from_slice(cloth.start());
         }
         all
     }
@@ -386,6 +387,12 @@ impl Scene {
         }
     }
 
+    /// Returns whether the scene has a duration: a scene that code makes or runs may have none.
+    #[must_use]
+    pub fn has_duration(&self) -> bool {
+        self.duration < LARGEST_TIME
+    }
+
     /// Returns the number of steps in the duration; of frames in a scene [by frames](Self::by_frames).
     #[must_use]
     pub fn steps(&self) -> u64 {
@@ -445,6 +452,10 @@ impl Scene {
             coordinates.for_each(|x| take(&x.to_le_bytes()));
             mesh.triangles.iter().flatten().for_each(|vertex| take(&vertex.to_le_bytes()));
         }
+        let starts = self.cloths.iter().flat_map(Cloth::own_start).flatten();
+        starts
+            .flat_map(|position| position.to_array())
+            .for_each(|x| take(&x.to_le_bytes()));
         fingerprint.value()
     }
 }

@@ -3,7 +3,7 @@
 use super::assembly::Assembly;
 use super::checkpoint::CHECKPOINT_STEPS;
 use super::errors::Blocked;
-use super::frame::MOST_STEPS;
+use super::frame::{FrameProgress, MOST_STEPS};
 use super::simulation::Simulation;
 use super::state::FASTEST;
 use super::waiting::Waits;
@@ -13,6 +13,7 @@ use crate::scene::OnBlocked;
 use crate::world::Kinematic;
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::carried::LARGEST_TURN;
+use std::ops::ControlFlow;
 
 /// The shortest part of a step that is tried, so that a step has an end. It is in steps, or in parts of one in which nothing
 /// turns too far.
@@ -50,27 +51,49 @@ impl Simulation {
     pub fn run(&mut self) -> Result<(), Blocked> {
         match self.frame {
             None => self.step(),
-            Some(seconds) => self.steps_of_frame(seconds, self.steps_needed(seconds).min(MOST_STEPS)),
+            Some(seconds) => {
+                let steps = self.steps_needed(seconds).min(MOST_STEPS);
+                self.steps_of_frame(seconds, steps, &mut |_| ControlFlow::Continue(()))
+                    .map(drop)
+            }
         }
     }
 
-    /// Makes the steps of one frame of so many seconds.
+    /// Makes the steps of one frame of so many seconds, until `tell` stops it. Returns the number of steps that were done.
     ///
     /// # Errors
     /// Returns the errors of [`step`](Self::step).
-    pub(super) fn steps_of_frame(&mut self, seconds: f64, steps: u32) -> Result<(), Blocked> {
+    pub(super) fn steps_of_frame(
+        &mut self,
+        seconds: f64,
+        steps: u32,
+        tell: &mut (dyn FnMut(FrameProgress) -> ControlFlow<()> + Send),
+    ) -> Result<u32, Blocked> {
         let h = seconds / f64::from(steps);
         let end = self.time() + seconds;
+        let mut done = 0;
         self.drive(seconds, |simulation| {
             let mut of_frame = BodyClock::Went;
-            for left in (0..steps).rev() {
+            while done < steps {
                 if matches!(simulation.whole_step(h)?, BodyClock::Waited) {
                     of_frame = BodyClock::Waited;
                 }
-                (simulation.state.before, simulation.state.since) = (end - f64::from(left) * h, 0);
+                done += 1;
+                (simulation.state.before, simulation.state.since) = (end - f64::from(steps - done) * h, 0);
+                let progress = FrameProgress {
+                    steps: done,
+                    of: steps,
+                    time: simulation.time(),
+                    steps_done: simulation.state.step,
+                };
+                if tell(progress).is_break() && done < steps {
+                    // Bodies have not arrived.
+                    return Ok(BodyClock::Waited);
+                }
             }
             Ok(of_frame)
-        })
+        })?;
+        Ok(done)
     }
 
     /// Runs steps of so many seconds in all, during which the caller's bodies and pins move evenly.

@@ -26,7 +26,7 @@ pub(super) struct Assembly {
     pub(super) cloth_triangles: usize,
     pub(super) triangles: Vec<[u32; 3]>,
     pub(super) loose_edges: Vec<[u32; 2]>,
-    /// The positions of all vertices at rest: the cloth's in the scene, bodies' as in their meshes.
+    /// The positions of all vertices at rest: the cloths' and the bodies' as in their meshes.
     pub(super) rest: Vec<DVec3>,
     pub(super) inverse_masses: Vec<f64>,
     /// Whose motion each vertex follows.

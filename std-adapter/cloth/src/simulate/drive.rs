@@ -29,7 +29,7 @@ pub enum DriveError {
         groups: usize,
     },
     /// The body or the pins follow keyframes, or a body.
-    #[error("{what} cannot be moved by hand: give it `BodyMotion::Driven` in the scene")]
+    #[error("{what} cannot be moved by hand: make it driven (`driven = true` in a scene's text, `BodyMotion::Driven` in code)")]
     NotDriven {
         /// A description of the body or the pins.
         what: String,

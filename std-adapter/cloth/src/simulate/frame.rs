@@ -18,6 +18,7 @@ use crate::input::{Field, TIME, ValueError};
 use crate::scene::LONGEST_STEP_OF_FRAME;
 use crate::scene::steps_of_frame;
 use selvedge_core::glam::DVec3;
+use std::ops::ControlFlow;
 
 /// The largest way near the cloth in a step, in mean edges.
 const FARTHEST: f64 = 0.5;
@@ -32,6 +33,19 @@ pub struct FrameSteps {
     pub steps: u32,
     /// The number of steps that the cloth needs. If that is more than were allowed, edges may be longer than their limit, and contacts act late.
     pub needed: u32,
+}
+
+/// The progress of a frame, after one of its steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrameProgress {
+    /// The number of steps of the frame that are done.
+    pub steps: u32,
+    /// The number of steps that the frame takes.
+    pub of: u32,
+    /// The time simulated so far, in seconds.
+    pub time: f64,
+    /// The number of steps since the start of the simulation.
+    pub steps_done: u64,
 }
 
 /// A frame could not be made.
@@ -77,10 +91,24 @@ impl Simulation {
     /// # Errors
     /// Returns the errors of [`advance`](Self::advance).
     pub fn advance_within(&mut self, seconds: f64, most: u32) -> Result<FrameSteps, FrameError> {
+        self.advance_while(seconds, most, &mut |_| ControlFlow::Continue(()))
+    }
+
+    /// Advances like [`advance_within`](Self::advance_within), and calls `tell` after each step. If that returns `Break`, the frame stops
+    /// there, with fewer steps than it takes; bodies and pins that the caller moves are then on their way.
+    ///
+    /// # Errors
+    /// Returns the errors of [`advance`](Self::advance).
+    pub fn advance_while(
+        &mut self,
+        seconds: f64,
+        most: u32,
+        tell: &mut (dyn FnMut(FrameProgress) -> ControlFlow<()> + Send),
+    ) -> Result<FrameSteps, FrameError> {
         SECONDS.check(seconds)?;
         let needed = self.steps_needed(seconds);
         let steps = needed.min(most).max(1);
-        self.steps_of_frame(seconds, steps)?;
+        let steps = self.steps_of_frame(seconds, steps, tell)?;
         Ok(FrameSteps { steps, needed })
     }
 

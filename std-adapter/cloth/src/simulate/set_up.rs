@@ -54,6 +54,7 @@ impl Simulation {
                 let mesh = Mesh::new(state.positions, made.triangles);
                 let numbered = FileNumbering::new(cloths).numbered(&mesh, &made.loose_edges, &made.vertices_of_cloths);
                 return Err(SetupError::Tangled(Box::new(Tangled {
+                    pinned: Tangled::pinned_of(&found, &made.carriers[..made.cloth_vertices]),
                     crossings: found,
                     numbers_in_files: numbered.number_of,
                     mesh,
@@ -109,6 +110,9 @@ fn at_start(scene: &Scene, made: &mut Assembly) -> (Vec<DVec3>, State) {
     } = made;
     let poses: Vec<Pose> = motions.iter().map(|motion| motion.pose(0.0)).collect();
     let mut carried = rest.clone();
+    for (cloth, vertices) in scene.cloths.iter().zip(&*vertices_of_cloths) {
+        carried[vertices.clone()].copy_from_slice(cloth.start());
+    }
     for (point, &carrier) in carried[..*cloth_vertices].iter_mut().zip(&*carriers) {
         // Pins that follow a driven body start where the cloth is, wherever that body is.
         let body = motions

@@ -2,6 +2,7 @@
 
 use super::measures::EdgeStretch;
 use crate::contact::Crossing;
+use crate::model::step::{Carrier, FREE};
 use selvedge::{Mesh, first_coincident};
 use selvedge_core::glam::DVec3;
 use std::fmt;
@@ -72,6 +73,8 @@ pub struct Tangled {
     pub cloth_triangles: usize,
     /// The names of bodies, in the order of the scene.
     pub body_names: Vec<String>,
+    /// The pinned vertices of cloth that these edges and faces have, by the numbers of `mesh`, in their order. Untangling cannot move them.
+    pub pinned: Vec<u32>,
     /// The result of untangling, if the scene requests it.
     pub untangled: Option<Untangled>,
 }
@@ -85,6 +88,45 @@ impl Tangled {
             face: crossing.face.map(number),
             ..*crossing
         })
+    }
+
+    /// Returns the vertices of cloth in crossings that a motion carries, in their order.
+    pub(super) fn pinned_of(crossings: &[Crossing], carriers_of_cloth: &[Carrier]) -> Vec<u32> {
+        let vertices = crossings
+            .iter()
+            .flat_map(|crossing| crossing.edge.into_iter().chain(crossing.face));
+        let is_pinned = |vertex: &u32| {
+            carriers_of_cloth
+                .get(*vertex as usize)
+                .is_some_and(|&carrier| carrier != FREE)
+        };
+        let mut pinned: Vec<u32> = vertices.filter(is_pinned).collect();
+        pinned.sort_unstable();
+        pinned.dedup();
+        pinned
+    }
+
+    /// Writes which of the vertices are pinned, if any is.
+    fn write_pinned(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        /// The number of vertices that a message names.
+        const NAMED: usize = 5;
+        if self.pinned.is_empty() {
+            return Ok(());
+        }
+        let number = |&vertex: &u32| self.numbers_in_files[vertex as usize].to_string();
+        let named: Vec<String> = self.pinned.iter().take(NAMED).map(number).collect();
+        let more = if self.pinned.len() > NAMED { ", …" } else { "" };
+        let what = if self.pinned.len() == 1 {
+            "pinned vertex is"
+        } else {
+            "pinned vertices are"
+        };
+        write!(
+            f,
+            "; {} {what} there ({}{more}): nothing moves pins, so start them in free space",
+            self.pinned.len(),
+            named.join(", ")
+        )
     }
 
     /// Returns the number of the cloths' vertices that lie in the same place as an earlier one, such as those of split seams.
@@ -113,8 +155,7 @@ impl fmt::Display for Tangled {
             }) => {
                 write!(
                     f,
-                    "untangling stopped after {steps} steps, since {end}: {} of {crossings}",
-                    counted(count)
+                    "untangling stopped after {steps} steps, since {end}: {count} of {crossings} edges still meet faces"
                 )?;
             }
         }
@@ -140,6 +181,7 @@ impl fmt::Display for Tangled {
                 "; first the edge {a}, {b} and the face {c}, {d}, {e}, at ({x:.4}, {y:.4}, {z:.4}) m"
             )?;
         }
+        self.write_pinned(f)?;
         match (&self.untangled, self.coincident_vertices()) {
             (Some(_), _) | (None, 0) => {}
             (None, 1) => f.write_str("; 1 vertex lies in the same place as another: merge them with `weld = \"0\"`")?,

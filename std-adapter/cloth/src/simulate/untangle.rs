@@ -5,6 +5,8 @@
 //!                                        └─▶ then contacts push until all is apart by its separation, and the cloth relaxes
 //! ```
 //!
+//! Where that does not end, [bodies shrink and grow](super::growth).
+//!
 //! Untangling makes steps without forces, inertia and time. Bodies and pins rest, and each step starts at rest and moves vertices
 //! along [the way out](crate::contact) by at most [`REACH`]. So stretch, shear, bending and strain limits keep the cloth
 //! together. New pairs meet only next to those that meet already.
@@ -50,6 +52,7 @@ impl Simulation {
             return Ok(());
         }
         Err(SetupError::Tangled(Box::new(Tangled {
+            pinned: Tangled::pinned_of(&crossings, &self.made.carriers[..self.made.cloth_vertices]),
             crossings,
             numbers_in_files: self.mesh_in_files().number_of,
             mesh: self.mesh(),
@@ -70,8 +73,28 @@ impl Simulation {
         let remembered = self.remembered();
         let crossings = self.crossings().len();
         let threads = std::mem::take(&mut self.threads);
-        let (steps, end) = threads.run(|| self.pull_apart(REACH * spacing, tell));
+        let (mut steps, mut end) = threads.run(|| self.pull_apart(REACH * spacing, tell));
         self.threads = threads;
+        if end != UntanglingEnd::Free {
+            // It starts over, since what has been tried may have made it worse.
+            let pulled = std::mem::replace(&mut self.state.positions, start.clone());
+            self.look_again();
+            if self.grow_bodies(spacing) {
+                let threads = std::mem::take(&mut self.threads);
+                let mut tell = |now: UntanglingProgress| {
+                    tell(UntanglingProgress {
+                        steps: steps + now.steps,
+                        ..now
+                    });
+                };
+                let (more, then) = threads.run(|| self.pull_apart(REACH * spacing, &mut tell));
+                self.threads = threads;
+                (steps, end) = (steps + more, then);
+            } else {
+                self.state.positions = pulled;
+                self.look_again();
+            }
+        }
         (self.made.forces, self.effects) = (forces, times);
         if let (Some(solve), Some(loads)) = (&mut self.made.solve, loads) {
             solve.give_loads(loads);

@@ -3,7 +3,7 @@
 use super::animation::{Animation, RATE, START};
 use super::keyframes::KeyframeMotion;
 use super::motion::BodyMotion;
-use super::shapes;
+use super::{read_mesh, shapes};
 use crate::input::{Count, Field, LARGEST_COORDINATE, LENGTH, SceneError, Table, ValueError};
 use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
@@ -38,14 +38,16 @@ enum BodyShape {
     Capsule,
     Ball,
     File,
+    Mesh,
     Frames,
     Figure,
 }
 
-const SHAPES: [(&str, BodyShape); 5] = [
+const SHAPES: [(&str, BodyShape); 6] = [
     ("capsule", BodyShape::Capsule),
     ("ball", BodyShape::Ball),
     ("file", BodyShape::File),
+    ("mesh", BodyShape::Mesh),
     ("frames", BodyShape::Frames),
     ("gltf", BodyShape::Figure),
 ];
@@ -113,7 +115,8 @@ impl Body {
         let own: &[&str] = match shape {
             BodyShape::Capsule => &["from", "to", "radius", "around"],
             BodyShape::Ball => &["centre", "radius", "around"],
-            BodyShape::File => &shapes::FILE_KEYS,
+            BodyShape::File => &[&["file", "group"], &read_mesh::MESH_KEYS[..]].concat(),
+            BodyShape::Mesh => &[&["mesh", "frames_per_second", "start"], &read_mesh::MESH_KEYS[..]].concat(),
             BodyShape::Frames => &[
                 "files",
                 "mesh",
@@ -152,7 +155,11 @@ impl Body {
                 Self::capsule(name, ends, radius()?, around()?)
             }
             BodyShape::Ball => Self::ball(name, table.required_vector(&CENTRE)?, radius()?, around()?),
-            BodyShape::File => Ok(Self::from_mesh(name, shapes::of_file(table)?)),
+            BodyShape::File => Ok(Self::from_mesh(name, read_mesh::of_file(table)?)),
+            BodyShape::Mesh if !table.named_mesh()?.frames.is_empty() => {
+                return Self::read_frames_of_code(name, table, time_step);
+            }
+            BodyShape::Mesh => Ok(Self::from_mesh(name, read_mesh::of_code(table)?)),
             BodyShape::Frames => return Self::read_frames(name, table, time_step),
             BodyShape::Figure => return Self::read_figure(name, table, time_step),
         };
@@ -161,6 +168,20 @@ impl Body {
         let checked = body.motion.check(&body.mesh.positions, time_step);
         checked.map_err(|error| table.placed(&error.of(name)))?;
         Ok(body)
+    }
+
+    fn read_frames_of_code(name: &str, table: &Table<'_>, time_step: f64) -> Result<Self, SceneError> {
+        if let Some(key) = BodyMotion::KEYS.into_iter().find(|key| table.has(key)) {
+            let message = format!("a mesh with frames moves by them, and has no `{key}`");
+            return Err(table.error(key, message));
+        }
+        let given = table.named_mesh()?;
+        let rate = table.required_number(&RATE)?;
+        let placement = read_mesh::placement(table)?;
+        let mut frames = given.frames.clone();
+        frames.iter_mut().for_each(|frame| read_mesh::place(&placement, frame));
+        let animation = Animation::from_frames(frames, rate);
+        Self::read_animated(name, table, time_step, given.mesh.triangles.clone(), animation, "mesh")
     }
 
     fn read_frames(name: &str, table: &Table<'_>, time_step: f64) -> Result<Self, SceneError> {
@@ -173,7 +194,7 @@ impl Body {
                 (triangles, frames)
             }
             (Some(_), Some(mesh)) => {
-                let mesh = shapes::read_whole(table, "mesh", &table.folder().join(mesh), &ReadOptions::default())?;
+                let mesh = read_mesh::read_whole(table, "mesh", &table.folder().join(mesh), &ReadOptions::default())?;
                 let frames = mesh::read_point_cache(table.files(), &files, mesh.positions.len()).map_err(wrong)?;
                 (mesh.topology.triangles().to_vec(), frames)
             }
@@ -186,8 +207,8 @@ impl Body {
                 return Err(table.error("mesh", message.to_owned()));
             }
         };
-        let placement = shapes::placement(table)?;
-        frames.iter_mut().for_each(|frame| shapes::place(&placement, frame));
+        let placement = read_mesh::placement(table)?;
+        frames.iter_mut().for_each(|frame| read_mesh::place(&placement, frame));
         let animation = Animation::from_frames(frames, rate);
         Self::read_animated(name, table, time_step, triangles, animation, "files")
     }
@@ -213,7 +234,7 @@ impl Body {
                 format!("{file}: not all of the file can be read: {part}; export it as plain triangles"),
             ));
         }
-        let figure = figure.transformed(shapes::placement(table)?);
+        let figure = figure.transformed(read_mesh::placement(table)?);
         let triangles = figure.mesh().triangles.clone();
         Self::read_animated(name, table, time_step, triangles, Animation::from_figure(figure), "file")
     }

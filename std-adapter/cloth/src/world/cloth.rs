@@ -28,6 +28,8 @@ pub struct Cloth {
     pub name: String,
     pub(crate) mesh: Mesh,
     pub(crate) topology: Topology,
+    /// The positions at the start, if they are not those at rest.
+    pub(super) start: Option<Vec<DVec3>>,
     /// The source vertex of each copy that a tear has made. Copies are the last vertices, in this order; a source may be a copy
     /// itself.
     copied: Vec<u32>,
@@ -215,6 +217,7 @@ impl Cloth {
             material: None,
             mesh,
             topology,
+            start: None,
             copied: Vec::new(),
             warp,
             file: None,
@@ -265,8 +268,8 @@ impl Cloth {
         self.topology.loose_edges().len() > 0
     }
 
-    /// Returns the vertices and triangles at rest, from which the simulation starts. [`topology`](Self::topology) has the loose
-    /// edges.
+    /// Returns the vertices and triangles at rest. The simulation starts from them, unless the cloth
+    /// [starts elsewhere](Self::starting_at). [`topology`](Self::topology) has the loose edges.
     #[must_use]
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
@@ -354,6 +357,11 @@ impl Cloth {
         let mut positions = self.mesh.positions[..self.vertices_as_made()].to_vec();
         copied.iter().for_each(|&vertex| positions.push(positions[vertex as usize]));
         self.topology = Topology::with_loose_features(positions.len(), triangles.clone(), &self.loose_edges(), &[])?;
+        let count = self.vertices_as_made();
+        if let Some(start) = &mut self.start {
+            start.truncate(count);
+            copied.iter().for_each(|&vertex| start.push(start[vertex as usize]));
+        }
         (self.mesh, self.copied) = (Mesh { positions, triangles }, copied);
         Ok(())
     }
@@ -371,6 +379,7 @@ impl Cloth {
         Self {
             name: NAME.to_owned(),
             topology: mesh.topology().unwrap(),
+            start: None,
             copied: Vec::new(),
             mesh,
             density: 0.1,
@@ -402,14 +411,17 @@ const SMALLEST_AREA: f64 = SMALLEST_EDGE * SMALLEST_EDGE;
 const SMALLEST_HEIGHT: f64 = 1e-6;
 
 /// Checks that no triangle is too small, and none so thin that contact blocks the cloth.
-fn check_triangles(mesh: &Mesh) -> Result<(), ValueError> {
+pub(super) fn check_triangles(mesh: &Mesh) -> Result<(), ValueError> {
     for (triangle, corners) in mesh.triangles.iter().enumerate() {
         let [a, b, c] = corners.map(|v| mesh.positions[v as usize]);
         let area = 0.5 * (b - a).cross(c - a).length();
         let lengths = [a.distance(b), b.distance(c), c.distance(a)];
         let height = 2.0 * area / lengths.into_iter().fold(0.0, f64::max);
         let message = if area < SMALLEST_AREA {
-            format!("has an area below {SMALLEST_AREA:e} square metres; are the units metres?")
+            format!(
+                "has an area below {} square millimetres; are the units metres?",
+                1e6 * SMALLEST_AREA
+            )
         } else if height < SMALLEST_HEIGHT {
             let [a, b, c] = corners;
             format!(

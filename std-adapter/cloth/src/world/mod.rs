@@ -9,10 +9,12 @@ mod keyframes;
 mod material;
 mod motion;
 mod placement;
+pub(crate) mod read_mesh;
 mod rope;
 mod runs;
 pub(crate) mod shapes;
 pub mod sleeve;
+mod start;
 
 use crate::input::ValueError;
 use selvedge_core::glam::DVec3;

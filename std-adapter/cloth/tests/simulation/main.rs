@@ -16,6 +16,7 @@ mod keyframes;
 mod materials;
 mod paying_only;
 mod plastic_folds;
+mod rest_shape;
 mod ropes;
 mod seams;
 mod several_cloths;

@@ -179,3 +179,66 @@ fn a_file_says_the_same_as_code_and_what_nothing_keeps_apart_is_an_error() {
     scene.keep_first_effects(effects);
     assert!(scene.check().unwrap_err().to_string().contains("tangled_start"));
 }
+
+/// A closed body between two rings of vertices, with upright walls if both have the same radius.
+fn frustum(around: u32, [lower, upper]: [f64; 2], half: f64) -> Mesh {
+    let at = |k: u32, radius: f64, z: f64| {
+        let (sine, cosine) = (std::f64::consts::TAU * (f64::from(k) + 0.3) / f64::from(around)).sin_cos();
+        DVec3::new(radius * cosine, radius * sine, z)
+    };
+    let mut mesh = Mesh::default();
+    mesh.positions.extend((0..around).map(|k| at(k, lower, -half)));
+    mesh.positions.extend((0..around).map(|k| at(k, upper, half)));
+    mesh.positions.extend([-half, half].map(|z| DVec3::Z * z));
+    let [bottom, top] = [2 * around, 2 * around + 1];
+    for k in 0..around {
+        let next = (k + 1) % around;
+        let walls = [[k, next, around + next], [k, around + next, around + k]];
+        mesh.triangles
+            .extend(walls.into_iter().chain([[bottom, next, k], [top, around + k, around + next]]));
+    }
+    mesh
+}
+
+#[test]
+fn cloth_comes_out_of_bodies_with_upright_walls() {
+    let bodies = [
+        ("cube", 4, [0.2; 2]),
+        ("cylinder", 24, [0.2; 2]),
+        ("widening", 24, [0.12, 0.2]),
+    ];
+    for (name, around, radii) in bodies {
+        let corner = DVec3::new(-0.297, -0.298, 0.05);
+        let sheet = Cloth::sheet(corner, [0.6 * DVec3::X, 0.6 * DVec3::Y], [16, 16], 0.15).unwrap();
+        let mut scene = Scene::new(sheet, 4e-3);
+        scene.bodies.push(Body::from_mesh("body", frustum(around, radii, 0.1)));
+        scene.add(Stretch::isotropic(200.0)).add(Bend::isotropic(1e-5));
+        scene
+            .add(BodyContact(Thickness::new(4e-3)))
+            .add(SelfCollision(Thickness::new(4e-3)));
+        scene.tangled_start = TangledStart::Untangle;
+        let simulation = Simulation::new(scene, 1).unwrap();
+        assert_eq!(intersections(&simulation), [], "{name}");
+        assert!(simulation.is_certified() && simulation.time() == 0.0 && simulation.checkpoint().is_some());
+        let body = simulation.body_vertices(0).unwrap();
+        assert_eq!(simulation.positions()[body], frustum(around, radii, 0.1).positions);
+    }
+}
+
+#[test]
+fn a_waist_that_is_too_small_goes_around_its_limb() {
+    let tube = Cloth::tube([-0.06 * DVec3::Z, 0.06 * DVec3::Z], 0.1, [32, 8], 0.15).unwrap();
+    let mut scene = Scene::new(tube, 4e-3);
+    scene
+        .bodies
+        .push(Body::capsule("limb", [-0.25 * DVec3::Z, 0.25 * DVec3::Z], 0.12, 24).unwrap());
+    scene.add(Stretch::isotropic(200.0)).add(Bend::isotropic(1e-5));
+    scene
+        .add(BodyContact(Thickness::new(4e-3)))
+        .add(SelfCollision(Thickness::new(4e-3)));
+    scene.tangled_start = TangledStart::Untangle;
+    let simulation = Simulation::new(scene, 1).unwrap();
+    assert_eq!(intersections(&simulation), []);
+    let waist = simulation.vertices_of_cloth(0).unwrap();
+    assert!(simulation.positions()[waist].iter().all(|p| p.with_z(0.0).length() > 0.11));
+}

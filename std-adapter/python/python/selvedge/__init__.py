@@ -27,6 +27,7 @@ from ._answers import (
     Untangled,
     Welded,
 )
+from ._sewing import seam_rows
 from ._native import ARM_SLEEVE, EFFECTS, Detector, Simulation, __version__, read_mesh, time_of_impact, touches, welded
 
 __all__ = [
@@ -55,6 +56,7 @@ __all__ = [
     "ipc",
     "laboratory",
     "read_mesh",
+    "seam_rows",
     "time_of_impact",
     "touches",
     "welded",

@@ -100,6 +100,15 @@ class Intersections:
     """(n,) an :class:`IntersectionKind`."""
     pair: NDArray[np.uint32]
     """(n, 2) an edge and a face, a vertex and a face, or two edges."""
+    face_pairs: NDArray[np.uint32]
+    """(m, 2) the pairs of faces that share a point of an intersection, each once, the smaller number first, in order."""
+    points: NDArray[np.float64]
+    """(n, 3) a point of each intersection, rounded."""
+
+    @property
+    def faces(self) -> NDArray[np.uint32]:
+        """The faces that intersect others, each once, in order."""
+        return np.unique(self.face_pairs)
 
     def __len__(self) -> int:
         return len(self.kind)

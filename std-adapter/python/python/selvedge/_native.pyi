@@ -126,8 +126,8 @@ class Detector:
         boxes move with the primitives; ``swept`` uses the boxes that primitives sweep, which keep more pairs."""
 
     def intersections(self, positions: ArrayLike) -> Intersections:
-        """Finds all intersections of a mesh at rest, exactly, touching included. The result is empty exactly if no two faces share a
-        point besides the vertices and edges that they have in common."""
+        """Finds all intersections of a mesh at rest, exactly, touching included, with the pairs of faces that share a point and with the
+        points. The result is empty exactly if no two faces share a point besides the vertices and edges that they have in common."""
 
     def has_intersections(self, positions: ArrayLike) -> bool:
         """Decides whether there is any intersection. The search ends at the first."""
@@ -179,7 +179,8 @@ class Detector:
         more raises TooMuchMemoryError. None: no limit."""
 
     @property
-    def vertex_count(self) -> int: ...
+    def vertex_count(self) -> int:
+        """The number of vertices."""
     @property
     def faces(self) -> NDArray[np.uint32]:
         """(n, 3), a copy."""
@@ -190,14 +191,20 @@ class Detector:
     def components(self) -> NDArray[np.uint32]:
         """(vertex_count,) the connected component of each vertex. As ``patches``, they let only different components collide."""
     @property
-    def threads(self) -> int: ...
+    def threads(self) -> int:
+        """The number of threads that was set."""
 
 @final
 class Simulation:
     """A simulation of cloth. Each state is certified free of intersections, with the same bits on any number of threads.
 
-    ``scene`` is the path of a scene file (TOML); std-adapter/cloth/scenes/README.md describes the format. A scene that starts with
-    surfaces that pass through each other raises TangledError, unless its ``tangled_start`` allows it."""
+    ``scene`` is the path of a scene file (TOML); std-adapter/cloth/scenes/README.md describes the format. ``threads`` is 1 for the
+    calling thread or 0 for one per core. A scene that starts with surfaces that pass through each other raises TangledError, unless its
+    ``tangled_start`` allows it. The scene needs no ``duration``.
+
+    One thread at a time may run steps; a call from a second thread raises BusyError. Names, vertex ranges, counts, :attr:`time`,
+    :attr:`steps_done` and :attr:`progress` may be read meanwhile, and :meth:`cancel` may be called. The logger ``selvedge`` warns of
+    :attr:`remarks`, and reports set-up (INFO) and each frame (DEBUG)."""
 
     def __new__(cls, scene: str | PathLike[str], threads: int = 1) -> Simulation: ...
     @classmethod
@@ -206,16 +213,34 @@ class Simulation:
 
     @classmethod
     def from_dict(cls, scene: Mapping[str, Any], threads: int = 1, *, folder: str | PathLike[str] | None = None) -> Simulation:
-        """Creates a simulation from a scene in Python: dicts for the tables of a file, lists or arrays for its lists."""
+        """Creates a simulation from a scene in Python: dicts for the tables of a file, lists or arrays for its lists.
+
+        A cloth or a body may be a mesh of arrays instead of a ``shape``: ``positions`` (n, 3) in metres and ``faces`` (m, 3). The keys
+        ``unit``, ``scale``, ``rotation``, ``translation`` and ``weld`` apply as to files. A cloth may also have ``edges`` (k, 2), its loose
+        edges, and ``rest_positions`` (n, 3), its shape at rest if it starts in another one. Each of its vertices must be in a face or an
+        edge, so that numbers never change. A body that deforms has ``frames`` (f, n, 3) with ``frames_per_second`` instead of
+        ``positions``. ``vertices`` may be a mask of bool. ``body_contact`` is left out of a scene without bodies.
+
+        Messages name the path of the field, such as ``effects.friction.coefficient``. Files are relative to ``folder``."""
 
     def step(self, count: int = 1) -> None:
-        """Runs ``count`` steps. Ctrl-C stops after a whole step, and the steps that were done remain. Raises BlockedError if bodies or pins
-        force the cloth where it cannot go and the scene stops then."""
+        """Runs ``count`` steps. Ctrl-C and :meth:`cancel` stop after a whole step, and the steps that were done remain. Raises BlockedError
+        if bodies or pins force the cloth where it cannot go and the scene stops then, and CancelledError."""
 
     def advance(self, seconds: float | None = None, *, most: int = 64) -> tuple[int, int]:
         """Runs a frame: ``seconds`` pass (from 1e-6 to 1; the scene's frame if left out), in as many steps as the cloth needs, at least one
         and at most ``most``. Returns the number of steps, and the number that the cloth needs; if that is larger, edges may be longer than
-        their limit. Bodies and pins that were moved do so evenly throughout. Raises as :meth:`step`."""
+        their limit. Bodies and pins that were moved do so evenly throughout; a frame that is stopped leaves them on their way. Raises as
+        :meth:`step`."""
+
+    def cancel(self) -> None:
+        """Cancels the call of another thread that runs steps: it raises CancelledError after the present step. Without such a call nothing
+        happens."""
+
+    @property
+    def progress(self) -> tuple[int, int]:
+        """The number of steps that the present call of :meth:`step` or :meth:`advance` has done, and the number that it takes. After a
+        call they are those of the last one."""
 
     @property
     def positions(self) -> NDArray[np.float64]:
@@ -246,9 +271,21 @@ class Simulation:
     def torn_edges(self) -> list[TornEdge]:
         """The edges that have torn so far, in order of time."""
     @property
-    def body_names(self) -> list[str]: ...
+    def body_names(self) -> list[str]:
+        """The names of the bodies, in the order of the scene."""
     def body_vertices(self, body: str | int) -> slice:
-        """The slice of :attr:`positions` that belongs to a body."""
+        """The slice of :attr:`positions` that belongs to a body, given by its name or index."""
+
+    @property
+    def cloth_names(self) -> list[str]:
+        """The names of the cloths, in the order of the scene."""
+    def vertices_of_cloth(self, cloth: str | int) -> slice:
+        """The slice of :attr:`positions` that belongs to a cloth, given by its name or index. A file's isolated vertices are not in it, and
+        :attr:`remarks` name their number; :meth:`positions_of_cloth` has them."""
+
+    def positions_of_cloth(self, cloth: str | int) -> NDArray[np.float64]:
+        """(n, 3) the positions of a cloth with the vertices of its file or arrays, in their numbers; a copy. Vertices that ``weld`` merged
+        are apart again, isolated ones stay where they were, and copies that tears made follow at the end."""
 
     def place_body(
         self,
@@ -281,6 +318,10 @@ class Simulation:
     def move_pins(self, group: int, positions: ArrayLike) -> None:
         """Moves each vertex of a driven group of pins, given by its index, in the next step."""
 
+    def set_velocity(self, vertices: ArrayLike, velocity: Sequence[float] | NDArray[np.floating[Any]]) -> None:
+        """Sets the velocity, in m/s, with which vertices of cloth start the next step, as if a hand pulled them. ``vertices`` are rows of
+        :attr:`positions`, or a mask of bool for all vertices of cloth. Pinned vertices keep theirs."""
+
     def set_wind(self, velocity: Sequence[float] | NDArray[np.floating[Any]]) -> None:
         """Sets the velocity of the scene's wind from now on, in m/s."""
 
@@ -294,27 +335,35 @@ class Simulation:
         """Returns the present state with the vertices and faces of the cloths' files, seams included."""
 
     @property
-    def cloth_vertex_count(self) -> int: ...
+    def cloth_vertex_count(self) -> int:
+        """The number of vertices of all cloths."""
     @property
-    def cloth_face_count(self) -> int: ...
+    def cloth_face_count(self) -> int:
+        """The number of faces of all cloths."""
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """The name of the scene."""
+    @property
+    def remarks(self) -> list[str]:
+        """Remarks about the scene's files, such as vertices that were left out."""
     @property
     def time_step(self) -> float:
-        """In seconds."""
+        """The length of a step, in seconds."""
     @property
-    def steps(self) -> int:
-        """The number of steps in the scene's duration. A scene without a ``time_step`` counts frames."""
+    def steps(self) -> int | None:
+        """The number of steps in the scene's duration; None without one. A scene without a ``time_step`` counts frames."""
     @property
-    def steps_per_frame(self) -> int: ...
+    def steps_per_frame(self) -> int:
+        """The number of steps in a frame."""
     @property
     def settings(self) -> dict[str, str]:
         """The settings that trade time for accuracy, with values and units."""
     @property
-    def steps_done(self) -> int: ...
+    def steps_done(self) -> int:
+        """The number of steps since the start."""
     @property
     def time(self) -> float:
-        """In seconds."""
+        """The simulated time, in seconds."""
     @property
     def lag(self) -> float:
         """The time by which bodies and pins lag behind their keyframes, in seconds."""
@@ -322,11 +371,12 @@ class Simulation:
     def is_certified(self) -> bool:
         """Whether the state is certified free of the intersections that the scene's contact effects name."""
     @property
-    def blocked_steps(self) -> int: ...
+    def blocked_steps(self) -> int:
+        """The number of steps in which bodies or pins had to wait, or were let pass."""
     @property
     def overstretched_steps(self) -> int:
-        """The number of steps after which an edge was more than 5 % above its strain limit. A call with such a step also issues a
-        RuntimeWarning: use a shorter time step, or :meth:`advance`."""
+        """The number of steps after which an edge was more than 5 % above its strain limit. :meth:`step` then issues a
+        RuntimeWarning, and :meth:`advance` if it was allowed fewer steps than the cloth needs."""
     @property
     def edge_stretch(self) -> tuple[float, float]:
         """The length of the cloth's edges relative to rest: the 99th percentile and the largest."""
