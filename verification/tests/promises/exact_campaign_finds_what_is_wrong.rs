@@ -67,8 +67,8 @@ fn findings_depend_on_the_seed_alone_and_add_up() {
     assert_eq!(both.pairs, one.pairs + other.pairs);
     for count in [
         |count: &ClaimCounts| count.claims,
-        |count| count.by_signs,
-        |count| count.by_oracle,
+        |count: &ClaimCounts| count.by_signs,
+        |count: &ClaimCounts| count.by_oracle,
     ] {
         assert_eq!(sum(&both, count), sum(&one, count) + sum(&other, count));
     }
