@@ -23,7 +23,6 @@ mod set_up;
 mod simulation;
 mod solving;
 mod state;
-mod substep;
 mod tangled;
 mod tear;
 mod tearing;

@@ -89,26 +89,17 @@ impl Simulation {
     /// Forgets the multipliers and the motion before the present state, which a checkpoint does not have.
     pub(super) fn forget_motion(&mut self) {
         self.work.solving.history.forget();
-        if let Some(solve) = &mut self.made.solve {
-            solve.forget();
-        }
+        self.made.solve.forget();
     }
 
-    /// Returns the memories of all constraints, one after the other.
+    /// Returns the memories of all terms, one after the other.
     pub(super) fn remembered(&self) -> Vec<f64> {
         self.made.memories().flat_map(Memory::numbers).collect()
     }
 
     /// Restores memories that [`remembered`](Self::remembered) returned.
     pub(super) fn recall(&mut self, mut numbers: &[f64]) {
-        for &index in &self.made.remembering {
-            if let Some(memory) = self.made.constraints[index].action.memory_mut() {
-                let own;
-                (own, numbers) = numbers.split_at(memory.numbers().len());
-                memory.recall(own);
-            }
-        }
-        for entry in self.made.solve.iter_mut().flat_map(|solve| &mut solve.terms) {
+        for entry in &mut self.made.solve.terms {
             if let Some(memory) = entry.action.memory_mut() {
                 let own;
                 (own, numbers) = numbers.split_at(memory.numbers().len());

@@ -1,7 +1,7 @@
 //! Untangling of a tangled start, before the first step.
 //!
 //! ```text
-//! what meets ─▶ ways that shorten it ─▶ constraints ─▶ certified pass, without what meets ─▶ what meets now … until nothing does
+//! what meets ─▶ ways that shorten it ─▶ solve ─▶ certified pass, without what meets ─▶ what meets now … until nothing does
 //!                                        └─▶ then contacts push until all is apart by its separation, and the cloth relaxes
 //! ```
 //!
@@ -12,7 +12,6 @@
 use super::errors::SetupError;
 use super::simulation::Simulation;
 use super::tangled::{Tangled, Untangled, UntanglingEnd, UntanglingProgress};
-use crate::solve::Solve;
 use selvedge::clock::Clock;
 use selvedge_core::glam::DVec3;
 
@@ -63,7 +62,7 @@ impl Simulation {
     pub(super) fn untangle(&mut self, spacing: f64, tell: &mut (dyn FnMut(UntanglingProgress) + Send)) -> Untangled {
         let begin = Clock::now();
         let forces = std::mem::take(&mut self.made.forces);
-        let loads = self.made.solve.as_mut().map(Solve::take_loads);
+        let loads = self.made.solve.take_loads();
         let velocities = self.state.velocities.clone();
         let start = self.state.positions.clone();
         let times = self.effects.clone();
@@ -73,9 +72,7 @@ impl Simulation {
         let (steps, end) = threads.run(|| self.pull_apart(REACH * spacing, tell));
         self.threads = threads;
         (self.made.forces, self.effects) = (forces, times);
-        if let (Some(solve), Some(loads)) = (&mut self.made.solve, loads) {
-            solve.give_loads(loads);
-        }
+        self.made.solve.give_loads(loads);
         self.state.velocities = velocities;
         // No joint breaks, and no fold stays, before the first step.
         self.recall(&remembered);

@@ -27,13 +27,12 @@ pub use placement::Placement;
 pub(crate) use animation::FASTEST_VERTEX;
 pub(crate) use driven::{Driven, Kinematic};
 pub(crate) use file_mesh::FileNumbering;
-use crate::solve::Accuracy;
 pub use file_mesh::MeshInFiles;
 pub(crate) use incidence::Incidence;
 pub(crate) use motion::{KEY_TIME, Pose, check_key_time};
 pub(crate) use runs::runs;
 #[cfg(test)]
-pub(crate) use shapes::{capsule, sheet, tube};
+pub(crate) use shapes::{capsule, sheet};
 
 /// A scene without its effects: the input of an [`Effect`](crate::effects::Effect).
 #[derive(Clone, Copy, Debug)]
@@ -46,8 +45,6 @@ pub struct SceneParts<'a> {
     pub bodies: &'a [Body],
     /// The time step in seconds.
     pub time_step: f64,
-    /// The accuracy of the solve.
-    pub(crate) accuracy: Option<Accuracy>,
 }
 
 impl<'a> SceneParts<'a> {
@@ -58,7 +55,6 @@ impl<'a> SceneParts<'a> {
             cloths,
             bodies,
             time_step,
-            accuracy: Some(Accuracy::default()),
         })
     }
 

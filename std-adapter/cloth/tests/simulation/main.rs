@@ -11,6 +11,7 @@ mod far_bodies;
 mod files;
 mod from_code;
 mod garments;
+mod irregular;
 mod materials;
 mod paying_only;
 mod plastic_folds;
@@ -22,6 +23,3 @@ mod stretch;
 mod tangled;
 mod tearing;
 mod wrong_scenes;
-
-#[path = "../../src/model/hierarchy/irregular.rs"]
-mod irregular;
