@@ -49,7 +49,7 @@ pub fn scene(data: &[u8]) {
 fn has_large(table: &DeTable<'_>) -> bool {
     let mut entries = table.iter();
     entries.any(|(key, value)| match key.get_ref().as_ref() {
-        "cells" | "refinement" | "around" | "sweeps" => has_large_number(value.get_ref()),
+        "cells" | "refinement" | "around" => has_large_number(value.get_ref()),
         "file" => true,
         _ => is_large(value.get_ref()),
     })

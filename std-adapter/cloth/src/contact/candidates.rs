@@ -218,8 +218,8 @@ mod tests {
         let triangle = |height: f64| [DVec3::ZERO, DVec3::X, DVec3::Y].map(|point| point + DVec3::Z * height);
         let at = |heights: [f64; 3]| heights.into_iter().flat_map(triangle).collect::<Vec<_>>();
         let mut settings = ContactSettings::new([6].into_iter());
-        settings.keep_from_cloth(0, Thickness::new(of_cloth));
-        settings.keep_from_bodies(1, Thickness::new(of_bodies));
+        settings.keep_from_cloth(Thickness::new(of_cloth));
+        settings.keep_from_bodies(Thickness::new(of_bodies));
         let topology = Topology::new(9, vec![[0, 1, 2], [3, 4, 5], [6, 7, 8]]).unwrap();
         let carriers: Vec<Carrier> = [[FREE; 6].as_slice(), &[0; 3]].concat();
         let mut near = candidates(&mut settings, topology, &at([0.0, 1.0, -1.0]), &carriers, 6, 1e-3);

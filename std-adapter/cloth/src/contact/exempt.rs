@@ -59,11 +59,6 @@ impl Exempt {
             || self.tangle.as_ref().is_some_and(|tangle| tangle.has(pair))
     }
 
-    /// Returns whether something may be tangled.
-    pub(super) fn has_tangle(&self) -> bool {
-        self.tangle.is_some()
-    }
-
     /// Returns whether the pair has vertices of an edge and a face that meet: the direction to push it is not known.
     #[inline]
     pub(super) fn is_tangled(&self, pair: &Candidate) -> bool {

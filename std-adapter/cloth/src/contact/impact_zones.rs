@@ -156,7 +156,6 @@ mod tests {
             h: 1.0,
             start: &start,
             inverse_masses: &inverse_masses,
-            held: &[],
             poses: &[rest, rest],
         };
         let mut zones = ImpactZones::default();

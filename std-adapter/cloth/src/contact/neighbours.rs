@@ -71,7 +71,7 @@ mod tests {
         let count = mesh.positions.len();
         let many = |thickness| {
             let mut settings = ContactSettings::new([count].into_iter());
-            settings.keep_from_cloth(0, Thickness::new(thickness));
+            settings.keep_from_cloth(Thickness::new(thickness));
             are_many(&topology, &mesh.positions, count, &settings)
         };
         assert!(!many(0.003) && many(0.025));

@@ -5,25 +5,16 @@ use super::candidate::Candidate;
 /// The requests of all effects.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ContactSettings {
-    /// The request for pairs of cloth with itself and other cloths.
-    cloth: Option<Asked>,
-    /// The request for pairs of cloth and bodies.
-    bodies: Option<Asked>,
+    /// The distances that each cloth keeps from itself and from other cloths; empty without such a request.
+    cloth: Vec<Thickness>,
+    /// The distances that each cloth keeps from bodies; empty without such a request.
+    bodies: Vec<Thickness>,
     /// True if [neighbours](super::neighbours) have a smaller thickness.
     pub(super) has_neighbours: bool,
     /// The vertex after the last one of each cloth.
     ends: Vec<u32>,
     /// The distances that the first cloth has to keep from cloth, and from bodies.
     of_first: [Option<Thickness>; 2],
-}
-
-/// The request of one effect.
-#[derive(Clone, Debug)]
-struct Asked {
-    /// Its index among the scene's effects.
-    effect: usize,
-    /// The distances of each cloth.
-    of_cloths: Vec<Thickness>,
 }
 
 /// Two distances: one that contacts aim at, and a smaller one that every step is certified to keep.
@@ -64,16 +55,6 @@ impl Thickness {
     }
 }
 
-impl Asked {
-    fn add(asked: &mut Option<Self>, effect: usize, thickness: Thickness) {
-        let new = || Self {
-            effect,
-            of_cloths: Vec::new(),
-        };
-        asked.get_or_insert_with(new).of_cloths.push(thickness);
-    }
-}
-
 impl ContactSettings {
     /// Makes settings without requests, for cloths with so many vertices each.
     pub(crate) fn new(vertex_counts: impl Iterator<Item = usize>) -> Self {
@@ -89,24 +70,19 @@ impl ContactSettings {
     }
 
     /// Requests that the next cloth, in the order of the scene, keeps this distance from itself and from other cloths.
-    pub(crate) fn keep_from_cloth(&mut self, effect: usize, thickness: Thickness) {
-        Asked::add(&mut self.cloth, effect, thickness);
+    pub(crate) fn keep_from_cloth(&mut self, thickness: Thickness) {
+        self.cloth.push(thickness);
         self.of_first[0].get_or_insert(thickness);
     }
 
     /// Requests that the next cloth, in the order of the scene, keeps this distance from bodies.
-    pub(crate) fn keep_from_bodies(&mut self, effect: usize, thickness: Thickness) {
-        Asked::add(&mut self.bodies, effect, thickness);
+    pub(crate) fn keep_from_bodies(&mut self, thickness: Thickness) {
+        self.bodies.push(thickness);
         self.of_first[1].get_or_insert(thickness);
     }
 
-    fn asked(&self, with_body: bool) -> Option<&Asked> {
-        if with_body { &self.bodies } else { &self.cloth }.as_ref()
-    }
-
-    /// The effect that requests contacts with bodies, or those of cloth.
-    pub(crate) fn effect(&self, with_body: bool) -> Option<usize> {
-        self.asked(with_body).map(|asked| asked.effect)
+    fn asked(&self, with_body: bool) -> &[Thickness] {
+        if with_body { &self.bodies } else { &self.cloth }
     }
 
     /// The vertex after the last one of each cloth.
@@ -150,9 +126,9 @@ impl ContactSettings {
     #[cold]
     #[inline(never)]
     fn of_several(&self, is_with_body: bool, one: u32, other: u32) -> Option<Thickness> {
-        let of_cloths = &self.asked(is_with_body)?.of_cloths;
+        let of_cloths = self.asked(is_with_body);
         // Bodies' vertices come after the cloths'.
-        let own = of_cloths[self.cloth_of(one.min(other))];
+        let own = *of_cloths.get(self.cloth_of(one.min(other)))?;
         if is_with_body {
             return Some(own);
         }
@@ -161,12 +137,12 @@ impl ContactSettings {
 
     /// The distances that each cloth has to keep from others and from itself; empty without such a request.
     pub(super) fn of_cloths(&self) -> &[Thickness] {
-        self.cloth.as_ref().map_or(&[], |asked| &asked.of_cloths)
+        &self.cloth
     }
 
     /// Returns whether an effect requests contacts with bodies, or those of cloth.
     pub(super) fn asks(&self, with_body: bool) -> bool {
-        self.asked(with_body).is_some()
+        !self.asked(with_body).is_empty()
     }
 
     /// Returns whether an effect requests contacts.
@@ -176,7 +152,7 @@ impl ContactSettings {
 
     /// The largest distances that any cloth has to keep from bodies, or from cloth; `None` without such a request.
     pub(super) fn largest(&self, with_body: bool) -> Option<Thickness> {
-        let of_cloths = self.asked(with_body)?.of_cloths.iter().copied();
+        let of_cloths = self.asked(with_body).iter().copied();
         of_cloths.reduce(|one, other| Thickness {
             thickness: one.thickness.max(other.thickness),
             separation: one.separation.max(other.separation),

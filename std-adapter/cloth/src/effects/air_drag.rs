@@ -1,12 +1,10 @@
-//! Air drag: still air slows all vertices at the same rate, v′ = −r·v. The solution is exact, so it is stable for any rate.
+//! Air drag: still air slows all vertices at the same rate, v′ = −r·v. It adds to the [weight](crate::solve::prediction) of each
+//! vertex in the solve, so that a step is stable for any rate.
 
 use super::registration::{Effect, Registration};
 use crate::effects::plan::Plan;
 use crate::input::{FREQUENCY, Field, ValueError};
-use crate::model::step::{Force, TimeStep};
 use crate::world::SceneParts;
-use libm::exp;
-use selvedge_core::glam::DVec3;
 
 const RATE: Field = Field::new("rate", FREQUENCY, 0.0, 1e6);
 
@@ -32,19 +30,6 @@ impl Effect for AirDrag {
     }
 
     fn register(&self, plan: &mut Plan<'_>) {
-        if plan.solves_at_once() {
-            plan.add_drag(self.rate);
-        } else {
-            plan.add_force(*self);
-        }
-    }
-}
-
-impl Force for AirDrag {
-    fn apply(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3]) {
-        let factor = exp(-self.rate * step.h);
-        for velocity in velocities {
-            *velocity *= factor;
-        }
+        plan.add_drag(self.rate);
     }
 }

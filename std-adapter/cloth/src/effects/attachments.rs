@@ -4,13 +4,8 @@
 //! the spring is as long as `give`. A vertex is released when an accepted step ends with the vertex farther from its anchor than
 //! that.
 //!
-//! One implicit step solves (M + h²K)·x = M·y + h²k·a + …, where y is the inertial prediction, a the anchor and K the springs'
-//! matrix. The springs are the diagonal part. For all other constraints the mass of a held vertex is m + h²k ([`Memory::hold`]),
-//! and the vertex starts from (m·y + h²k·a)/(m + h²k). At rest the force is then k·|x − a| whatever else pulls, and light
-//! vertices are held as well as heavy ones. (A spring as one constraint among others would pull its vertex back by as much as the
-//! others moved it. This is h²/m times the force, many edges on a fine mesh.)
-//!
-//! Coarse levels of stretch and strain limit weigh their seeds in the same way.
+//! The step is [solved](crate::solve::springs) with the springs in it. At rest the force is then k·|x − a| whatever else pulls, and
+//! light vertices are held as well as heavy ones.
 
 use super::anchor::Anchor;
 use super::pins::PinMotion;
@@ -18,8 +13,7 @@ use super::registration::{Effect, Registration, Scope};
 use super::selection::{check_body, check_vertices, keys, placed, read_motion, read_vertices};
 use crate::effects::plan::Plan;
 use crate::input::{FORCE, Field, LENGTH, ValueError};
-use crate::model::energy::{Configuration, StoredEnergy};
-use crate::model::step::{Constraint, Memory, Release, TimeStep, Touches};
+use crate::model::step::{Memory, Release, TimeStep};
 use crate::solve::springs::{Held, Springs};
 use crate::world::{BodyMotion, KeyframeMotion, SceneParts};
 use selvedge_core::glam::DVec3;
@@ -137,11 +131,7 @@ impl Effect for Attachments {
                 released: None,
             }));
         }
-        if plan.solves_at_once() {
-            plan.add_term(Held::new(Holding(all)));
-        } else {
-            plan.add_constraint(Holding(all));
-        }
+        plan.add_term(Held::new(Holding(all)));
     }
 }
 
@@ -163,28 +153,6 @@ struct Attachment {
 #[derive(Debug)]
 struct Holding(Vec<Attachment>);
 
-impl Constraint for Holding {
-    fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], _: &mut Touches) {
-        for held in self.0.iter().filter(|held| held.released.is_none()) {
-            let vertex = held.vertex as usize;
-            let way = held.anchor.at(step, positions) - positions[vertex];
-            positions[vertex] += way * (held.stiffness * step.h * step.h * step.inverse_masses[vertex]);
-        }
-    }
-
-    fn energy(&self, now: &Configuration<'_>) -> Option<StoredEnergy> {
-        Some(StoredEnergy::Elastic(Springs::energy(self, now.positions)))
-    }
-
-    fn memory(&self) -> Option<&dyn Memory> {
-        Some(self)
-    }
-
-    fn memory_mut(&mut self) -> Option<&mut dyn Memory> {
-        Some(self)
-    }
-}
-
 impl Springs for Holding {
     fn springs(&self, step: &TimeStep<'_>, x: &[DVec3], springs: &mut Vec<(u32, DVec3, f64)>) {
         let holding = self.0.iter().filter(|held| held.released.is_none());
@@ -199,11 +167,6 @@ impl Springs for Holding {
 }
 
 impl Memory for Holding {
-    fn hold(&self, h: f64, held: &mut Vec<(u32, f64)>) {
-        let holding = self.0.iter().filter(|held| held.released.is_none());
-        held.extend(holding.map(|held| (held.vertex, held.stiffness * h * h)));
-    }
-
     fn settle(&mut self, step: &TimeStep<'_>, positions: &[DVec3]) {
         for held in self.0.iter_mut().filter(|held| held.released.is_none()) {
             held.last = held.anchor.at(step, positions);

@@ -2,19 +2,17 @@
 
 use super::registration::{ActsOn, Effect, Registration};
 use crate::effects::plan::Plan;
-use crate::input::{BENDING_STIFFNESS, Count, Field, ValueError};
-use crate::model::bending::{Bending, hinges};
+use crate::input::{BENDING_STIFFNESS, Field, ValueError};
+use crate::model::bending::hinges;
 use crate::world::{Material, SceneParts};
 
 const WARP: Field = Field::new("stiffness", BENDING_STIFFNESS, 1e-12, 10.0);
 const WEFT: Field = Field::new("weft_stiffness", BENDING_STIFFNESS, 1e-12, 10.0);
-const STAGES: Count = Count::new("stages", 1, 1000);
 
-pub(super) const REGISTRATION: Registration = Registration::new(&["stiffness", "weft_stiffness", "stages"], |table, world| {
+pub(super) const REGISTRATION: Registration = Registration::new(&["stiffness", "weft_stiffness"], |table, world| {
     let of_material = world.cloth.material.as_ref().map(Bend::of_material);
     let mut bend = table.number_or(&WARP, Bend::isotropic, of_material)?;
     bend.weft_stiffness = table.number(&WEFT)?.unwrap_or(bend.weft_stiffness);
-    bend.stages = table.count(&STAGES)?.unwrap_or(bend.stages);
     Ok(Box::new(bend))
 });
 
@@ -25,9 +23,6 @@ pub struct Bend {
     pub stiffness: f64,
     /// The flexural rigidity of the weft, in N·m. At an angle of φ to the warp it is (√u·cos²φ + √v·sin²φ)² (Huber 1914).
     pub weft_stiffness: f64,
-    /// The largest number of force evaluations in a step. The mesh and the time step decide how many are needed. Larger values
-    /// allow stiffer cloth and take longer; cloth that needs more evaluations becomes softer.
-    pub stages: u32,
 }
 
 impl Bend {
@@ -38,13 +33,12 @@ impl Bend {
         }
     }
 
-    /// Sets the same rigidity along warp and weft, in N·m, with at most 32 stages.
+    /// Sets the same rigidity along warp and weft, in N·m.
     #[must_use]
     pub const fn isotropic(stiffness: f64) -> Self {
         Self {
             stiffness,
             weft_stiffness: stiffness,
-            stages: 32,
         }
     }
 
@@ -66,12 +60,7 @@ impl Effect for Bend {
 
     fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {
         WARP.check(self.stiffness)?;
-        WEFT.check(self.weft_stiffness)?;
-        STAGES.check(self.stages)
-    }
-
-    fn settings(&self) -> Vec<(&'static str, String)> {
-        vec![("stages, at most", self.stages.to_string())]
+        WEFT.check(self.weft_stiffness)
     }
 
     fn fabric(&self) -> Vec<(&'static str, String)> {
@@ -90,10 +79,6 @@ impl Effect for Bend {
         let hinges = hinges(plan.scene.cloth, |of_warp| self.along(of_warp));
         let folds = plan.fabric().folds.map(|when| (when, plan.scene.cloth.copied_as_made()));
         let folds = folds.as_ref().map(|(when, copied)| (*when, copied.as_slice()));
-        if plan.solves_at_once() {
-            return plan.add_bending(&hinges, folds);
-        }
-        let bending = Bending::new(&hinges, plan.inverse_masses(), self.stages, plan.scene.time_step, folds);
-        plan.add_constraint(bending);
+        plan.add_bending(&hinges, folds);
     }
 }

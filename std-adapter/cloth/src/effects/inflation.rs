@@ -1,15 +1,13 @@
 //! Inflation: a prescribed pressure over time on one side of the cloth. The force on a vertex is the pressure times the gradient
-//! of the volume ([`Walls`]). So a closed cloth gets neither a net force nor a torque. The pressure does work, like wind, and
+//! of the volume ([walls](crate::solve::walls)). So a closed cloth gets neither a net force nor a torque. The pressure does work, like wind, and
 //! stores no energy.
 
-use super::enclosed::{Walls, open_edges};
+use super::enclosed::{open_edges, volume};
 use super::registration::{ActsOn, Effect, Registration};
 use crate::effects::plan::Plan;
 use crate::input::{Field, PRESSURE, SceneError, Table, ValueError};
-use crate::model::step::{Force, TimeStep};
 use crate::solve::walls::{Filling, Gas};
 use crate::world::{KEY_TIME, SceneParts, check_key_time};
-use selvedge_core::glam::DVec3;
 
 const GIVEN: Field = Field::new("pressure", PRESSURE, -1e7, 1e7);
 
@@ -104,16 +102,10 @@ impl Effect for Inflation {
 
     fn register(&self, plan: &mut Plan<'_>) {
         let cloth = plan.scene.cloth;
-        let walls = Walls::new(cloth);
-        let is_inside_out = open_edges(&cloth.topology_as_made()) == 0 && walls.volume(&cloth.mesh.positions) < 0.0;
-        if plan.solves_at_once() {
-            let outward = if is_inside_out { -1.0 } else { 1.0 };
-            return plan.add_walls(Given { inflation: self.clone(), outward });
-        }
-        plan.add_force(Inflating {
+        let is_inside_out = open_edges(&cloth.topology_as_made()) == 0 && volume(&cloth.mesh) < 0.0;
+        plan.add_walls(Given {
             inflation: self.clone(),
             outward: if is_inside_out { -1.0 } else { 1.0 },
-            walls,
         });
     }
 }
@@ -128,26 +120,5 @@ struct Given {
 impl Filling for Given {
     fn at(&self, time: f64) -> Gas {
         Gas::Pressure(self.outward * self.inflation.pressure(time))
-    }
-}
-
-#[derive(Debug)]
-struct Inflating {
-    inflation: Inflation,
-    /// The side to which the triangles' normals point.
-    outward: f64,
-    walls: Walls,
-}
-
-impl Force for Inflating {
-    fn apply(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3]) {
-        let impulse = self.outward * self.inflation.pressure(step.time) * step.h;
-        if impulse == 0.0 {
-            return;
-        }
-        self.walls.look(step.start);
-        for (vertex, velocity) in velocities.iter_mut().enumerate().take(self.walls.len()) {
-            *velocity += self.walls.gradient(vertex) * (impulse * step.inverse_masses[vertex]);
-        }
     }
 }

@@ -1,8 +1,9 @@
 //! Effects: everything that acts on cloth, one file each. Their fields are the settings of scene files, in SI units.
 //! [`Scene::add`](crate::Scene::add) adds one to a scene, [`Scene::add_to`](crate::Scene::add_to) to one of several cloths.
 //!
-//! Your own effect implements [`Effect`], and puts [`Force`]s and [`Constraint`]s into the [`Plan`] of a step. These run after
-//! the effects of this crate and before contact, so that every step is certified whatever they do. See `examples/own_effect.rs`.
+//! Your own effect implements [`Effect`], and puts [`Force`]s and [`Term`]s into the [`Plan`] of a step: accelerations, and energies
+//! that the step minimises together with those of this crate. Every step is certified whatever they do. See
+//! `examples/own_effect.rs`.
 // To add an effect here: its own file, a `mod` line, a `pub use`, and a line of `REGISTRY`.
 
 mod air;
@@ -16,8 +17,6 @@ mod enclosed;
 mod friction;
 mod gravity;
 mod inflation;
-mod levels;
-mod of_cloth;
 mod pins;
 pub(crate) mod plan;
 mod plastic_folds;
@@ -39,7 +38,7 @@ mod vertices;
 
 pub use crate::contact::Thickness;
 pub use crate::model::energy::{Configuration, StoredEnergy};
-pub use crate::model::step::{Constraint, Force, Memory, Release, TimeStep, Touches};
+pub use crate::model::step::{Force, Memory, Release, TimeStep};
 pub use crate::solve::{Matrix, Prediction, Renewed, Term};
 pub use crate::world::SceneParts;
 pub use air::{Air, AirSource, Fan, Vortex, Wind, WindField};

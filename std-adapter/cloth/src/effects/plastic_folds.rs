@@ -16,8 +16,7 @@ pub(super) const REGISTRATION: Registration = Registration::new(&["yield_curvatu
 })
 .needing(&["bend"]);
 
-/// Folds that stay after cloth is bent too far. They act through [`Bend`](super::Bend), which then leaves out the part that is
-/// too stiff for its stages.
+/// Folds that stay after cloth is bent too far. They act through [`Bend`](super::Bend).
 ///
 /// The edge length h of a mesh limits its curvature to about 2/h.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,16 +1,12 @@
-//! Internal pressure: a closed cloth keeps its volume, by one constraint on all its vertices (Müller et al. 2007).
-//!
-//! C = V(x) − r·V₀ with the volume V ([`Walls`]) and the energy ½·K·C²/(r·V₀), K a bulk modulus: compliance r·V₀/K.
+//! Internal pressure: a closed cloth keeps its volume. The energy is ½·K·(V − r·V₀)²/(r·V₀), with the volume V of its
+//! [walls](crate::solve::walls) and a bulk modulus K.
 
-use super::enclosed::{Walls, open_edges};
+use super::enclosed::{open_edges, volume};
 use super::registration::{ActsOn, Effect, Registration};
 use crate::effects::plan::Plan;
 use crate::input::{Field, PRESSURE, RATIO, ValueError};
-use crate::model::energy::{Configuration, StoredEnergy};
-use crate::model::step::{Constraint, TimeStep, Touches};
-use crate::solve::walls::Gas;
+use crate::solve::walls::{Filling, Gas};
 use crate::world::SceneParts;
-use selvedge_core::glam::DVec3;
 
 const VOLUME: Field = Field::new("volume", RATIO, 0.01, 10.0);
 const MODULUS: Field = Field::new("modulus", PRESSURE, 1e-3, 1e9);
@@ -67,18 +63,9 @@ impl Effect for InternalPressure {
             // A torn cloth no longer holds gas.
             return;
         }
-        let walls = Walls::new(cloth);
-        let rest = walls.volume(&cloth.mesh.positions);
-        if plan.solves_at_once() {
-            return plan.add_walls(Given {
-                modulus: self.modulus,
-                volume: self.volume * rest,
-            });
-        }
-        plan.add_constraint(Filling {
-            goal: self.volume * rest,
-            compliance: self.volume * rest.abs() / self.modulus,
-            walls,
+        plan.add_walls(Given {
+            modulus: self.modulus,
+            volume: self.volume * volume(&cloth.mesh),
         });
     }
 }
@@ -90,40 +77,9 @@ struct Given {
     volume: f64,
 }
 
-impl crate::solve::walls::Filling for Given {
+impl Filling for Given {
     fn at(&self, _: f64) -> Gas {
         let Self { modulus, volume } = *self;
         Gas::Volume { modulus, volume }
-    }
-}
-
-#[derive(Debug)]
-struct Filling {
-    goal: f64,
-    compliance: f64,
-    walls: Walls,
-}
-
-impl Constraint for Filling {
-    fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], _: &mut Touches) {
-        let walls = &mut self.walls;
-        walls.look(positions);
-        let mut weight = self.compliance / (step.h * step.h);
-        for vertex in 0..walls.len() {
-            weight += step.inverse_masses[vertex] * walls.gradient(vertex).length_squared();
-        }
-        let multiplier = (self.goal - walls.volume(positions)) / weight;
-        for vertex in 0..walls.len() {
-            positions[vertex] += walls.gradient(vertex) * (multiplier * step.inverse_masses[vertex]);
-        }
-    }
-
-    fn is_inner(&self) -> bool {
-        true
-    }
-
-    fn energy(&self, now: &Configuration<'_>) -> Option<StoredEnergy> {
-        let excess = self.walls.volume(now.positions) - self.goal;
-        Some(StoredEnergy::Elastic(0.5 * excess * excess / self.compliance))
     }
 }

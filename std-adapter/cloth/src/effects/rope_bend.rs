@@ -1,9 +1,8 @@
-//! Bending resistance of loose edges: ropes, laces and fringes ([`rope`](crate::model::rope)).
+//! Bending resistance of loose edges: ropes, laces and fringes ([`ropes`](crate::solve::ropes)).
 
 use super::registration::{ActsOn, Effect, Registration};
 use crate::effects::plan::Plan;
 use crate::input::{Field, ROPE_BENDING_STIFFNESS, ValueError};
-use crate::model::rope::Bending;
 use crate::world::SceneParts;
 
 const STIFFNESS: Field = Field::new("stiffness", ROPE_BENDING_STIFFNESS, 1e-15, 1e3);
@@ -69,10 +68,7 @@ impl Effect for RopeBend {
 
     fn register(&self, plan: &mut Plan<'_>) {
         let is_bent_at_rest = self.rest == RopeShape::AsBuilt;
-        if plan.solves_at_once() {
-            let (effect, cloth, first) = (plan.effect, plan.scene.cloth, plan.first_vertex());
-            return plan.ropes().bend(effect, self.stiffness, is_bent_at_rest, cloth, first);
-        }
-        plan.add_constraint(Bending::new(plan.scene.cloth, self.stiffness, is_bent_at_rest));
+        let (effect, cloth, first) = (plan.effect, plan.scene.cloth, plan.first_vertex());
+        plan.ropes().bend(effect, self.stiffness, is_bent_at_rest, cloth, first);
     }
 }

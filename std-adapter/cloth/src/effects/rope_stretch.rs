@@ -1,9 +1,8 @@
-//! Stretch resistance of loose edges: ropes, laces and fringes ([`rope`](crate::model::rope)).
+//! Stretch resistance of loose edges: ropes, laces and fringes ([`ropes`](crate::solve::ropes)).
 
 use super::registration::{ActsOn, Effect, Registration};
 use crate::effects::plan::Plan;
 use crate::input::{FORCE, Field, ValueError};
-use crate::model::rope::Stretching;
 use crate::world::SceneParts;
 
 const STIFFNESS: Field = Field::new("stiffness", FORCE, 1e-3, 1e9);
@@ -53,11 +52,7 @@ impl Effect for RopeStretch {
     }
 
     fn register(&self, plan: &mut Plan<'_>) {
-        if plan.solves_at_once() {
-            let effect = plan.effect;
-            return plan.ropes().stretch(effect, self.stiffness);
-        }
-        let stretching = Stretching::new(plan.scene.cloth, self.stiffness, plan.first_vertex(), &plan.ties);
-        plan.add_constraint_on_scene(stretching);
+        let effect = plan.effect;
+        plan.ropes().stretch(effect, self.stiffness);
     }
 }

@@ -213,13 +213,8 @@ impl Effect for Seams {
                 gap,
                 closing: seam.closing,
             };
-            if plan.solves_at_once() {
-                plan.ties.extend(sewing.tie());
-                plan.add_term(Stitches::new(sewing));
-                continue;
-            }
             plan.ties.extend(sewing.tie());
-            plan.add_constraint(sewing);
+            plan.add_term(Stitches::new(sewing));
         }
     }
 }

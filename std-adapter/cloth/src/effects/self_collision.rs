@@ -41,6 +41,6 @@ impl Effect for SelfCollision {
     }
 
     fn register(&self, plan: &mut Plan<'_>) {
-        plan.contact.keep_from_cloth(plan.effect, self.0);
+        plan.contact.keep_from_cloth(self.0);
     }
 }

@@ -1,7 +1,5 @@
 //! The lengths of a mesh's edges, over those at rest.
 
-use super::energy::{Configuration, StoredEnergy};
-use super::step::{Constraint, TimeStep, Touches};
 use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
 
@@ -35,50 +33,5 @@ impl Lengths {
             .map(over)
             .fold(0.0, |largest, over| if over > largest { over } else { largest });
         largest.sqrt()
-    }
-}
-
-/// The growth of the longest edge after which a [lasting](Lasting) constraint acts again.
-const UNDONE: f64 = 1.05;
-
-/// A constraint that resists stretch, and acts again if contacts have undone what it did.
-///
-/// Where cloth is taut over a body, the constraint pulls it into the body. Contacts push it out, but stretch it. So what pulls at
-/// the cloth does not feel the tension, and the cloth is drawn longer and longer.
-#[derive(Debug)]
-pub(crate) struct Lasting<C> {
-    constraint: C,
-    lengths: Lengths,
-    /// The largest ratio of a length to that at rest, or 1, after it acted last.
-    left: f64,
-}
-
-impl<C> Lasting<C> {
-    /// Makes a constraint on this mesh, which is at rest.
-    pub(crate) fn new(constraint: C, mesh: &Mesh) -> Self {
-        Self {
-            constraint,
-            lengths: Lengths::new(mesh, 1.0),
-            left: 1.0,
-        }
-    }
-}
-
-impl<C: Constraint> Constraint for Lasting<C> {
-    fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], touches: &mut Touches) {
-        self.constraint.project(step, positions, touches);
-        self.left = self.lengths.largest(positions).max(1.0);
-    }
-
-    fn energy(&self, now: &Configuration<'_>) -> Option<StoredEnergy> {
-        self.constraint.energy(now)
-    }
-
-    fn is_inner(&self) -> bool {
-        self.constraint.is_inner()
-    }
-
-    fn is_undone(&self, positions: &[DVec3]) -> Option<bool> {
-        Some(self.lengths.largest(positions) > UNDONE * self.left)
     }
 }

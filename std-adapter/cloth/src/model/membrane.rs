@@ -1,6 +1,5 @@
 //! The triangles of a cloth and their stretch, as effects in the plane of the cloth use them.
 
-use crate::model::schedule::On;
 use crate::world::Cloth;
 use crate::world::Incidence;
 use selvedge_core::glam::{DVec2, DVec3};
@@ -81,66 +80,6 @@ impl Flat {
 
 fn along([warp, weft]: [DVec3; 2], side: DVec3) -> DVec2 {
     DVec2::new(side.dot(warp), side.dot(weft))
-}
-
-/// Makes a constraint for each triangle from its material directions and its area at rest, in m².
-pub(crate) fn of_triangles<C>(cloth: &Cloth, constraint: impl Fn(Membrane, f64) -> C) -> Vec<On<C, 3>> {
-    let make = |&vertices: &[u32; 3]| {
-        let Flat { membrane, area, .. } = Flat::new(cloth, vertices);
-        (vertices, constraint(membrane, area))
-    };
-    cloth.mesh.triangles.iter().map(make).collect()
-}
-
-/// The stretch of a triangle: its square is middle + half·cos 2φ + shear·sin 2φ at an angle of φ to the warp.
-///
-/// A deformation takes warp and weft to w_u and w_v, and the direction d to d_u·w_u + d_v·w_v. So squares are a quadratic form of
-/// d, [[w_u·w_u, w_u·w_v], [w_u·w_v, w_v·w_v]]. Its first eigenvector is the principal direction, in which the stretch is
-/// largest.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct SquaredStretch {
-    middle: f64,
-    half: f64,
-    shear: f64,
-}
-
-impl SquaredStretch {
-    #[inline(always)]
-    pub(crate) fn new(membrane: Membrane, x: [DVec3; 3]) -> Self {
-        let (warp, weft) = (image(membrane.a, x), image(membrane.b, x));
-        let (uu, uv, vv) = (warp.dot(warp), warp.dot(weft), weft.dot(weft));
-        Self {
-            middle: 0.5 * (uu + vv),
-            half: 0.5 * (uu - vv),
-            shear: uv,
-        }
-    }
-
-    /// Returns an upper bound of the squared stretch, since a length is at most the sum of its parts.
-    #[inline(always)]
-    pub(crate) fn bound(self) -> f64 {
-        self.middle + self.half.abs() + self.shear.abs()
-    }
-
-    /// Returns the square of the largest stretch.
-    #[inline(always)]
-    pub(crate) fn largest(self) -> f64 {
-        self.middle + (self.half * self.half + self.shear * self.shear).sqrt()
-    }
-
-    /// Returns the largest stretch, not squared, and a vector of some length in its direction, along warp and weft. The vector is
-    /// the one of the eigenvector's two forms that does not cancel.
-    #[inline(always)]
-    pub(crate) fn principal(self) -> (f64, [f64; 2]) {
-        let Self { middle, half, shear } = self;
-        let spread = (half * half + shear * shear).sqrt();
-        let direction = match (half >= 0.0, spread > 0.0) {
-            (_, false) => [1.0, 0.0],
-            (true, _) => [half + spread, shear],
-            (false, _) => [shear, spread - half],
-        };
-        ((middle + spread).sqrt(), direction)
-    }
 }
 
 /// Returns the triangles of each vertex, with the share of each in the vertex's mass.

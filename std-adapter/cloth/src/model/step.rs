@@ -1,9 +1,8 @@
-//! One time step: forces, then constraints, on positions of all vertices.
+//! One time step: what all of its phases read, the forces, and the state that terms keep.
 //!
 //! Vertices of bodies and pinned vertices are **kinematic**: they follow a prescribed motion, as if their mass were infinite.
 
 use super::energy::{Configuration, StoredEnergy};
-pub use super::touches::Touches;
 use crate::world::Pose;
 use selvedge_core::glam::DVec3;
 use std::fmt::Debug;
@@ -17,26 +16,22 @@ pub struct TimeStep<'a> {
     pub h: f64,
     /// Positions at the start, in metres: the cloth's vertices, then the bodies'.
     pub start: &'a [DVec3],
-    /// Inverse masses per vertex, in 1/kg; zero for kinematic vertices. For constraints they are smaller where something
-    /// [holds](Memory::hold) the vertex.
+    /// Inverse masses per vertex, in 1/kg; zero for kinematic vertices.
     pub inverse_masses: &'a [f64],
-    /// Vertices that something holds, and their added mass in kg. `inverse_masses` includes it.
-    pub(crate) held: &'a [(u32, f64)],
     /// The poses of each kinematic motion, at the start and at the end.
     pub(crate) poses: &'a [[Pose; 2]],
 }
 
 #[cfg(test)]
 impl<'a> TimeStep<'a> {
-    /// Makes the first step, in which nothing is held or carried.
+    /// Makes the first step, in which nothing is carried.
     pub(crate) const fn first(h: f64, start: &'a [DVec3], inverse_masses: &'a [f64]) -> Self {
-        let (time, held, poses) = (0.0, &[] as &[_], &[] as &[_]);
+        let (time, poses) = (0.0, &[] as &[_]);
         Self {
             time,
             h,
             start,
             inverse_masses,
-            held,
             poses,
         }
     }
@@ -53,74 +48,11 @@ pub trait Force: Debug + Send + Sync {
     fn energy(&self, _: &Configuration<'_>) -> Option<StoredEnergy> {
         None
     }
-
-    /// Sets a new wind, in m/s. Returns false if the force is no wind.
-    #[doc(hidden)]
-    fn set_wind(&mut self, _velocity: DVec3) -> bool {
-        false
-    }
 }
 
-/// Moves predicted positions towards the constraint.
-///
-/// A failed step is repeated in parts, so a constraint must depend on its arguments alone.
-pub trait Constraint: Debug + Send + Sync {
-    /// Moves `positions`, in metres, of vertices whose inverse mass is not zero. `touches` is for effects that push things apart.
-    fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], touches: &mut Touches);
-
-    /// Returns the stored energy, or `None` without any. It is called on request, never in a step.
-    fn energy(&self, _: &Configuration<'_>) -> Option<StoredEnergy> {
-        None
-    }
-
-    /// Returns true if the constraint consists of inner forces between vertices of cloth, whose sum and moment are zero. A step
-    /// then keeps the momentum of the pieces that [`joints`](Self::joints) and the edges of the cloth connect. Without this,
-    /// corrections would change it, since they act at other positions than those at the start of the step.
-    fn is_inner(&self) -> bool {
-        false
-    }
-
-    /// Returns the pairs of vertices between which inner forces act, apart from those that edges of the cloth connect.
-    fn joints(&self) -> Vec<[u32; 2]> {
-        Vec::new()
-    }
-
-    /// Returns true if the constraint acts again between the sweeps of contacts, to hold together vertices that contacts push
-    /// apart.
-    fn acts_among_contacts(&self) -> bool {
-        false
-    }
-
-    /// Returns the largest ratio of a length to its limit at these positions of all vertices. Returns `None` if the constraint
-    /// limits no length. If contacts push the ratio above 1.01, the constraint acts again.
-    fn over_limit(&self, _positions: &[DVec3]) -> Option<f64> {
-        None
-    }
-
-    /// Returns whether contacts have undone what the constraint did, so that it has to act again. Returns `None` if it never acts
-    /// again for that reason.
-    fn is_undone(&self, _positions: &[DVec3]) -> Option<bool> {
-        None
-    }
-
-    /// Returns the state that the constraint keeps from step to step, or `None` if it has none. Its projections depend on this
-    /// state as well. A constraint always returns the same variant.
-    fn memory(&self) -> Option<&dyn Memory> {
-        None
-    }
-
-    /// Returns the state for changes.
-    fn memory_mut(&mut self) -> Option<&mut dyn Memory> {
-        None
-    }
-}
-
-/// The state that a constraint keeps from step to step. It changes only after an accepted step, or part of one; failed steps
+/// The state that a [`Term`](crate::effects::Term) keeps from step to step. It changes only after an accepted step, or part of one; failed steps
 /// leave no trace. Checkpoints contain it.
 pub trait Memory {
-    /// Adds the held vertices, each with the mass in kg that it adds for all constraints of a step of `h` seconds.
-    fn hold(&self, _h: f64, _held: &mut Vec<(u32, f64)>) {}
-
     /// Records an accepted step from `step.start` to `positions`.
     fn settle(&mut self, step: &TimeStep<'_>, positions: &[DVec3]);
 
@@ -131,7 +63,7 @@ pub trait Memory {
     fn recall(&mut self, numbers: &[f64]);
 
     /// Returns a key for each of its [`numbers`](Self::numbers) that does not change when cloth tears. After a tear effects
-    /// register again, and the new constraints restore the numbers whose keys they share. Without keys, as here, the numbers keep
+    /// register again, and the new terms restore the numbers whose keys they share. Without keys, as here, the numbers keep
     /// their meaning.
     fn keys(&self) -> Vec<[u32; 4]> {
         Vec::new()

@@ -4,11 +4,10 @@
 //! to the point at the same share of the other row's length. So rows of different meshes fit, and rows of equally many evenly
 //! spaced vertices are joined one to one.
 //!
-//! A stitch is C = |a − (1 − s)·b − s·c| ≤ L, without compliance: Δx = −(|p| − L)·wₖ·∇C/Σw·|∇C|². It only pulls. Contact keeps
-//! the rows apart.
+//! A stitch is |a − (1 − s)·b − s·c| ≤ L, which the [solve](crate::solve::stitches) keeps. It only pulls. Contact keeps the rows
+//! apart.
 
-use crate::model::mobility::mobility;
-use crate::model::step::{Constraint, TimeStep, Touches};
+use crate::model::step::TimeStep;
 use selvedge_core::glam::DVec3;
 
 /// A vertex, and a point between two others.
@@ -26,30 +25,10 @@ impl Stitch {
         [1.0, self.share - 1.0, -self.share]
     }
 
-    /// Returns the vector from the point to the vertex.
-    fn way(&self, positions: &[DVec3]) -> DVec3 {
-        let [a, b, c] = self.vertices.map(|vertex| positions[vertex as usize]);
-        a - b.lerp(c, self.share)
-    }
-
     /// Returns the distance of vertex and point.
     pub(crate) fn length(&self, positions: &[DVec3]) -> f64 {
-        self.way(positions).length()
-    }
-
-    /// Moves vertex and point to within `length` of each other.
-    fn draw(&self, length: f64, inverse_masses: &[f64], positions: &mut [DVec3]) {
-        let weights = self.weights();
-        let mobility = mobility(inverse_masses, self.vertices, weights);
-        let way = self.way(positions);
-        let distance = way.length();
-        if !(distance > length && mobility > 0.0) {
-            return;
-        }
-        let along = way * ((length - distance) / (distance * mobility));
-        for (vertex, weight) in self.vertices.into_iter().zip(weights) {
-            positions[vertex as usize] += along * (weight * inverse_masses[vertex as usize]);
-        }
+        let [a, b, c] = self.vertices.map(|vertex| positions[vertex as usize]);
+        a.distance(b.lerp(c, self.share))
     }
 }
 
@@ -110,66 +89,27 @@ impl Sewing {
         self.tie().is_some() && self.stitches.iter().all(is_closed)
     }
 
-    /// Returns the tie, if the seam consists of one stitch between two vertices.
-    pub(crate) fn tie(&self) -> Option<Tie> {
-        let &[
-            (
-                Stitch {
-                    vertices: [one, other, also],
-                    ..
-                },
-                start,
-            ),
-        ] = self.stitches.as_slice()
-        else {
-            return None;
-        };
-        (other == also).then_some(Tie {
-            vertices: [one, other],
-            start,
-            gap: self.gap,
-            closing: self.closing,
-        })
+    /// Returns the two vertices, if the seam joins only these.
+    pub(crate) fn tie(&self) -> Option<[u32; 2]> {
+        match self.stitches.as_slice() {
+            &[
+                (
+                    Stitch {
+                        vertices: [one, other, also],
+                        ..
+                    },
+                    _,
+                ),
+            ] if other == also => Some([one, other]),
+            _ => None,
+        }
     }
-}
-
-/// Two vertices that a seam joins.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Tie {
-    pub(crate) vertices: [u32; 2],
-    /// The initial and the final distance, in metres.
-    pub(crate) start: f64,
-    pub(crate) gap: f64,
-    /// The time of closing, in seconds, as in a [`Seam`](crate::effects::Seam).
-    pub(crate) closing: Option<f64>,
 }
 
 /// Returns the largest distance of a stitch's points at the end of a step, for a seam that closes from `start` to `gap`.
 pub(crate) fn length_at_end(step: &TimeStep<'_>, start: f64, gap: f64, closing: Option<f64>) -> f64 {
     let left = closing.map_or(1.0, |closing| (1.0 - (step.time + step.h) / closing).max(0.0));
     gap + left * (start - gap).max(0.0)
-}
-
-impl Constraint for Sewing {
-    fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], _: &mut Touches) {
-        for (stitch, start) in &self.stitches {
-            let length = length_at_end(step, *start, self.gap, self.closing);
-            stitch.draw(length, step.inverse_masses, positions);
-        }
-    }
-
-    fn is_inner(&self) -> bool {
-        true
-    }
-
-    fn acts_among_contacts(&self) -> bool {
-        true
-    }
-
-    fn joints(&self) -> Vec<[u32; 2]> {
-        let each = self.stitches.iter().map(|(stitch, _)| stitch.vertices);
-        each.flat_map(|[a, b, c]| [[a, b], [a, c]]).collect()
-    }
 }
 
 #[cfg(test)]
@@ -204,45 +144,18 @@ mod tests {
     }
 
     #[test]
-    fn a_stitch_is_drawn_to_its_length_keeps_the_momentum_and_never_pushes() {
-        let (rest, made) = rows(&[0.0, 1.0], &[0.0, 0.4, 1.0]);
-        let inverse_masses = [1.0, 2.0, 0.5, 3.0, 0.0];
-        for (length, expected) in [(0.25, 0.25), (2.0, 1.0)] {
-            let mut positions = rest.clone();
-            made[1].draw(length, &inverse_masses, &mut positions);
-            assert!((made[1].length(&positions) - expected).abs() < 1e-12);
-            let moved = |k: usize| (positions[k] - rest[k]) / inverse_masses[k];
-            assert!((moved(0) + moved(1) + moved(3)).length() < 1e-12);
-        }
-        let mut positions = rest.clone();
-        made[2].draw(0.25, &[0.0; 5], &mut positions);
-        assert_eq!(positions, rest, "what is pinned stays");
-    }
-
-    #[test]
     fn a_seam_is_as_long_as_the_time_says_and_one_without_a_time_as_long_as_it_was() {
-        let (rest, made) = rows(&[0.0, 1.0], &[0.0, 1.0]);
-        let lengths = |closing, time| {
-            let mut positions = rest.clone();
-            let mut sewing = Sewing {
-                stitches: made.iter().map(|stitch| (*stitch, 1.0)).collect(),
-                gap: 0.2,
-                closing,
-            };
-            let step = TimeStep {
-                time,
-                ..TimeStep::first(0.1, &rest, &[1.0; 4])
-            };
-            sewing.project(&step, &mut positions, &mut Touches::default());
-            made[0].length(&positions)
-        };
         for (closing, time, expected) in [
             (Some(1.0), 0.4, 0.6),
             (Some(1.0), 0.9, 0.2),
             (Some(1.0), 5.0, 0.2),
             (None, 5.0, 1.0),
         ] {
-            assert!((lengths(closing, time) - expected).abs() < 1e-12);
+            let step = TimeStep {
+                time,
+                ..TimeStep::first(0.1, &[], &[])
+            };
+            assert!((length_at_end(&step, 1.0, 0.2, closing) - expected).abs() < 1e-12);
         }
     }
 }

@@ -1,11 +1,11 @@
 //! Scenes from TOML files.
 
 use super::{
-    OnBlocked, START, Scene, TIME_STEP, TangledStart, check_name, check_start, duration_field, frame_rate_field, steps_of_frame,
+    ACCURACIES, OnBlocked, START, Scene, TIME_STEP, TangledStart, check_name, check_start, duration_field, frame_rate_field,
+    steps_of_frame,
 };
 use crate::effects::{self, Called, Effects, Gravity, Wrong};
 use crate::input::{LARGEST_TIME, SceneContext, SceneError, Source, Table};
-use crate::solve::Accuracy;
 use crate::world::{Body, Cloth, SceneParts};
 use selvedge_core::glam::DVec3;
 use selvedge_files::FileSource;
@@ -114,11 +114,6 @@ impl Scene {
             ("tolerate", TangledStart::Tolerate),
             ("untangle", TangledStart::Untangle),
         ];
-        let accuracies = [
-            ("game", Accuracy::Game),
-            ("film", Accuracy::Film),
-            ("exact", Accuracy::Exact),
-        ];
         let tangled_start = root.choice(START, &starts)?.unwrap_or_default();
         let called = Called::new(&effects, &cloths, own.clone());
         check_start(tangled_start, &called.names()).map_err(|error| root.placed(&error))?;
@@ -131,7 +126,7 @@ impl Scene {
             by_frames: fixed.is_none(),
             on_blocked: root.choice("on_blocked", &choices)?.unwrap_or_default(),
             tangled_start,
-            accuracy: Some(root.choice("accuracy", &accuracies)?.unwrap_or_default()),
+            accuracy: root.choice("accuracy", &ACCURACIES)?.unwrap_or_default(),
             up: gravity.map_or(DVec3::Z, |acceleration| -acceleration),
             text: text.to_owned(),
             remarks,

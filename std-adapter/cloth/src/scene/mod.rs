@@ -114,12 +114,15 @@ pub struct Scene {
     pub on_blocked: OnBlocked,
     /// The response to intersections at the start.
     pub tangled_start: TangledStart,
-    /// The accuracy of each step.
-    pub accuracy: Option<Accuracy>,
+    /// The accuracy to which each step is solved.
+    pub accuracy: Accuracy,
     effects: Effects,
     /// Effects that single cloths have instead of the scene's, by the names of the cloths.
     own: Vec<(String, Effects)>,
 }
+
+/// The names of accuracies in scene files.
+const ACCURACIES: [(&str, Accuracy); 3] = [("game", Accuracy::Game), ("film", Accuracy::Film), ("exact", Accuracy::Exact)];
 
 /// A longer step stretches cloth under its own weight beyond any limit.
 const TIME_STEP: Field = Field::new("time_step", TIME, 1e-6, 0.0167).with_hint(
@@ -163,7 +166,7 @@ impl Scene {
             remarks: Vec::new(),
             on_blocked: OnBlocked::default(),
             tangled_start: TangledStart::default(),
-            accuracy: Some(Accuracy::default()),
+            accuracy: Accuracy::default(),
             effects: Effects::default(),
             own: Vec::new(),
         }
@@ -247,11 +250,7 @@ impl Scene {
     }
 
     pub(crate) fn parts(&self) -> Result<SceneParts<'_>, ValueError> {
-        let parts = SceneParts::new(&self.cloths, &self.bodies, self.time_step)?;
-        Ok(SceneParts {
-            accuracy: self.accuracy,
-            ..parts
-        })
+        SceneParts::new(&self.cloths, &self.bodies, self.time_step)
     }
 
     pub(crate) fn called(&self) -> Called<'_> {
@@ -362,12 +361,16 @@ impl Scene {
         }
     }
 
-    /// Returns the settings that trade time for accuracy, each with value and unit: the time step, and settings of effects,
-    /// defaults included.
+    /// Returns the settings that trade time for accuracy, each with value and unit: the time step, the accuracy of its solve, and
+    /// settings of effects, defaults included.
     #[must_use]
     pub fn settings(&self) -> Vec<(String, String)> {
         let longest = if self.by_frames { "longest time step" } else { "time step" };
-        let mut settings = vec![(longest.to_owned(), TIME.written_short(self.time_step))];
+        let accuracy = ACCURACIES.iter().find(|(_, accuracy)| *accuracy == self.accuracy);
+        let mut settings = vec![
+            (longest.to_owned(), TIME.written_short(self.time_step)),
+            ("accuracy".to_owned(), accuracy.map_or("", |(name, _)| name).to_owned()),
+        ];
         self.each_acting(|cloth, effect| {
             let name = cloth.map_or_else(|| effect.name().to_owned(), |cloth| self.of_cloth(cloth, effect.name()));
             let named = effect.settings().into_iter();
@@ -421,6 +424,7 @@ impl Scene {
                     self.time_step,
                     self.on_blocked,
                     self.tangled_start,
+                    self.accuracy,
                     &self.effects
                 )
             )

@@ -184,11 +184,9 @@ impl Simulation {
     /// more than 1.05 after a step, use shorter steps, or [frames](Self::advance).
     #[must_use]
     pub fn longest_over_limit(&self) -> Option<f64> {
-        let limiting = self.made.bounding.iter().map(|&index| &self.made.constraints[index].action);
-        let over = limiting.filter_map(|action| action.over_limit(&self.state.positions));
-        let terms = self.made.solve.iter().flat_map(|solve| &solve.terms);
-        over.chain(terms.filter_map(|entry| entry.action.over_limit(&self.state.positions)))
-            .reduce(f64::max)
+        let terms = self.made.solve.terms.iter();
+        let over = terms.filter_map(|entry| entry.action.over_limit(&self.state.positions));
+        over.reduce(f64::max)
     }
 
     /// Advances by as much of `left` seconds as possible, and returns how much. It tries half of it if that fails, and so on, but

@@ -4,9 +4,8 @@ use super::errors::SetupError;
 use super::momentum::Pieces;
 use crate::contact::ContactSolver;
 use crate::contact::smooth_body::SmoothBody;
-use crate::effects::plan::{Entry, OfCloths, Plan};
-use crate::model::step::{Carrier, Constraint, Force, Memory};
-use crate::model::stitches::Tie;
+use crate::effects::plan::{ActingForce, Entry, OfCloths, Plan};
+use crate::model::step::{Carrier, Memory};
 use crate::model::tearing::Tearable;
 use crate::scene::{Scene, append};
 use crate::solve::{Solve, Term};
@@ -35,22 +34,11 @@ pub(super) struct Assembly {
     pub(super) motions: Vec<Kinematic>,
     /// The carrier of each group of pins.
     pub(super) pins: Vec<Carrier>,
-    pub(super) forces: Vec<Entry<dyn Force>>,
-    pub(super) constraints: Vec<Entry<dyn Constraint>>,
-    /// The indices of constraints with a memory.
-    pub(super) remembering: Vec<usize>,
-    /// The indices of constraints that act again between the sweeps of contacts.
-    pub(super) among_contacts: Vec<usize>,
-    /// The indices of constraints that limit lengths.
-    pub(super) bounding: Vec<usize>,
-    /// The indices of constraints that act again if contacts have undone what they did.
-    pub(super) lasting: Vec<usize>,
-    pub(super) pushes: Vec<Entry<dyn Constraint>>,
-    pub(super) friction: Vec<Entry<dyn Constraint>>,
+    pub(super) forces: Vec<ActingForce>,
     pub(super) contact: Option<ContactSolver>,
     pub(super) tearable: Vec<Tearable>,
-    /// The one solve of each step, in scenes that have it.
-    pub(super) solve: Option<Solve>,
+    /// The one solve of each step.
+    pub(super) solve: Solve,
     pub(super) smooth_bodies: Vec<SmoothBody>,
     /// The rate at which still air slows each vertex, in 1/s; empty without air.
     pub(super) drag: Vec<f64>,
@@ -76,10 +64,7 @@ impl Assembly {
             motions,
             pins,
             forces,
-            constraints,
             contact,
-            pushes,
-            friction,
             tearable,
             ties,
             mut terms,
@@ -130,21 +115,15 @@ impl Assembly {
         });
         let mut contact = contact.transpose()?;
         if let Some(contact) = &mut contact {
-            let stitches = constraints.iter().filter(|entry| entry.action.acts_among_contacts());
-            contact.hold_together(stitches.flat_map(|entry| entry.action.joints()).flatten());
             contact.sew(terms.iter().flat_map(|entry| entry.action.joints()).flatten());
         }
-        let joints: Vec<[u32; 2]> = { constraints.iter().flat_map(|entry| entry.action.joints()) }
-            .chain(terms.iter().flat_map(|entry| entry.action.joints()))
-            .collect();
+        let joints: Vec<[u32; 2]> = terms.iter().flat_map(|entry| entry.action.joints()).collect();
         let edges = edges(&triangles[..cloth_triangles])
             .chain(loose_edges.iter().copied())
             .chain(joints);
         let mean_edge = mean_length(edges.clone(), &rest);
-        let solve = scene.accuracy.map(|accuracy| {
-            let triangles = &triangles[..cloth_triangles];
-            Solve::new(terms, accuracy, triangles, &hinges, &rows_of_ropes, cloth_vertices)
-        });
+        let cloth = &triangles[..cloth_triangles];
+        let solve = Solve::new(terms, scene.accuracy, cloth, &hinges, &rows_of_ropes, cloth_vertices);
         let pieces = Pieces::new(&inverse_masses[..cloth_vertices], edges);
         Ok(Self {
             effects,
@@ -160,13 +139,6 @@ impl Assembly {
             motions,
             pins,
             forces,
-            remembering: those(&constraints, |action| action.memory().is_some()),
-            among_contacts: those(&constraints, |action| action.acts_among_contacts()),
-            bounding: those(&constraints, |action| action.over_limit(&rest).is_some()),
-            lasting: those(&constraints, |action| action.is_undone(&rest).is_some()),
-            constraints,
-            pushes,
-            friction,
             tearable,
             solve,
             smooth_bodies,
@@ -178,27 +150,21 @@ impl Assembly {
         })
     }
 
-    /// The memories of its constraints.
+    /// The memories of its terms.
     pub(super) fn memories(&self) -> impl Iterator<Item = &dyn Memory> {
-        let all = self.remembering.iter();
-        let terms = self.solve.iter().flat_map(|solve| &solve.terms);
-        all.filter_map(|&index| self.constraints[index].action.memory())
-            .chain(terms.filter_map(|entry| entry.action.memory()))
+        self.solve.terms.iter().filter_map(|entry| entry.action.memory())
     }
 
     /// The same, to change them.
     pub(super) fn memories_mut(&mut self) -> impl Iterator<Item = &mut dyn Memory> {
-        let terms = self.solve.iter_mut().flat_map(|solve| &mut solve.terms);
-        let constraints = self.constraints.iter_mut();
-        let memories = constraints.filter_map(|entry| entry.action.memory_mut());
-        memories.chain(terms.filter_map(|entry| entry.action.memory_mut()))
+        self.solve.terms.iter_mut().filter_map(|entry| entry.action.memory_mut())
     }
 }
 
 /// Adds the vertices to which the ends of a rope are tied.
-fn extend_to_ties(row: &mut Vec<u32>, ties: &[Tie]) {
+fn extend_to_ties(row: &mut Vec<u32>, ties: &[[u32; 2]]) {
     let partner = |end: u32, row: &[u32]| {
-        let others = ties.iter().filter(|tie| tie.vertices.contains(&end)).flat_map(|tie| tie.vertices);
+        let others = ties.iter().filter(|tie| tie.contains(&end)).flatten().copied();
         { others }.find(|other| !row.contains(other))
     };
     if let Some(other) = row.last().and_then(|&end| partner(end, row)) {
@@ -207,13 +173,6 @@ fn extend_to_ties(row: &mut Vec<u32>, ties: &[Tie]) {
     if let Some(other) = row.first().and_then(|&end| partner(end, row)) {
         row.insert(0, other);
     }
-}
-
-/// Returns the indices of the constraints that fulfil a condition.
-fn those(constraints: &[Entry<dyn Constraint>], fulfils: impl Fn(&dyn Constraint) -> bool) -> Vec<usize> {
-    (0..constraints.len())
-        .filter(|&index| fulfils(&*constraints[index].action))
-        .collect()
 }
 
 /// Returns the edges of triangles: an inner edge twice.

@@ -359,6 +359,7 @@ mod tests {
             effects: vec![0.25],
             placements: vec![Some(Placement::at(DVec3::Y)), None],
             memories: vec![-1.0, 0.5, 2.0],
+            kept: vec![1, 2, 3],
             counts: ContactCounts {
                 candidates: 1,
                 looked_at: 2,

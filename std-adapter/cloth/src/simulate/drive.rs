@@ -120,9 +120,8 @@ impl Simulation {
     pub fn set_wind(&mut self, velocity: DVec3) -> Result<(), DriveError> {
         Wind::check_velocity(velocity).map_err(|error| error.of("wind"))?;
         // Each of several cloths has its own wind.
-        let taken = self.made.forces.iter_mut().map(|force| force.action.set_wind(velocity));
-        let terms = self.made.solve.iter_mut().flat_map(|solve| &mut solve.terms);
-        let taken = taken.chain(terms.map(|term| term.action.set_wind(velocity)));
+        let terms = self.made.solve.terms.iter_mut();
+        let taken = terms.map(|term| term.action.set_wind(velocity));
         let is_taken = taken.fold(false, |any, taken| any | taken);
         if let Some(tearing) = &mut self.tearing {
             tearing.wind = Some(velocity);

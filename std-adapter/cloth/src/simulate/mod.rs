@@ -24,7 +24,6 @@ mod set_up;
 mod simulation;
 mod solving;
 mod state;
-mod substep;
 mod tangled;
 mod tear;
 mod tearing;

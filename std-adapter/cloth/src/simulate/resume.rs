@@ -3,7 +3,6 @@
 use super::checkpoint::{Checkpoint, CheckpointError, Sizes};
 use super::simulation::Simulation;
 use crate::model::step::Memory;
-use crate::solve::Solve;
 use crate::world::{Driven, Kinematic};
 
 impl Simulation {
@@ -20,9 +19,7 @@ impl Simulation {
             placements: self.driven().map(|driven| driven.placement).collect(),
             torn: self.torn_cloths(),
             memories: self.remembered(),
-            kept: { self.made.solve.iter() }
-                .flat_map(|solve| solve.write_kept(&self.work.solving.history))
-                .collect(),
+            kept: self.made.solve.write_kept(&self.work.solving.history),
             ..Checkpoint::default()
         };
         if let Some(contact) = &self.made.contact {
@@ -71,8 +68,7 @@ impl Simulation {
         }
         let made = torn.as_ref().map_or(&self.made, |(retorn, _)| &retorn.made);
         let counts = [vertices, made.cloth_vertices];
-        let read = |solve: &Solve| solve.read_kept(&checkpoint.kept, counts).ok_or(CheckpointError::Damaged);
-        let kept = made.solve.as_ref().map(read).transpose()?;
+        let kept = made.solve.read_kept(&checkpoint.kept, counts).ok_or(CheckpointError::Damaged)?;
         if let Some((retorn, edges)) = torn {
             self.adopt_torn(retorn, edges);
         }
@@ -89,9 +85,7 @@ impl Simulation {
             driven.placement = placement;
         }
         self.recall(&checkpoint.memories);
-        if let (Some(solve), Some(kept)) = (&mut self.made.solve, kept) {
-            solve.keep(kept, &mut self.work.solving.history);
-        }
+        self.made.solve.keep(kept, &mut self.work.solving.history);
         self.state = checkpoint.state;
         self.waiting = None;
         self.is_fresh = true;
@@ -101,26 +95,17 @@ impl Simulation {
     /// Forgets the multipliers and the motion before the present state, which a checkpoint does not have.
     pub(super) fn forget_motion(&mut self) {
         self.work.solving.history.forget();
-        if let Some(solve) = &mut self.made.solve {
-            solve.forget();
-        }
+        self.made.solve.forget();
     }
 
-    /// Returns the memories of all constraints, one after the other.
+    /// Returns the memories of all terms, one after the other.
     pub(super) fn remembered(&self) -> Vec<f64> {
         self.made.memories().flat_map(Memory::numbers).collect()
     }
 
     /// Restores memories that [`remembered`](Self::remembered) returned.
     pub(super) fn recall(&mut self, mut numbers: &[f64]) {
-        for &index in &self.made.remembering {
-            if let Some(memory) = self.made.constraints[index].action.memory_mut() {
-                let own;
-                (own, numbers) = numbers.split_at(memory.numbers().len());
-                memory.recall(own);
-            }
-        }
-        for entry in self.made.solve.iter_mut().flat_map(|solve| &mut solve.terms) {
+        for entry in &mut self.made.solve.terms {
             if let Some(memory) = entry.action.memory_mut() {
                 let own;
                 (own, numbers) = numbers.split_at(memory.numbers().len());

@@ -7,10 +7,9 @@ use super::simulation::{Simulation, Work};
 use super::state::State;
 use super::tangled::{Tangled, UntanglingProgress};
 use super::tearing::Tearing;
-use crate::model::hierarchy::mesh_spacing;
-use crate::model::step::{FREE, Touches};
+use crate::model::step::FREE;
 use crate::scene::{Scene, TangledStart};
-use crate::world::{FileNumbering, Kinematic, Pose};
+use crate::world::{Cloth, FileNumbering, Kinematic, Pose};
 use selvedge::parallel::Workers;
 use selvedge::{Mesh, Threads};
 use selvedge_core::glam::DVec3;
@@ -80,10 +79,7 @@ impl Simulation {
             effects,
             threads,
             state,
-            work: Work {
-                touches: Touches::new(!made.friction.is_empty()),
-                ..Work::default()
-            },
+            work: Work::default(),
             carried,
             untangled: None,
             waiting: None,
@@ -144,4 +140,26 @@ fn at_start(scene: &Scene, made: &mut Assembly) -> (Vec<DVec3>, State) {
         positions,
     };
     (carried, state)
+}
+
+/// Returns the typical distance of vertices in metres: of its triangles, or of its loose edges if it has no triangles.
+fn mesh_spacing(cloth: &Cloth) -> f64 {
+    let at = |v: u32| cloth.mesh.positions[v as usize];
+    let edges = cloth.topology.loose_edges();
+    if !cloth.has_triangles() {
+        let count = edges.len() as f64;
+        return edges.map(|[a, b]| at(a).distance(at(b))).sum::<f64>() / count;
+    }
+    let area = |triangle: &[u32; 3]| {
+        let [a, b, c] = triangle.map(at);
+        0.5 * (b - a).cross(c - a).length()
+    };
+    let area: f64 = cloth.mesh.triangles.iter().map(area).sum();
+    let mut is_of_triangle = vec![!cloth.has_loose_edges(); cloth.mesh.positions.len()];
+    if cloth.has_loose_edges() {
+        let corners = cloth.mesh.triangles.iter().flatten();
+        corners.for_each(|&vertex| is_of_triangle[vertex as usize] = true);
+    }
+    let vertices = is_of_triangle.into_iter().filter(|own| *own).count();
+    (area / vertices as f64).sqrt()
 }

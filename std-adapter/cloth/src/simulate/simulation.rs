@@ -9,7 +9,7 @@ use super::tearing::Tearing;
 use super::waiting::Waiting;
 use crate::contact::{ContactCounts, ContactSeconds, Crossing, ProximityPair};
 use crate::model::energy::{Configuration, Energy};
-use crate::model::step::{Release, Touches};
+use crate::model::step::Release;
 use crate::scene::{OnBlocked, TangledStart};
 use crate::solve::SolveCounts;
 use crate::world::{FileNumbering, MeshInFiles, Pose};
@@ -77,18 +77,7 @@ pub struct Simulation {
 /// Buffers of a step; their memory is used again.
 #[derive(Debug, Default)]
 pub(super) struct Work {
-    pub(super) velocities: Vec<DVec3>,
-    pub(super) predicted: Vec<DVec3>,
     pub(super) poses: Vec<[Pose; 2]>,
-    pub(super) touches: Touches,
-    /// Vertices that constraints hold, and the mass in kg that this adds to each.
-    pub(super) held: Vec<(u32, f64)>,
-    /// The inverse masses that constraints see, if vertices are held.
-    pub(super) inverse_masses: Vec<f64>,
-    /// The shifted positions at the start of the step, if vertices are shifted.
-    pub(super) shifted: Vec<DVec3>,
-    /// The positions before limits act.
-    pub(super) unlimited: Vec<DVec3>,
     pub(super) solving: Solving,
 }
 
@@ -184,20 +173,16 @@ impl Simulation {
         self.made.body_vertices.get(body).cloned()
     }
 
-    /// Returns the pairs that came near each other in the last part of the last step, at the start of that part. Pairs that
-    /// pushes of others kept apart are left out. Empty without a contact effect.
+    /// Returns the pairs that came near each other in the last part of the last step, at the start of that part. Empty without a
+    /// contact effect.
     pub fn near_pairs(&self) -> impl Iterator<Item = ProximityPair> {
-        let of_solve = self.made.solve.iter().flat_map(|solve| &solve.rows).filter(|row| !row.is_smooth()).map(|row| ProximityPair {
+        let rows = self.made.solve.rows.iter().filter(|row| !row.is_smooth());
+        rows.map(|row| ProximityPair {
             vertices: row.vertices,
             weights: row.weights,
             normal: row.normal,
             thickness: row.thickness,
-        });
-        self.made
-            .contact
-            .iter()
-            .flat_map(|contact| contact.near_pairs())
-            .chain(of_solve)
+        })
     }
 
     /// Returns the number of the cloths' vertices.
@@ -243,20 +228,13 @@ impl Simulation {
             positions: &self.state.positions,
             inverse_masses: &self.made.inverse_masses,
         };
-        let forces = self.made.forces.iter().map(|entry| (entry.effect, entry.action.energy(&now)));
-        let terms = self.made.solve.iter().flat_map(|solve| &solve.terms);
-        let terms: Vec<_> = terms.flat_map(|entry| entry.action.energy(&now, entry.effect)).collect();
-        let constraints = self
-            .made
-            .constraints
-            .iter()
-            .map(|entry| (entry.effect, entry.action.energy(&now)));
+        let forces = self.made.forces.iter();
+        let forces = forces.filter_map(|force| Some((force.effect, force.energy(&now)?)));
+        let terms = self.made.solve.terms.iter();
+        let terms = terms.flat_map(|entry| entry.action.energy(&now, entry.effect));
         let mut energy = Energy::of_motion(&self.made.inverse_masses, &self.state.velocities);
-        let terms = terms.into_iter().map(|(effect, stored)| (effect, Some(stored)));
-        for (effect, stored) in forces.chain(constraints).chain(terms) {
-            if let Some(stored) = stored {
-                energy.add(self.effects[effect].name, stored);
-            }
+        for (effect, stored) in forces.chain(terms) {
+            energy.add(self.effects[effect].name, stored);
         }
         energy
     }
@@ -276,8 +254,8 @@ impl Simulation {
 
     /// Returns the counts of the solves so far.
     #[must_use]
-    pub fn solve_counts(&self) -> Option<SolveCounts> {
-        self.made.solve.as_ref().map(|solve| solve.counts)
+    pub fn solve_counts(&self) -> SolveCounts {
+        self.made.solve.counts
     }
 
     /// Returns the counts of contact so far; `None` if the scene has no contact effect.

@@ -40,7 +40,7 @@ impl Simulation {
     ///
     /// # Errors
     /// Returns an error if no motion is found that is certainly free. Then nothing has changed.
-    pub(super) fn solve_step(&mut self, h: f64, ticks: f64) -> Result<(), Blocker> {
+    pub(super) fn attempt(&mut self, h: f64, ticks: f64) -> Result<(), Blocker> {
         let Self {
             state,
             work,
@@ -65,7 +65,6 @@ impl Simulation {
             ..
         } = made;
         let Work { poses, solving, .. } = work;
-        let Some(solve) = solve else { return Ok(()) };
         let count = *cloth_vertices;
         let clock = state.clock;
         poses.clear();
@@ -75,7 +74,6 @@ impl Simulation {
             h,
             start: &state.positions,
             inverse_masses,
-            held: &[],
             poses,
         };
         let Solving {
@@ -91,7 +89,7 @@ impl Simulation {
         forced.clone_from(&state.velocities);
         for entry in forces {
             let begin = Clock::now();
-            entry.action.apply(&step, forced);
+            entry.apply(&step, forced);
             effects[entry.effect].seconds += begin.elapsed().as_secs_f64();
         }
         forced.iter_mut().for_each(|velocity| *velocity = limited(*velocity, FASTEST));

@@ -175,10 +175,7 @@ impl Simulation {
         self.state.positions = gathered(&self.state.positions, from);
         self.state.velocities = gathered(&self.state.velocities, from);
         if let Some(wind) = wind {
-            self.made.forces.iter_mut().for_each(|force| {
-                force.action.set_wind(wind);
-            });
-            for term in self.made.solve.iter_mut().flat_map(|solve| &mut solve.terms) {
+            for term in &mut self.made.solve.terms {
                 term.action.set_wind(wind);
             }
         }

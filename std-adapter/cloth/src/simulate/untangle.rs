@@ -1,7 +1,7 @@
 //! Untangling of a tangled start, before the first step.
 //!
 //! ```text
-//! what meets ─▶ ways that shorten it ─▶ constraints ─▶ certified pass, without what meets ─▶ what meets now … until nothing does
+//! what meets ─▶ ways that shorten it ─▶ solve ─▶ certified pass, without what meets ─▶ what meets now … until nothing does
 //!                                        └─▶ then contacts push until all is apart by its separation, and the cloth relaxes
 //! ```
 //!
@@ -14,7 +14,6 @@
 use super::errors::SetupError;
 use super::simulation::Simulation;
 use super::tangled::{Tangled, Untangled, UntanglingEnd, UntanglingProgress};
-use crate::solve::Solve;
 use selvedge::clock::Clock;
 use selvedge_core::glam::DVec3;
 
@@ -66,7 +65,7 @@ impl Simulation {
     pub(super) fn untangle(&mut self, spacing: f64, tell: &mut (dyn FnMut(UntanglingProgress) + Send)) -> Untangled {
         let begin = Clock::now();
         let forces = std::mem::take(&mut self.made.forces);
-        let loads = self.made.solve.as_mut().map(Solve::take_loads);
+        let loads = self.made.solve.take_loads();
         let velocities = self.state.velocities.clone();
         let start = self.state.positions.clone();
         let times = self.effects.clone();
@@ -96,9 +95,7 @@ impl Simulation {
             }
         }
         (self.made.forces, self.effects) = (forces, times);
-        if let (Some(solve), Some(loads)) = (&mut self.made.solve, loads) {
-            solve.give_loads(loads);
-        }
+        self.made.solve.give_loads(loads);
         self.state.velocities = velocities;
         // No joint breaks, and no fold stays, before the first step.
         self.recall(&remembered);

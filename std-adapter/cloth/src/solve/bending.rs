@@ -5,16 +5,15 @@
 
 use super::matrix::Matrix;
 use super::term::{Prediction, Term};
-use crate::model::bending::{Folds, Hinge, Yield};
+use crate::model::bending::{Folds, PlacedHinge, Yield};
 use crate::model::energy::{Configuration, StoredEnergy};
-use crate::model::schedule::On;
 use crate::model::step::{Memory, TimeStep};
 use selvedge_core::glam::DVec3;
 
 /// The bending of a cloth.
 #[derive(Debug)]
 pub(crate) struct Bending {
-    hinges: Vec<On<Hinge, 4>>,
+    hinges: Vec<PlacedHinge>,
     folds: Option<Folds>,
     /// The loads of folds in this step, and the first vertex that they act on.
     loads: Vec<DVec3>,
@@ -24,7 +23,7 @@ pub(crate) struct Bending {
 impl Bending {
     /// Makes the term of hinges that number vertices as the scene does. `folds` has the point at which folds become permanent, and
     /// the sources of the last vertices of the cloth, which are copies.
-    pub(crate) fn new(hinges: &[On<Hinge, 4>], first_vertex: u32, vertex_count: usize, folds: Option<(Yield, &[u32])>) -> Self {
+    pub(crate) fn new(hinges: &[PlacedHinge], first_vertex: u32, vertex_count: usize, folds: Option<(Yield, &[u32])>) -> Self {
         let placed = hinges.iter().map(|(own, hinge)| (own.map(|vertex| vertex + first_vertex), *hinge));
         Self {
             hinges: placed.collect(),
@@ -75,7 +74,7 @@ impl Term for Bending {
     }
 
     fn energy(&self, now: &Configuration<'_>, own: usize) -> Vec<(usize, StoredEnergy)> {
-        let of_hinge = |(vertices, hinge): &On<Hinge, 4>| {
+        let of_hinge = |(vertices, hinge): &PlacedHinge| {
             let bent = hinge.bent(vertices.map(|vertex| now.positions[vertex as usize]));
             0.5 * hinge.coefficient * bent.length_squared()
         };

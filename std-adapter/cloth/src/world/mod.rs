@@ -28,7 +28,6 @@ pub use material::Material;
 pub use motion::BodyMotion;
 pub use placement::Placement;
 
-use crate::solve::Accuracy;
 pub(crate) use animation::FASTEST_VERTEX;
 pub(crate) use driven::{Driven, Kinematic};
 pub(crate) use file_mesh::FileNumbering;
@@ -51,8 +50,6 @@ pub struct SceneParts<'a> {
     pub bodies: &'a [Body],
     /// The time step in seconds.
     pub time_step: f64,
-    /// The accuracy of the solve.
-    pub(crate) accuracy: Option<Accuracy>,
 }
 
 impl<'a> SceneParts<'a> {
@@ -63,7 +60,6 @@ impl<'a> SceneParts<'a> {
             cloths,
             bodies,
             time_step,
-            accuracy: Some(Accuracy::default()),
         })
     }
 

@@ -19,7 +19,7 @@ fn hung(groups: Vec<AttachmentGroup>) -> Scene {
 }
 
 /// At rest each of two attachments holds half the weight. A spring that yields by a millimetre at twice the weight then yields by
-/// a quarter of one, downwards. The same holds on fine meshes, where a vertex weighs little and coarse levels carry tension.
+/// a quarter of one, downwards. The same holds on fine meshes, where a vertex weighs little.
 #[test]
 fn each_holds_its_share_of_the_weight() {
     for (cells, longest) in [(6, 1.02), (24, 1.1)] {

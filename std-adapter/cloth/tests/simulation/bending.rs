@@ -73,10 +73,7 @@ fn found_over_given(mesh: &Mesh, cells: u32, turn: f64) -> f64 {
         .add(Gravity::default())
         .add(Stretch::isotropic(1000.0))
         .add(Shear::new(300.0))
-        .add(Bend {
-            stages: 300,
-            ..Bend::isotropic(RIGIDITY)
-        });
+        .add(Bend::isotropic(RIGIDITY));
     scene.add(AirDrag { rate: 8.0 });
     scene.add(resting(pinned));
     let mut simulation = Simulation::new(scene, 1).unwrap();

@@ -11,6 +11,7 @@ mod far_bodies;
 mod files;
 mod from_code;
 mod garments;
+mod irregular;
 mod jumps;
 mod keyframes;
 mod materials;
@@ -25,6 +26,3 @@ mod stretch;
 mod tangled;
 mod tearing;
 mod wrong_scenes;
-
-#[path = "../../src/model/hierarchy/irregular.rs"]
-mod irregular;

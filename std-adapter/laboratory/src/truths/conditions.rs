@@ -66,11 +66,11 @@ impl Accuracy {
     /// Gives a scene this accuracy.
     pub(super) fn set(self, scene: &mut Scene) {
         use selvedge_cloth::Accuracy;
-        scene.accuracy = Some(match self.name {
+        scene.accuracy = match self.name {
             "game" => Accuracy::Game,
             "exact" => Accuracy::Exact,
             _ => Accuracy::Film,
-        });
+        };
     }
 }
 

@@ -1,10 +1,8 @@
-//! The drag of moving air, and its effect on vertices.
+//! The drag of moving air.
 
 use crate::effects::registration::ActsOn;
 use crate::input::{AIR_DENSITY, Field, LENGTH, RATIO, SceneError, Table, ValueError};
-use crate::model::step::TimeStep;
-use crate::world::{Cloth, Incidence, SceneParts};
-use selvedge_core::glam::DVec3;
+use crate::world::{Cloth, SceneParts};
 
 const DENSITY: Field = Field::new("air_density", AIR_DENSITY, 0.0, 1e3);
 const DRAG: Field = Field::new("drag", RATIO, 0.0, 100.0);
@@ -63,22 +61,5 @@ impl Drag {
     /// Returns ½ρc over a density of the cloth.
     pub(in crate::effects) fn over(self, density: f64) -> f64 {
         0.5 * self.density * self.coefficient / density
-    }
-}
-
-/// Returns the share of a relative velocity that is lost in a step, where `slowing` is k·h times its length. The rest is v/(1 +
-/// k·h·|v|).
-pub(super) fn share_taken(slowing: f64) -> f64 {
-    slowing / (1.0 + slowing)
-}
-
-/// Adds the velocity changes of triangles or edges to their vertices, each weighted by its share in the vertex's mass.
-pub(super) fn take(step: &TimeStep<'_>, velocities: &mut [DVec3], incidence: &Incidence<(u32, f64)>, changes: &[DVec3]) {
-    for (vertex, velocity) in velocities.iter_mut().enumerate().take(incidence.len()) {
-        if step.inverse_masses[vertex] > 0.0 {
-            for &(index, share) in incidence.of(vertex) {
-                *velocity += changes[index as usize] * share;
-            }
-        }
     }
 }

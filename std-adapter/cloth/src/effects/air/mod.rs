@@ -1,9 +1,6 @@
 //! Moving air, which pushes triangles and loose edges.
 
-mod cords;
 mod drag;
-mod in_air;
-mod panels;
 mod sources;
 pub(super) mod wind;
 pub(super) mod wind_field;

@@ -1,13 +1,11 @@
-//! Uniform wind with gusts. It pushes [triangles](super::panels), and [loose edges](super::cords) that have a diameter.
+//! Uniform wind with gusts. It [pushes](crate::solve::air) triangles, and loose edges that have a diameter.
 //!
 //! Gusts vary the wind's speed as 1 + g·sin(2πft − q·x), with x along the wind and one wave per [`GUST_LENGTH`] metres.
 
 use super::drag::Drag;
-use super::in_air::InAir;
 use crate::effects::plan::Plan;
 use crate::effects::registration::{ActsOn, Effect, Registration};
 use crate::input::{FREQUENCY, Field, RATIO, SPEED, ValueError};
-use crate::model::step::{Force, TimeStep};
 use crate::solve::air::Blowing;
 use crate::world::SceneParts;
 use libm::sin;
@@ -101,18 +99,11 @@ impl Effect for Wind {
     }
 
     fn register(&self, plan: &mut Plan<'_>) {
-        if plan.solves_at_once() {
-            let blowing = Gusts {
-                wind: *self,
-                wave: wave(self.velocity),
-            };
-            return plan.add_air(blowing, self.air());
-        }
-        plan.add_force(Blow {
-            cloth: InAir::new(plan.scene.cloth, self.air()),
-            wave: wave(self.velocity),
+        let gusts = Gusts {
             wind: *self,
-        });
+            wave: wave(self.velocity),
+        };
+        plan.add_air(gusts, self.air());
     }
 }
 
@@ -137,30 +128,5 @@ impl Blowing for Gusts {
         self.wind.velocity = velocity;
         self.wave = wave(velocity);
         true
-    }
-}
-
-#[derive(Debug)]
-struct Blow {
-    wind: Wind,
-    /// The phase per metre.
-    wave: DVec3,
-    cloth: InAir,
-}
-
-impl Force for Blow {
-    fn set_wind(&mut self, velocity: DVec3) -> bool {
-        self.wind.velocity = velocity;
-        self.wave = wave(velocity);
-        true
-    }
-
-    fn apply(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3]) {
-        let Self { wind, wave, cloth } = self;
-        let phase = TAU * wind.gust_frequency * step.time;
-        cloth.push(step, velocities, |corners| {
-            let strength = 1.0 + wind.gust * sin(phase - wave.dot(corners[0]));
-            wind.velocity * strength
-        });
     }
 }

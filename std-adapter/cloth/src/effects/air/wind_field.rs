@@ -1,15 +1,14 @@
-//! Wind that varies with place and time. It pushes [triangles](super::panels), and [loose edges](super::cords) that have a
+//! Wind that varies with place and time. It [pushes](crate::solve::air) triangles, and loose edges that have a
 //! diameter, with the velocity of the air at the centre of each.
 //!
 //! A scene file makes a field from fans and vortices ([`AirSource`]); code may use any function ([`Air`]).
 
 use super::drag::Drag;
-use super::in_air::InAir;
 use super::sources::{Air, AirSource, Fan, Vortex};
 use crate::effects::plan::Plan;
 use crate::effects::registration::{ActsOn, Effect, Registration};
 use crate::input::ValueError;
-use crate::model::step::{Force, TimeStep};
+use crate::solve::air::Blowing;
 use crate::world::SceneParts;
 use selvedge_core::glam::DVec3;
 use std::fmt::Debug;
@@ -110,13 +109,7 @@ impl Effect for WindField {
     }
 
     fn register(&self, plan: &mut Plan<'_>) {
-        if plan.solves_at_once() {
-            return plan.add_air(Field(Arc::clone(&self.air)), self.resistance());
-        }
-        plan.add_force(Blowing {
-            air: Arc::clone(&self.air),
-            cloth: InAir::new(plan.scene.cloth, self.resistance()),
-        });
+        plan.add_air(Field(Arc::clone(&self.air)), self.resistance());
     }
 }
 
@@ -124,27 +117,10 @@ impl Effect for WindField {
 #[derive(Debug)]
 struct Field(Arc<dyn Air>);
 
-impl crate::solve::air::Blowing for Field {
+impl Blowing for Field {
     fn velocity(&self, corners: &[DVec3], time: f64) -> DVec3 {
         let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
         let velocity = self.0.velocity(middle, time);
         if velocity.is_finite() { velocity } else { DVec3::ZERO }
-    }
-}
-
-#[derive(Debug)]
-struct Blowing {
-    air: Arc<dyn Air>,
-    cloth: InAir,
-}
-
-impl Force for Blowing {
-    fn apply(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3]) {
-        let air = &self.air;
-        self.cloth.push(step, velocities, |corners| {
-            let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
-            let velocity = air.velocity(middle, step.time);
-            if velocity.is_finite() { velocity } else { DVec3::ZERO }
-        });
     }
 }

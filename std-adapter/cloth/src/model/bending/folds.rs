@@ -9,8 +9,7 @@
 //! it takes 1 − exp(−h/τ) of the excess over κ, and all of it if τ is zero. This is perfect plasticity. It is the model of
 //! Narain, Pfaff and O'Brien (2013) without hardening, for fold angles instead of curvatures of triangles.
 
-use super::hinge::Hinge;
-use crate::model::schedule::On;
+use super::hinge::{Hinge, PlacedHinge};
 use crate::model::step::{Memory, TimeStep};
 use libm::exp;
 use selvedge::parallel;
@@ -58,8 +57,8 @@ impl Fold {
 impl Folds {
     /// Makes flat folds. The last vertices are copies of those in `copied`.
     /// The cloth's vertices are numbered from `first` on.
-    pub(crate) fn new(hinges: &[On<Hinge, 4>], first: u32, vertex_count: usize, copied: &[u32], when: Yield) -> Self {
-        let fold = |&(vertices, hinge): &On<Hinge, 4>| Fold {
+    pub(crate) fn new(hinges: &[PlacedHinge], first: u32, vertex_count: usize, copied: &[u32], when: Yield) -> Self {
+        let fold = |&(vertices, hinge): &PlacedHinge| Fold {
             vertices: vertices.map(|vertex| vertex + first),
             hinge,
             rest: 0.0,

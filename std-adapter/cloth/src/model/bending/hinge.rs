@@ -1,7 +1,6 @@
 //! A hinge: an edge between two triangles with its bending resistance.
 
 use crate::model::membrane::warp_and_weft;
-use crate::model::schedule::{Local, On};
 use crate::world::Cloth;
 use selvedge::Topology;
 use selvedge_core::glam::DVec3;
@@ -17,6 +16,9 @@ pub(crate) struct Hinge {
     pub(super) area: f64,
 }
 
+/// The vertices of a hinge, and the hinge.
+pub(crate) type PlacedHinge = ([u32; 4], Hinge);
+
 impl Hinge {
     /// Returns the bend C = ΣKᵢxᵢ, in m.
     #[inline(always)]
@@ -31,7 +33,7 @@ const LEAST_SHARE: f64 = 1.0 / 3.0;
 
 /// Returns a hinge for each edge between two triangles. `rigidity` maps the square of the cosine between the warp and the
 /// direction of bending, across the edge, to a flexural rigidity.
-pub(crate) fn hinges(cloth: &Cloth, rigidity: impl Fn(f64) -> f64) -> Vec<On<Hinge, 4>> {
+pub(crate) fn hinges(cloth: &Cloth, rigidity: impl Fn(f64) -> f64) -> Vec<PlacedHinge> {
     let topology = &cloth.topology;
     let mut opposite = vec![[u32::MAX; 2]; topology.edges().len()];
     for (triangle, edges) in topology.proper_triangles().iter().zip(topology.triangle_edges()) {
@@ -73,30 +75,6 @@ fn share(opposite: f64) -> f64 {
     ((2.0 + opposite) / 3.0).max(LEAST_SHARE)
 }
 
-/// A single hinge in one step of extended position-based dynamics.
-impl Local<4> for Hinge {
-    type Multipliers = ();
-
-    #[inline(always)]
-    fn corrections(&self, x: [DVec3; 4], w: [f64; 4], stiffening: f64, _: &mut ()) -> [DVec3; 4] {
-        let k = self.weights;
-        let bent = self.bent(x);
-        let mut weight = stiffening / self.coefficient;
-        for i in 0..4 {
-            weight += w[i] * k[i] * k[i];
-        }
-        let multiplier = bent * (-1.0 / weight);
-        // The calls are written out, since `map` would not be inlined here.
-        let by = |i: usize| multiplier * (w[i] * k[i]);
-        [by(0), by(1), by(2), by(3)]
-    }
-
-    fn energy(&self, x: [DVec3; 4]) -> Option<f64> {
-        let bent: DVec3 = x.iter().zip(self.weights).map(|(&x, k)| x * k).sum();
-        Some(0.5 * self.coefficient * bent.length_squared())
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -110,12 +88,11 @@ mod tests {
         assert_eq!(hinges.len(), 3 * 3 + 2 * 3 * 2);
         for (vertices, hinge) in hinges {
             let rest = vertices.map(|v| cloth.mesh.positions[v as usize]);
-            let moves = hinge.corrections(rest, [1.0; 4], 1.0, &mut ());
-            assert!(moves.iter().all(|m| m.length() < 1e-14));
+            assert!(hinge.bent(rest).length() < 1e-14);
             let mut folded = rest;
             folded[3] += DVec3::Z * 0.1;
-            let moves = hinge.corrections(folded, [1.0; 4], 1.0, &mut ());
-            assert!(moves[3].z < 0.0 && moves.iter().sum::<DVec3>().length() < 1e-14);
+            let forces = hinge.weights.map(|weight| hinge.bent(folded) * -weight);
+            assert!(forces[3].z < 0.0 && forces.iter().sum::<DVec3>().length() < 1e-14);
         }
     }
 

@@ -1,0 +1,194 @@
+//! Pairs that are near: the contacts of a step, which become [rows](crate::solve) of its solve.
+//!
+//! Each contact has the direction and the weights of the closest points at the start of the step. On a fine mesh neighbours at rest
+//! may be nearer than the thickness. Then the thickness of such a pair is at most half its distance at rest, or the mesh would lock,
+//! and [less](super::neighbours). A tangled pair has no such distance at rest, and the distance of the two sides of a tear is zero.
+//! They come apart to at least the thickness of neighbours.
+//!
+//! Contacts with a body are those with its [surface](super::cones).
+//!
+//! **Only necessary work.** The step computes the closest points of a pair only if the direction that the pair stores does not keep
+//! it at its thickness.
+
+use super::candidate::{Aim, Candidate};
+use super::cones::Cones;
+use super::exempt::Exempt;
+use super::neighbours::{are_neighbours, at_rest};
+use super::settings::{ContactSettings, MARGIN, Thickness};
+use crate::model::step::TimeStep;
+use selvedge::PairKind;
+use selvedge_core::glam::DVec3;
+use selvedge_core::separation::closest::ClosestPoints;
+use selvedge_core::separation::gap::{GapError, distance_from_below};
+use selvedge_core::separation::largest_coordinate;
+
+/// A pair that is near at the start of a step, and that may come nearer than its thickness.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ProximityPair {
+    /// Vertex and face, or first edge and second edge; the cloth's vertices, then those of bodies.
+    pub vertices: [u32; 4],
+    /// The weight of each vertex in the way between the closest points. Weights are positive on the first side, where they add up
+    /// to one, and negative on the other.
+    pub weights: [f64; 4],
+    /// The direction from the second side to the first, of length one.
+    pub normal: DVec3,
+    /// The distance at which contact aims, in metres.
+    pub thickness: f64,
+}
+
+/// The rules by which pairs become contacts.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rules<'a> {
+    pub(super) settings: &'a ContactSettings,
+    /// The tangled pairs, which are not pushed.
+    pub(super) exempt: &'a Exempt,
+    /// The position of each vertex at rest, which limits the thickness of neighbours.
+    pub(super) rest: &'a [DVec3],
+    /// The error of gaps between positions of this step.
+    pub(super) error: GapError<f64>,
+    /// True for vertices that seams hold.
+    pub(super) sewn: &'a [bool],
+    /// The normal cones of surfaces.
+    pub(super) cones: &'a Cones,
+    /// The number of the cloth's vertices; bodies' vertices come after them.
+    pub(super) cloth_vertices: u32,
+}
+
+impl Rules<'_> {
+    /// Returns whether both sides of a pair have a vertex that a seam holds.
+    fn are_sewn(&self, pair: &Candidate) -> bool {
+        let of_first = match pair.kind {
+            PairKind::VertexFace => 1,
+            PairKind::EdgeEdge => 2,
+        };
+        let (first, second) = pair.vertices.split_at(of_first);
+        [first, second]
+            .into_iter()
+            .all(|side| side.iter().any(|&vertex| self.sewn[vertex as usize]))
+    }
+}
+
+/// The distance, in thicknesses, beyond which a pair needs no row at the first guess. A solve moves vertices away from there.
+const ROOM: f64 = 1.25;
+
+/// The distance within which a pair must start if it may come within `aim`.
+fn reach(aim: f64) -> f64 {
+    aim * (1.0 + MARGIN)
+}
+
+/// Visits the pairs that may be nearer than their thickness at the end of a step: those that the direction which they store does
+/// not keep apart at the first guess, with room to spare, and where everything but contact leads.
+pub(super) fn visit_near(
+    pairs: &mut [Candidate],
+    rules: Rules<'_>,
+    step: &TimeStep<'_>,
+    [guess, goal]: [&[DVec3]; 2],
+    visit: &mut dyn FnMut(&Candidate, ProximityPair, f64),
+) {
+    for pair in pairs {
+        let aim = pair.data.aim.length();
+        let wide = ROOM * aim;
+        let gap = f64::from(pair.gap());
+        // No pair beyond the reach of the search is near; most candidates are kept apart by far.
+        if pair.is_kept_at(wide, guess) && pair.is_kept_at(aim, goal) || rules.exempt.is_tangled(pair) {
+            continue;
+        }
+        let moves = pair
+            .vertices
+            .map(|vertex| guess[vertex as usize] - step.start[vertex as usize]);
+        let closing = moves
+            .iter()
+            .map(|own| own.distance_squared(moves[0]))
+            .fold(0.0, f64::max)
+            .sqrt();
+        if gap > wide.max(aim + closing) + 0.25 * closing {
+            continue;
+        }
+        if let Some((near, distance)) = near_within(pair, rules, step, aim + closing) {
+            visit(pair, near, distance);
+        }
+    }
+}
+
+/// Returns the pair at the start of the step, and its distance, if it is a contact and within a distance there.
+fn near_within(pair: &mut Candidate, rules: Rules<'_>, step: &TimeStep<'_>, within: f64) -> Option<(ProximityPair, f64)> {
+    let closest = pair.closest(step.start);
+    pair.refresh(closest.direction, step.start, rules.error);
+    let distance = closest.distance();
+    if distance > reach(pair.data.aim.length()).max(within) || closest.direction == DVec3::ZERO {
+        return None;
+    }
+    if !pair.data.aim.is_own() {
+        pair.data.aim = Aim::own(thickness_of(pair, rules)?);
+    }
+    if !is_of_surface(pair, &closest, rules, step.start) {
+        return None;
+    }
+    let near = ProximityPair {
+        vertices: pair.vertices,
+        weights: closest.weights,
+        normal: closest.direction,
+        thickness: pair.data.aim.length(),
+    };
+    Some((near, distance))
+}
+
+/// Returns whether a contact is one of [surfaces](super::cones), and not only of faces and edges of theirs: the point of a body is the
+/// closest point of its surface. Between cloth and cloth this rule holds for the face that a vertex meets. Edges push where they cross.
+/// Where an end of an edge is closest, its vertex and the other edge's face push.
+fn is_of_surface(pair: &Candidate, closest: &ClosestPoints, rules: Rules<'_>, positions: &[DVec3]) -> bool {
+    let Rules { cones, .. } = rules;
+    let of_first = match pair.kind {
+        PairKind::VertexFace => 1,
+        PairKind::EdgeEdge => 2,
+    };
+    let (first, second) = pair.vertices.split_at(of_first);
+    let (of_first, of_second) = closest.weights.split_at(of_first);
+    if pair.kind == PairKind::EdgeEdge && !pair.data.is_with_body() {
+        return [(first, of_first), (second, of_second)]
+            .into_iter()
+            .all(|(edge, weights)| Cones::are_all(weights) || !cones.is_beside_a_face(edge));
+    }
+    if pair.data.is_with_body() && second[0] < rules.cloth_vertices {
+        cones.contain(first, of_first, positions, -closest.direction)
+    } else {
+        cones.contain(second, of_second, positions, closest.direction)
+    }
+}
+
+/// The thickness that a pair can have: the requested one, except for neighbours in one cloth.
+fn thickness_of(pair: &Candidate, rules: Rules<'_>) -> Option<f64> {
+    let Rules {
+        settings, exempt, rest, ..
+    } = rules;
+    let asked = settings.of(pair)?;
+    let Thickness { thickness, .. } = asked;
+    let [one, .., other] = pair.vertices;
+    if pair.data.is_with_body() {
+        return Some(thickness);
+    }
+    if rules.are_sewn(pair) {
+        return Some(asked.of_neighbours());
+    }
+    if !settings.are_of_one_cloth(one, other) {
+        return Some(thickness);
+    }
+    let are_near = || are_neighbours(pair.kind, pair.points(rest), at_rest(asked));
+    let own = if settings.has_neighbours && are_near() {
+        asked.of_neighbours()
+    } else {
+        thickness
+    };
+    let closest = pair.closest(rest);
+    let own = own.min(0.5 * closest.distance());
+    let has_torn = || {
+        let points = pair.points(rest);
+        let error = GapError::from_largest_coordinate(largest_coordinate(&points));
+        distance_from_below(pair.kind, points, closest.direction, error) == 0.0
+    };
+    Some(if exempt.is_parting(pair) || has_torn() {
+        own.max(asked.of_neighbours())
+    } else {
+        own
+    })
+}
