@@ -1,13 +1,10 @@
 //! The steps of a simulation.
 //!
-//! The method is extended position-based dynamics with small steps and one iteration each (Macklin et al. 2016, 2019). Forces
-//! change velocities, positions are predicted, and constraints correct them. The new velocity is the change of position over the
-//! length of the step.
+//! A step is one [solve](crate::solve): forces change velocities, inertia predicts positions, and Newton's method finds the positions
+//! of the least energy. With a contact effect the resulting motion is then certified ([`contact`](crate::contact)), repaired or cut.
+//! Bodies and pins have a separate clock, which may have to wait.
 //!
-//! With a contact effect the resulting motion is then certified ([`contact`](crate::contact)), repaired or cut. Bodies and pins
-//! have a separate clock, which may have to wait.
-//!
-//! **All numbers stay finite, whatever the scene**: no constraint divides by a number that may be zero, and no vertex moves
+//! **All numbers stay finite, whatever the scene**: nothing divides by a number that may be zero, and no vertex moves
 //! faster than [`FASTEST`].
 
 mod advance;
@@ -22,8 +19,8 @@ mod momentum;
 mod resume;
 mod set_up;
 mod simulation;
-mod solving;
 mod state;
+mod substep;
 mod tangled;
 mod tear;
 mod tearing;

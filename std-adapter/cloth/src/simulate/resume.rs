@@ -94,7 +94,7 @@ impl Simulation {
 
     /// Forgets the multipliers and the motion before the present state, which a checkpoint does not have.
     pub(super) fn forget_motion(&mut self) {
-        self.work.solving.history.forget();
+        self.work.substep.history.forget();
         self.made.solve.forget();
     }
 

@@ -2,8 +2,8 @@
 
 use super::assembly::Assembly;
 use super::measures::{EdgeStretch, EffectTime};
-use super::solving::Solving;
 use super::state::State;
+use super::substep::SubstepWork;
 use super::tangled::Untangled;
 use super::tearing::Tearing;
 use super::waiting::Waiting;
@@ -78,7 +78,7 @@ pub struct Simulation {
 #[derive(Debug, Default)]
 pub(super) struct Work {
     pub(super) poses: Vec<[Pose; 2]>,
-    pub(super) solving: Solving,
+    pub(super) substep: SubstepWork,
 }
 
 impl Simulation {

@@ -23,7 +23,7 @@ const REACH: f64 = 1.5;
 
 /// Buffers of a substep, and the motion before it.
 #[derive(Debug, Default)]
-pub(super) struct Solving {
+pub(super) struct SubstepWork {
     pub(super) history: History,
     prediction: Prediction,
     forced: Vec<DVec3>,
@@ -64,7 +64,7 @@ impl Simulation {
             cloth_vertices,
             ..
         } = made;
-        let Work { poses, solving, .. } = work;
+        let Work { poses, substep, .. } = work;
         let count = *cloth_vertices;
         let clock = state.clock;
         poses.clear();
@@ -76,7 +76,7 @@ impl Simulation {
             inverse_masses,
             poses,
         };
-        let Solving {
+        let SubstepWork {
             history,
             prediction,
             forced,
@@ -85,7 +85,7 @@ impl Simulation {
             is_pressed,
             is_moved,
             velocities,
-        } = solving;
+        } = substep;
         forced.clone_from(&state.velocities);
         for entry in forces {
             let begin = Clock::now();
