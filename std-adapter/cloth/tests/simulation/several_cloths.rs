@@ -80,7 +80,7 @@ fn cloths_that_do_not_meet_go_as_each_goes_alone_up_to_the_accuracy_of_the_solve
         let mut all = cloths.into_iter();
         let mut scene = Scene::new(all.next().unwrap(), 1e-3);
         scene.cloths.extend(all);
-        scene.accuracy = Some(Accuracy::Exact);
+        scene.accuracy = Accuracy::Exact;
         scene.add(Gravity::default()).add(Stretch::isotropic(60.0));
         if scene.cloths[0].name == "stiff" {
             let wind = wind(DVec3::new(0.0, 2.0, 1.0));
