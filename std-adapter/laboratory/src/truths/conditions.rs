@@ -55,7 +55,7 @@ pub struct Accuracy {
     pub name: &'static str,
 }
 
-/// The accuracies at which laws are measured. The first is the default, and tests use it.
+/// The accuracies at which laws are measured. Tests use the first.
 pub const ACCURACIES: [Accuracy; 3] = [
     Accuracy { name: "film" },
     Accuracy { name: "game" },
@@ -63,6 +63,11 @@ pub const ACCURACIES: [Accuracy; 3] = [
 ];
 
 impl Accuracy {
+    /// Returns whether steps are of second order, where nothing presses.
+    pub(super) fn is_of_second_order(self) -> bool {
+        self.name != "game"
+    }
+
     /// Gives a scene this accuracy.
     pub(super) fn set(self, scene: &mut Scene) {
         use selvedge_cloth::Accuracy;

@@ -3,7 +3,6 @@
 use super::conditions::{Conditions, regular};
 use super::run::Run;
 use super::setting::{DENSITY, G, contact, elastic, rms, scene};
-use super::stepping::slowed;
 use super::{ErrorUnit, Failure, Law, Outcome, Sample};
 use selvedge_cloth::effects::AirDrag;
 use selvedge_cloth::glam::{BVec3, DVec3};
@@ -88,15 +87,13 @@ pub(super) const PINCH: Law = Law {
             };
             let mean = |all: &[DVec3]| of.iter().map(|&vertex| all[vertex]).sum::<DVec3>() / of.len() as f64;
             let (start, velocity) = (mean(run.positions()), -mean(run.velocities()).z);
-            let (begin, first) = (run.time(), run.steps().len());
+            let begin = run.time();
             run.advance_to(begin + if friction > 0.0 { 2.0 } else { span })?;
             let way = mean(run.positions()) - start;
-            let [predicted, _] = slowed([velocity, G, DRAG], &run.steps()[first..]);
             let falls = friction == 0.0;
             samples.push(Sample {
                 at: friction,
                 exact: if falls { fall(velocity, run.time() - begin) } else { 0.0 },
-                predicted: Some(if falls { predicted } else { 0.0 }),
                 simulated: -way.z,
                 aside: mean(run.positions()).y,
             });

@@ -3,7 +3,7 @@
 use super::conditions::{Conditions, Grid, irregular, regular};
 use super::run::Run;
 use super::setting::{DENSITY, G, contact, elastic, farthest, irregular_body, scene, sheet, speed, square};
-use super::stepping::fallen;
+use super::stepping::falling;
 use super::{ErrorUnit, Failure, Law, Outcome, Sample};
 use selvedge_cloth::effects::{BodyContact, Seam, Seams, Thickness};
 use selvedge_cloth::glam::DVec3;
@@ -27,13 +27,13 @@ pub(super) const LANDING: Law = Law {
     error: ErrorUnit::Of("the fall"),
     mesh: "cells a side",
     meshes: &[regular(3), regular(6), irregular(6), regular(12)],
-    remark: "Semi-implicit steps of h fall by ½·g·t·(t + h). There is no bounce.",
+    remark: "Steps of h of first order fall by ½·g·t·(t + h). There is no bounce.",
     simulate: |conditions| {
         let height = 0.05;
         let mut run = with_table(scene(square(0.3, height, conditions.grid)?), conditions)?;
         let samples = run.over_time(0.32, |run, time| {
             let after = |fall: f64| (height - fall).max(THICKNESS);
-            let predicted = after(fallen(run.steps(), G));
+            let predicted = after(falling(G).after(run.steps(), conditions.accuracy)[0]);
             let cloth = &run.positions()[..run.cloth_vertices()];
             Sample {
                 exact: after(0.5 * G * time * time),

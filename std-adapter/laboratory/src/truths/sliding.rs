@@ -3,7 +3,7 @@
 use super::conditions::{Conditions, regular};
 use super::run::Run;
 use super::setting::{DENSITY, G, contact, elastic, irregular_body, middle, weightless};
-use super::stepping::fallen;
+use super::stepping::falling;
 use super::{ErrorUnit, Failure, Law, Outcome, Sample};
 use selvedge_cloth::effects::{
     AirDrag, BodyContact, Effect, Force, Friction, Gravity, PinGroup, PinMotion, Pins, Plan, RopeStretch, Thickness, TimeStep,
@@ -40,7 +40,7 @@ pub(super) const INCLINED_PLANE: Law = Law {
     error: ErrorUnit::Of("the path"),
     mesh: "cells of the plane across",
     meshes: &[regular(1), regular(10), regular(80)],
-    remark: "The planes have 2, 1,000 and 64,000 triangles. Semi-implicit steps of h give ½·a·t·(t + h). Motion to the side and above the thickness count as errors too.",
+    remark: "The planes have 2, 1,000 and 64,000 triangles. Steps of h of what something presses give ½·a·t·(t + h). Motion to the side and above the thickness count as errors too.",
     simulate: |conditions| {
         let (sine, cosine) = f64::to_radians(20.0).sin_cos();
         let [down, normal] = [DVec3::new(cosine, 0.0, -sine), DVec3::new(sine, 0.0, cosine)];
@@ -50,7 +50,7 @@ pub(super) const INCLINED_PLANE: Law = Law {
             let way = middle(run) - start;
             Sample {
                 exact: 0.5 * G * sine * time * time,
-                predicted: Some(fallen(run.steps(), G * sine)),
+                predicted: Some(falling(G * sine).pressed(run.steps())[0]),
                 simulated: way.dot(down),
                 aside: way.y.hypot(middle(run).dot(normal) - THICKNESS),
                 ..Sample::default()
@@ -70,7 +70,7 @@ pub(super) const COULOMB: Law = Law {
     error: ErrorUnit::Of("the path without friction"),
     mesh: "cells of the plane across",
     meshes: &[regular(1), regular(10), regular(40)],
-    remark: "Each coefficient has a direction of its own. Semi-implicit steps of h give ½·a·t·(t + h).",
+    remark: "Each coefficient has a direction of its own. Steps of h of what something presses give ½·a·t·(t + h).",
     simulate: |conditions| {
         let (sine, cosine) = 0.3_f64.sin_cos();
         let mut samples = Vec::new();
@@ -87,7 +87,7 @@ pub(super) const COULOMB: Law = Law {
             samples.push(Sample {
                 at: friction,
                 exact: 0.5 * pull * run.time().powi(2),
-                predicted: Some(fallen(run.steps(), pull)),
+                predicted: Some(falling(pull).pressed(run.steps())[0]),
                 simulated: way.dot(along),
                 aside: way.cross(along).z,
             });
