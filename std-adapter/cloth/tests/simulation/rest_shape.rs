@@ -1,9 +1,7 @@
 //! Cloth that starts in another shape than it rests in.
 
 use crate::common::*;
-use selvedge_cloth::{NamedMesh, SceneContext, TangledStart};
 use std::ops::ControlFlow;
-use std::path::Path;
 
 fn sheet() -> Cloth {
     let corner = DVec3::new(-0.15, -0.15, 0.0);
