@@ -19,7 +19,7 @@ impl Simulation {
             placements: self.driven().map(|driven| driven.placement).collect(),
             torn: self.torn_cloths(),
             memories: self.remembered(),
-            kept: self.made.solve.write_kept(&self.work.solving.history),
+            kept: self.made.solve.write_kept(&self.work.substep.history),
             ..Checkpoint::default()
         };
         if let Some(contact) = &self.made.contact {
@@ -85,7 +85,7 @@ impl Simulation {
             driven.placement = placement;
         }
         self.recall(&checkpoint.memories);
-        self.made.solve.keep(kept, &mut self.work.solving.history);
+        self.made.solve.keep(kept, &mut self.work.substep.history);
         self.state = checkpoint.state;
         self.waiting = None;
         self.is_fresh = true;
