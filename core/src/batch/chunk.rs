@@ -202,7 +202,8 @@ mod vectors {
     }
 
     macro_rules! vector {
-        ($vector:ident, $scalar:ident, $width:literal, $part:ident, |$token:ident, $rows:ident, $number:ident| $load:expr, |$row:ident| $columns:expr) => {
+        ($vector:ident, $scalar:ident, $width:literal, $part:ident,
+            |$token:ident, $rows:ident, $number:ident| $load:expr, |$row:ident| $columns:expr) => {
             impl<V: Simd> Chunk for $vector<V> {
                 type Token = V;
                 type Part = $part<V>;
@@ -247,7 +248,7 @@ mod vectors {
         };
     }
 
-    /// One half of both rows.
+    /// Returns one half of both rows.
     #[inline(always)]
     fn two_halves<V: Simd>(simd: V, [one, other]: [&VertexRow<f32>; 2], half: usize) -> f32x8<V> {
         let [one, other] = [one.0.as_chunks().0[half % 2], other.0.as_chunks().0[half % 2]];
@@ -257,7 +258,7 @@ mod vectors {
     /// The part that is a whole row, where a part may also be a half of two.
     const WHOLE: usize = 2;
 
-    /// The first row with [`WHOLE`], otherwise one half of both.
+    /// Returns the first row for [`WHOLE`], otherwise one half of both.
     #[inline(always)]
     fn row_or_two_halves<V: Simd>(simd: V, rows: [&VertexRow<f32>; 2], part: usize) -> f32x8<V> {
         if part == WHOLE {
