@@ -96,6 +96,7 @@ pub(super) const PINCH: Law = Law {
                 exact: if falls { fall(velocity, run.time() - begin) } else { 0.0 },
                 simulated: -way.z,
                 aside: mean(run.positions()).y,
+                ..Sample::default()
             });
         }
         Ok(Outcome {
