@@ -56,7 +56,7 @@ fn kind(intersection: &Intersection) -> usize {
 impl MeshCheck {
     /// Makes a check with these intersections, all of the mesh's.
     pub fn from_intersections(name: String, topology: &Topology, intersections: &[Intersection], seconds: f64) -> Self {
-        let with_corners = |own: &Intersection| (*own, corners(topology, own));
+        let with_corners = |found: &Intersection| (*found, corners(topology, found));
         Self {
             intersections: Some(intersections.iter().map(with_corners).collect()),
             ..Self::from_verdict(name, topology, intersections.is_empty(), seconds)
