@@ -61,7 +61,6 @@ mod culled;
 mod frame;
 mod kernels;
 mod lane_test;
-pub(crate) mod mask;
 mod rows;
 #[cfg(not(unoptimised))]
 mod simd;
@@ -69,6 +68,9 @@ mod sixteen;
 mod strays;
 mod tile;
 
+use crate::mask;
+
+pub use crate::mask::{LANES, Mask};
 pub use advance::{Round, RoundQuestion, advance_from_rows};
 pub use closest::closest_points;
 pub use compared::{Compares, Loop, in_lanes};
@@ -76,7 +78,6 @@ pub use culled::{BatchTest, culled_from_rows};
 pub use culled::{culled, culled_from_tiles};
 pub use fearless_simd::Level;
 pub use lane_test::{ByPoints, ByVolume, PointsTest, Test, VolumeTest};
-pub use mask::{LANES, Mask};
 pub use rows::VertexRow;
 pub use strays::largest_strays_from_rows;
 pub use tile::Tile;
