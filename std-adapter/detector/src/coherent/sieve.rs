@@ -75,7 +75,15 @@ impl Sieve {
                 *class = interest.class(kind, *vertices) as u8;
             }
             let of_pairs = &vertices[..pairs.len()];
-            largest_strays_from_rows(self.level, kind, &self.clearances, &self.rows, of_pairs, &classes, &mut strays);
+            largest_strays_from_rows(
+                self.level,
+                kind,
+                &self.clearances,
+                &self.rows,
+                of_pairs,
+                &classes,
+                &mut strays,
+            );
             append_selected(left, pairs, |place, &pair| {
                 let stray = strays[place];
                 // A NaN keeps nothing apart.

@@ -54,7 +54,12 @@ impl Held<'_> {
     fn hold(&mut self, contact: &Contact<f64>, vertices: [u32; 4], end: &[DVec3]) {
         let is_new = self.parted.insert((contact.kind, contact.pair));
         let shares = if is_new { self.planes(contact, vertices, end) } else { None };
-        let lowers = |shares: &[f64; 4]| vertices.iter().zip(shares).any(|(&v, &share)| share < self.shares[v as usize]);
+        let lowers = |shares: &[f64; 4]| {
+            vertices
+                .iter()
+                .zip(shares)
+                .any(|(&v, &share)| share < self.shares[v as usize])
+        };
         let shares = shares.filter(lowers).unwrap_or([0.0; 4]);
         for (vertex, share) in vertices.into_iter().zip(shares) {
             let vertex = vertex as usize;

@@ -287,8 +287,8 @@ pub fn scaling(preset: Preset, threads: usize, points: &[ScalingPoint]) -> Value
     })
 }
 
-/// Returns the simulation's errors against laws, for `selvedge truths`: one row for each law, mesh, accuracy and pace. Errors that are not
-/// numbers are null.
+/// Returns the simulation's errors against laws, for `selvedge truths`: one row for each law, mesh, accuracy and pace. Errors
+/// that are not numbers are null.
 #[must_use]
 pub fn truths(all: &[LawRuns]) -> Value {
     let rows = all.iter().flat_map(|LawRuns { law, runs, .. }| {

@@ -1,6 +1,6 @@
 //! Writes the simulation's errors against laws as a page.
 
-use super::number::{few, share, time};
+use super::number::{share, three_figures, time};
 use super::page::document;
 use super::plot::{convergence_svg, cost_of_accuracy_svg, cost_of_law_svg, truth_svg};
 use super::prior::PriorRuns;
@@ -13,7 +13,7 @@ use maud::{Markup, html};
 pub(super) fn error(law: &Law, error: f64) -> String {
     match law.error {
         ErrorUnit::Of(_) => share(error),
-        ErrorUnit::In(unit) => format!("{} {unit}", few(error)),
+        ErrorUnit::In(unit) => format!("{} {unit}", three_figures(error)),
     }
 }
 

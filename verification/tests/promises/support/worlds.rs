@@ -66,7 +66,10 @@ pub(crate) fn known<P: Position>(
     prop_assert_eq!(world.contact_geometries(contacts, &mut geometries), Ok(()));
     let mut known = Vec::new();
     for (contact, shown) in contacts.iter().zip(&geometries) {
-        prop_assert_eq!((shown.kind, shown.meshes, shown.pair), (contact.kind, contact.meshes, contact.pair));
+        prop_assert_eq!(
+            (shown.kind, shown.meshes, shown.pair),
+            (contact.kind, contact.meshes, contact.pair)
+        );
         prop_assert_eq!(world.contact_geometry(contact), Ok(*shown));
         known.push((*contact, shown.vertices, shown.geometry));
     }

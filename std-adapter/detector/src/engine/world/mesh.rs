@@ -164,6 +164,9 @@ pub(crate) fn between_poses(shape: &[DVec3], [start, end]: [Pose; 2], rounded: f
             Moves::Turning(motion, deviation),
         )
     };
-    let are_finite = frames.0.iter().all(|motion| motion.start.is_finite() && motion.end.is_finite());
+    let are_finite = frames
+        .0
+        .iter()
+        .all(|motion| motion.start.is_finite() && motion.end.is_finite());
     (are_finite && moves.deviation().is_finite()).then_some((frames, moves))
 }

@@ -1,7 +1,7 @@
 //! Numbers of both simulations, one row each.
 
 use crate::report::label;
-use crate::report::number::{few, grouped, time};
+use crate::report::number::{grouped, three_figures, time};
 use crate::report::recording::{Knob, MeasureKind, Recording, SeriesKind};
 use maud::{Markup, html};
 
@@ -84,7 +84,7 @@ pub(super) fn figures(both: [&Recording; 2]) -> Vec<Row> {
             let mut energies = one.measures_of(MeasureKind::Energy);
             energies.find(|m| m.name == name).and_then(|m| m.values.last().copied())
         };
-        let joules = |value: f64| format!("{} J", few(value));
+        let joules = |value: f64| format!("{} J", three_figures(value));
         rows.push(Row::new(format!("{name} energy at the end"), both.map(last), joules));
     }
     for kind in [SeriesKind::Events, SeriesKind::Effect, SeriesKind::Stage] {

@@ -1,5 +1,5 @@
 use super::table;
-use crate::report::number::few;
+use crate::report::number::three_figures;
 use crate::report::truths::error;
 use crate::truths::{ACCURACIES, LawRuns};
 
@@ -24,7 +24,12 @@ pub fn truths(all: &[LawRuns]) -> String {
                 String::new()
             };
             let mesh = format!("{}{accuracy}", first.conditions.grid);
-            let mut row = vec![name.to_owned(), mesh, few(worst.exact), few(worst.simulated)];
+            let mut row = vec![
+                name.to_owned(),
+                mesh,
+                three_figures(worst.exact),
+                three_figures(worst.simulated),
+            ];
             row.extend(own.iter().map(|run| error(runs.law, run.error())));
             Some(row)
         })
