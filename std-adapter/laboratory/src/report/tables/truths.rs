@@ -3,8 +3,8 @@ use crate::report::number::three_figures;
 use crate::report::truths::error;
 use crate::truths::{ACCURACIES, LawRuns};
 
-/// Returns a table of laws with the simulation's errors at each pace: a row for each mesh and accuracy. The exact and the simulated value are
-/// those of the largest error in the first column.
+/// Returns a table of laws with the simulation's errors at each pace: a row for each mesh and accuracy. The exact and the
+/// simulated value are those of the largest error in the first column.
 #[must_use]
 pub fn truths(all: &[LawRuns]) -> String {
     let Some(first) = all.first().and_then(|runs| runs.by_accuracy().next()) else {
