@@ -43,7 +43,7 @@ impl<S> StateQuery<S> {
 }
 
 impl<S: Format, const N: usize> Query<S, N> {
-    /// Runs `query` with the frames.
+    /// Runs `search` with the frames.
     ///
     /// # Safety
     /// Unless they are null or misaligned, the frames have 3 * `vertex_count` numbers, and no other thread writes to them.

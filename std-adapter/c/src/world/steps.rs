@@ -130,13 +130,13 @@ impl<S: Format> Query<S> {
         Self { world, deforming, rigid }
     }
 
-    /// Runs `query` with the motions.
+    /// Runs `search` with the motions.
     ///
     /// # Safety
     /// The conditions are those of selvedge_world_contacts_f64.
     unsafe fn run(
         self,
-        query: impl FnOnce(&mut Finder<S>, &mut Answers, &[(MeshHandle, MeshMotion<'_, [S; 3]>)]) -> Result<(), Failure>,
+        search: impl FnOnce(&mut Finder<S>, &mut Answers, &[(MeshHandle, MeshMotion<'_, [S; 3]>)]) -> Result<(), Failure>,
     ) -> Status {
         on_format::<S>(self.world, |finder, answers| {
             // SAFETY: the caller's promises.
