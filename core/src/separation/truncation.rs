@@ -51,7 +51,8 @@ pub const PART: f64 = 127.0 / 128.0;
 /// // A vertex that falls by 1 from half of that above a triangle that rises by as much.
 /// let start = [DVec3::new(0.2, 0.2, 0.5), DVec3::ZERO, DVec3::X, DVec3::Y];
 /// let wanted = [start[0] - DVec3::Z, start[1] + DVec3::Z, start[2] + DVec3::Z, start[3] + DVec3::Z];
-/// let [vertex, face, ..] = shares(PairKind::VertexFace, [start, wanted], DVec3::Z, 0.1, GapError::from_largest_coordinate(1.5)).unwrap();
+/// let error = GapError::from_largest_coordinate(1.5);
+/// let [vertex, face, ..] = shares(PairKind::VertexFace, [start, wanted], DVec3::Z, 0.1, error).unwrap();
 /// // Each may go by nearly half of the 0.4 between them.
 /// assert!(vertex < 0.2 && vertex > 0.198 && face < 0.2 && face > 0.198);
 /// ```
