@@ -1,6 +1,7 @@
 //! Selvedge's methods are right on the neighbours, in the last place, of the hard cases of `selvedge hard-cases`. That they are
 //! right on the cases themselves, which are in the conformance suite, is a promise in `verification`.
 
+use selvedge_core::Scalar;
 use selvedge_laboratory::hard_cases::{ExactContact, HardCase, hard_cases};
 use selvedge_laboratory::methods::QueryMethod;
 use selvedge_verification::generator::{Format, PairCase};
