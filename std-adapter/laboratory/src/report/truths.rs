@@ -111,7 +111,7 @@ fn beside(all: &[LawRuns], prior: &PriorRuns) -> Markup {
                     th scope="row" { (law.name.replace('_', " ")) }
                     td { (run.conditions.pace) } td { (run.conditions.accuracy.name) }
                     td { (error(law, before.error)) } td { (error(law, run.error())) }
-                    td { (time(before.seconds)) } td { (few(run.seconds / before.seconds)) }
+                    td { (time(before.seconds)) } td { (three_figures(run.seconds / before.seconds)) }
                 } } }
             } }
         }

@@ -176,8 +176,8 @@ pub(super) fn specimen(rings: u32) -> Mesh {
     mesh
 }
 
-/// Makes Cusick's drape test of a [`specimen`] with the effects of its fabric. Returns the drape coefficient: the share of the ring around the
-/// disc, 18 cm across, that the cloth's shadow covers.
+/// Makes Cusick's drape test of a [`specimen`] with the effects of its fabric. Returns the drape coefficient: the share of the
+/// ring around the disc, 18 cm across, that the cloth's shadow covers.
 ///
 /// # Errors
 /// Returns an error if the scene cannot be set up, or if a step is blocked.

@@ -4,7 +4,7 @@ use super::axis::{LinearAxis, LogAxis};
 use super::look::{Look, Shape};
 use super::picture::{Curve, Mark, Panel, Plot};
 use super::svg::INK;
-use crate::report::number::{few, magnitude, round_time};
+use crate::report::number::{magnitude, round_time, three_figures};
 use crate::report::prior::{PriorRun, PriorRuns};
 use crate::truths::{ACCURACIES, LawRuns, Measured, Sample};
 
@@ -52,12 +52,12 @@ pub fn truth_svg(runs: &LawRuns) -> String {
     let ticks = axes[0]
         .ticks()
         .into_iter()
-        .map(|(place, value)| (place, Some(few(value))))
+        .map(|(place, value)| (place, Some(three_figures(value))))
         .collect();
     let rules = axes[1]
         .ticks()
         .into_iter()
-        .map(|(place, value)| (SIZE[1] - place, few(value)))
+        .map(|(place, value)| (SIZE[1] - place, three_figures(value)))
         .collect();
     let place = |[x, y]: [f64; 2]| [axes[0].place(x), SIZE[1] - axes[1].place(y)];
     let panels = [(String::new(), lines)];
