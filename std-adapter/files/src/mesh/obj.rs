@@ -6,11 +6,12 @@
 //! refuses faces that name vertices of another. `wavefront-obj-io` refuses negative indices and needs a newer compiler than we
 //! promise. None reports the lines that it skips.
 
-use super::error::FileProblem;
+use super::checks::{check_finite, not_a_number};
 use super::notes::{FilePart, LeftOut};
+use super::options::ReadOptions;
 use super::parsed::Parsed;
 use super::text::{Lines, fields, integer, number, quoted, trim, without_byte_order_mark};
-use super::{ReadOptions, check_finite, not_a_number};
+use crate::problem::FileProblem;
 use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
 use std::io::{self, Write};

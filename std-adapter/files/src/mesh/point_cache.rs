@@ -4,9 +4,10 @@
 //! seconds, the positions. PC2 (3ds Max, Blender) is little endian: `POINTCACHE2` and a zero, version 1, the number of points, the first
 //! frame, the frames per sample, the number of samples, the positions.
 
-use super::check_finite;
-use super::error::{FileProblem, MeshError};
+use super::checks::check_finite;
+use super::error::MeshError;
 use crate::FileSource;
+use crate::problem::FileProblem;
 use selvedge_core::glam::DVec3;
 use std::path::Path;
 

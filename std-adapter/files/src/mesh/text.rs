@@ -1,7 +1,7 @@
 //! Text files with any line end and any encoding of names, and with numbers as C and Rust spell them.
 
-use super::error::FileProblem;
 use crate::excerpt::excerpt;
+use crate::problem::FileProblem;
 
 /// The physical lines of a text with their numbers from 1. A line ends with LF, CR or CR LF.
 #[derive(Clone, Copy)]

@@ -1,8 +1,9 @@
 //! All primitives of a mesh as one: triangles, vertices, morph targets, and the joints of each vertex.
 
 use super::{File, wrong};
-use crate::animation::error::AnimationProblem;
-use crate::mesh::{FilePart, FileProblem, LeftOut};
+use crate::mesh::{FilePart, LeftOut};
+use crate::problem::AnimationProblem;
+use crate::problem::FileProblem;
 use gltf::accessor::Dimensions;
 use gltf::mesh::{Mode, Primitive, Semantic};
 use selvedge_core::glam::DVec3;
