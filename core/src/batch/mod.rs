@@ -1,7 +1,7 @@
 //! Sixteen pairs side by side: the same tests, at the machine's width.
 //!
-//! A batched test is the one-pair test, from the same source, on vectors of lanes. Its verdicts are **the same, bit for bit**, for
-//! every instruction set: each operation rounds on its own, and nothing is fused or reassociated.
+//! A batched test is the one-pair test, from the same source, on vectors of lanes. Its verdicts are **the same, bit for bit**,
+//! for every instruction set: each operation rounds on its own, and nothing is fused or reassociated.
 //!
 //! Pairs come from a mesh: the caller gives any number of them, as indices into [`VertexRow`]s.
 //!
@@ -12,12 +12,14 @@
 //! | [`largest_strays_from_rows`] | how far points may stray while the pair keeps its distance |
 //! | [`closest_points`] | where the pair is closest |
 //!
-//! [`culled`] and [`culled_from_tiles`] take pairs that already lie side by side, and [`Test`] and [`ByPoints`] are further tests.
+//! [`culled`] and [`culled_from_tiles`] take pairs that already lie side by side, and [`Test`] and [`ByPoints`] are further
+//! tests.
 //!
 //! The caller names the instruction set by a [`Level`]; `selvedge` detects the best one at run time.
 //!
 //! # The path of a call
-//! Each macro makes one choice, and none is made twice. Every leaf is one loop, compiled for one instruction set, format and kind of pair.
+//! Each macro makes one choice, and none is made twice. Every leaf is one loop, compiled for one instruction set, format and kind
+//! of pair.
 //!
 //! ```text
 //! culled_from_rows(level, kind, filter, rows, indices)      generic over the format, inlined into the caller

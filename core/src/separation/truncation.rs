@@ -1,5 +1,5 @@
-//! Truncation: the displacement of each point of a pair that lets the pair keep its distance, however far the others go. A step is
-//! truncated vertex by vertex, where a time of impact would cut it for the whole mesh.
+//! Truncation: the displacement of each point of a pair that lets the pair keep its distance, however far the others go. A step
+//! is truncated vertex by vertex, where a time of impact would cut it for the whole mesh.
 //!
 //! **The lemma.** Let x be where the four points start, y where they are wanted, and d a direction with |d| ≤ 1. Along d the
 //! first set A is ahead of the second B by more than m at the start: min_A d·x − max_B d·x > m. Choose an offset o with max_B d·x
@@ -39,9 +39,9 @@ use crate::vector::Vector;
 /// rest from then on.
 pub const PART: f64 = 127.0 / 128.0;
 
-/// Returns the largest shares of their displacements from `start` to `wanted` that the four points may go, each in [0, 1]. With them the
-/// pair keeps more than `separation` along `direction`. `direction` goes from the second set to the first and is no longer than
-/// one. Returns `None` if it keeps the pair no farther apart than that at the start.
+/// Returns the largest shares of their displacements from `start` to `wanted` that the four points may go, each in [0, 1]. With
+/// them the pair keeps more than `separation` along `direction`. `direction` goes from the second set to the first and is no
+/// longer than one. Returns `None` if it keeps the pair no farther apart than that at the start.
 ///
 /// The shares of points that need not be held back are exactly 1. Shares are plain floating point, and never NaN. The
 /// [module](self) has the proofs.

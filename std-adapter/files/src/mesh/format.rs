@@ -25,8 +25,8 @@ pub enum FileFormat {
     Stl,
     /// OFF, text. It is read, not written.
     Off,
-    /// glTF, text or binary (`.glb`): the meshes of the whole scene, at rest. It is read, not written, and needs the feature `gltf`. For
-    /// animations see [`animation`](crate::animation).
+    /// glTF, text or binary (`.glb`): the meshes of the whole scene, at rest. It is read, not written, and needs the feature
+    /// `gltf`. For animations see [`animation`](crate::animation).
     Gltf,
 }
 

@@ -1,8 +1,9 @@
 //! Mesh files: OBJ, PLY, STL, OFF and glTF, read exactly; OBJ and PLY, written exactly; point caches.
 //!
-//! Positions keep their order and their number, and every bit that the file holds: a vertex that no face names is kept, several objects in
-//! one file are one mesh, nothing is merged. Polygons are split into triangles by their shape. [`read`] returns triangles alone;
-//! [`read_with_loose_features`] keeps edges and points that belong to none. Normals, colours, texture coordinates and materials are ignored.
+//! Positions keep their order and their number, and every bit that the file holds: a vertex that no face names is kept, several
+//! objects in one file are one mesh, nothing is merged. Polygons are split into triangles by their shape. [`read`] returns
+//! triangles alone; [`read_with_loose_features`] keeps edges and points that belong to none. Normals, colours, texture
+//! coordinates and materials are ignored.
 
 pub(crate) mod checks;
 mod error;

@@ -311,8 +311,8 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// Returns the vertex that a corner names, as in `7`, `7/3` and `7//2`. Numbers count from 1 for the file's first vertex, or from −1 for the one just
-    /// above the face.
+    /// Returns the vertex that a corner names, as in `7`, `7/3` and `7//2`. Numbers count from 1 for the file's first vertex, or
+    /// from −1 for the one just above the face.
     fn corner(&mut self, line: usize, field: &[u8], owner: Owner) -> Result<u32, FileProblem> {
         let vertex = corner_name(field).ok_or_else(|| {
             FileProblem::at_line(

@@ -3,7 +3,8 @@
 /// The parts of a file that the caller wants.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ReadOptions<'a> {
-    /// Reads edges and points that belong to no triangle as well. See [`read_with_loose_features`](super::read_with_loose_features).
+    /// Reads edges and points that belong to no triangle as well. See
+    /// [`read_with_loose_features`](super::read_with_loose_features).
     pub loose_features: bool,
     /// The group or object of an OBJ file, or the node of a glTF file, whose faces are read. `None` reads all. Vertices of OBJ
     /// files keep their numbers.

@@ -17,8 +17,8 @@ pub(super) fn error(law: &Law, error: f64) -> String {
     }
 }
 
-/// Returns a self-contained page: each law with its plots and errors, and all errors against the time of a run. The runs of another revision have
-/// lines of their own, and a table.
+/// Returns a self-contained page: each law with its plots and errors, and all errors against the time of a run. The runs of
+/// another revision have lines of their own, and a table.
 #[must_use]
 pub fn truths_html(all: &[LawRuns], prior: Option<&PriorRuns>) -> String {
     let body = html! {

@@ -154,7 +154,8 @@ fn is_index(number: f64, count: usize) -> bool {
     number >= 0.0 && number < count as f64 && number.fract() == 0.0
 }
 
-/// Appends the triangles of a list, a strip or a fan of vertices. Those of a strip or fan that name a vertex twice only join two parts.
+/// Appends the triangles of a list, a strip or a fan of vertices. Those of a strip or fan that name a vertex twice only join two
+/// parts.
 fn push_triangles(mode: Mode, indices: &[u32], triangles: &mut Vec<[u32; 3]>) {
     let is_proper = |[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
     match mode {

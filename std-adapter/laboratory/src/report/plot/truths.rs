@@ -67,7 +67,8 @@ pub fn truth_svg(runs: &LawRuns) -> String {
 const COST: &str = "Error against processor time";
 const COST_AXES: [&str; 2] = ["time of the run", "error"];
 
-/// Plots the errors of all laws on their finest mesh against the time of a run: a line for each law, with a point for each pace and accuracy.
+/// Plots the errors of all laws on their finest mesh against the time of a run: a line for each law, with a point for each pace
+/// and accuracy.
 #[must_use]
 pub fn cost_of_accuracy_svg(all: &[LawRuns]) -> String {
     let line = |(runs, colour): (&LawRuns, &&'static str)| {
@@ -78,8 +79,8 @@ pub fn cost_of_accuracy_svg(all: &[LawRuns]) -> String {
     errors_svg(COST, COST_AXES, LARGE, &[(String::new(), lines)])
 }
 
-/// Plots the errors of a law against the time of a run. A panel for each pace has a line for each accuracy, with a point for each regular mesh. Another
-/// revision has dashed lines.
+/// Plots the errors of a law against the time of a run. A panel for each pace has a line for each accuracy, with a point for each
+/// regular mesh. Another revision has dashed lines.
 #[must_use]
 pub fn cost_of_law_svg(runs: &LawRuns, prior: Option<&PriorRuns>) -> String {
     let paces = runs.by_accuracy().next().unwrap_or_default();
