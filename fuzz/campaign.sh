@@ -5,8 +5,9 @@
 #   fuzz/campaign.sh --background HOURS [TARGET...]         so many hours in all, in the background of a working day
 #   fuzz/campaign.sh --record                               writes the totals of the record into README.md
 #
-# In the background all targets take turns of five minutes, at the lowest priority, so that each gets its share whenever it is stopped: kill the
-# number that it prints. Each turn adds a line to record.csv (date, target, executions, seconds of processor time, findings).
+# In the background all targets take turns of five minutes, at the lowest priority, so that each gets its share whenever it is
+# stopped: kill the number that it prints. Each turn adds a line to record.csv (date, target, executions, seconds of processor
+# time, findings).
 #
 # Needs a nightly compiler; installs cargo-fuzz if it is missing. Interesting inputs are kept in $FUZZ_WORK (fuzz/campaign), and
 # the next campaign continues from them, so it may be stopped at any time. Inputs that break a promise go to

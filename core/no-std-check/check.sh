@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# selvedge-core links into a program without std, and the optimised program has no panic in it. No floating-point operation of the core, or
-# of its code in the program, computes with an undefined value.
+# selvedge-core links into a program without std, and the optimised program has no panic in it. No floating-point operation of the
+# core, or of its code in the program, computes with an undefined value.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 

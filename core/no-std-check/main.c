@@ -15,8 +15,8 @@ int main(void) {
     /* A vertex falls through a triangle: as vertex and face nothing is culled and the contact is found. */
     const double through[4][2][3] = {{{0.2, 0.2, 1}, {0.2, 0.2, -1}}, FACE};
     const float through_f32[4][2][3] = {{{0.2f, 0.2f, 1}, {0.2f, 0.2f, -1}}, FACE};
-    /* It stays above: all six answers are that they do not touch. So are the exact ones in bits 10 to 12, and every tier's (bit 13;
-       bit 14 would say that they disagree). */
+    /* It stays above: all six answers are that they do not touch. So are the exact ones in bits 10 to 12, and every tier's (bit
+       13; bit 14 would say that they disagree). */
     const double above[4][2][3] = {{{0.2, 0.2, 2}, {0.2, 0.2, 1}}, FACE};
     const float above_f32[4][2][3] = {{{0.2f, 0.2f, 2}, {0.2f, 0.2f, 1}}, FACE};
     const uint32_t apart[2][3] = {{0, 1, 2}, {3, 4, 5}};

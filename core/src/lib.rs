@@ -65,6 +65,8 @@ pub mod elementary;
 pub mod features;
 pub mod filter;
 mod kind;
+#[cfg(feature = "batch")]
+mod mask;
 pub mod motion;
 #[cfg(feature = "batch")]
 pub mod narrowing;

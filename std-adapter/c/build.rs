@@ -6,10 +6,7 @@ use std::path::Path;
 use std::{env, fs};
 
 /// The sources with functions for `double`, and the file that receives their twins.
-const DOUBLE: [(&str, &str); 2] = [
-    ("src/questions/double.rs", "questions.rs"),
-    ("src/world/double.rs", "world.rs"),
-];
+const DOUBLE: [(&str, &str); 2] = [("src/queries/double.rs", "queries.rs"), ("src/world/double.rs", "world.rs")];
 
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");

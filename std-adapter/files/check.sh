@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Reads every file of the zoo with trimesh and meshio, and with them and Blender what this crate and the command write: the same triangles, to
-# the last bit that the reader holds. The Khronos validator looks at a written glTF file.
-# Needs Python 3.10 or newer with venv, and a package index (PyPI). --present: skips the check where they are missing. Blender (bpy) exists for
-# Python 3.11, the validator needs npm; without them, their parts are skipped.
+# Reads every file of the zoo with trimesh and meshio, and with them and Blender what this crate and the command write: the same
+# triangles, to the last bit that the reader holds. The Khronos validator looks at a written glTF file.
+# Needs Python 3.10 or newer with venv, and a package index (PyPI). --present: skips the check where they are missing. Blender
+# (bpy) exists for Python 3.11, the validator needs npm; without them, their parts are skipped.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 

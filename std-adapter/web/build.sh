@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Builds the npm package (package/) and the page (site/) into target/web. `build.sh serve` also serves the page at http://localhost:8090.
+# Builds the npm package (package/) and the page (site/) into target/web. `build.sh serve` also serves the page at
+# http://localhost:8090.
 #
-# Needs Rust's target wasm32-unknown-unknown (rustup target add wasm32-unknown-unknown). Where rustup does not have it, Debian's packages do
-# instead: rustc-web, cargo-web and rust-web-src, which build the standard library with the program.
+# Needs Rust's target wasm32-unknown-unknown (rustup target add wasm32-unknown-unknown). Where rustup does not have it, Debian's
+# packages do instead: rustc-web, cargo-web and rust-web-src, which build the standard library with the program.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
@@ -32,7 +33,8 @@ module() { # NAME FOLDER FEATURES...
     fi
     mkdir -p "$folder"
     "$bindgen" "$out/$target/release/selvedge_web.wasm" "$folder" "$name"
-    # The features are those of the compiler; no option changes a result. Debian's binaryen does not know all instructions, npm's does.
+    # The features are those of the compiler; no option changes a result. Debian's binaryen does not know all instructions, npm's
+    # does.
     if [ -x node_modules/.bin/wasm-opt ]; then
         node_modules/.bin/wasm-opt -O2 --gufa -O2 --enable-simd --enable-bulk-memory --enable-nontrapping-float-to-int --enable-sign-ext \
             --enable-mutable-globals --enable-reference-types --enable-multivalue \

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# Checks the npm package and the page: builds them, runs the package in Node, compares its bits and its speed with native ones, checks the
-# declarations, packs, bundles with Vite, and drives the page in Chromium, and in Firefox where firefox-esr and xvfb-run are installed.
-# SELVEDGE_TIMES=no leaves out bounds of time, for a busy machine. SELVEDGE_COMMAND names a built command, whose report the page then opens.
+# Checks the npm package and the page: builds them, runs the package in Node, compares its bits and its speed with native ones,
+# checks the declarations, packs, bundles with Vite, and drives the page in Chromium, and in Firefox where firefox-esr and
+# xvfb-run are installed. SELVEDGE_TIMES=no leaves out bounds of time, for a busy machine. SELVEDGE_COMMAND names a built command,
+# whose report the page then opens.
 #
-# Installs what is missing and says so: Debian's chromium, and its rustc-web, cargo-web and rust-web-src unless rustup has the target; Node's
-# packages by `npm ci`.
+# Installs what is missing and says so: Debian's chromium, and its rustc-web, cargo-web and rust-web-src unless rustup has the
+# target; Node's packages by `npm ci`.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 

@@ -1,11 +1,11 @@
 # The separation of a pair that is carried along: core/src/separation/carried.rs.
 #
 # Everything scales with B, the largest coordinate at both ends: B = 1; components of d are at most 1.01.
-# 1. A translation rounds three coordinates of both sets once: the exact gap changes by 2 * 3 * 1.01 of one rounding. Each computed gap is off
-#    by 49u (gap.g), so the gap at the end is at least that at the start without Lost.
-# 2. A bound is fl(fl(gap / sigma) - E). From d at the start follows gap / sigma >= (d / (1 + 2u) + E) / (1 + 2u), and the bound at the end
-#    is at least Bound; errors E are at least 64u (1 - 2u)^3. The share of d that Bound lacks, and the errors, both times E:
-#    Bound >= d - share * d - errors * E.
+# 1. A translation rounds three coordinates of both sets once: the exact gap changes by 2 * 3 * 1.01 of one rounding. Each
+#    computed gap is off by 49u (gap.g), so the gap at the end is at least that at the start without Lost.
+# 2. A bound is fl(fl(gap / sigma) - E). From d at the start follows gap / sigma >= (d / (1 + 2u) + E) / (1 + 2u), and the bound
+#    at the end is at least Bound; errors E are at least 64u (1 - 2u)^3. The share of d that Bound lacks, and the errors, both
+#    times E: Bound >= d - share * d - errors * E.
 # 3. What is kept passes through 3 roundings of c d, one of them of c, and 2 of 3E: at most c (1 + 2u)^3 d - 3 (1 - 2u)^2 E.
 # Underflow: eta in E exceeds 40 lambda (gap.g), and 3 more operations flush at most 4 lambda each.
 

@@ -1,19 +1,19 @@
-# The distance that a pair keeps although its points stray: core/src/separation/clearance.rs. The code is in f32 (u = 2^-24); the steps are
-# proven with the u of either format.
+# The distance that a pair keeps although its points stray: core/src/separation/clearance.rs. The code is in f32 (u = 2^-24); the
+# steps are proven with the u of either format.
 #
-# Everything scales with B, the largest coordinate as given: B = 1; and along a direction with |d| = 1, so that |d_1| + |d_2| + |d_3| is at
-# most root 3, R below.
+# Everything scales with B, the largest coordinate as given: B = 1; and along a direction with |d| = 1, so that |d_1| + |d_2| +
+# |d_3| is at most root 3, R below.
 # 1. Along an axis: each of two coordinates is rounded, and their difference, at most 2 (1 + 2u), once.
-# 2. Along a direction: a coordinate's rounding changes a product with d by 2u R; three roundings of its own make 3 * 2u R of at most R. Two
-#    of them, and their difference, at most 2 R (1 + 8u), once.
-# 3. The required distance: the distance and 64u B in f64 (the same factors, far smaller errors), rounded to f32 once: 1, and the number
-#    subtracted from it along an axis. Along a direction: 1 + margin (no part of the proof) is at least one, its product; the square's product and two sums,
-#    under the root: 2 of them; the root; the product: 6, of at most 7 below.
-# 4. Underflow along a direction: 6 coordinates and 6 components flushed, 10 results, twice, and the required distance as often: less than
-#    40 (1 + |d|) lambda, of 2^-80 |d| with |d| above 2^-30. Here |d| = 2^-30, the worst case.
-# 5. The largest stray: the required distance is covered as above. Its difference from the gap, the quotient, and the last product are three
-#    roundings; the sum of components, by which it is divided, two. The number compared with it takes two more (the mean of two strays, or its
-#    own rounding).
+# 2. Along a direction: a coordinate's rounding changes a product with d by 2u R; three roundings of its own make 3 * 2u R of at
+#    most R. Two of them, and their difference, at most 2 R (1 + 8u), once.
+# 3. The required distance: the distance and 64u B in f64 (the same factors, far smaller errors), rounded to f32 once: 1, and the
+#    number subtracted from it along an axis. Along a direction: 1 + margin (no part of the proof) is at least one, its product;
+#    the square's product and two sums, under the root: 2 of them; the root; the product: 6, of at most 7 below.
+# 4. Underflow along a direction: 6 coordinates and 6 components flushed, 10 results, twice, and the required distance as often:
+#    less than 40 (1 + |d|) lambda, of 2^-80 |d| with |d| above 2^-30. Here |d| = 2^-30, the worst case.
+# 5. The largest stray: the required distance is covered as above. Its difference from the gap, the quotient, and the last product
+#    are three roundings; the sum of components, by which it is divided, two. The number compared with it takes two more (the mean
+#    of two strays, or its own rounding).
 
 of_coordinates = 64; #! core/src/separation/clearance.rs: f64::small(64) * f64::from(f32::UNIT_ROUNDOFF)
 of_distances = 64; #~ core/src/separation/clearance.rs: let along_axis = narrowed(distance * (1.0 + rounding()) + largest * rounding() + FLUSHED);

@@ -5,7 +5,8 @@
 #    Counted on the code, like the roundings of the bound and its constant:
 #= confirm 11 5 160
 # 2. The bound: Mx * My, each with its sum with mu, its product with 160u, the sum.
-# 3. Underflow: 6 lambda in a corner's component, with a factor of M four times, products and sums 7: 24M + 7, of (1 + M)^2; twice.
+# 3. Underflow: 6 lambda in a corner's component, with a factor of M four times, products and sums 7: 24M + 7, of (1 + M)^2;
+#    twice.
 
 doubled = 160; #! core/src/kernels/advance/confirm.rs: let bound = |x: L, y: L| roundoffs(x, 160) * (x * y) + constant(L::Scalar::small(2)) * underflow;
 #~ core/src/kernels/advance/confirm.rs: let underflow = constant(L::Scalar::UNDERFLOW) * (size * size);

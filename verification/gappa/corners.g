@@ -2,17 +2,18 @@
 #
 # M_k is the largest |e_k| as computed, at both ends; S the sum of |w_k| M_k. An exact e_k is at most M_k / (1 - 2u).
 # 1. w.e(t), e(t) = fl((1 - t) e(0) + t e(1)): the difference, 1 - t, a product, a sum, a product, two additions: 7 roundings. Two
-#    such products, added (a direction that turns, or moves on a curve): 8. The test traced/tests/proofs_are_about_the_code.rs counts them on the
-#    code, and the roundings of the bound that they must exceed, and its constant:
+#    such products, added (a direction that turns, or moves on a curve): 8. The test traced/tests/proofs_are_about_the_code.rs
+#    counts them on the code, and the roundings of the bound that they must exceed, and its constant:
 #= product 7 6 20
 #= turning 8 7 20
 #= curving 8 7 20
 #= line 4 6 20
-# 2. The threshold T: a product and two sums in S, its product with 20u, the sum with eta; M's own sum with mu: 6. Where a direction
-#    turns, two of them are added. On a curve the middle direction is twice the control point, so that no product is doubled.
+# 2. The threshold T: a product and two sums in S, its product with 20u, the sum with eta; M's own sum with mu: 6. Where a
+#    direction turns, two of them are added. On a curve the middle direction is twice the control point, so that no product is
+#    doubled.
 # 3. A constant direction. Its values at the ends of the step pass through 4 roundings: the line through them is within 8.1u S of
-#    the exact one. At the quotient q, where that line is T, it is positive. The quotient as computed, with its factor, is below q:
-#    numerator, denominator, quotient and product are rounded.
+#    the exact one. At the quotient q, where that line is T, it is positive. The quotient as computed, with its factor, is below
+#    q: numerator, denominator, quotient and product are rounded.
 # 4. Underflow: a component of e(t) loses 6 lambda, which mu covers; products and sums 5, T 8.
 # 5. A separation: s |w| has its square's product and two sums (under the root: 2 of 4, with the loss of 3 flushed squares),
 #    the root, its product with 1 + 32u, with s, and the sum with T: 7. Along an axis: the difference, 1 + 8u's product, the sum.

@@ -1,12 +1,12 @@
 # The distance by which points may stray from their course: core/src/separation/course.rs.
 #
-# Everything scales with B, the largest coordinate of origins and ends: B = 1. The way drift * span is at most 2 (1 + 8u), as computed.
-# L is the exact straight way with the drift through the point where the course was joined (at its origin, or later).
+# Everything scales with B, the largest coordinate of origins and ends: B = 1. The way drift * span is at most 2 (1 + 8u), as
+# computed. L is the exact straight way with the drift through the point where the course was joined (at its origin, or later).
 # 1. The ends of the course are off L by 2 roundings of a part of the way and one of a position; the end by one more, of span - t.
 # 2. The origin is off L as well, and so is the place expected from there: 2 roundings of the way, 1 of a position.
 # 3. Together, times the allowance's own 3 roundings; 20 flushed numbers.
-# 4. The room: the root, the quotient, the sum, two products, all of terms of one sign: 6. The real room is 1/128 more, with the last
-#    difference's rounding and the two of the product with 128.
+# 4. The room: the root, the quotient, the sum, two products, all of terms of one sign: 6. The real room is 1/128 more, with the
+#    last difference's rounding and the two of the product with 128.
 
 of_coordinates = 64; #! core/src/separation/course.rs: let rounding = S::small(64) * S::UNIT_ROUNDOFF * largest + S::UNDERFLOW;
 #~ core/src/separation/course.rs: largest <= S::LARGEST_EDGE && S::small(128) * rounding <= room

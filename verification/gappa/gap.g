@@ -1,15 +1,16 @@
 # The gap along a direction: core/src/separation/gap.rs, core/src/kernels/gap.rs.
 #
 # Everything scales with B, the largest coordinate: B = 1; components of d are at most 1.01.
-# 1. A term of a dot product passes through a product and two additions: 3 roundings, of three terms of 1.01. Two of them, and their
-#    difference, which is at most 2 * 3.03 (1 + 3u) and rounded once.
+# 1. A term of a dot product passes through a product and two additions: 3 roundings, of three terms of 1.01. Two of them, and
+#    their difference, which is at most 2 * 3.03 (1 + 3u) and rounded once.
 # 2. 64u B passes through its product, that with B and the sum with eta: 3.
-# 3. A length of d that is accepted: d.d, three terms of 3 roundings each, is at most sigma as computed; so the square of the length is at
-#    most sigma / (1 - 2u)^3. With two more roundings of a length (the quotient and the difference) it is less than the square of sigma;
-#    so it is in f64 with another one, to f32, in which it is stored.
-# 4. A threshold passes through sigma's square, the product and the sum: 3; m sigma^2 then exceeds m |d|, and the stored threshold exceeds it.
-# 5. Underflow: 3 components of B and 3 of d flushed, 5 results, all twice; the difference, and three operations of the bound. 64u B covers
-#    the losses times B: lambda / u is far below u.
+# 3. A length of d that is accepted: d.d, three terms of 3 roundings each, is at most sigma as computed; so the square of the
+#    length is at most sigma / (1 - 2u)^3. With two more roundings of a length (the quotient and the difference) it is less than
+#    the square of sigma; so it is in f64 with another one, to f32, in which it is stored.
+# 4. A threshold passes through sigma's square, the product and the sum: 3; m sigma^2 then exceeds m |d|, and the stored threshold
+#    exceeds it.
+# 5. Underflow: 3 components of B and 3 of d flushed, 5 results, all twice; the difference, and three operations of the bound. 64u
+#    B covers the losses times B: lambda / u is far below u.
 
 of_coordinates = 64; #! core/src/kernels/gap.rs: roundoffs(largest, 64) * largest + largest.splat(L::Scalar::UNDERFLOW)
 #~ core/src/separation/gap.rs: S::from_f64(1.0 + 1.0 / 1_048_576.0)

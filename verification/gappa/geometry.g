@@ -1,21 +1,23 @@
-# The geometry of a contact: core/src/separation/geometry.rs. The code is in f64; the steps are proven with the u of either format.
+# The geometry of a contact: core/src/separation/geometry.rs. The code is in f64; the steps are proven with the u of either
+# format.
 #
-# Everything scales with D, the largest difference from the first point: D = 1, as computed, so that an exact one is at most 1 / (1 - 2u).
-# Differences of the points' coordinates are at most 2B; B = 1 where these matter. R is root 3.
-# 1. A point at a time: the difference from the first point, 1 - t, its product, and the sum: 4 roundings. Weighed: a product and two sums, 3
-#    more. Weights add up to no more than 1 + 4u: two roundings.
-# 2. A point: on the way from the first point, which is at that time within 3 roundings of B; the error of the sum of weights, times B; and the
-#    last sum.
-# 3. A distance from above: both sides, with the error of the sum of their weights; and of the length, as computed: the difference, a quotient,
-#    its square (a product, two sums) under the root, the root and a product: less than 11 half roundings of it; the product with 1 + 16u and
-#    the last sum: 15. 96u D passes through a product and two sums: 3.
-# 4. A gap: positions are off by 4 roundings, along a direction no longer than 1.01, on both sides; and the gap's own error, as in gap.g.
-# 5. A normal's length: the square as computed passes through 3 roundings, 2 of which are left under the root, the root, its reciprocal and
-#    a product: 9 half roundings of it, so 9 of its square.
-# 6. A speed: two differences, the way between them, weighed; the difference of both sides, each at most 2; its product with the normal, of
-#    which components add up to no more than R of its length.
-# 7. On paths (core/src/paths/geometry.rs) the sides have a further error: a distance from above is a sum and a product, one from below a
-#    difference and a product.
+# Everything scales with D, the largest difference from the first point: D = 1, as computed, so that an exact one is at most 1 /
+# (1 - 2u). Differences of the points' coordinates are at most 2B; B = 1 where these matter. R is root 3.
+# 1. A point at a time: the difference from the first point, 1 - t, its product, and the sum: 4 roundings. Weighed: a product and
+#    two sums, 3 more. Weights add up to no more than 1 + 4u: two roundings.
+# 2. A point: on the way from the first point, which is at that time within 3 roundings of B; the error of the sum of weights,
+#    times B; and the last sum.
+# 3. A distance from above: both sides, with the error of the sum of their weights; and of the length, as computed: the
+#    difference, a quotient, its square (a product, two sums) under the root, the root and a product: less than 11 half roundings
+#    of it; the product with 1 + 16u and the last sum: 15. 96u D passes through a product and two sums: 3.
+# 4. A gap: positions are off by 4 roundings, along a direction no longer than 1.01, on both sides; and the gap's own error, as in
+#    gap.g.
+# 5. A normal's length: the square as computed passes through 3 roundings, 2 of which are left under the root, the root, its
+#    reciprocal and a product: 9 half roundings of it, so 9 of its square.
+# 6. A speed: two differences, the way between them, weighed; the difference of both sides, each at most 2; its product with the
+#    normal, of which components add up to no more than R of its length.
+# 7. On paths (core/src/paths/geometry.rs) the sides have a further error: a distance from above is a sum and a product, one from
+#    below a difference and a product.
 # 8. Underflow: each operation above flushes at most lambda, and weights are at most 1: less than 200 of them in all.
 
 of_distance = 96; #! core/src/separation/geometry.rs: (96.0 * u() * largest + <f64 as Rounding>::UNDERFLOW)

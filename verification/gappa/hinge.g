@@ -4,8 +4,8 @@
 # 1. A monomial passes through 4 differences, 3 roundings in each of two dot products, their product and the difference: 12.
 # 2. In the computed bound each square is of 2 differences and passes through 3 roundings of its dot product; a.a + b.b through
 #    another; the product; that with 32u, and the sum: 14.
-# 3. Underflow: 256 lambda of (1 + M^2)^2, which the squares exceed apart from their roundings, 6 of each factor; their product, that with eta
-#    and the sum.
+# 3. Underflow: 256 lambda of (1 + M^2)^2, which the squares exceed apart from their roundings, 6 of each factor; their product,
+#    that with eta and the sum.
 
 once = 32; #! core/src/separation/hinge.rs: P::Scalar::small(32) * P::Scalar::UNIT_ROUNDOFF * (squares * ee)
 #~ core/src/separation/hinge.rs: + P::Scalar::UNDERFLOW * (size * size);

@@ -1,15 +1,18 @@
 # Boxes of moving points, widened: core/src/boxes/mapping.rs. The code is in f64, and f32 in the end, for both formats.
 #
-# The claim: the lower bound as computed is at most x - s/2, with x the exact position (relative to the origin); for the upper one signs
-# change. Everything scales with v = |x0 - o| + |x1 - o| + s/2, so v = 1. A rounding is off by at most 2^-52, the last by 2^-23.
+# The claim: the lower bound as computed is at most x - s/2, with x the exact position (relative to the origin); for the upper one
+# signs change. Everything scales with v = |x0 - o| + |x1 - o| + s/2, so v = 1. A rounding is off by at most 2^-52, the last by
+# 2^-23.
 # 1. A position within the step: a difference, 1 - t, a product, a sum.
-# 2. The widening exceeds s/2 by this much: sizes pass through a difference and two sums; the product with a power of two is exact.
+# 2. The widening exceeds s/2 by this much: sizes pass through a difference and two sums; the product with a power of two is
+#    exact.
 # 3. The last two roundings, of a number of 1.001 at most.
 # 4. Together: the lower bound is x - s/2 minus (2) plus (1) and (3).
 # 5. Flushed: 2^-126 in the end; 20 times 2^-1022 before.
-# 6. Drawn in: everything scales with the largest bound and the difference of separations together, which is 1; of it D is the difference. In
-#    f32 for both formats. The difference is rounded to f32, then the sum, of which the product with a power of two is exact; the inset and
-#    the moved bound, of at most 1.001. The sum must be less than the number subtracted. 4 numbers flushed, of a difference of 2^-60 at least.
+# 6. Drawn in: everything scales with the largest bound and the difference of separations together, which is 1; of it D is the
+#    difference. In f32 for both formats. The difference is rounded to f32, then the sum, of which the product with a power of two
+#    is exact; the inset and the moved bound, of at most 1.001. The sum must be less than the number subtracted. 4 numbers
+#    flushed, of a difference of 2^-60 at least.
 
 #~ core/src/boxes/mapping.rs: const WIDENING: f64 = 1.0 / 4_194_304.0;
 #~ core/src/boxes/mapping.rs: const FLUSHED: f64 = f64::from_bits((1023 - 100) << 52);

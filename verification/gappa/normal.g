@@ -1,7 +1,7 @@
 # The largest length of the normal: core/src/kernels/coplanarity.rs, MovingTetrahedron::largest_normal.
 #
-# traced/normal-*.g prove that a component of a control point, for M = 1, is off by at most 60u, its length by sqrt(3) * 60u < 104u;
-# in general that times M^2. So |n| <= |n as computed| + 104u M^2 + underflow.
+# traced/normal-*.g prove that a component of a control point, for M = 1, is off by at most 60u, its length by sqrt(3) * 60u <
+# 104u; in general that times M^2. So |n| <= |n as computed| + 104u M^2 + underflow.
 #
 # 1. Factors: a square and two sums, and eta added, are rounded under the root (which halves the exponent: 2 of 4); the
 #    root, the sum with 128u M^2, the slack, the separation, three times that and the sum with the error bound: 6 more.

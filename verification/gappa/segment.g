@@ -1,7 +1,7 @@
 # The vertex's path against a box: core/src/boxes/segment.rs, separates.
 #
-# 1. A product of two rounded differences is T = that / (1 + d)(1 + e)(1 + g): off by at most 6.1u of the computed one. The least of
-#    two products, and the largest, move by no more than the larger of their errors; the last subtraction is compared.
+# 1. A product of two rounded differences is T = that / (1 + d)(1 + e)(1 + g): off by at most 6.1u of the computed one. The least
+#    of two products, and the largest, move by no more than the larger of their errors; the last subtraction is compared.
 # 2. The bound's product, two sums of sizes, and its last sum.
 # 3. Underflow: a difference loses 3 lambda, a product 6M + 1 (and 9 lambda), two of them and the last subtraction 12M + 3. The
 #    bound loses 8u times four products' lambda and one of its own. Together less than 13, of 1 + M.

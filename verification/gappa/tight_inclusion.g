@@ -2,8 +2,8 @@
 #
 # 1. A monomial passes through 1 - t, a product and a sum; 1 - u - v (2), a product and two sums; and a difference: 9 roundings.
 #    Magnitudes add up to at most 4m.
-# 2. The bound: its product, its sum with the separation, and the product with 1 + 8u; of the separation the last two, and it is rounded
-#    into the bound.
+# 2. The bound: its product, its sum with the separation, and the product with 1 + 8u; of the separation the last two, and it is
+#    rounded into the bound.
 # 3. Underflow: at most 60 operations lose lambda each, weighted by at most 3; the bound is of max(1, m).
 
 error = 80; #! std-adapter/laboratory/src/baselines/tight_inclusion.rs: let error = largest.scaled(S::small(80) * S::UNIT_ROUNDOFF);

@@ -1,22 +1,22 @@
 # The signed volume of an advancing pair: core/src/kernels/advance/volume.rs.
 #
-# The monomials of a control value sum up to at most S = 6 MxMyMz (3k1: a third of 18), the number `permanent`; exact differences are at
-# most 1/(1 - 2u) larger than computed ones.
-# 1. 10 roundings to 3k1 (traced/tests/proofs_are_about_the_code.rs counts them), 2 by a rounded third, 9 by blossoming (three times
-#    1 - t, product, sum), 1 by subtracting the bound, 9 by looking ahead: 31. The count on the code is one less;
+# The monomials of a control value sum up to at most S = 6 MxMyMz (3k1: a third of 18), the number `permanent`; exact differences
+# are at most 1/(1 - 2u) larger than computed ones.
+# 1. 10 roundings to 3k1 (traced/tests/proofs_are_about_the_code.rs counts them), 2 by a rounded third, 9 by blossoming (three
+#    times 1 - t, product, sum), 1 by subtracting the bound, 9 by looking ahead: 31. The count on the code is one less;
 #    the roundings of the bound and its constant are counted as well:
 #= volume 30 10 64
 # 2. The bound: three sums with mu, product, sum, product, two sums in the permanent, its product with 64u, the sum with eta
 #    (1 + M)^2: 10; and the sum with a separation.
 # 3. Underflow: 202 lambda (1 + M)^2 for 3k1 and its last addition (traced/3k1.g), of which a third counts and 3 more, 40 for the
 #    rest: the module has 54 + 63 + 36; both are less than 128.
-# 4. Time: a quotient of the hull, at most 6 roundings; 1 - t; two products; these are below their exact values by the factor 1 - 32u.
-#    The sum with the time and the last product: by 1 - 8u.
-# 5. Normal, for M = 1: a component of an edge is a difference of two rounded differences, 4u + 4u; interpolated, which is bisected in
-#    t (Gappa takes t and 1 - t for independent), 22u. Each control point has two products and a difference; the middle one two of
-#    those, halved. Its length is at most the sum of its components' errors, each at most 510u M_j M_k.
-# 6. Lengths: under the root a square and two sums (2 of 4), the root, the sum of lengths, a third (2), the sum with the error, the
-#    products with s (2), the sum with the bound: 10 at most. Three squares that underflow.
+# 4. Time: a quotient of the hull, at most 6 roundings; 1 - t; two products; these are below their exact values by the factor 1 -
+#    32u. The sum with the time and the last product: by 1 - 8u.
+# 5. Normal, for M = 1: a component of an edge is a difference of two rounded differences, 4u + 4u; interpolated, which is
+#    bisected in t (Gappa takes t and 1 - t for independent), 22u. Each control point has two products and a difference; the
+#    middle one two of those, halved. Its length is at most the sum of its components' errors, each at most 510u M_j M_k.
+# 6. Lengths: under the root a square and two sums (2 of 4), the root, the sum of lengths, a third (2), the sum with the error,
+#    the products with s (2), the sum with the bound: 10 at most. Three squares that underflow.
 
 error = 64;  #! core/src/kernels/advance/volume.rs: let sixty_four = roundoffs(m.x, 64);
 of_normal = 512; #~ core/src/kernels/advance/volume.rs: length_error: eight * sixty_four * areas + vanishing,

@@ -184,8 +184,8 @@ mod vectors {
         [p, q, r, s, t, u, v, w]
     }
 
-    /// Interleaves the lower halves of two registers, and their upper halves: the results have what [`two`] has of each half. AVX2
-    /// has one instruction for each result, and needs two more to interleave the whole registers.
+    /// Interleaves the lower halves of two registers, and their upper halves: the results have what [`two`] has of each half.
+    /// AVX2 has one instruction for each result, and needs two more to interleave the whole registers.
     #[inline(always)]
     fn two_by_halves<V: Simd>([a, b]: [f32x8<V>; 2]) -> [f32x8<V>; 2] {
         let ((a, a_4), (b, b_4)) = (a.split(), b.split());
@@ -268,7 +268,8 @@ mod vectors {
         }
     }
 
-    /// Returns whether registers hold sixteen `f32`; otherwise one of that width is two of 256 bits, each of which has two halves.
+    /// Returns whether registers hold sixteen `f32`; otherwise one of that width is two of 256 bits, each of which has two
+    /// halves.
     #[inline(always)]
     fn has_registers_of_sixteen(simd: impl Simd) -> bool {
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
@@ -305,7 +306,8 @@ mod vectors {
         }};
     }
 
-    /// A register holds a half of the rows of pairs k and k + 4, from `first` on, and after transposition a column of eight pairs.
+    /// A register holds a half of the rows of pairs k and k + 4, from `first` on, and after transposition a column of eight
+    /// pairs.
     macro_rules! two_by_four_wide {
         ($row:ident, $first:literal) => {{
             macro_rules! two {

@@ -1,7 +1,7 @@
 //! Sixteen pairs side by side: the same tests, at the machine's width.
 //!
-//! A batched test is the one-pair test, from the same source, on vectors of lanes. Its verdicts are **the same, bit for bit**, for
-//! every instruction set: each operation rounds on its own, and nothing is fused or reassociated.
+//! A batched test is the one-pair test, from the same source, on vectors of lanes. Its verdicts are **the same, bit for bit**,
+//! for every instruction set: each operation rounds on its own, and nothing is fused or reassociated.
 //!
 //! Pairs come from a mesh: the caller gives any number of them, as indices into [`VertexRow`]s.
 //!
@@ -12,12 +12,14 @@
 //! | [`largest_strays_from_rows`] | how far points may stray while the pair keeps its distance |
 //! | [`closest_points`] | where the pair is closest |
 //!
-//! [`culled`] and [`culled_from_tiles`] take pairs that already lie side by side, and [`Test`] and [`ByPoints`] are further tests.
+//! [`culled`] and [`culled_from_tiles`] take pairs that already lie side by side, and [`Test`] and [`ByPoints`] are further
+//! tests.
 //!
 //! The caller names the instruction set by a [`Level`]; `selvedge` detects the best one at run time.
 //!
 //! # The path of a call
-//! Each macro makes one choice, and none is made twice. Every leaf is one loop, compiled for one instruction set, format and kind of pair.
+//! Each macro makes one choice, and none is made twice. Every leaf is one loop, compiled for one instruction set, format and kind
+//! of pair.
 //!
 //! ```text
 //! culled_from_rows(level, kind, filter, rows, indices)      generic over the format, inlined into the caller
@@ -61,7 +63,6 @@ mod culled;
 mod frame;
 mod kernels;
 mod lane_test;
-pub(crate) mod mask;
 mod rows;
 #[cfg(not(unoptimised))]
 mod simd;
@@ -69,6 +70,9 @@ mod sixteen;
 mod strays;
 mod tile;
 
+use crate::mask;
+
+pub use crate::mask::{LANES, Mask};
 pub use advance::{Round, RoundQuestion, advance_from_rows};
 pub use closest::closest_points;
 pub use compared::{Compares, Loop, in_lanes};
@@ -76,7 +80,6 @@ pub use culled::{BatchTest, culled_from_rows};
 pub use culled::{culled, culled_from_tiles};
 pub use fearless_simd::Level;
 pub use lane_test::{ByPoints, ByVolume, PointsTest, Test, VolumeTest};
-pub use mask::{LANES, Mask};
 pub use rows::VertexRow;
 pub use strays::largest_strays_from_rows;
 pub use tile::Tile;

@@ -1,7 +1,7 @@
 //! Sixteen boxes side by side.
 
 use super::Aabb;
-use crate::batch::mask::{LANES, Mask, next_lane};
+use crate::mask::{LANES, Mask, next_lane};
 
 /// Sixteen boxes side by side: one row of sixteen numbers for each coordinate of the lower and the upper corner.
 ///

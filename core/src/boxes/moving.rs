@@ -15,8 +15,8 @@
 use super::Aabb;
 use super::block::BoxBlock;
 #[cfg(not(unoptimised))]
-use crate::batch::mask::LANES;
-use crate::batch::mask::{Mask, next_lane};
+use crate::mask::LANES;
+use crate::mask::{Mask, next_lane};
 use crate::motion::Motion;
 use crate::scalar::Scalar;
 

@@ -68,8 +68,8 @@ pub enum Reason {
     WithinTolerance,
     /// The sets are so close at the time returned that rounding errors hide whether they are farther apart than the separation.
     WithinError,
-    /// The allowed work is used up. Without a separation, the sets touch at the returned time or later, which whole numbers prove. With one,
-    /// they come within a bound that the documentation of the function states.
+    /// The allowed work is used up. Without a separation, the sets touch at the returned time or later, which whole numbers
+    /// prove. With one, they come within a bound that the documentation of the function states.
     LastResort,
     /// With a separation, coordinates of `f64` differ too much, or it is too large, to be sure that products do not overflow.
     OutOfRange,

@@ -1,11 +1,11 @@
 //! The certified non-coplanarity filter: a culled pair is never coplanar in [0, 1], rounding included.
 //!
 //! All four control values of the signed volume must exceed a bound of their rounding error, with the same sign.
-//! [`coplanarity`](crate::coplanarity) derives two such bounds. With a separation s > 0 they must exceed the bound plus s times the
-//! normal's length. A kept pair may never be coplanar either.
+//! [`coplanarity`](crate::coplanarity) derives two such bounds. With a separation s > 0 they must exceed the bound plus s times
+//! the normal's length. A kept pair may never be coplanar either.
 //!
-//! The bound by the permanent is the sharper one, and costs as much as the control values themselves. It is computed only where all
-//! values have one sign but do not clear the cheap bound by magnitudes, which is rare.
+//! The bound by the permanent is the sharper one, and costs as much as the control values themselves. It is computed only where
+//! all values have one sign but do not clear the cheap bound by magnitudes, which is rare.
 
 use crate::coplanarity::{ControlValues, Decision, MovingTetrahedron, error_bound_by_magnitudes, is_in_range, zero_if_finite};
 use crate::lanes::{Lanes, Rounding};

@@ -12,8 +12,8 @@ use crate::verdict::Verdict;
 
 /// The sharpness of a non-coplanarity filter. Every tier is certified.
 ///
-/// `docs/accuracy.md` has the measured cost of each (`selvedge accuracy`). In short: take [`Permanent`](Self::Permanent) for `f64`
-/// and [`Widened`](Self::Widened) for `f32` positions; take [`Exact`](Self::Exact) where every last pair counts.
+/// `docs/accuracy.md` has the measured cost of each (`selvedge accuracy`). In short: take [`Permanent`](Self::Permanent) for
+/// `f64` and [`Widened`](Self::Widened) for `f32` positions; take [`Exact`](Self::Exact) where every last pair counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Tier {
     /// Bounds the rounding error by the permanent of each control value.
@@ -83,8 +83,8 @@ impl<S: Scalar> Filter<S> {
     /// Makes the same filter for pairs that must stay farther apart than `separation`, in the unit of the positions. Returns
     /// `None` if `separation` is negative, infinite or NaN.
     ///
-    /// A subnormal separation is [raised](Scalar::raised_to_normal) to the smallest normal number, so that it also counts in threads
-    /// that treat subnormal numbers as zero.
+    /// A subnormal separation is [raised](Scalar::raised_to_normal) to the smallest normal number, so that it also counts in
+    /// threads that treat subnormal numbers as zero.
     #[must_use]
     pub fn with_separation(self, separation: S) -> Option<Self> {
         (separation >= S::ZERO && separation.is_finite()).then_some(Self {

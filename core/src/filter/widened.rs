@@ -1,7 +1,7 @@
 //! `f64` for the few pairs that `f32` leaves undecided.
 //!
-//! `f32` positions are `f64` positions, so the certified filter can decide again with a unit roundoff that is 2²⁹ times smaller. It
-//! does so only where that can help: not where two control values certainly have opposite signs, and not where all are zero.
+//! `f32` positions are `f64` positions, so the certified filter can decide again with a unit roundoff that is 2²⁹ times smaller.
+//! It does so only where that can help: not where two control values certainly have opposite signs, and not where all are zero.
 
 use crate::motion::PrimitivePair;
 use crate::points::PairPoints;

@@ -4,10 +4,10 @@ use crate::lanes::{Lanes, Rounding};
 
 /// The separation that pairs must exceed, the same in each lane. Zero means that they must not touch.
 ///
-/// The number of an `Option` that is `None` is undefined. The compiler may multiply it before the test for `Some`, and then multiplies
-/// whatever the stack holds. The product is thrown away, but with a subnormal number it takes more than a hundred cycles, which
-/// doubled the time of the filter. Here the number is always defined. `no-std-check/check.sh` searches the compiled code for
-/// operations on undefined numbers.
+/// The number of an `Option` that is `None` is undefined. The compiler may multiply it before the test for `Some`, and then
+/// multiplies whatever the stack holds. The product is thrown away, but with a subnormal number it takes more than a hundred
+/// cycles, which doubled the time of the filter. Here the number is always defined. `no-std-check/check.sh` searches the compiled
+/// code for operations on undefined numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct SeparationLanes<L> {
     is_positive: bool,

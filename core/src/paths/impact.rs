@@ -50,8 +50,9 @@ pub fn time_of_impact(kind: PairKind, paths: [&dyn Path; 4], limits: &Limits<f64
 /// Returns the distance that points must keep on straight pieces so that they keep `separation` on their paths, rounding
 /// included.
 ///
-/// `deviation` is the largest [deviation](super::Piece::deviation) of the paths of the two sides, added up. The offsets between two
-/// points, one of each side, on pieces and on paths differ by at most that. Three operations, each within 2u: 16u of it is added.
+/// `deviation` is the largest [deviation](super::Piece::deviation) of the paths of the two sides, added up. The offsets between
+/// two points, one of each side, on pieces and on paths differ by at most that. Three operations, each within 2u: 16u of it is
+/// added.
 #[must_use]
 pub fn separation_of_pieces(separation: f64, deviation: f64) -> f64 {
     (separation + deviation) * (1.0 + 16.0 * u())

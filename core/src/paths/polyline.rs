@@ -38,8 +38,8 @@ impl<'a> Polyline<'a> {
         (ascend && span && are_finite && times.len() == positions.len()).then_some(Self {
             times,
             positions,
-            // The time within a piece takes three operations, of a path of at most 2B along each axis, and the place adds 8u of B:
-            // 35u of it in all.
+            // The time within a piece takes three operations, of a path of at most 2B along each axis, and the place adds 8u of
+            // B: 35u of it in all.
             rounding: 48.0 * u() * size + <f64 as Rounding>::UNDERFLOW,
         })
     }

@@ -23,8 +23,9 @@
 //! * **Sine and cosine** err by κ = 512u + 4u|θ|. The angle t·θ errs by ε|θ|, its remainder after whole turns, of magnitude at
 //!   most 3.2, by 17u. The nested series passes its term with the power 2k through 4k + 7 operations: 164ε of cosh(3.2), and 0.1u
 //!   for the terms left out.
-//! * **Place.** The three parts, 77.7εH; the sine and cosine, 3.5κH; products and sums, 14εH and u(4C + 6T + 3.5H). Times √3: less than
-//!   u((3500 + 25|θ|)H + 16(C + T)). [`Arc`] allows u((4096 + 32|θ|)H + 16(C + T)) + η: flushed numbers are covered by η and by uH.
+//! * **Place.** The three parts, 77.7εH; the sine and cosine, 3.5κH; products and sums, 14εH and u(4C + 6T + 3.5H). Times √3:
+//!   less than u((3500 + 25|θ|)H + 16(C + T)). [`Arc`] allows u((4096 + 32|θ|)H + 16(C + T)) + η: flushed numbers are covered by
+//!   η and by uH.
 //! * **Velocity**: τ, and θ times a place's parts with sine and cosine exchanged. It errs by θ times the place's error, 3500uH
 //!   without the centre and the translation, and by its operations: 4u(T + 3.5H|θ|) of product and sum along each axis, 7uT +
 //!   25uH|θ| in all. [`Arc`] allows |θ| times what it allows a place, and 16uT + η.

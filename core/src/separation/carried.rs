@@ -6,11 +6,13 @@
 //! pair among them. Then both rigid motions are free:
 //!
 //! * **A translation.** The bound at the end, along the same w, exceeds m_P. *Proof.* Let no coordinate exceed B at either end. A
-//!   translation rounds each coordinate once, by at most 2uB, so the exact gap along w changes by at most 2·3·1.01·2uB ≤ 12.2uB. The two
-//!   computed gaps are off by 49uB each. So they differ by at most 110.2uB, which is less than 1.73E. Each bound rounds twice more, by
-//!   shares of 2u, which 1 − c exceeds in both formats. ∎ Gaps along w are linear in time, so the pair keeps more than m_P throughout.
-//! * **A turn by θ.** Halfway along the straight paths of its points, distances are cos(θ/2) of those at the start, the least of all times.
-//!   [`LARGEST_TURN`] keeps cos(θ/2) ≥ 1 − θ²/8 above 1 − ½·10⁻⁴ > c. The rest of 1 − c, and 3E, cover the rounding of the turn.
+//!   translation rounds each coordinate once, by at most 2uB, so the exact gap along w changes by at most 2·3·1.01·2uB ≤ 12.2uB.
+//!   The two computed gaps are off by 49uB each. So they differ by at most 110.2uB, which is less than 1.73E. Each bound rounds
+//!   twice more, by shares of 2u, which 1 − c exceeds in both formats. ∎ Gaps along w are linear in time, so the pair keeps more
+//!   than m_P throughout.
+//! * **A turn by θ.** Halfway along the straight paths of its points, distances are cos(θ/2) of those at the start, the least of
+//!   all times. [`LARGEST_TURN`] keeps cos(θ/2) ≥ 1 − θ²/8 above 1 − ½·10⁻⁴ > c. The rest of 1 − c, and 3E, cover the rounding of
+//!   the turn.
 //!
 //! The first proof takes the *same* direction at both ends, in full precision. The direction of points at a distance d has an
 //! error of about uB/d, which tilts a pair of size L by uBL/d. This is as good as any other direction, but two such directions

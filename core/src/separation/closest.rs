@@ -16,8 +16,8 @@ pub struct ClosestPoints {
     pub weights: [f64; 4],
     /// The shortest vector, Σ weightᵢ·xᵢ.
     pub offset: DVec3,
-    /// The direction of that vector, of length one, perpendicular to the features of the closest points as far as rounding allows. It
-    /// is zero if the sets touch.
+    /// The direction of that vector, of length one, perpendicular to the features of the closest points as far as rounding
+    /// allows. It is zero if the sets touch.
     pub direction: DVec3,
 }
 

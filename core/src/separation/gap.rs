@@ -220,8 +220,8 @@ impl SeparatingDirection {
         }
     }
 
-    /// Returns `direction` with its gap at the end, if it certainly keeps the pair more than `separation` apart on straight paths.
-    /// The direction is rounded first, so the returned one is the proof.
+    /// Returns `direction` with its gap at the end, if it certainly keeps the pair more than `separation` apart on straight
+    /// paths. The direction is rounded first, so the returned one is the proof.
     #[inline]
     #[must_use]
     pub fn for_step<P: Position>(

@@ -1,8 +1,8 @@
 //! The geometry of a contact: the points of both sides, their weights, and the normal between them.
 //!
-//! A contact's time lies a little before the pair touches. So its closest points are near each other, and the vector between them is
-//! mostly rounding. The normal does not come from that vector alone: directions perpendicular to the features are tried as well. A
-//! direction is taken only if it **certainly kept the pair apart** at the time of contact, or shortly before
+//! A contact's time lies a little before the pair touches. So its closest points are near each other, and the vector between them
+//! is mostly rounding. The normal does not come from that vector alone: directions perpendicular to the features are tried as
+//! well. A direction is taken only if it **certainly kept the pair apart** at the time of contact, or shortly before
 //! ([`gap`](super::gap)). So up to the first contact, a normal points from the second side to the first as they were before, in
 //! any numbering of vertices. At a time after a pair has passed through each other, it points as they lie then.
 //!
@@ -19,9 +19,9 @@
 //! * [`Geometry::distance`] encloses the distance of the two sides at that time. From above: the closest points are the nearest,
 //!   whatever the weights. Both sides' 18u·D along each axis, 62.4u·D, are covered by 96u·D, and η and 16u of the length are
 //!   added. From below: by the normal.
-//! * The speed is within 256u·D of that of the points with these weights along this normal. Along each axis a path is within 8u·D,
-//!   and weighing adds 12u·D. The difference of the two sides makes 48u·D of it, and the product with the normal at most 125u·D
-//!   in all.
+//! * The speed is within 256u·D of that of the points with these weights along this normal. Along each axis a path is within
+//!   8u·D, and weighing adds 12u·D. The difference of the two sides makes 48u·D of it, and the product with the normal at most
+//!   125u·D in all.
 //! * A normal has length one within 16u, and **the two sides were certainly apart along it** at [`Geometry::separated_at`]. There
 //!   is no normal if none can be shown. This is so for a pair that touches when the step begins, or is then nearer than rounding
 //!   can resolve.

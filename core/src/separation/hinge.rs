@@ -19,8 +19,8 @@ use crate::lanes::Rounding;
 use crate::scalar::Position;
 use crate::vector::Vector;
 
-/// Returns true if two triangles with a common edge open by more than a right angle, so that they certainly meet only at the edge. The
-/// first two `points` are the ends of the edge, the others the opposite corners.
+/// Returns true if two triangles with a common edge open by more than a right angle, so that they certainly meet only at the
+/// edge. The first two `points` are the ends of the edge, the others the opposite corners.
 ///
 /// The result is certified, in every floating-point environment. False proves nothing.
 ///

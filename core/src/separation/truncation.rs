@@ -1,5 +1,5 @@
-//! Truncation: the displacement of each point of a pair that lets the pair keep its distance, however far the others go. A step is
-//! truncated vertex by vertex, where a time of impact would cut it for the whole mesh.
+//! Truncation: the displacement of each point of a pair that lets the pair keep its distance, however far the others go. A step
+//! is truncated vertex by vertex, where a time of impact would cut it for the whole mesh.
 //!
 //! **The lemma.** Let x be where the four points start, y where they are wanted, and d a direction with |d| ≤ 1. Along d the
 //! first set A is ahead of the second B by more than m at the start: min_A d·x − max_B d·x > m. Choose an offset o with max_B d·x
@@ -39,9 +39,9 @@ use crate::vector::Vector;
 /// rest from then on.
 pub const PART: f64 = 127.0 / 128.0;
 
-/// Returns the largest shares of their displacements from `start` to `wanted` that the four points may go, each in [0, 1]. With them the
-/// pair keeps more than `separation` along `direction`. `direction` goes from the second set to the first and is no longer than
-/// one. Returns `None` if it keeps the pair no farther apart than that at the start.
+/// Returns the largest shares of their displacements from `start` to `wanted` that the four points may go, each in [0, 1]. With
+/// them the pair keeps more than `separation` along `direction`. `direction` goes from the second set to the first and is no
+/// longer than one. Returns `None` if it keeps the pair no farther apart than that at the start.
 ///
 /// The shares of points that need not be held back are exactly 1. Shares are plain floating point, and never NaN. The
 /// [module](self) has the proofs.
@@ -51,7 +51,8 @@ pub const PART: f64 = 127.0 / 128.0;
 /// // A vertex that falls by 1 from half of that above a triangle that rises by as much.
 /// let start = [DVec3::new(0.2, 0.2, 0.5), DVec3::ZERO, DVec3::X, DVec3::Y];
 /// let wanted = [start[0] - DVec3::Z, start[1] + DVec3::Z, start[2] + DVec3::Z, start[3] + DVec3::Z];
-/// let [vertex, face, ..] = shares(PairKind::VertexFace, [start, wanted], DVec3::Z, 0.1, GapError::from_largest_coordinate(1.5)).unwrap();
+/// let error = GapError::from_largest_coordinate(1.5);
+/// let [vertex, face, ..] = shares(PairKind::VertexFace, [start, wanted], DVec3::Z, 0.1, error).unwrap();
 /// // Each may go by nearly half of the 0.4 between them.
 /// assert!(vertex < 0.2 && vertex > 0.198 && face < 0.2 && face > 0.198);
 /// ```

@@ -105,7 +105,8 @@ impl ClothSimulation {
     /// from the entity's place at the start.
     ///
     /// In a fixed step it moves to the place of the entity at a constant rate, and rotates the short way about the entity's
-    /// origin. An entity that jumps is a problem, and the cloth rests until it is back: call [`teleport`](Self::teleport). If the entity loses its `Transform` or is despawned, the body stays where it is.
+    /// origin. An entity that jumps is a problem, and the cloth rests until it is back: call [`teleport`](Self::teleport). If the
+    /// entity loses its `Transform` or is despawned, the body stays where it is.
     #[must_use]
     pub fn led_by(mut self, body: usize, entity: Entity) -> Self {
         self.leaders.insert(body, entity);
@@ -139,10 +140,12 @@ impl ClothSimulation {
         }
     }
 
-    /// Moves all bodies that [follow](Self::led_by) entities elsewhere at once, and with them the cloth that hangs on them and `cloths`, given by
-    /// their indices, such as a garment without pins. See [`Simulation::teleport`]. It does nothing before the simulation has started.
+    /// Moves all bodies that [follow](Self::led_by) entities elsewhere at once, and with them the cloth that hangs on them and
+    /// `cloths`, given by their indices, such as a garment without pins. See [`Simulation::teleport`]. It does nothing before the
+    /// simulation has started.
     ///
-    /// Move the entities by the same `by` in the same fixed step: a body that has to follow faster than 100 m/s stays, and is reported.
+    /// Move the entities by the same `by` in the same fixed step: a body that has to follow faster than 100 m/s stays, and is
+    /// reported.
     ///
     /// # Errors
     /// Returns an error, and changes nothing, if something else holds the cloth, or there is no room.

@@ -159,7 +159,7 @@ pub(crate) fn find_contacts(
         }
     }
     let result = collisions.run(&mut paths, &mut met);
-    collisions.settle(paths);
+    collisions.adopt(paths);
     for (&entity, error) in &met {
         // The problem recurs in each step until it is fixed, but it is reported once.
         if collisions.problems.get(&entity) != Some(error) {
@@ -377,7 +377,7 @@ impl Collisions {
     }
 
     /// Makes the end of this step the start of the next.
-    fn settle(&mut self, paths: Vec<(Entity, BodyPath)>) {
+    fn adopt(&mut self, paths: Vec<(Entity, BodyPath)>) {
         for (entity, path) in paths {
             let Some(body) = self.bodies.get_mut(&entity) else { continue };
             body.is_new = false;

@@ -157,8 +157,8 @@ class simulation {
     return is_known ? std::optional<selvedge_pose>(placement) : std::nullopt;
   }
 
-  /// Moves driven bodies, their pins and the cloth that hangs on them, and other cloths, elsewhere at once, without a step. `by` is applied to
-  /// positions in the world.
+  /// Moves driven bodies, their pins and the cloth that hangs on them, and other cloths, elsewhere at once, without a step. `by`
+  /// is applied to positions in the world.
   void teleport(const std::vector<std::size_t> &bodies, const selvedge_pose &by, const std::vector<std::size_t> &cloths = {}) {
     check(selvedge_simulation_teleport(get(), bodies.data(), bodies.size(), cloths.data(), cloths.size(), &by));
   }

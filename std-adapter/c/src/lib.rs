@@ -8,7 +8,7 @@
 //! handles     looks up detectors, worlds, simulations and files by number
 //! detector    creates and frees detectors
 //! settings    how a detector searches
-//! questions   what C can ask a detector
+//! queries     what C can ask a detector
 //! answers     the rows that C reads
 //! world       worlds of several meshes
 //! simulation  cloth in motion, with the feature `cloth` (`include/selvedge_cloth.h` and `.hpp`)
@@ -33,7 +33,7 @@ mod files;
 mod guard;
 mod handles;
 mod input;
-mod questions;
+mod queries;
 mod settings;
 #[cfg(feature = "cloth")]
 mod simulation;

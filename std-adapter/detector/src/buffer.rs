@@ -6,7 +6,7 @@ fn with_headroom(len: usize) -> usize {
 
 /// Makes room for half as much again as `items` holds, if there is hardly any room left. Call it at the end of a step for a
 /// vector that each step fills again.
-pub(crate) fn settle<T>(items: &mut Vec<T>) {
+pub(crate) fn reserve_headroom<T>(items: &mut Vec<T>) {
     if items.capacity() < items.len() + items.len() / 8 + 1 {
         items.reserve_exact(with_headroom(items.len()) - items.len());
     }

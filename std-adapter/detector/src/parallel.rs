@@ -94,9 +94,9 @@ pub fn gather<I: Sync, O: Copy + Send>(output: &mut Vec<O>, items: &[I], add: im
     #[cfg(feature = "parallel")]
     if items.len() > CHUNK && has_many_threads() {
         let of_chunk = |chunk: &[I]| {
-            let mut own = Vec::new();
-            add(chunk, &mut own);
-            own
+            let mut share = Vec::new();
+            add(chunk, &mut share);
+            share
         };
         let chunks: Vec<_> = items.par_chunks(CHUNK).map(of_chunk).collect();
         chunks.iter().for_each(|chunk| output.extend_from_slice(chunk));
@@ -118,13 +118,13 @@ pub fn map_chunks<T: Send, R>(
     #[cfg(feature = "parallel")]
     if items.len() > CHUNK && has_many_threads() {
         let of_chunk = |(index, chunk): (usize, &mut [T])| {
-            let mut own = R::default();
-            action(index * CHUNK, chunk, &mut own);
-            own
+            let mut share = R::default();
+            action(index * CHUNK, chunk, &mut share);
+            share
         };
         let chunks = items.par_chunks_mut(CHUNK).enumerate();
         let results: Vec<R> = chunks.map(of_chunk).collect();
-        results.into_iter().for_each(|own| take(result, own));
+        results.into_iter().for_each(|share| take(result, share));
         return;
     }
     #[cfg(not(feature = "parallel"))]

@@ -36,8 +36,8 @@ impl<'a> Reader<'a> {
         self.array().map(f32::from_le_bytes)
     }
 
-    /// Reads the number of items that follow, each of at least `size` bytes. Returns `None` if there is no room for so many, so that damaged bytes
-    /// reserve no memory.
+    /// Reads the number of items that follow, each of at least `size` bytes. Returns `None` if there is no room for so many, so
+    /// that damaged bytes reserve no memory.
     pub fn count(&mut self, size: usize) -> Option<usize> {
         let count = usize::try_from(self.u64()?).ok()?;
         (count.checked_mul(size)? <= self.0.len()).then_some(count)

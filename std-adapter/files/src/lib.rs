@@ -16,6 +16,7 @@ pub mod bytes;
 #[doc(hidden)]
 pub mod excerpt;
 pub mod mesh;
+mod problem;
 mod source;
 #[doc(hidden)]
 pub mod temporary_file;

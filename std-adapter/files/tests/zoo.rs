@@ -163,8 +163,8 @@ fn damage(bytes: &[u8], numbers: &mut Numbers) -> Vec<u8> {
     damaged
 }
 
-/// The least number of faces, edges and points that were read of a file, counted in another way than the readers count: by lines, and by the
-/// size of binary STL. `None`: they are not counted.
+/// The least number of faces, edges and points that were read of a file, counted in another way than the readers count: by lines,
+/// and by the size of binary STL. `None`: they are not counted.
 fn least_count(bytes: &[u8], format: FileFormat, mesh: &LooseMesh) -> Option<usize> {
     let has_facets = || bytes.windows(5).any(|word| word.eq_ignore_ascii_case(b"facet"));
     if format == FileFormat::Stl && !has_facets() {

@@ -2,8 +2,8 @@
 //!
 //! `cargo run --release -p selvedge-laboratory --example true_doubles -- MESH OUTPUT`
 //!
-//! Files often hold `float`. A detector for `f64` then decides most pairs in `f32`, since that is exact for such positions. So its time on
-//! these files is not that of `f64`. Use this to measure that.
+//! Files often hold `float`. A detector for `f64` then decides most pairs in `f32`, since that is exact for such positions. So
+//! its time on these files is not that of `f64`. Use this to measure that.
 
 use selvedge::glam::DVec3;
 use std::error::Error;

@@ -61,8 +61,8 @@ pub(crate) fn points<S: Scalar>(
     })
 }
 
-/// Returns the point of a segment that is nearest to another segment, if the two are not parallel; otherwise the end of one that is nearest
-/// to an end of the other.
+/// Returns the point of a segment that is nearest to another segment, if the two are not parallel; otherwise the end of one that
+/// is nearest to an end of the other.
 fn nearest([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> DVec3 {
     let (along, other, between) = (b - a, d - c, a - c);
     let (aa, ab, bb) = (along.dot(along), along.dot(other), other.dot(other));

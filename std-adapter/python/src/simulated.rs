@@ -64,8 +64,8 @@ pub(crate) struct OfScene {
     pub(crate) settings: Vec<(String, String)>,
 }
 
-/// Facts that threads read while another one runs steps. Time and steps are those after the last whole step, the others those after the
-/// last call.
+/// Facts that threads read while another one runs steps. Time and steps are those after the last whole step, the others those
+/// after the last call.
 #[derive(Clone, Default)]
 pub(crate) struct Known {
     pub(crate) steps_done: u64,

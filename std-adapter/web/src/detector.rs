@@ -14,8 +14,8 @@ use wasm_bindgen::{JsValue, prelude::wasm_bindgen};
 
 /// Finds the contacts of a moving triangle mesh, one step after another, and never misses one.
 ///
-/// Positions hold x, y, z for each vertex. Methods that take them may be called without: they then use what `start` and `end` hold, where
-/// you can write without a copy.
+/// Positions hold x, y, z for each vertex. Methods that take them may be called without: they then use what `start` and `end`
+/// hold, where you can write without a copy.
 #[wasm_bindgen]
 pub struct Detector {
     detector: CollisionDetector<f64>,
@@ -27,7 +27,8 @@ pub struct Detector {
 
 #[wasm_bindgen]
 impl Detector {
-    /// Makes a detector for a mesh: three vertices for each triangle, two for each loose edge (rope, hair), one for each loose point.
+    /// Makes a detector for a mesh: three vertices for each triangle, two for each loose edge (rope, hair), one for each loose
+    /// point.
     ///
     /// Throws an `InputError` if there is no primitive or one names a vertex that does not exist.
     #[wasm_bindgen(constructor)]

@@ -1,7 +1,8 @@
 //! Selvedge in JavaScript: the classes and functions of the npm package `selvedge`.
 //!
-//! wasm-bindgen writes the JavaScript and the TypeScript declarations from this crate. Both take their comments from here, so the comments
-//! name things as JavaScript does. Lengths are in the caller's unit for a [`Detector`], and SI units hold in a [`Simulation`].
+//! wasm-bindgen writes the JavaScript and the TypeScript declarations from this crate. Both take their comments from here, so the
+//! comments name things as JavaScript does. Lengths are in the caller's unit for a [`Detector`], and SI units hold in a
+//! [`Simulation`].
 //!
 //! A typed array that a getter of positions returns is a view of the module's memory. It is valid until the next call of its
 //! object, and as long as the memory does not grow. Read, draw or copy it at once. All other arrays are the caller's own.

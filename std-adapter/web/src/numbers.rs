@@ -1,5 +1,5 @@
-//! Numbers from JavaScript, checked before they are used. wasm-bindgen itself would turn NaN, `undefined` and 2³² into 0, 2.5 into 2, and −1 into
-//! 4294967295.
+//! Numbers from JavaScript, checked before they are used. wasm-bindgen itself would turn NaN, `undefined` and 2³² into 0, 2.5
+//! into 2, and −1 into 4294967295.
 
 use crate::values::Exception;
 use js_sys::{Array, ArrayBuffer, BigInt64Array, BigUint64Array, DataView, Float64Array, Uint8Array, Uint32Array};

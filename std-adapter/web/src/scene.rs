@@ -45,7 +45,7 @@ pub fn effect_names(text: &str, files: &Files) -> Result<Vec<String>, Exception>
 pub fn read_mesh(name: &str, bytes: &Bytes) -> Result<JsValue, Exception> {
     let error = |words: &dyn ToString| Exception::new("MeshError", &format!("{name}: {}", words.to_string()));
     let format = FileFormat::from_path(Path::new(name))
-        .ok_or_else(|| error(&"its ending must be .obj, .ply, .stl, .off, .glb or .gltf"))?;
+        .ok_or_else(|| error(&format!("its ending must be {}", FileFormat::extensions_in_words())))?;
     let bytes = crate::numbers::bytes(bytes, "bytes")?;
     let mesh = read_bytes(&bytes, format).map_err(|problem| error(&problem))?.mesh;
     let positions: Vec<f64> = mesh.positions.iter().flat_map(|position| position.to_array()).collect();

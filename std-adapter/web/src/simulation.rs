@@ -44,8 +44,8 @@ impl Simulation {
         })
     }
 
-    /// Runs steps. Throws a `BlockedError` if bodies or pins force the cloth where it cannot go and the scene stops then; the steps before
-    /// it remain.
+    /// Runs steps. Throws a `BlockedError` if bodies or pins force the cloth where it cannot go and the scene stops then; the
+    /// steps before it remain.
     pub fn step(&mut self, count: Option<Number>) -> Result<(), Exception> {
         let count = optional(count.as_ref(), "count", whole)?;
         for _ in 0..count.unwrap_or(1) {
@@ -246,8 +246,9 @@ impl Simulation {
         Ok(self.cloth.place_body(body, placement)?)
     }
 
-    /// Moves driven bodies, their pins and the cloth that hangs on them elsewhere at once, without a step: positions in the world are rotated by
-    /// a quaternion (x, y, z, w), and then translated. `cloths` names further cloths that move along, such as a garment without pins.
+    /// Moves driven bodies, their pins and the cloth that hangs on them elsewhere at once, without a step: positions in the world
+    /// are rotated by a quaternion (x, y, z, w), and then translated. `cloths` names further cloths that move along, such as a
+    /// garment without pins.
     ///
     /// Throws an `InputError`, and changes nothing, if something else holds the cloth or there is no room.
     pub fn teleport(

@@ -1,5 +1,5 @@
-// The page in a browser: drags, switches, files, nonsense, numbers, pictures and accessibility. `SELVEDGE_WEB` is the folder that build.sh
-// writes. Screenshots of the page go into its folder `screenshots`.
+// The page in a browser: drags, switches, files, nonsense, numbers, pictures and accessibility. `SELVEDGE_WEB` is the folder that
+// build.sh writes. Screenshots of the page go into its folder `screenshots`.
 
 import assert from "node:assert/strict";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";

@@ -29,8 +29,8 @@ impl Polynomial {
         let mut coefficients = self.coefficients;
         let length = coefficients.len().max(other.coefficients.len());
         coefficients.resize(length, Integer::new());
-        for (own, c) in coefficients.iter_mut().zip(&other.coefficients) {
-            change(own, c);
+        for (coefficient, c) in coefficients.iter_mut().zip(&other.coefficients) {
+            change(coefficient, c);
         }
         Self::new(coefficients)
     }

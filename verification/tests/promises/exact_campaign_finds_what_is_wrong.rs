@@ -65,11 +65,8 @@ fn findings_depend_on_the_seed_alone_and_add_up() {
     let mut both: Findings = serde_json::from_str(&serde_json::to_string(&one).expect("JSON")).expect("JSON");
     both.add(other.clone()).expect("the same claims");
     assert_eq!(both.pairs, one.pairs + other.pairs);
-    for count in [
-        |count: &ClaimCounts| count.claims,
-        |count: &ClaimCounts| count.by_signs,
-        |count: &ClaimCounts| count.by_oracle,
-    ] {
+    let counts: [fn(&ClaimCounts) -> u64; 3] = [|count| count.claims, |count| count.by_signs, |count| count.by_oracle];
+    for count in counts {
         assert_eq!(sum(&both, count), sum(&one, count) + sum(&other, count));
     }
     assert_eq!(both.add(findings(3, &[Claim::Plain], 2048, 1)), Err(vec![Claim::Plain]));

@@ -6,8 +6,8 @@
 //! the polygon keeps its orientation. So if K certainly has opposite signs at the ends of the interval, the height is zero
 //! somewhere in between. There the hull contains the origin, and the sets touch.
 //!
-//! The polygon turns around the origin if the cross products of consecutive corners all have one sign. (Four turns of less than half a
-//! circle each, in one sense, make one full turn, not two.) Each is quadratic in time; its Bernstein coefficients on the
+//! The polygon turns around the origin if the cross products of consecutive corners all have one sign. (Four turns of less than
+//! half a circle each, in one sense, make one full turn, not two.) Each is quadratic in time; its Bernstein coefficients on the
 //! interval are c₀×d₀, ½(c₀×d₁ + c₁×d₀), c₁×d₁.
 //!
 //! # Rounding

@@ -15,25 +15,25 @@ use std::ptr;
 pub(crate) mod sheet;
 
 /// The functions for a format, and the same tests of both.
-macro_rules! questions {
+macro_rules! queries {
     ($module:ident: $scalar:ident = $format:ident, $($function:ident as $name:ident),*) => {
         #[path = "."]
         mod $module {
-            pub(super) use crate::questions::$module::{$($function as $name),*};
+            pub(super) use crate::queries::$module::{$($function as $name),*};
             pub(super) type S = $scalar;
             pub(super) const FORMAT: super::ScalarFormat = super::ScalarFormat::$format;
             #[allow(clippy::duplicate_mod, reason = "the functions that the tests call have other types")]
-            #[path = "questions.rs"]
-            mod questions;
+            #[path = "queries.rs"]
+            mod queries;
         }
     };
 }
-questions!(single: f32 = F32, selvedge_detector_contacts_f32 as contacts, selvedge_detector_contacts_of_f32 as contacts_of,
+queries!(single: f32 = F32, selvedge_detector_contacts_f32 as contacts, selvedge_detector_contacts_of_f32 as contacts_of,
     selvedge_detector_earliest_f32 as earliest, selvedge_detector_is_free_f32 as is_free,
     selvedge_detector_candidates_f32 as candidates, selvedge_detector_intersections_f32 as intersections,
     selvedge_detector_has_intersections_f32 as has_intersections, selvedge_detector_near_f32 as near,
     selvedge_detector_contact_geometries_f32 as contact_geometries, selvedge_detector_truncate_f32 as truncate);
-questions!(double: f64 = F64, selvedge_detector_contacts_f64 as contacts, selvedge_detector_contacts_of_f64 as contacts_of,
+queries!(double: f64 = F64, selvedge_detector_contacts_f64 as contacts, selvedge_detector_contacts_of_f64 as contacts_of,
     selvedge_detector_earliest_f64 as earliest, selvedge_detector_is_free_f64 as is_free,
     selvedge_detector_candidates_f64 as candidates, selvedge_detector_intersections_f64 as intersections,
     selvedge_detector_has_intersections_f64 as has_intersections, selvedge_detector_near_f64 as near,

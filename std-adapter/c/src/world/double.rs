@@ -3,7 +3,7 @@
 
 use crate::settings::GroupsRow;
 use crate::status::Status;
-use crate::world::steps::{Asked, Deforming, Rigid, WorldContactRow, answer_free, find_contacts, find_earliest};
+use crate::world::steps::{Deforming, Query, Rigid, WorldContactRow, answer_free, find_contacts, find_earliest};
 use crate::world::{Inserted, Mesh, WorldHandle};
 
 /// Inserts a mesh that rests at these positions. `*mesh` receives its number.
@@ -54,9 +54,9 @@ pub unsafe extern "C" fn selvedge_world_contacts_f64(
     contacts: *mut *const WorldContactRow,
     count: *mut usize,
 ) -> Status {
-    let asked = Asked::new(world, (deforming, deforming_count), (rigid, rigid_count));
+    let query = Query::new(world, (deforming, deforming_count), (rigid, rigid_count));
     // SAFETY: the caller's promises.
-    unsafe { find_contacts(asked, contacts, count) }
+    unsafe { find_contacts(query, contacts, count) }
 }
 
 /// Finds the earliest contact of such a step. The step is free of contact before its time.
@@ -75,9 +75,9 @@ pub unsafe extern "C" fn selvedge_world_earliest_f64(
     found: *mut bool,
     contact: *mut WorldContactRow,
 ) -> Status {
-    let asked = Asked::new(world, (deforming, deforming_count), (rigid, rigid_count));
+    let query = Query::new(world, (deforming, deforming_count), (rigid, rigid_count));
     // SAFETY: the caller's promises.
-    unsafe { find_earliest(asked, found, contact) }
+    unsafe { find_earliest(query, found, contact) }
 }
 
 /// Decides whether such a step is certainly free of contact.
@@ -93,7 +93,7 @@ pub unsafe extern "C" fn selvedge_world_is_free_f64(
     rigid_count: usize,
     is_free: *mut bool,
 ) -> Status {
-    let asked = Asked::new(world, (deforming, deforming_count), (rigid, rigid_count));
+    let query = Query::new(world, (deforming, deforming_count), (rigid, rigid_count));
     // SAFETY: the caller's promises.
-    unsafe { answer_free(asked, is_free) }
+    unsafe { answer_free(query, is_free) }
 }

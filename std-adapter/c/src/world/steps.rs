@@ -1,4 +1,4 @@
-//! The questions about a step of a world, generic over the format of the positions.
+//! The queries about a step of a world, generic over the format of the positions.
 
 use super::{Answers, Finder, Format, HandledWorld, Mesh, WorldHandle, mesh, on, on_format, with_either};
 use crate::answers::{ContactRow, GeometryRow, Kind};
@@ -115,13 +115,13 @@ impl From<&WorldContactGeometry> for WorldGeometryRow {
     }
 }
 
-pub(super) struct Asked<S> {
+pub(super) struct Query<S> {
     world: *mut WorldHandle,
     deforming: (*const Deforming<S>, usize),
     rigid: (*const Rigid, usize),
 }
 
-impl<S: Format> Asked<S> {
+impl<S: Format> Query<S> {
     pub(super) const fn new(
         world: *mut WorldHandle,
         deforming: (*const Deforming<S>, usize),
@@ -130,13 +130,13 @@ impl<S: Format> Asked<S> {
         Self { world, deforming, rigid }
     }
 
-    /// Runs `question` with the motions.
+    /// Runs `search` with the motions.
     ///
     /// # Safety
     /// The conditions are those of selvedge_world_contacts_f64.
-    unsafe fn ask(
+    unsafe fn run(
         self,
-        question: impl FnOnce(&mut Finder<S>, &mut Answers, &[(MeshHandle, MeshMotion<'_, [S; 3]>)]) -> Result<(), Failure>,
+        search: impl FnOnce(&mut Finder<S>, &mut Answers, &[(MeshHandle, MeshMotion<'_, [S; 3]>)]) -> Result<(), Failure>,
     ) -> Status {
         on_format::<S>(self.world, |finder, answers| {
             // SAFETY: the caller's promises.
@@ -170,19 +170,19 @@ impl<S: Format> Asked<S> {
                 let [start, end] = [row.start, row.end].map(|pose| (DQuat::from_array(pose.rotation), DVec3::from(pose.origin)));
                 motions.push((mesh(row.mesh)?, MeshMotion::Rigid { start, end }));
             }
-            question(finder, answers, &motions)
+            search(finder, answers, &motions)
         })
     }
 }
 
 pub(super) unsafe fn find_contacts<S: Format>(
-    asked: Asked<S>,
+    query: Query<S>,
     contacts: *mut *const WorldContactRow,
     count: *mut usize,
 ) -> Status {
     // SAFETY: the caller's promises.
     unsafe {
-        asked.ask(|finder, answers, motions| {
+        query.run(|finder, answers, motions| {
             let out = OutList::new("contacts", contacts, count)?;
             finder.world.contacts(motions, &mut finder.contacts)?;
             answers.contacts.clear();
@@ -197,10 +197,10 @@ pub(super) unsafe fn find_contacts<S: Format>(
     }
 }
 
-pub(super) unsafe fn find_earliest<S: Format>(asked: Asked<S>, found: *mut bool, contact: *mut WorldContactRow) -> Status {
+pub(super) unsafe fn find_earliest<S: Format>(query: Query<S>, found: *mut bool, contact: *mut WorldContactRow) -> Status {
     // SAFETY: the caller's promises.
     unsafe {
-        asked.ask(|finder, _, motions| {
+        query.run(|finder, _, motions| {
             let (found, out) = (Out::new("found", found)?, Out::new("contact", contact)?);
             let earliest = finder.world.earliest(motions)?;
             found.set(earliest.is_some());
@@ -212,10 +212,10 @@ pub(super) unsafe fn find_earliest<S: Format>(asked: Asked<S>, found: *mut bool,
     }
 }
 
-pub(super) unsafe fn answer_free<S: Format>(asked: Asked<S>, is_free: *mut bool) -> Status {
+pub(super) unsafe fn answer_free<S: Format>(query: Query<S>, is_free: *mut bool) -> Status {
     // SAFETY: the caller's promises.
     unsafe {
-        asked.ask(|finder, _, motions| {
+        query.run(|finder, _, motions| {
             let out = Out::new("is_free", is_free)?;
             out.set(finder.world.is_free(motions)?);
             Ok(())

@@ -11,16 +11,13 @@ const SOURCES: [&str; 8] = [
     "answers",
     "detector",
     "settings",
-    "questions/mod",
+    "queries/mod",
     "world/mod",
     "weld",
 ];
 
 /// The files that `build.rs` generates, with the functions for float.
-const SINGLE: [&str; 2] = [
-    concat!(env!("OUT_DIR"), "/questions.rs"),
-    concat!(env!("OUT_DIR"), "/world.rs"),
-];
+const SINGLE: [&str; 2] = [concat!(env!("OUT_DIR"), "/queries.rs"), concat!(env!("OUT_DIR"), "/world.rs")];
 
 const CLOTH_SOURCES: [&str; 6] = [
     "files",

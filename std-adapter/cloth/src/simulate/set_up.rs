@@ -51,7 +51,11 @@ impl Simulation {
             let found = contact.tolerate(&state.positions)?;
             if !found.is_empty() && tangled_start == TangledStart::Refuse {
                 let mesh = Mesh::new(state.positions, made.triangles);
-                let numbered = FileNumbering::new(cloths).numbered(&mesh, &made.loose_edges, &made.vertices_of_cloths);
+                let numbered = FileNumbering::new(cloths.iter().map(|cloth| cloth.file.clone())).numbered(
+                    &mesh,
+                    &made.loose_edges,
+                    &made.vertices_of_cloths,
+                );
                 return Err(SetupError::Tangled(Box::new(Tangled {
                     pinned: Tangled::pinned_of(&found, &made.carriers[..made.cloth_vertices]),
                     crossings: found,
@@ -74,7 +78,7 @@ impl Simulation {
             tangled_start,
             body_names: bodies.iter().map(|body| body.name.clone()).collect(),
             fingerprint,
-            numbering: FileNumbering::new(cloths),
+            numbering: FileNumbering::new(cloths.iter().map(|cloth| cloth.file.clone())),
             cloth_names: cloths.iter().map(|cloth| cloth.name.clone()).collect(),
             effects,
             threads,

@@ -1,6 +1,5 @@
 //! Cloths of files in the numbering of their files.
 
-use super::Cloth;
 use selvedge::Mesh;
 use std::ops::Range;
 
@@ -26,7 +25,7 @@ impl FileMesh {
         }
     }
 
-    /// Takes note that the cloth's vertices have these numbers from now on.
+    /// Gives the cloth's vertices new numbers.
     pub(crate) fn renumber(&mut self, number: &[u32]) {
         let named = self.vertex_of.iter_mut().filter(|vertex| **vertex != LEFT_OUT);
         named.for_each(|vertex| *vertex = number[*vertex as usize]);
@@ -57,7 +56,7 @@ pub struct MeshInFiles {
     pub vertices_of_cloths: Vec<Range<usize>>,
 }
 
-/// The way from the numbers of a simulation to those of files.
+/// Maps the numbers of a simulation to those of files.
 #[derive(Debug)]
 pub(crate) struct FileNumbering {
     /// For each cloth, unless it has the numbers of its file, or has no file.
@@ -65,10 +64,9 @@ pub(crate) struct FileNumbering {
 }
 
 impl FileNumbering {
-    pub(crate) fn new(cloths: &[Cloth]) -> Self {
-        Self {
-            cloths: cloths.iter().map(|cloth| cloth.file.clone()).collect(),
-        }
+    /// Takes the file of each cloth that has not the numbers of its file.
+    pub(crate) fn new(files: impl Iterator<Item = Option<FileMesh>>) -> Self {
+        Self { cloths: files.collect() }
     }
 
     /// Converts the mesh and the loose edges of a simulation whose cloths have these ranges of vertices.
@@ -116,7 +114,7 @@ impl FileNumbering {
     }
 }
 
-/// The way from the numbers of a simulation to those of a file, for one cloth.
+/// Maps the numbers of a simulation to those of a file, for one cloth.
 struct Place<'a> {
     /// The vertices of the simulation.
     own: &'a Range<usize>,

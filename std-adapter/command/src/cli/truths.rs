@@ -10,8 +10,9 @@ use std::path::{Path, PathBuf};
 
 /// Compares the cloth simulation with laws whose answers are known
 ///
-/// Runs scenes with an exact answer, such as free fall, catenaries, balloons, friction and stacks. All settings are the defaults. Each scene
-/// runs in time steps of 1 and 4 ms and by frames of 1/60 s, on up to four meshes. The table has the largest error of each.
+/// Runs scenes with an exact answer, such as free fall, catenaries, balloons, friction and stacks. All settings are the defaults.
+/// Each scene runs in time steps of 1 and 4 ms and by frames of 1/60 s, on up to four meshes. The table has the largest error of
+/// each.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

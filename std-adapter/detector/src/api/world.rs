@@ -202,8 +202,8 @@ impl<P: Position> World<P> {
     /// # Errors
     /// Returns an error if the world does not have the mesh.
     pub fn set_groups(&mut self, mesh: MeshHandle, groups: Groups) -> Result<(), WorldError> {
-        let own = self.stage.meshes.get_mut(mesh).ok_or(WorldError::NoSuchMesh { mesh })?;
-        own.groups = groups;
+        let entry = self.stage.meshes.get_mut(mesh).ok_or(WorldError::NoSuchMesh { mesh })?;
+        entry.groups = groups;
         self.stage.are_others = true;
         Ok(())
     }

@@ -6,7 +6,7 @@ use super::pairing::Pairing;
 use super::pairs::Sink;
 use super::statistics::MovingStatistics;
 use super::traversal::{BlockPair, Scratch};
-use crate::buffer::settle;
+use crate::buffer::reserve_headroom;
 use crate::mesh::Topology;
 use crate::parallel;
 use crate::simd::Level;
@@ -145,7 +145,7 @@ impl MovingBroadPhase {
         for (pairing, tasks) in pairings.iter().zip(&mut self.tasks) {
             tasks.clear();
             tests += pairing.find_tasks(&mut self.stack, tasks);
-            settle(tasks);
+            reserve_headroom(tasks);
         }
         // With many shares, a slow one does not keep the other threads waiting.
         let shares = match parallel::threads() {
@@ -171,9 +171,9 @@ impl MovingBroadPhase {
             swap(&mut collectors[0].pairs, list);
             for collector in &mut collectors[1..] {
                 list.extend_from_slice(&collector.pairs);
-                settle(&mut collector.pairs);
+                reserve_headroom(&mut collector.pairs);
             }
-            settle(list);
+            reserve_headroom(list);
             candidates += list.len();
             tests += collectors.iter().map(|collector| collector.tests).sum::<u64>();
         }

@@ -69,9 +69,9 @@ impl Neighbours {
         if let [(_, only)] = self.parts.as_slice() {
             return *only;
         }
-        let own = self.part_of(one);
-        let own = self.parts.get(own).filter(|_| own == self.part_of(other));
-        own.map_or(f32::NEG_INFINITY, |&(_, within)| within)
+        let part = self.part_of(one);
+        let part = self.parts.get(part).filter(|_| part == self.part_of(other));
+        part.map_or(f32::NEG_INFINITY, |&(_, within)| within)
     }
 
     #[inline(always)]

@@ -89,10 +89,10 @@ impl Rows {
         self.has_single = are_single;
         for vertex in vertices {
             let vertex = vertex as usize;
-            let own = VertexRow::new(motions.motion(vertex));
-            self.double[vertex] = own;
+            let row = VertexRow::new(motions.motion(vertex));
+            self.double[vertex] = row;
             if are_single {
-                self.has_single &= narrowed(&[own], &mut self.single[vertex..=vertex]);
+                self.has_single &= narrowed(&[row], &mut self.single[vertex..=vertex]);
             }
         }
     }

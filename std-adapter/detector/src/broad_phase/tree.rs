@@ -142,9 +142,9 @@ impl<const N: usize> Tree<N> {
         let of_primitives = self.primitives.iter();
         self.vertices.extend(of_primitives.map(|&primitive| vertices_of(primitive)));
         self.corners.clear();
-        self.corners.extend(self.vertices.chunks(LANES).map(|own| {
+        self.corners.extend(self.vertices.chunks(LANES).map(|chunk| {
             let mut corners = [[NONE; LANES]; N];
-            for (lane, vertices) in own.iter().enumerate() {
+            for (lane, vertices) in chunk.iter().enumerate() {
                 for (row, &vertex) in corners.iter_mut().zip(vertices) {
                     row[lane] = vertex;
                 }
@@ -204,14 +204,14 @@ impl<const N: usize> Tree<N> {
                 within: [f32::NEG_INFINITY; LANES],
             };
             for (lane, vertices) in block.iter().enumerate() {
-                let own = vertices.map(|vertex| of_vertices[vertex as usize]);
-                let corners = own.map(|vertex| Aabb {
+                let rests = vertices.map(|vertex| of_vertices[vertex as usize]);
+                let corners = rests.map(|vertex| Aabb {
                     lower: vertex.position,
                     upper: vertex.position,
                 });
                 let bounds = corners[1..].iter().fold(corners[0], |bounds, corner| bounds.merged(corner));
                 rest.boxes.set(lane, &bounds);
-                (rest.parts[lane], rest.within[lane]) = (own[0].part, own[0].within);
+                (rest.parts[lane], rest.within[lane]) = (rests[0].part, rests[0].within);
             }
             rest
         }));
@@ -229,9 +229,9 @@ impl<const N: usize> Tree<N> {
         };
         let vertices = &self.vertices;
         refit_level(leaves, only_moving, |position| {
-            let own = &vertices[position];
-            let mut moving = boxes[own[0] as usize];
-            for &vertex in &own[1..] {
+            let corners = &vertices[position];
+            let mut moving = boxes[corners[0] as usize];
+            for &vertex in &corners[1..] {
                 moving.merge(&boxes[vertex as usize]);
             }
             moving

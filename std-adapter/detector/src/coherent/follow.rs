@@ -207,7 +207,7 @@ impl Followed {
                 }
             },
             &mut self.open,
-            |all, own| all.iter_mut().zip(own).for_each(|(all, own)| all.extend(own)),
+            |all, share| all.iter_mut().zip(share).for_each(|(all, share)| all.extend(share)),
         );
         near.strays = strays;
         // Pairs that were added to the list come after the others.

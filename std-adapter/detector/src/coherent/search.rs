@@ -307,15 +307,15 @@ mod tests {
             [[a, b, d], [a, d, c]]
         });
         let count = vertex(CELLS, CELLS) + 1;
-        let triangles = of_one.flat_map(|own| [own, own.map(|vertex| vertex + count)]);
+        let triangles = of_one.flat_map(|triangle| [triangle, triangle.map(|vertex| vertex + count)]);
         Arc::new(Topology::new(2 * count as usize, triangles.collect()).unwrap())
     }
 
     /// Rolls both sheets up, with waves.
     fn rolled(radius: f64, waves: f64, phase: f64) -> Vec<DVec3> {
         let at = |place: u32| {
-            let (sheet, own) = (place / (vertex(CELLS, CELLS) + 1), place % (vertex(CELLS, CELLS) + 1));
-            let (along, across) = (f64::from(own / (CELLS + 1)), f64::from(own % (CELLS + 1)));
+            let (sheet, in_sheet) = (place / (vertex(CELLS, CELLS) + 1), place % (vertex(CELLS, CELLS) + 1));
+            let (along, across) = (f64::from(in_sheet / (CELLS + 1)), f64::from(in_sheet % (CELLS + 1)));
             let radius = radius + f64::from(sheet) * 1.1 + waves * (phase + 1.7 * along + 0.9 * across).sin() + 0.02 * along;
             let angle = along / radius.max(0.5);
             DVec3::new(radius * angle.cos(), radius * angle.sin(), across)

@@ -74,8 +74,16 @@ impl Sieve {
                 *vertices = topology.vertices_of(kind, *pair);
                 *class = interest.class(kind, *vertices) as u8;
             }
-            let own = &vertices[..pairs.len()];
-            largest_strays_from_rows(self.level, kind, &self.clearances, &self.rows, own, &classes, &mut strays);
+            let of_pairs = &vertices[..pairs.len()];
+            largest_strays_from_rows(
+                self.level,
+                kind,
+                &self.clearances,
+                &self.rows,
+                of_pairs,
+                &classes,
+                &mut strays,
+            );
             append_selected(left, pairs, |place, &pair| {
                 let stray = strays[place];
                 // A NaN keeps nothing apart.
@@ -153,9 +161,9 @@ mod tests {
             let distances = [distance * share, distance, distance * 0.5];
             let left_out = left_out(kind, &reach(distances, 0.5, beyond), [&start, &end]);
             let middle = |is_first| -> DVec3 {
-                let own = (0..4).filter(|&k| first(kind, k) == is_first);
-                let count = own.clone().count() as f64;
-                own.map(|k| (start[k] + end[k]) / count).sum()
+                let of_side = (0..4).filter(|&k| first(kind, k) == is_first);
+                let count = of_side.clone().count() as f64;
+                of_side.map(|k| (start[k] + end[k]) / count).sum()
             };
             let towards_first = (middle(true) - middle(false)).signum() * (0.5 * beyond);
             let strayed = |k: usize| if first(kind, k) { -towards_first } else { towards_first };

@@ -249,17 +249,17 @@ pub(super) fn drop_never_coplanar(
 ) {
     masks.clear();
     masks.resize((indices.len() - first).div_ceil(LANES), 0);
-    let (level, own, separation) = (step.level, &indices[first..], step.question.limits.separation);
+    let (level, of_pairs, separation) = (step.level, &indices[first..], step.question.limits.separation);
     // A separation beyond the range of the format excludes no pair.
     match step.rows.single {
         Some(rows) => {
             if let Some(filter) = Filter::new(Tier::Widened).with_separation(rounded_up(separation)) {
-                culled_from_rows(level, kind, filter, rows, own, masks);
+                culled_from_rows(level, kind, filter, rows, of_pairs, masks);
             }
         }
         None => {
             if let Some(filter) = Filter::new(Tier::Permanent).with_separation(separation) {
-                culled_from_rows(level, kind, filter, step.rows.double, own, masks);
+                culled_from_rows(level, kind, filter, step.rows.double, of_pairs, masks);
             }
         }
     }

@@ -113,8 +113,8 @@ fn set_rows(rows: &mut Rows, hierarchies: &Hierarchies) {
     let all = rows.resize(vertices.len() + edges.len());
     let mut chunks: Vec<_> = all.chunks_mut(ROWS).collect();
     parallel::for_each(&mut chunks, |chunk, rows| {
-        for (offset, own) in rows.iter_mut().enumerate() {
-            *own = row(chunk * ROWS + offset);
+        for (offset, written) in rows.iter_mut().enumerate() {
+            *written = row(chunk * ROWS + offset);
         }
     });
     drop(chunks);

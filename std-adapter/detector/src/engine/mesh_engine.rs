@@ -8,7 +8,7 @@ use super::rest::RestTasks;
 use super::source::Source;
 use super::statistics::StepStatistics;
 use crate::broad_phase::{Fit, MovingBroadPhase, Rows};
-use crate::buffer::settle;
+use crate::buffer::reserve_headroom;
 use crate::clock::Clock;
 use crate::coherent::{ENORMOUS, Followed, NearStatistics};
 use crate::mesh::{Hinges, Topology};
@@ -247,9 +247,9 @@ impl MeshEngine {
             for worker in &mut self.pairs.workers {
                 let kept = &mut worker.findings.kept[kind];
                 list.extend_from_slice(kept);
-                settle(kept);
+                reserve_headroom(kept);
             }
-            settle(list);
+            reserve_headroom(list);
         }
     }
 
@@ -260,9 +260,9 @@ impl MeshEngine {
         for worker in &mut self.pairs.workers {
             let found = &mut worker.findings.contacts;
             contacts.extend(found.iter().map(in_format_of_positions));
-            settle(found);
+            reserve_headroom(found);
         }
-        settle(contacts);
+        reserve_headroom(contacts);
         self.statistics.seconds += begin.elapsed().as_secs_f64();
     }
 

@@ -7,7 +7,7 @@ use super::question::{Bound, Wanted};
 use super::source::{Candidates, Source};
 use super::stop::Stop;
 use crate::broad_phase::{BlockPair, CHUNK, Scratch, Sink};
-use crate::buffer::settle;
+use crate::buffer::reserve_headroom;
 use crate::clock::Clock;
 use crate::parallel;
 use crate::step::Contact;
@@ -100,7 +100,7 @@ impl PairEngine {
                 tests,
             });
         }
-        settle(&mut self.tasks);
+        reserve_headroom(&mut self.tasks);
     }
 
     /// Estimates how many candidates the traversals of these prepared sources will find, from some of their tasks.

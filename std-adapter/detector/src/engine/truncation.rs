@@ -53,13 +53,18 @@ impl Held<'_> {
     /// Holds back the vertices of a pair that comes into contact on the way to its present ends.
     fn hold(&mut self, contact: &Contact<f64>, vertices: [u32; 4], end: &[DVec3]) {
         let is_new = self.parted.insert((contact.kind, contact.pair));
-        let own = if is_new { self.planes(contact, vertices, end) } else { None };
-        let lowers = |own: &[f64; 4]| vertices.iter().zip(own).any(|(&v, &own)| own < self.shares[v as usize]);
-        let own = own.filter(lowers).unwrap_or([0.0; 4]);
-        for (vertex, own) in vertices.into_iter().zip(own) {
+        let shares = if is_new { self.planes(contact, vertices, end) } else { None };
+        let lowers = |shares: &[f64; 4]| {
+            vertices
+                .iter()
+                .zip(shares)
+                .any(|(&v, &share)| share < self.shares[v as usize])
+        };
+        let shares = shares.filter(lowers).unwrap_or([0.0; 4]);
+        for (vertex, share) in vertices.into_iter().zip(shares) {
             let vertex = vertex as usize;
-            if own < self.shares[vertex] {
-                self.shares[vertex] = own;
+            if share < self.shares[vertex] {
+                self.shares[vertex] = share;
                 self.changed[vertex] = true;
             }
         }

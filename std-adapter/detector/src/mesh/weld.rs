@@ -83,16 +83,16 @@ pub fn first_coincident(positions: &[DVec3], tolerance: f64) -> Vec<u32> {
         if first[vertex] as usize != vertex || !position.is_finite() {
             continue;
         }
-        let own = cell(position);
+        let home = cell(position);
         for step in 0..27_i32 {
             let step = DVec3::new((step % 3).into(), (step / 3 % 3).into(), (step / 9).into()) - 1.0;
-            for &other in cells.get(&bits(own + step)).into_iter().flatten() {
+            for &other in cells.get(&bits(home + step)).into_iter().flatten() {
                 if positions[other as usize].distance(position) <= tolerance {
                     merged.join(vertex as u32, other);
                 }
             }
         }
-        cells.entry(bits(own)).or_default().push(vertex as u32);
+        cells.entry(bits(home)).or_default().push(vertex as u32);
     }
     merged.into_firsts()
 }

@@ -27,11 +27,12 @@ mod tests;
 )]
 mod track;
 
-pub use error::{AnimationError, AnimationProblem, Choices};
+pub use crate::problem::{AnimationProblem, Choices};
+pub use error::AnimationError;
 pub use figure::Figure;
 
 use crate::FileSource;
-use crate::mesh::FileProblem;
+use crate::problem::FileProblem;
 use std::path::Path;
 
 /// The part of a file that the caller wants.

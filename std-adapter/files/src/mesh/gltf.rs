@@ -1,9 +1,9 @@
 //! The meshes of a glTF file at rest.
 
-use super::ReadOptions;
-use super::error::FileProblem;
+use super::options::ReadOptions;
 use super::parsed::Parsed;
 use crate::animation::{AnimationProblem, Choice, parse as parse_figure};
+use crate::problem::FileProblem;
 use std::path::Path;
 
 /// Reads all meshes of the scene, or that of the node that `options` name. Other files are looked for beside `path`.

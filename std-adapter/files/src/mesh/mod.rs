@@ -1,15 +1,20 @@
 //! Mesh files: OBJ, PLY, STL, OFF and glTF, read exactly; OBJ and PLY, written exactly; point caches.
 //!
-//! Positions keep their order and their number, and every bit that the file holds: a vertex that no face names is kept, several objects in
-//! one file are one mesh, nothing is merged. Polygons are split into triangles by their shape. [`read`] returns triangles alone;
-//! [`read_with_loose_features`] keeps edges and points that belong to none. Normals, colours, texture coordinates and materials are ignored.
+//! Positions keep their order and their number, and every bit that the file holds: a vertex that no face names is kept, several
+//! objects in one file are one mesh, nothing is merged. Polygons are split into triangles by their shape. [`read`] returns
+//! triangles alone; [`read_with_loose_features`] keeps edges and points that belong to none. Normals, colours, texture
+//! coordinates and materials are ignored.
 
+pub(crate) mod checks;
 mod error;
 mod findings;
+pub(crate) mod format;
+mod frame_difference;
 mod gltf;
 mod notes;
 mod obj;
 mod off;
+mod options;
 mod parsed;
 mod ply;
 mod point_cache;
@@ -21,56 +26,25 @@ mod stl;
 mod tests;
 mod text;
 
-pub use error::{FileProblem, FrameDifference, MeshError};
+pub use crate::problem::FileProblem;
+pub use error::{MeshError, SequenceProblem};
 pub use findings::{Findings, THIN};
+pub use format::{FileFormat, PlyEncoding};
+pub use frame_difference::FrameDifference;
 pub use notes::{FilePart, LeftOut, MeshNotes};
-pub use ply::PlyEncoding;
+pub use options::ReadOptions;
 pub use point_cache::{CacheFormat, read_point_cache};
-pub use sequence::{MeshSequence, SequenceProblem, read_sequence, read_sequence_from};
+pub use sequence::{MeshSequence, read_sequence, read_sequence_from};
 pub use step::{MeshStep, read_step};
 
 use crate::FileSource;
 use crate::temporary_file;
+use checks::{check_finite, corner};
 use parsed::Parsed;
 use selvedge::{Mesh, Topology, TopologyError};
 use selvedge_core::glam::DVec3;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
-
-/// The format of a mesh file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FileFormat {
-    /// Wavefront OBJ: text, vertices numbered from 1.
-    Obj,
-    /// PLY, the Stanford polygon format. A reader finds the encoding in the header.
-    Ply(PlyEncoding),
-    /// STL, text or binary. It is read, not written: its binary form holds 32-bit numbers.
-    Stl,
-    /// OFF, text. It is read, not written.
-    Off,
-    /// glTF, text or binary (`.glb`): the meshes of the whole scene, at rest. It is read, not written, and needs the feature `gltf`. For
-    /// animations see [`animation`](crate::animation).
-    Gltf,
-}
-
-impl FileFormat {
-    /// Returns the format that the extension of `path` names, in upper or lower case: `.obj`, `.stl`, `.off`, `.gltf`, `.glb`, or
-    /// `.ply`, which is written as binary, little endian.
-    #[must_use]
-    pub fn from_path(path: &Path) -> Option<Self> {
-        const FORMATS: [(&str, FileFormat); 6] = [
-            ("obj", FileFormat::Obj),
-            ("ply", FileFormat::Ply(PlyEncoding::LittleEndian)),
-            ("stl", FileFormat::Stl),
-            ("off", FileFormat::Off),
-            ("gltf", FileFormat::Gltf),
-            ("glb", FileFormat::Gltf),
-        ];
-        let extension = path.extension()?.to_str()?;
-        let format = FORMATS.iter().find(|(name, _)| extension.eq_ignore_ascii_case(name));
-        format.map(|&(_, format)| format)
-    }
-}
 
 /// A mesh and a report about its file.
 #[derive(Clone, Debug, PartialEq)]
@@ -256,20 +230,6 @@ pub fn write_bytes(mesh: &Mesh, format: FileFormat) -> Result<Vec<u8>, FileProbl
     Ok(bytes)
 }
 
-/// The parts of a file that the caller wants.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ReadOptions<'a> {
-    /// Reads edges and points that belong to no triangle as well. See [`read_with_loose_features`].
-    pub loose_features: bool,
-    /// The group or object of an OBJ file, or the node of a glTF file, whose faces are read. `None` reads all. Vertices of OBJ
-    /// files keep their numbers.
-    pub only: Option<&'a str>,
-    /// The distance up to which vertices are merged, in the file's unit; 0 merges only equal positions, and `None` merges
-    /// nothing. Triangles, edges and points then name the lowest-numbered vertex. The others stay as unused vertices, so that all
-    /// keep their numbers.
-    pub weld: Option<f64>,
-}
-
 fn load(source: &FileSource, path: &Path, options: &ReadOptions<'_>) -> Result<Parsed, FileProblem> {
     if let FileSource::Disk = source
         && std::fs::metadata(path).map_err(FileProblem::from_read)?.is_dir()
@@ -326,56 +286,6 @@ fn check(mesh: &Mesh, loose_edges: &[[u32; 2]]) -> Result<(), FileProblem> {
     for (face, triangle) in mesh.triangles.iter().enumerate() {
         for &vertex in triangle {
             corner(face, vertex.into(), vertex_count, None)?;
-        }
-    }
-    Ok(())
-}
-
-/// Returns a number as that of a vertex, if there is such a vertex.
-fn vertex_index(vertex: i64, vertex_count: usize) -> Option<u32> {
-    u32::try_from(vertex).ok().filter(|&index| (index as usize) < vertex_count)
-}
-
-/// Returns the vertex that a face names by its number from 0 on.
-fn corner(face: usize, vertex: i64, vertex_count: usize, line: Option<usize>) -> Result<u32, FileProblem> {
-    vertex_index(vertex, vertex_count).ok_or(FileProblem::IndexOutOfRange {
-        line,
-        face,
-        vertex,
-        first: 0,
-        vertex_count,
-    })
-}
-
-/// Reads the three coordinates of a vertex. `next` returns a word and its line.
-fn read_vertex<'a>(vertex: usize, mut next: impl FnMut() -> (Option<&'a [u8]>, usize)) -> Result<DVec3, FileProblem> {
-    let (mut coordinates, mut line) = ([0.0; 3], 0);
-    for (value, name) in coordinates.iter_mut().zip(['x', 'y', 'z']) {
-        let word;
-        (word, line) = next();
-        let word = word.unwrap_or_default();
-        *value = text::number(word).ok_or_else(|| not_a_number(vertex, line, name, word))?;
-    }
-    let position = DVec3::from_array(coordinates);
-    check_finite(vertex, position, Some(line))?;
-    Ok(position)
-}
-
-fn not_a_number(vertex: usize, line: usize, coordinate: impl std::fmt::Display, field: &[u8]) -> FileProblem {
-    let field = text::quoted(field, 40);
-    let reason = format!("vertex {vertex} has the {coordinate} coordinate '{field}', which is not a number");
-    FileProblem::Line { line, reason }
-}
-
-pub(crate) fn check_finite(vertex: usize, position: DVec3, line: Option<usize>) -> Result<(), FileProblem> {
-    for (coordinate, value) in ['x', 'y', 'z'].into_iter().zip(position.to_array()) {
-        if !value.is_finite() {
-            return Err(FileProblem::NonFinite {
-                line,
-                vertex,
-                coordinate,
-                value,
-            });
         }
     }
     Ok(())

@@ -159,7 +159,9 @@ impl fmt::Display for LeftOut {
 
 /// Counts parts by kind and name.
 pub(super) fn count_part(parts: &mut Vec<LeftOut>, part: LeftOut) {
-    let same = parts.iter().position(|own| own.part == part.part && own.name == part.name);
+    let same = parts
+        .iter()
+        .position(|known| known.part == part.part && known.name == part.name);
     // A file of noise has a new keyword on each line.
     let full = (parts.len() >= 100).then(|| parts.len() - 1);
     match same.or(full) {

@@ -6,11 +6,12 @@
 //! refuses faces that name vertices of another. `wavefront-obj-io` refuses negative indices and needs a newer compiler than we
 //! promise. None reports the lines that it skips.
 
-use super::error::FileProblem;
+use super::checks::{check_finite, not_a_number};
 use super::notes::{FilePart, LeftOut};
+use super::options::ReadOptions;
 use super::parsed::Parsed;
 use super::text::{Lines, fields, integer, number, quoted, trim, without_byte_order_mark};
-use super::{ReadOptions, check_finite, not_a_number};
+use crate::problem::FileProblem;
 use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
 use std::io::{self, Write};
@@ -310,8 +311,8 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// Returns the vertex that a corner names, as in `7`, `7/3` and `7//2`. Numbers count from 1 for the file's first vertex, or from −1 for the one just
-    /// above the face.
+    /// Returns the vertex that a corner names, as in `7`, `7/3` and `7//2`. Numbers count from 1 for the file's first vertex, or
+    /// from −1 for the one just above the face.
     fn corner(&mut self, line: usize, field: &[u8], owner: Owner) -> Result<u32, FileProblem> {
         let vertex = corner_name(field).ok_or_else(|| {
             FileProblem::at_line(

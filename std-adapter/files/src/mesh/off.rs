@@ -7,11 +7,12 @@
 //! one after the other, and takes the first that reads the file to its end. If there is none, the result is that of the first
 //! form.
 
-use super::error::FileProblem;
+use super::checks::{corner, read_vertex};
 use super::notes::{FilePart, LeftOut};
+use super::options::ReadOptions;
 use super::parsed::Parsed;
 use super::text::{Words, fields, integer, number, quoted, without_byte_order_mark};
-use super::{ReadOptions, corner, read_vertex};
+use crate::problem::FileProblem;
 
 pub(super) fn parse(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Parsed, FileProblem> {
     if options.only.is_some() {

@@ -1,9 +1,9 @@
 //! The common result of all parsers, and its conversion to a mesh.
 
-use super::error::FileProblem;
 use super::notes::{LeftOut, MeshNotes, count_part, missing};
 use super::polygon::Triangulator;
 use super::{LooseMesh, MeshFile};
+use crate::problem::FileProblem;
 use selvedge::{Mesh, Topology, first_coincident};
 use selvedge_core::glam::DVec3;
 

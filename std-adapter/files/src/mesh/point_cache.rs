@@ -1,12 +1,13 @@
 //! Point caches: the positions of a mesh's vertices frame by frame, without its faces.
 //!
-//! Both formats hold 32-bit numbers. MDD (LightWave, Blender) is big endian: the numbers of frames and points, the time of each frame in
-//! seconds, the positions. PC2 (3ds Max, Blender) is little endian: `POINTCACHE2` and a zero, version 1, the number of points, the first
-//! frame, the frames per sample, the number of samples, the positions.
+//! Both formats hold 32-bit numbers. MDD (LightWave, Blender) is big endian: the numbers of frames and points, the time of each
+//! frame in seconds, the positions. PC2 (3ds Max, Blender) is little endian: `POINTCACHE2` and a zero, version 1, the number of
+//! points, the first frame, the frames per sample, the number of samples, the positions.
 
-use super::check_finite;
-use super::error::{FileProblem, MeshError};
+use super::checks::check_finite;
+use super::error::MeshError;
 use crate::FileSource;
+use crate::problem::FileProblem;
 use selvedge_core::glam::DVec3;
 use std::path::Path;
 
@@ -35,8 +36,8 @@ impl CacheFormat {
 /// Reads the frames of the point cache at `path`: in each, the positions of all `vertex_count` vertices of a mesh.
 ///
 /// # Errors
-/// Returns an error if the file cannot be read, is no MDD or PC2 file, has another length than its header declares, has no frame, has another
-/// number of points than the mesh has vertices, or has a coordinate that is not finite.
+/// Returns an error if the file cannot be read, is no MDD or PC2 file, has another length than its header declares, has no frame,
+/// has another number of points than the mesh has vertices, or has a coordinate that is not finite.
 pub fn read_point_cache(source: &FileSource, path: &Path, vertex_count: usize) -> Result<Vec<Vec<DVec3>>, MeshError> {
     let format = CacheFormat::from_path(path)
         .ok_or_else(|| FileProblem::Header("is not known: a point cache is a .mdd or a .pc2 file".to_owned()));

@@ -1,10 +1,12 @@
 //! Numbered files as the frames of one mesh.
 
-use super::error::{FrameDifference, MeshError};
+use super::error::{MeshError, SequenceProblem};
+use super::format::FileFormat;
+use super::frame_difference::FrameDifference;
+use super::load;
+use super::options::ReadOptions;
 use super::parsed::Parsed;
-use super::{FileFormat, ReadOptions, load};
 use crate::FileSource;
-use crate::excerpt::excerpt;
 use selvedge::Topology;
 use selvedge_core::glam::DVec3;
 use std::path::{Path, PathBuf};
@@ -18,61 +20,6 @@ pub struct MeshSequence {
     pub frames: Vec<Vec<DVec3>>,
     /// The file of each frame.
     pub files: Vec<PathBuf>,
-}
-
-/// The reason why files are no sequence of frames.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum SequenceProblem {
-    /// The name has no place for the number, or several.
-    #[error("the name of the files must have one run of '#' where their numbers stand, such as body-####.ply")]
-    Pattern,
-    /// The folder cannot be read.
-    #[error("the folder '{}' cannot be read: {error}", folder.display())]
-    Folder {
-        /// The folder.
-        folder: PathBuf,
-        /// The error of the system.
-        error: std::io::Error,
-    },
-    /// No file has such a name.
-    #[error("there is no such file in '{}'", folder.display())]
-    NoFiles {
-        /// The folder.
-        folder: PathBuf,
-    },
-    /// A number is left out.
-    #[error("frame {missing} is missing: there are frames up to {before}, and from {after} on")]
-    MissingFrame {
-        /// The first number that is missing.
-        missing: u64,
-        /// The last number before the gap.
-        before: u64,
-        /// The first number after the gap.
-        after: u64,
-    },
-    /// Two files have the same number.
-    #[error("frame {frame} is there twice: '{}' and '{}'", excerpt(one, 60), excerpt(other, 60))]
-    TwiceThere {
-        /// The number.
-        frame: u64,
-        /// A file.
-        one: String,
-        /// Another one.
-        other: String,
-    },
-    /// A folder has files of several sequences, or meshes without a number.
-    #[error(
-        "this folder has more than one sequence ('{}' and '{}'); name the files, such as body-####.ply",
-        excerpt(one, 60),
-        excerpt(other, 60)
-    )]
-    SeveralSequences {
-        /// A file.
-        one: String,
-        /// One of another sequence.
-        other: String,
-    },
 }
 
 /// Reads numbered OBJ or PLY files as the frames of one mesh. `pattern` is a path whose file name has one run of `#` in place of

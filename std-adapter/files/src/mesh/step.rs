@@ -1,7 +1,9 @@
 //! Two frames of one mesh: a time step from files.
 
-use super::error::{FrameDifference, MeshError};
-use super::{MeshNotes, ReadOptions, load};
+use super::error::MeshError;
+use super::frame_difference::FrameDifference;
+use super::options::ReadOptions;
+use super::{MeshNotes, load};
 use crate::FileSource;
 use selvedge::{Topology, TopologyError};
 use selvedge_core::glam::DVec3;

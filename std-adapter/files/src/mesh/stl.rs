@@ -4,11 +4,12 @@
 //! This reader is our own because `stl_io` reads text as 32-bit numbers and skips unknown lines. Neither it nor `nom_stl` rejects
 //! a loop of other than three vertices. The binary form is fifty bytes a triangle.
 
-use super::error::FileProblem;
+use super::checks::{check_finite, read_vertex};
 use super::notes::{FilePart, LeftOut};
+use super::options::ReadOptions;
 use super::parsed::Parsed;
 use super::text::{Words, fields, is_space, number, quoted, without_byte_order_mark};
-use super::{ReadOptions, check_finite, read_vertex};
+use crate::problem::FileProblem;
 use selvedge::first_coincident;
 use selvedge_core::glam::DVec3;
 

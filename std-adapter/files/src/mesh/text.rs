@@ -1,7 +1,7 @@
 //! Text files with any line end and any encoding of names, and with numbers as C and Rust spell them.
 
-use super::error::FileProblem;
 use crate::excerpt::excerpt;
+use crate::problem::FileProblem;
 
 /// The physical lines of a text with their numbers from 1. A line ends with LF, CR or CR LF.
 #[derive(Clone, Copy)]
@@ -182,8 +182,8 @@ pub(super) fn trim(mut line: &[u8]) -> &[u8] {
     line
 }
 
-/// Parses a number as C's `strtod` and Rust spell it: `.5`, `5.`, `+1e3`, `inf`, `-nan(ind)`, and `1.#QNAN` of older Windows programs. The result is
-/// the nearest `f64`, and may be infinite or NaN.
+/// Parses a number as C's `strtod` and Rust spell it: `.5`, `5.`, `+1e3`, `inf`, `-nan(ind)`, and `1.#QNAN` of older Windows
+/// programs. The result is the nearest `f64`, and may be infinite or NaN.
 pub(super) fn number(field: &[u8]) -> Option<f64> {
     let text = std::str::from_utf8(field).ok()?;
     text.parse().ok().or_else(|| not_finite(text))

@@ -88,8 +88,8 @@ fn approach_speed<S: Scalar>(points: &PairPoints<S>, first_set: usize) -> S {
     let [a, b, c, d] = motions;
     let mean = ((a + b) + (c + d)).scaled(S::from_f64(0.25));
     let squared_speed = |motion: &Vector<S>| {
-        let own = *motion - mean;
-        own.dot(own)
+        let relative = *motion - mean;
+        relative.dot(relative)
     };
     let mut fastest = [S::ZERO; 2];
     for (index, motion) in motions.iter().enumerate() {

@@ -8,8 +8,8 @@
 //! on it span less than the tolerance on each axis.
 //!
 //! * Where contact lasts or nearly happens (sliding, resting, parallel edges), the number of boxes grows as the inverse square of
-//!   the tolerance. After [`CHECKS`] boxes the search ends with the earliest time not excluded. That is no miss, but may be far
-//!   too early.
+//!   the tolerance. After [`MOST_BOXES`] boxes the search ends with the earliest time not excluded. That is no miss, but may be
+//!   far too early.
 //! * Contact means that F is within the tolerance *on each axis*. The separation counts in the same way.
 //!
 //! The code is written from the description. It differs from the original in two ways. The search is depth-first, earlier half
@@ -33,7 +33,7 @@ use selvedge_core::motion::PrimitivePair;
 use selvedge_core::scalar::Scalar;
 
 /// The largest number of boxes that a search tests.
-pub const CHECKS: u32 = 1_000_000;
+pub const MOST_BOXES: u32 = 1_000_000;
 
 /// The largest number of open boxes: one for each halving that led to the present one, at most 52 along each of three axes.
 const OPEN: usize = 160;
@@ -95,7 +95,7 @@ fn search<S: Scalar, P: PairShape>(points: &PairPoints<S>, limits: &Limits<S>) -
         if earliest.is_some_and(|(known, _)| time >= known) {
             continue;
         }
-        if checks == CHECKS {
+        if checks == MOST_BOXES {
             // This cell and every other open one may hold contact.
             let times = open.iter().map(|cell| cell.low[0]);
             let first = times.fold(time, |first, time| time.smaller(first));

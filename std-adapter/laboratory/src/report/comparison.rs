@@ -1,6 +1,6 @@
 //! Writes a comparison as the paper's Table 1, as a page.
 
-use super::number::{ABSENT, counted, few};
+use super::number::{ABSENT, counted, three_figures};
 use super::page;
 use super::paper::{paper_row, printed};
 use super::{mesh_size, printable};
@@ -36,12 +36,12 @@ fn cells(row: &ComparisonRow) -> (String, Vec<String>) {
     let distributed = survivors(|stage| stage == Stage::Distribution);
     let contacts = survivors(|stage| stage == Stage::Elementary);
     let pairs = |counts: Option<MeanCounts>| match counts {
-        Some(counts) => [few(counts.vertex_face), few(counts.edge_edge)],
+        Some(counts) => [three_figures(counts.vertex_face), three_figures(counts.edge_edge)],
         None => [ABSENT; 2].map(str::to_owned),
     };
     let counts = [distributed, after_boxes, Some(row.candidates), contacts];
     let mut numbers = counts.map(pairs).concat();
-    numbers.push(few(row.frames_per_second));
+    numbers.push(three_figures(row.frames_per_second));
     numbers.extend(printed(row.preset));
     let dagger = if row.preset.is_reconstructed() { " †" } else { "" };
     (format!("{}{dagger}", row.preset), numbers)
@@ -92,7 +92,7 @@ fn subtitle(comparison: &Comparison) -> String {
         counted(comparison.rounds, "round"),
     );
     if let Some(row) = comparison.rows.iter().find(|row| row.has_triangle_pairs) {
-        subtitle += &format!("; {} candidate triangle pairs a step", few(row.triangle_pairs));
+        subtitle += &format!("; {} candidate triangle pairs a step", three_figures(row.triangle_pairs));
     }
     subtitle
 }

@@ -20,7 +20,15 @@ macro_rules! field {
         |$row| Some($row.$counts.$kind.to_string())
     };
     (seconds of $stage:ident) => {
-        |row| Some(row.stages.iter().find(|own| own.stage == Stage::$stage)?.seconds.to_string())
+        |row| {
+            Some(
+                row.stages
+                    .iter()
+                    .find(|report| report.stage == Stage::$stage)?
+                    .seconds
+                    .to_string(),
+            )
+        }
     };
 }
 

@@ -53,7 +53,7 @@ fn step_stages(report: &StepReport) -> Vec<Value> {
         None => broad_phase(report.triangle_pairs, report.broad_phase_seconds),
     };
     let later = report.stages.iter();
-    let later = later.map(|own| stage(own.stage, counts(own.survivors), own.seconds));
+    let later = later.map(|report| stage(report.stage, counts(report.survivors), report.seconds));
     [first].into_iter().chain(later).collect()
 }
 
@@ -123,7 +123,7 @@ fn comparison_stages(row: &ComparisonRow) -> Vec<Value> {
         stage(Stage::BroadPhase, counts(row.after_boxes), row.broad_phase_seconds)
     };
     let later = row.stages.iter();
-    let later = later.map(|own| stage(own.stage, counts(own.survivors), own.seconds));
+    let later = later.map(|report| stage(report.stage, counts(report.survivors), report.seconds));
     [first].into_iter().chain(later).collect()
 }
 
@@ -287,8 +287,8 @@ pub fn scaling(preset: Preset, threads: usize, points: &[ScalingPoint]) -> Value
     })
 }
 
-/// Returns the simulation's errors against laws, for `selvedge truths`: one row for each law, mesh, accuracy and pace. Errors that are not
-/// numbers are null.
+/// Returns the simulation's errors against laws, for `selvedge truths`: one row for each law, mesh, accuracy and pace. Errors
+/// that are not numbers are null.
 #[must_use]
 pub fn truths(all: &[LawRuns]) -> Value {
     let rows = all.iter().flat_map(|LawRuns { law, runs, .. }| {

@@ -35,7 +35,7 @@ pub(super) fn ordinal(number: u64) -> String {
 }
 
 /// Writes any number with three significant digits, or all digits before the point, and no zeros at the end: `0.00123`, `1,345`.
-pub(super) fn few(number: f64) -> String {
+pub(super) fn three_figures(number: f64) -> String {
     finite(number, |number| {
         let size = number.abs();
         let text = match size {
@@ -69,7 +69,7 @@ pub(super) fn percent(part: usize, whole: usize, decimals: usize) -> String {
 
 /// Writes a share as a percentage with three significant digits.
 pub(super) fn share(share: f64) -> String {
-    finite(share, |share| format!("{}\u{a0}%", few(100.0 * share)))
+    finite(share, |share| format!("{}\u{a0}%", three_figures(100.0 * share)))
 }
 
 /// Writes a time in a suitable unit, with three digits: `12.3 ms`.
@@ -87,7 +87,7 @@ pub(super) fn time(seconds: f64) -> String {
 
 /// Writes a time in a simulation: `0.225 s`.
 pub(super) fn moment(seconds: f64) -> String {
-    finite(seconds, |seconds| format!("{} s", few(seconds)))
+    finite(seconds, |seconds| format!("{} s", three_figures(seconds)))
 }
 
 /// Writes a time with its sign: `+12.3 ms`.
@@ -99,7 +99,7 @@ pub(super) fn signed_time(seconds: f64) -> String {
 /// Writes a round time, on an axis: `1 µs`, `10 ms`.
 pub(super) fn round_time(seconds: f64) -> String {
     match in_unit(seconds) {
-        (number, unit) if (1e-3..1e6).contains(&number) => format!("{} {unit}", few(number)),
+        (number, unit) if (1e-3..1e6).contains(&number) => format!("{} {unit}", three_figures(number)),
         _ => format!("{} s", magnitude(seconds)),
     }
 }
@@ -153,7 +153,7 @@ mod tests {
     #[test]
     fn numbers_and_times_have_three_figures() {
         assert_eq!(
-            [0.0, 1.5, 34.22, 99.96, 1122.4, -0.001_234, 1.2e-7, -1234.5, f64::INFINITY].map(few),
+            [0.0, 1.5, 34.22, 99.96, 1122.4, -0.001_234, 1.2e-7, -1234.5, f64::INFINITY].map(three_figures),
             ["0", "1.5", "34.2", "100", "1,122", "−0.00123", "1.20e-7", "−1,235", "–"]
         );
         assert_eq!(

@@ -1,7 +1,7 @@
 //! Reports where surfaces pass through each other, in meshes at rest and in scenes at their start. Writes a list, and a mesh with
 //! the place in red.
 
-use super::number::{counted, few, grouped, time};
+use super::number::{counted, grouped, three_figures, time};
 use super::tables;
 use ::csv::Writer;
 use selvedge::glam::DVec3;
@@ -56,7 +56,7 @@ fn kind(intersection: &Intersection) -> usize {
 impl MeshCheck {
     /// Makes a check with these intersections, all of the mesh's.
     pub fn from_intersections(name: String, topology: &Topology, intersections: &[Intersection], seconds: f64) -> Self {
-        let with_corners = |own: &Intersection| (*own, corners(topology, own));
+        let with_corners = |found: &Intersection| (*found, corners(topology, found));
         Self {
             intersections: Some(intersections.iter().map(with_corners).collect()),
             ..Self::from_verdict(name, topology, intersections.is_empty(), seconds)
@@ -385,7 +385,7 @@ fn untangled_sentence(untangled: &Untangled) -> String {
         counted(untangled.crossings as u64, "place"),
         counted(u64::from(untangled.steps), "step"),
         time(untangled.seconds),
-        few(1e3 * untangled.farthest),
+        three_figures(1e3 * untangled.farthest),
         untangled.stretch.percentile_99,
         untangled.stretch.largest,
     )

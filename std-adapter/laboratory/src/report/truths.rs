@@ -1,6 +1,6 @@
 //! Writes the simulation's errors against laws as a page.
 
-use super::number::{few, share, time};
+use super::number::{share, three_figures, time};
 use super::page::document;
 use super::plot::{convergence_svg, cost_of_accuracy_svg, cost_of_law_svg, truth_svg};
 use super::prior::PriorRuns;
@@ -13,12 +13,12 @@ use maud::{Markup, html};
 pub(super) fn error(law: &Law, error: f64) -> String {
     match law.error {
         ErrorUnit::Of(_) => share(error),
-        ErrorUnit::In(unit) => format!("{} {unit}", few(error)),
+        ErrorUnit::In(unit) => format!("{} {unit}", three_figures(error)),
     }
 }
 
-/// Returns a self-contained page: each law with its plots and errors, and all errors against the time of a run. The runs of another revision have
-/// lines of their own, and a table.
+/// Returns a self-contained page: each law with its plots and errors, and all errors against the time of a run. The runs of
+/// another revision have lines of their own, and a table.
 #[must_use]
 pub fn truths_html(all: &[LawRuns], prior: Option<&PriorRuns>) -> String {
     let body = html! {
@@ -111,7 +111,7 @@ fn beside(all: &[LawRuns], prior: &PriorRuns) -> Markup {
                     th scope="row" { (law.name.replace('_', " ")) }
                     td { (run.conditions.pace) } td { (run.conditions.accuracy.name) }
                     td { (error(law, before.error)) } td { (error(law, run.error())) }
-                    td { (time(before.seconds)) } td { (few(run.seconds / before.seconds)) }
+                    td { (time(before.seconds)) } td { (three_figures(run.seconds / before.seconds)) }
                 } } }
             } }
         }

@@ -1,9 +1,10 @@
-//! Steady wind on cloth that is held, and still air around cloth that falls. The air pushes along the normal n with ½ρc·(u·n)², u the relative velocity,
-//! ρ = 1.2 kg/m³, c = 1.
+//! Steady wind on cloth that is held, and still air around cloth that falls. The air pushes along the normal n with ½ρc·(u·n)², u
+//! the relative velocity, ρ = 1.2 kg/m³, c = 1.
 //!
-//! **A sail** that is held at two sides, 1 m apart, across a wind of the speed u: no force acts along the cloth, so that its tension T is the same everywhere.
-//! At the angle θ to the chord the pressure is q·cos²θ with q = ½ρc·u². So T·dθ/ds = q·cos²θ, which is the catenary of the parameter a = T/q. Its
-//! length is 2a·sinh(1/2a) = 1 + T/k. Chords have an error of 0.12 % of the sag with 16 cells. It falls with their square.
+//! **A sail** that is held at two sides, 1 m apart, across a wind of the speed u: no force acts along the cloth, so that its
+//! tension T is the same everywhere. At the angle θ to the chord the pressure is q·cos²θ with q = ½ρc·u². So T·dθ/ds = q·cos²θ,
+//! which is the catenary of the parameter a = T/q. Its length is 2a·sinh(1/2a) = 1 + T/k. Chords have an error of 0.12 % of the
+//! sag with 16 cells. It falls with their square.
 //!
 //! **A free sheet** of the mass σ (kg/m²) falls flat at √(2σg/ρc) in the end.
 

@@ -1,12 +1,13 @@
 //! Light cloth that carries a heavy load: a cord with a weight, a strip and a sheet under a heavy patch.
 //!
-//! **A cord** of the stiffness EA bears the tension T with the strain T/EA. A weight m that hangs from it has T = m·g, and half of the cord's own weight
-//! on the average. Where the weight starts at rest at the angle φ, it passes the lowest point with T = m·g·(3 − 2cos φ). Its period is
-//! 4√(L/g)·K(sin ½φ), with the complete elliptic integral K, and L from the pin to the centre of the weight. The weight is a short rod of
-//! two masses. Its own turning changes L by the square of half its length, 0.003 %.
+//! **A cord** of the stiffness EA bears the tension T with the strain T/EA. A weight m that hangs from it has T = m·g, and half
+//! of the cord's own weight on the average. Where the weight starts at rest at the angle φ, it passes the lowest point with T =
+//! m·g·(3 − 2cos φ). Its period is 4√(L/g)·K(sin ½φ), with the complete elliptic integral K, and L from the pin to the centre of
+//! the weight. The weight is a short rod of two masses. Its own turning changes L by the square of half its length, 0.003 %.
 //!
-//! **A strip** that is held at two sides and carries a heavy, soft strip around its middle is an elastic catenary with the weight of both there: its
-//! horizontal tension H is the same everywhere, and its vertical tension V is the weight below ([`LoadedStrip`]).
+//! **A strip** that is held at two sides and carries a heavy, soft strip around its middle is an elastic catenary with the weight
+//! of both there: its horizontal tension H is the same everywhere, and its vertical tension V is the weight below
+//! ([`LoadedStrip`]).
 //!
 //! **A sheet** that is held at its border has no closed form: [`HEAVY_PATCH`].
 
@@ -173,8 +174,9 @@ struct LoadedStrip {
 }
 
 impl LoadedStrip {
-    /// Returns width and depth from the middle to the side, in m, for a horizontal tension H in N/m. From a vertical tension of V to one of V′, over the
-    /// length s, the width grows by H·s/k + H/w·(asinh V′/H − asinh V/H) and the depth by (V′² − V²)/2wk + H/w·(√(1 + V′²/H²) − √(1 + V²/H²)).
+    /// Returns width and depth from the middle to the side, in m, for a horizontal tension H in N/m. From a vertical tension of V
+    /// to one of V′, over the length s, the width grows by H·s/k + H/w·(asinh V′/H − asinh V/H) and the depth by (V′² − V²)/2wk +
+    /// H/w·(√(1 + V′²/H²) − √(1 + V²/H²)).
     fn size(&self, tension: f64) -> [f64; 2] {
         let part = |weight: f64, length: f64, before: f64| {
             let after = before + weight * length;
@@ -266,8 +268,9 @@ fn lowest(run: &Simulation) -> f64 {
     run.positions()[own].iter().map(|point| point.z).fold(f64::INFINITY, f64::min)
 }
 
-/// The masses of patches in kg/m², and the sags of the sheet under them, in m. They are those of the least energy of the mesh of 20 cells with the masses of
-/// the patch's vertices on those below them: a minimisation by quasi-Newton steps in another program, down to forces of 1e-7 N.
+/// The masses of patches in kg/m², and the sags of the sheet under them, in m. They are those of the least energy of the mesh of
+/// 20 cells with the masses of the patch's vertices on those below them: a minimisation by quasi-Newton steps in another program,
+/// down to forces of 1e-7 N.
 const SAGS: [[f64; 2]; 3] = [[0.5, 8.5393e-3], [5.0, 17.785e-3], [20.0, 28.2078e-3]];
 
 pub(super) const HEAVY_PATCH: Law = Law {

@@ -1,15 +1,16 @@
 //! Pressure: balloons, a gas, and a strip that is held at two sides.
 //!
-//! **A closed skin** of the stiffness k (N/m, in all directions) around a ball of the radius R at rest grows by the factor l. Its energy is k(l − 1)²
-//! on each area at rest, and the pressure p does the work p·4πR²·l²·R·dl. At rest 2k(l − 1) = p·R·l². A polyhedron that grows evenly obeys the
-//! same equation if R is three times its volume over its area at rest. Its flat faces grow nearly evenly: the least energy of a mesh has another growth by at most 0.4, 0.2 and
-//! 0.04 % of it with 6, 10 and 16 edges (foil; less the more the skin grows).
+//! **A closed skin** of the stiffness k (N/m, in all directions) around a ball of the radius R at rest grows by the factor l. Its
+//! energy is k(l − 1)² on each area at rest, and the pressure p does the work p·4πR²·l²·R·dl. At rest 2k(l − 1) = p·R·l². A
+//! polyhedron that grows evenly obeys the same equation if R is three times its volume over its area at rest. Its flat faces grow
+//! nearly evenly: the least energy of a mesh has another growth by at most 0.4, 0.2 and 0.04 % of it with 6, 10 and 16 edges
+//! (foil; less the more the skin grows).
 //!
 //! **A gas** of the modulus K that has room in r times the volume V₀ has the pressure p = K(1 − V/(r·V₀)), V = l³·V₀.
 //!
-//! **A strip** of the length 1 m that is held at two sides, 1 m apart, is an arc of a circle: pressure acts along the normal, so that the tension T
-//! is the same everywhere, and T = p·R. The length of the arc is 2R·asin(1/2R) = 1 + T/k. Chords instead of the arc, and their loads at their ends, have
-//! an error of 0.12 % of the sag with 16 cells. It falls with their square.
+//! **A strip** of the length 1 m that is held at two sides, 1 m apart, is an arc of a circle: pressure acts along the normal, so
+//! that the tension T is the same everywhere, and T = p·R. The length of the arc is 2R·asin(1/2R) = 1 + T/k. Chords instead of
+//! the arc, and their loads at their ends, have an error of 0.12 % of the sag with 16 cells. It falls with their square.
 //!
 //! **Half a balloon** pulls at its border with p times the area in the border, whatever its shape and stiffness.
 
@@ -49,8 +50,8 @@ const LATEX: Skin = Skin {
     stiffness: 375.0,
 };
 
-/// Returns a ball from an octahedron whose edges are cut into a number of parts. On an irregular grid vertices are moved on the ball, except those at
-/// height zero.
+/// Returns a ball from an octahedron whose edges are cut into a number of parts. On an irregular grid vertices are moved on the
+/// ball, except those at height zero.
 fn ball(grid: Grid) -> Mesh {
     let count = grid.number as i32;
     let (mut mesh, mut known, mut random) = (Mesh::default(), BTreeMap::new(), Rng::with_seed(7));
@@ -332,8 +333,8 @@ fn flat_area(mesh: &Mesh) -> f64 {
     parts.sum()
 }
 
-/// Returns the forces of pressure and of a [membrane](super::setting::membrane) whose warp is along z, in N. The energy on the area A is
-/// ½A·(k(|u| − 1)² + k(|v| − 1)² + k′(u·v)²), where u and v are the images of a unit of warp and of weft.
+/// Returns the forces of pressure and of a [membrane](super::setting::membrane) whose warp is along z, in N. The energy on the
+/// area A is ½A·(k(|u| − 1)² + k(|v| − 1)² + k′(u·v)²), where u and v are the images of a unit of warp and of weft.
 fn forces(mesh: &Mesh, positions: &[DVec3], stiffness: f64, pressure: f64) -> Vec<DVec3> {
     let mut forces = vec![DVec3::ZERO; positions.len()];
     for triangle in &mesh.triangles {

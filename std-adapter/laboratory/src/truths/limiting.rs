@@ -1,10 +1,12 @@
 //! Strain limits, and jerks: how long edges ever become.
 //!
-//! **A jerk.** One side of a strip suddenly moves away with the velocity v. A wave of the strain v/c runs through the strip, c = √(k/ρ), and is reflected
-//! at the free end as a wave that takes the strain away. So no edge becomes longer than 1 + v/c, at any step.
+//! **A jerk.** One side of a strip suddenly moves away with the velocity v. A wave of the strain v/c runs through the strip, c =
+//! √(k/ρ), and is reflected at the free end as a wave that takes the strain away. So no edge becomes longer than 1 + v/c, at any
+//! step.
 //!
-//! **A strip over a rod** without friction has the same tension everywhere. If its ends are pulled until its path is 2 % longer than the strip, all
-//! edges are 2 % longer. Chords are shorter than the arc on the rod: by 0.4 % of the length at 30 cells, 0.1 % at 60.
+//! **A strip over a rod** without friction has the same tension everywhere. If its ends are pulled until its path is 2 % longer
+//! than the strip, all edges are 2 % longer. Chords are shorter than the arc on the rod: by 0.4 % of the length at 30 cells, 0.1
+//! % at 60.
 
 use super::conditions::{Conditions, irregular, regular};
 use super::run::Run;

@@ -143,8 +143,8 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// Returns the largest difference between the simulation and the law, in the law's [unit](Law::error). It is NaN if the run failed, or if its
-    /// result is not a number.
+    /// Returns the largest difference between the simulation and the law, in the law's [unit](Law::error). It is NaN if the run
+    /// failed, or if its result is not a number.
     #[must_use]
     pub fn error(&self) -> f64 {
         self.largest(|sample| Some(sample.exact)).unwrap_or(f64::NAN)

@@ -49,7 +49,8 @@ pub(super) const LANDING: Law = Law {
     },
 };
 
-/// Sets up a stack of sheets of 16 cells with a little room between them, and lets it settle for a second. Irregular sheets are all alike.
+/// Sets up a stack of sheets of 16 cells with a little room between them, and lets it settle for a second. Irregular sheets are
+/// all alike.
 fn stack(conditions: &Conditions) -> Result<Run, Failure> {
     let layer = |k: u32| -> Result<_, Failure> {
         let height = 1.1 * THICKNESS * f64::from(k + 1);

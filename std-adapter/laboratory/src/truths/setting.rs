@@ -65,8 +65,8 @@ pub(super) fn square(side: f64, height: f64, grid: Grid) -> Result<Cloth, Failur
     sheet(corner, [side * DVec3::X, side * DVec3::Y], cells, DENSITY, grid, |_| false)
 }
 
-/// Makes a parallelogram as [`Cloth::sheet`], whose warp follows the first side. On an irregular grid it moves the inner vertices, but not those
-/// for which `stays` holds.
+/// Makes a parallelogram as [`Cloth::sheet`], whose warp follows the first side. On an irregular grid it moves the inner
+/// vertices, but not those for which `stays` holds.
 pub(super) fn sheet(
     corner: DVec3,
     sides: [DVec3; 2],
@@ -83,7 +83,8 @@ pub(super) fn sheet(
     Ok(Cloth::from_mesh(mesh, sides[0], density)?)
 }
 
-/// Returns a mesh of [`Cloth::sheet`] whose inner vertices are moved in its plane by up to 0.3 of a cell, except those for which `stays` holds.
+/// Returns a mesh of [`Cloth::sheet`] whose inner vertices are moved in its plane by up to 0.3 of a cell, except those for which
+/// `stays` holds.
 fn jittered(regular: &Mesh, sides: [DVec3; 2], cells: [u32; 2], stays: impl Fn(DVec3) -> bool) -> Mesh {
     let mut mesh = regular.clone();
     let mut random = Rng::with_seed(7);
@@ -100,7 +101,8 @@ fn jittered(regular: &Mesh, sides: [DVec3; 2], cells: [u32; 2], stays: impl Fn(D
     mesh
 }
 
-/// Makes a rectangle in the plane of two sides, around the origin, with irregular triangles. They have no direction that the law could depend on.
+/// Makes a rectangle in the plane of two sides, around the origin, with irregular triangles. They have no direction that the law
+/// could depend on.
 pub(super) fn irregular_body(name: &str, sides: [DVec3; 2], cells: [u32; 2]) -> Result<Body, Failure> {
     let grid = Cloth::sheet(-0.5 * (sides[0] + sides[1]), sides, cells, DENSITY)?;
     Ok(Body::from_mesh(name, jittered(grid.mesh(), sides, cells, |_| false)))

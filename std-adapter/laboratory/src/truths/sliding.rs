@@ -15,8 +15,8 @@ use std::f64::consts::{FRAC_PI_4, PI};
 const THICKNESS: f64 = 3e-3;
 const TIME: f64 = 0.48;
 
-/// Sets up a sheet on a plane of irregular triangles through the origin, `cells` of them across and five times as many along. A plane of
-/// one cell has two triangles.
+/// Sets up a sheet on a plane of irregular triangles through the origin, `cells` of them across and five times as many along. A
+/// plane of one cell has two triangles.
 fn on_plane([down, normal]: [DVec3; 2], acceleration: DVec3, friction: f64, conditions: &Conditions) -> Result<Run, Failure> {
     let cells = conditions.grid.number;
     let across = normal.cross(down);

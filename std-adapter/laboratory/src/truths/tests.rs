@@ -12,8 +12,8 @@ fn tested(law: &Law) -> &'static [Grid] {
     &meshes[..(meshes.len() - 1).max(1)]
 }
 
-/// Asserts the largest errors in steps of 1 and 4 ms and by frames, and beyond those of the time stepping. Returns the errors of regular meshes at the
-/// shortest step.
+/// Asserts the largest errors in steps of 1 and 4 ms and by frames, and beyond those of the time stepping. Returns the errors of
+/// regular meshes at the shortest step.
 fn check(name: &str, largest: [f64; 3], unpredicted: f64) -> Vec<f64> {
     let law = LAWS.iter().find(|law| law.name == name).expect("a law");
     let mut of_regular = Vec::new();
@@ -47,7 +47,8 @@ fn falls_with_the_edges(errors: &[f64]) {
     assert!(errors[1] < 0.65 * errors[0], "{errors:?}");
 }
 
-/// A test for each law, with its largest errors in steps of 1 and 4 ms and by frames, and the largest beyond the time stepping's own.
+/// A test for each law, with its largest errors in steps of 1 and 4 ms and by frames, and the largest beyond the time stepping's
+/// own.
 macro_rules! laws {
     ($($(#[$attribute:meta])* $name:ident: $largest:expr, $unpredicted:expr $(, $then:expr)?;)*) => {
         $(#[test]

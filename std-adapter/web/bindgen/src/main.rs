@@ -45,8 +45,8 @@ fn with_errors(script: &str) -> Result<String, String> {
     Ok(made)
 }
 
-/// Declares the classes and functions alone, without the functions that load the module. Those name types of the DOM, which a program
-/// in Node may not have; the package has its own `load`.
+/// Declares the classes and functions alone, without the functions that load the module. Those name types of the DOM, which a
+/// program in Node may not have; the package has its own `load`.
 fn without_loading(declarations: &str) -> Result<String, String> {
     let (own, _) = declarations
         .split_once("export type InitInput")

@@ -65,10 +65,13 @@ pub(crate) fn known<P: Position>(
     let mut geometries = Vec::new();
     prop_assert_eq!(world.contact_geometries(contacts, &mut geometries), Ok(()));
     let mut known = Vec::new();
-    for (contact, own) in contacts.iter().zip(&geometries) {
-        prop_assert_eq!((own.kind, own.meshes, own.pair), (contact.kind, contact.meshes, contact.pair));
-        prop_assert_eq!(world.contact_geometry(contact), Ok(*own));
-        known.push((*contact, own.vertices, own.geometry));
+    for (contact, shown) in contacts.iter().zip(&geometries) {
+        prop_assert_eq!(
+            (shown.kind, shown.meshes, shown.pair),
+            (contact.kind, contact.meshes, contact.pair)
+        );
+        prop_assert_eq!(world.contact_geometry(contact), Ok(*shown));
+        known.push((*contact, shown.vertices, shown.geometry));
     }
     Ok(sorted(known))
 }

@@ -1,8 +1,8 @@
 //! The exact decision whether a pair touches at some time in [0, 1], without rounding and without tolerance.
 //!
 //! # At one time
-//! The two sets touch when the hull of the pair's corners contains the origin: a triangle (VF) or a parallelogram (EE) with corners
-//! e₁ … e_N in order. That is so exactly if
+//! The two sets touch when the hull of the pair's corners contains the origin: a triangle (VF) or a parallelogram (EE) with
+//! corners e₁ … e_N in order. That is so exactly if
 //! 1. the origin is in a plane with them: the signed volume K = e₁·(e₂ × e₃), which is that of [`kernel`], is zero;
 //! 2. along no axis do the cross products e₁×e₂, e₂×e₃, …, e_N×e₁ have components of both signs;
 //! 3. along no axis do all corners have coordinates of one strict sign.

@@ -1,7 +1,7 @@
 //! Whole numbers in two's complement, the lowest word first.
 //!
-//! [`Integer`] is an array, for widths that the compiler knows: the fastest form for a few words. [`Words`] is a slice of as many words
-//! as the number needs, out of one [`Space`].
+//! [`Integer`] is an array, for widths that the compiler knows: the fastest form for a few words. [`Words`] is a slice of as many
+//! words as the number needs, out of one [`Space`].
 
 mod limbs;
 mod space;

@@ -61,15 +61,15 @@ impl Hierarchies {
 
     /// Replaces `vertices` by those of many pairs of one kind.
     pub(crate) fn vertices_of_all(&self, kind: PairKind, pairs: &[[u32; 2]], vertices: &mut [[u32; 4]]) {
-        let own = vertices.iter_mut().zip(pairs);
+        let filled = vertices.iter_mut().zip(pairs);
         match kind {
             PairKind::VertexFace => {
-                for (vertices, &pair) in own {
+                for (vertices, &pair) in filled {
                     *vertices = self.vertices(PairKind::VertexFace, pair);
                 }
             }
             PairKind::EdgeEdge => {
-                for (vertices, &pair) in own {
+                for (vertices, &pair) in filled {
                     *vertices = self.vertices(PairKind::EdgeEdge, pair);
                 }
             }

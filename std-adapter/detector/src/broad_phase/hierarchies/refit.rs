@@ -37,8 +37,8 @@ impl Hierarchies {
         self.boxes.resize(vertices.len(), MovingBox::empty());
         let moving = self.moving.as_deref().filter(|_| only_moving);
         parallel::for_each_chunk_with_chunk(rows, &mut self.boxes, VERTICES, |first, rows, boxes| {
-            let own = rows.iter_mut().zip(boxes).zip(&vertices[first..]);
-            for ((own_row, moving_box), &vertex) in own {
+            let of_boxes = rows.iter_mut().zip(boxes).zip(&vertices[first..]);
+            for ((own_row, moving_box), &vertex) in of_boxes {
                 let vertex = vertex as usize;
                 if moving.is_none_or(|moving| moving[vertex]) {
                     let motion = motions.motion(vertex);

@@ -158,12 +158,15 @@ pub(crate) fn between_poses(shape: &[DVec3], [start, end]: [Pose; 2], rounded: f
         parallel::fill(&mut pieces, shape, piece);
         // `max` drops NaN; the product keeps it.
         let deviations = pieces.iter().map(|piece| piece.deviation);
-        let deviation = deviations.fold(0.0, |most: f64, own| most.max(own) + 0.0 * own);
+        let deviation = deviations.fold(0.0, |most: f64, deviation| most.max(deviation) + 0.0 * deviation);
         (
             Frames(pieces.iter().map(|piece| piece.motion).collect()),
             Moves::Turning(motion, deviation),
         )
     };
-    let are_finite = frames.0.iter().all(|own| own.start.is_finite() && own.end.is_finite());
+    let are_finite = frames
+        .0
+        .iter()
+        .all(|motion| motion.start.is_finite() && motion.end.is_finite());
     (are_finite && moves.deviation().is_finite()).then_some((frames, moves))
 }

@@ -1,7 +1,7 @@
 //! Reads numbers from bytes, and checks every range.
 
 use super::{File, wrong};
-use crate::animation::error::AnimationProblem;
+use crate::problem::AnimationProblem;
 use gltf::accessor::{Accessor, DataType, Dimensions};
 use gltf::buffer::View;
 use selvedge_core::glam::DVec3;

@@ -1,7 +1,7 @@
 //! The bytes that a file points to: in the file, beside it, or written in it as text.
 
 use super::short;
-use crate::animation::error::AnimationProblem;
+use crate::problem::AnimationProblem;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use gltf::buffer::Source;

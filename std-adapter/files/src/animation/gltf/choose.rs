@@ -2,7 +2,7 @@
 
 use super::{File, label, short};
 use crate::animation::Choice;
-use crate::animation::error::{AnimationProblem, Choices};
+use crate::problem::{AnimationProblem, Choices};
 
 impl<'a> File<'a> {
     /// Returns the nodes with a mesh that have a name or a path, or all nodes with a mesh in the scene.

@@ -2,8 +2,8 @@
 //! cameras, attributes of applications, and extensions for these, even if the file requires them.
 
 use super::short;
-use crate::animation::error::AnimationProblem;
 use crate::mesh::{FilePart, LeftOut};
+use crate::problem::AnimationProblem;
 use serde_json::{Map, Value};
 
 /// The beginnings of names of extensions that do not change the positions of vertices.

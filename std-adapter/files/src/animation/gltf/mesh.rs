@@ -1,8 +1,9 @@
 //! All primitives of a mesh as one: triangles, vertices, morph targets, and the joints of each vertex.
 
 use super::{File, wrong};
-use crate::animation::error::AnimationProblem;
-use crate::mesh::{FilePart, FileProblem, LeftOut};
+use crate::mesh::{FilePart, LeftOut};
+use crate::problem::AnimationProblem;
+use crate::problem::FileProblem;
 use gltf::accessor::Dimensions;
 use gltf::mesh::{Mode, Primitive, Semantic};
 use selvedge_core::glam::DVec3;
@@ -153,7 +154,8 @@ fn is_index(number: f64, count: usize) -> bool {
     number >= 0.0 && number < count as f64 && number.fract() == 0.0
 }
 
-/// Appends the triangles of a list, a strip or a fan of vertices. Those of a strip or fan that name a vertex twice only join two parts.
+/// Appends the triangles of a list, a strip or a fan of vertices. Those of a strip or fan that name a vertex twice only join two
+/// parts.
 fn push_triangles(mode: Mode, indices: &[u32], triangles: &mut Vec<[u32; 3]>) {
     let is_proper = |[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
     match mode {

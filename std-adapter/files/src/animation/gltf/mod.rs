@@ -11,11 +11,13 @@ mod tracks;
 mod trusted;
 
 use super::Choice;
-use super::error::AnimationProblem;
 use super::figure::{Figure, Part, Shape, Skin, Target};
 use crate::bytes::Fingerprint;
 use crate::excerpt::excerpt;
-use crate::mesh::{FileProblem, LeftOut, check_finite};
+use crate::mesh::LeftOut;
+use crate::mesh::checks::check_finite;
+use crate::problem::AnimationProblem;
+use crate::problem::FileProblem;
 use mesh::Parts;
 use selvedge::Mesh;
 use selvedge_core::glam::DAffine3;

@@ -1,8 +1,8 @@
 //! The nodes that a mesh depends on.
 
 use super::{File, label, short, wrong};
-use crate::animation::error::AnimationProblem;
 use crate::animation::figure::{Local, Node};
+use crate::problem::AnimationProblem;
 use gltf::accessor::Dimensions;
 use gltf::scene::Transform;
 use selvedge_core::glam::{DAffine3, DMat4, DQuat, DVec3};

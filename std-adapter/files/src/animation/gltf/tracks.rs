@@ -1,8 +1,8 @@
 //! The channels of an animation.
 
 use super::{File, label, short, wrong};
-use crate::animation::error::AnimationProblem;
 use crate::animation::track::{Interpolation, Property, Track};
+use crate::problem::AnimationProblem;
 use gltf::accessor::Dimensions;
 use gltf::scene::Transform;
 use selvedge_core::glam::DQuat;

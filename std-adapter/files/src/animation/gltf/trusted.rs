@@ -1,8 +1,8 @@
 //! Checks that the `gltf` crate omits.
 
 use super::short;
-use crate::animation::error::AnimationProblem;
 use crate::mesh::{FilePart, LeftOut};
+use crate::problem::AnimationProblem;
 use gltf::json::validation::Checked;
 
 /// Checks that a binary file is as long as its header says, and reports bytes after that. The `gltf` crate would take a length

@@ -1,30 +1,13 @@
 //! The elements of a PLY file.
 
-use super::super::error::FileProblem;
-use super::super::not_a_number;
+use super::super::checks::not_a_number;
+use super::super::format::PlyEncoding;
 use super::super::notes::{FilePart, LeftOut};
 use super::super::parsed::Parsed;
 use super::super::text::{Lines, fields, integer, is_space, number, quoted, trim};
 use super::header::{Element, Kind, Number, Property, Role};
 use super::{COORDINATES, element_problem};
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Encoding {
-    Ascii,
-    LittleEndian,
-    BigEndian,
-}
-
-impl Encoding {
-    pub(super) fn named(name: &[u8]) -> Option<Self> {
-        Some(match name {
-            b"ascii" => Self::Ascii,
-            b"binary_little_endian" => Self::LittleEndian,
-            b"binary_big_endian" => Self::BigEndian,
-            _ => return None,
-        })
-    }
-}
+use crate::problem::FileProblem;
 
 #[derive(Debug, Default)]
 pub(super) struct Row {
@@ -35,14 +18,14 @@ pub(super) struct Row {
 
 /// The bytes after the header.
 pub(super) struct Body<'a> {
-    encoding: Encoding,
+    encoding: PlyEncoding,
     /// The lines of a text file, or the bytes of a binary one.
     lines: Lines<'a>,
     rest: &'a [u8],
 }
 
 impl<'a> Body<'a> {
-    pub(super) fn new(encoding: Encoding, lines: Lines<'a>, bytes: &'a [u8]) -> Self {
+    pub(super) fn new(encoding: PlyEncoding, lines: Lines<'a>, bytes: &'a [u8]) -> Self {
         let mut rest = lines.rest();
         // If the lines of the header end in CR alone, the next byte belongs to the numbers, even if it looks like LF.
         let first_end = bytes.iter().position(|&byte| byte == b'\r' || byte == b'\n').unwrap_or(0);
@@ -60,7 +43,7 @@ impl<'a> Body<'a> {
         mut take: impl FnMut(usize, &Row, Option<usize>) -> Result<(), FileProblem>,
     ) -> Result<(), FileProblem> {
         self.check_room(element)?;
-        if self.encoding != Encoding::Ascii && element.properties.is_empty() {
+        if self.encoding != PlyEncoding::Ascii && element.properties.is_empty() {
             // Such elements take no bytes at all.
             return Ok(());
         }
@@ -68,9 +51,9 @@ impl<'a> Body<'a> {
         for index in 0..element.count {
             row.corners.clear();
             let line = match self.encoding {
-                Encoding::Ascii => Some(self.read_line(element, index, &mut row)?),
-                Encoding::LittleEndian => self.read_binary::<false>(element, index, &mut row)?,
-                Encoding::BigEndian => self.read_binary::<true>(element, index, &mut row)?,
+                PlyEncoding::Ascii => Some(self.read_line(element, index, &mut row)?),
+                PlyEncoding::LittleEndian => self.read_binary::<false>(element, index, &mut row)?,
+                PlyEncoding::BigEndian => self.read_binary::<true>(element, index, &mut row)?,
             };
             take(index, &row, line)?;
         }
@@ -82,7 +65,7 @@ impl<'a> Body<'a> {
         let properties = element.properties.iter();
         let (each, last, left) = match self.encoding {
             // An element takes a digit and a separator for each property, or an empty line. The last line may end with the file.
-            Encoding::Ascii => ((2 * properties.len()).max(1), 1, self.lines.rest().len()),
+            PlyEncoding::Ascii => ((2 * properties.len()).max(1), 1, self.lines.rest().len()),
             _ => (
                 properties.map(|property| property.kind.smallest_size()).sum(),
                 0,
@@ -151,7 +134,7 @@ impl<'a> Body<'a> {
     /// Reports the remaining bytes, unless they are white space or zeros.
     pub(super) fn finish(self, parsed: &mut Parsed) {
         let rest = match self.encoding {
-            Encoding::Ascii => self.lines.rest(),
+            PlyEncoding::Ascii => self.lines.rest(),
             _ => self.rest,
         };
         if rest.iter().all(|byte| is_space(byte) || *byte == 0) {
@@ -161,7 +144,7 @@ impl<'a> Body<'a> {
             FilePart::TrailingByte,
             "",
             rest.len(),
-            (self.encoding == Encoding::Ascii).then_some(self.lines.number + 1),
+            (self.encoding == PlyEncoding::Ascii).then_some(self.lines.number + 1),
             true,
         ));
     }

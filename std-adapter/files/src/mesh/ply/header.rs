@@ -1,9 +1,9 @@
 //! The header of a PLY file.
 
-use super::super::error::FileProblem;
+use super::super::format::PlyEncoding;
 use super::super::text::{Lines, fields, integer, quoted, without_byte_order_mark};
-use super::body::{Body, Encoding};
 use super::{COORDINATES, CORNERS, ENDS};
+use crate::problem::FileProblem;
 
 #[derive(Debug, Default)]
 pub(super) struct Header {
@@ -121,8 +121,17 @@ impl Element {
     }
 }
 
-/// Reads the header. Returns it with the rest of the file.
-pub(super) fn read(bytes: &[u8]) -> Result<(Header, Body<'_>), FileProblem> {
+fn encoding_named(name: &[u8]) -> Option<PlyEncoding> {
+    Some(match name {
+        b"ascii" => PlyEncoding::Ascii,
+        b"binary_little_endian" => PlyEncoding::LittleEndian,
+        b"binary_big_endian" => PlyEncoding::BigEndian,
+        _ => return None,
+    })
+}
+
+/// Reads the header. Returns it with the encoding and the lines after it.
+pub(super) fn read(bytes: &[u8]) -> Result<(Header, PlyEncoding, Lines<'_>), FileProblem> {
     let mut lines = Lines::new(without_byte_order_mark(bytes)?);
     if !lines.next().is_some_and(|line| fields(line).eq([b"ply"])) {
         return Err(FileProblem::Header(
@@ -136,7 +145,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Header, Body<'_>), FileProblem> {
         let words: Vec<&[u8]> = fields(text).take(6).collect();
         match words.as_slice() {
             [] | [b"comment" | b"obj_info", ..] => {}
-            [b"format", name, b"1.0"] if encoding.is_none() => match Encoding::named(name) {
+            [b"format", name, b"1.0"] if encoding.is_none() => match encoding_named(name) {
                 Some(known) => encoding = Some(known),
                 None => return Err(does_not_belong(line, text)),
             },
@@ -177,7 +186,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Header, Body<'_>), FileProblem> {
             [b"end_header"] => {
                 let encoding =
                     encoding.ok_or_else(|| FileProblem::Header("has no line 'format', such as 'format ascii 1.0'".to_owned()))?;
-                return Ok((header, Body::new(encoding, lines, bytes)));
+                return Ok((header, encoding, lines));
             }
             _ => return Err(does_not_belong(line, text)),
         }

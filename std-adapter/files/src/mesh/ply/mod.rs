@@ -11,25 +11,14 @@ mod write;
 
 pub(super) use write::write;
 
-use super::error::FileProblem;
+use super::checks::{check_finite, corner, vertex_index};
 use super::notes::{FilePart, LeftOut};
+use super::options::ReadOptions;
 use super::parsed::Parsed;
-use super::{ReadOptions, check_finite, corner, vertex_index};
-use body::Row;
+use crate::problem::FileProblem;
+use body::{Body, Row};
 use header::{Element, Header, Kind, Role};
 use selvedge_core::glam::DVec3;
-
-/// The form of the numbers of a PLY file.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum PlyEncoding {
-    /// Text.
-    Ascii,
-    /// Binary, least significant byte first.
-    #[default]
-    LittleEndian,
-    /// Binary, most significant byte first.
-    BigEndian,
-}
 
 const COORDINATES: [&str; 3] = ["x", "y", "z"];
 /// The names of the list of a face's vertices; both are in use.
@@ -41,7 +30,8 @@ pub(super) fn parse(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Parsed, F
     if options.only.is_some() {
         return Err(FileProblem::NoGroups);
     }
-    let (header, mut body) = header::read(bytes)?;
+    let (header, encoding, lines) = header::read(bytes)?;
+    let mut body = Body::new(encoding, lines, bytes);
     let vertex_count = header.vertex_count(options)?;
     let mut reader = Reader {
         vertex_count,

@@ -1,6 +1,6 @@
 //! Writes PLY.
 
-use super::PlyEncoding;
+use super::super::format::PlyEncoding;
 use selvedge::Mesh;
 use std::io::{self, Write};
 

@@ -1,7 +1,7 @@
 //! The sections on energy and on the stretch of the cloth, which are measured at frames.
 
 use super::tables;
-use crate::report::number::{few, moment};
+use crate::report::number::{moment, three_figures};
 use crate::report::recording::{GRAVITATIONAL, Measure, MeasureKind, Recording};
 use maud::{Markup, html};
 
@@ -48,7 +48,7 @@ impl<'a> Shown<'a> {
         let values = &self.values;
         let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let ends = [values.first(), values.last()].map(|end| end.copied().unwrap_or(f64::NAN));
-        (self.name, [ends[0], most, ends[1]].map(few))
+        (self.name, [ends[0], most, ends[1]].map(three_figures))
     }
 }
 
@@ -84,7 +84,7 @@ fn stretch(recording: &Recording) -> Markup {
     let rows = recording.measures_of(MeasureKind::Stretch).map(|measure| {
         let end = measure.values.last().copied().unwrap_or(f64::NAN);
         let when = moment(recording.end_of(measure.largest_step));
-        (&*measure.name, [few(end), few(measure.largest), when])
+        (&*measure.name, [three_figures(end), three_figures(measure.largest), when])
     });
     tables::table(["", "at the end", "largest, of all frames", "when"], rows)
 }

@@ -11,7 +11,7 @@ mod tests;
 
 pub(super) use self::measures::Shown;
 pub(super) use self::tables::bar;
-use super::number::{counted, few, grouped, moment, ordinal, time};
+use super::number::{counted, grouped, moment, ordinal, three_figures, time};
 use super::recording::{LONGEST_EDGE, Measure, PartKind, Recording, Series, SeriesKind};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
@@ -176,7 +176,7 @@ fn tiles(recording: &Recording) -> Markup {
     if let Some(seconds) = recording.wall_seconds {
         let steps = recording.steps as f64;
         tiles.push((time(seconds), "computed in".to_owned()));
-        tiles.push((few(steps / seconds), "steps a second".to_owned()));
+        tiles.push((three_figures(steps / seconds), "steps a second".to_owned()));
     }
     let step_of = |steps: &Series| format!("slowest {}, the {}", recording.about.unit, ordinal(steps.largest_step));
     tiles.extend(recording.step_times().map(|steps| (time(steps.largest), step_of(steps))));

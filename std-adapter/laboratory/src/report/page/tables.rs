@@ -1,7 +1,7 @@
 //! Tables with the numbers behind the charts.
 
 use super::super::label;
-use super::super::number::{few, share, signed_time, time};
+use super::super::number::{share, signed_time, three_figures, time};
 use super::super::recording::{Knob, Recording, Series, SeriesKind};
 use maud::{Markup, html};
 
@@ -37,7 +37,11 @@ pub(super) fn events(recording: &Recording) -> Markup {
 /// Returns values per step, the largest in a step, and for all steps.
 fn counts(recording: &Recording, series: &Series) -> [String; 3] {
     let a_step = series.total / recording.steps as f64;
-    [few(a_step), few(series.largest), few(series.total)]
+    [
+        three_figures(a_step),
+        three_figures(series.largest),
+        three_figures(series.total),
+    ]
 }
 
 /// Returns effects, the stages that they share, and the rest of the wall-clock time.
@@ -104,7 +108,7 @@ pub(super) fn gauges(recording: &Recording) -> Markup {
             return None;
         };
         let mean = series.total / recording.steps as f64;
-        let [least, mean, most] = [series.smallest, mean, series.largest].map(few);
+        let [least, mean, most] = [series.smallest, mean, series.largest].map(three_figures);
         Some((&*series.name, [least, mean, most, unit.to_owned()]))
     });
     table(["quantity", "least", "mean", "most", "unit"], rows)

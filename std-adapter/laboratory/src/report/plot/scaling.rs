@@ -5,7 +5,7 @@ use super::look::{Look, Shape};
 use super::picture::{Curve, Mark, Panel, Plot};
 use super::svg::{FAINT_INK, INK};
 use crate::methods::Stage;
-use crate::report::number::{few, grouped, round_time, time};
+use crate::report::number::{grouped, round_time, three_figures, time};
 use crate::study::ScalingPoint;
 
 const SIZE: [f64; 2] = [600.0, 400.0];
@@ -41,7 +41,7 @@ pub fn scaling_svg(points: &[ScalingPoint]) -> String {
             if triangles < 1e7 {
                 grouped(triangles as usize)
             } else {
-                few(triangles)
+                three_figures(triangles)
             }
         }),
         across: "triangles",

@@ -4,7 +4,7 @@ use super::axis::{LinearAxis, LogAxis};
 use super::look::{Look, Shape};
 use super::picture::{Curve, Mark, Panel, Plot};
 use super::svg::INK;
-use crate::report::number::{few, magnitude, round_time};
+use crate::report::number::{magnitude, round_time, three_figures};
 use crate::report::prior::{PriorRun, PriorRuns};
 use crate::truths::{ACCURACIES, LawRuns, Measured, Sample};
 
@@ -52,12 +52,12 @@ pub fn truth_svg(runs: &LawRuns) -> String {
     let ticks = axes[0]
         .ticks()
         .into_iter()
-        .map(|(place, value)| (place, Some(few(value))))
+        .map(|(place, value)| (place, Some(three_figures(value))))
         .collect();
     let rules = axes[1]
         .ticks()
         .into_iter()
-        .map(|(place, value)| (SIZE[1] - place, few(value)))
+        .map(|(place, value)| (SIZE[1] - place, three_figures(value)))
         .collect();
     let place = |[x, y]: [f64; 2]| [axes[0].place(x), SIZE[1] - axes[1].place(y)];
     let panels = [(String::new(), lines)];
@@ -67,7 +67,8 @@ pub fn truth_svg(runs: &LawRuns) -> String {
 const COST: &str = "Error against processor time";
 const COST_AXES: [&str; 2] = ["time of the run", "error"];
 
-/// Plots the errors of all laws on their finest mesh against the time of a run: a line for each law, with a point for each pace and accuracy.
+/// Plots the errors of all laws on their finest mesh against the time of a run: a line for each law, with a point for each pace
+/// and accuracy.
 #[must_use]
 pub fn cost_of_accuracy_svg(all: &[LawRuns]) -> String {
     let line = |(runs, colour): (&LawRuns, &&'static str)| {
@@ -78,8 +79,8 @@ pub fn cost_of_accuracy_svg(all: &[LawRuns]) -> String {
     errors_svg(COST, COST_AXES, LARGE, &[(String::new(), lines)])
 }
 
-/// Plots the errors of a law against the time of a run. A panel for each pace has a line for each accuracy, with a point for each regular mesh. Another
-/// revision has dashed lines.
+/// Plots the errors of a law against the time of a run. A panel for each pace has a line for each accuracy, with a point for each
+/// regular mesh. Another revision has dashed lines.
 #[must_use]
 pub fn cost_of_law_svg(runs: &LawRuns, prior: Option<&PriorRuns>) -> String {
     let paces = runs.by_accuracy().next().unwrap_or_default();

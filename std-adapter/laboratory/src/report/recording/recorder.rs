@@ -134,8 +134,8 @@ impl Recorder {
     pub fn split(&mut self, part: usize, copied: &[u32], triangles: Vec<[u32; 3]>) {
         let parts = &mut self.recording.parts;
         let first: usize = parts[..part].iter().map(Part::vertex_count).sum();
-        let own = &parts[part];
-        let end = first + own.vertex_count;
+        let torn = &parts[part];
+        let end = first + torn.vertex_count;
         self.frames.change(|positions| {
             for (place, &vertex) in copied.iter().enumerate() {
                 let of = first + vertex as usize;
@@ -143,7 +143,7 @@ impl Recorder {
                 positions.insert(end + place, positions[of]);
             }
         });
-        parts[part] = Part::new(own.name.clone(), own.kind, own.vertex_count + copied.len(), triangles);
+        parts[part] = Part::new(torn.name.clone(), torn.kind, torn.vertex_count + copied.len(), triangles);
     }
 
     /// Records the values of all measures after `step` steps, in their order. Steps are as for [`frame`](Self::frame).

@@ -54,12 +54,12 @@ impl Shown {
     }
 
     /// Adds the positions, when the cloth's vertices are at `own`.
-    pub(super) fn place(&self, own: &[DVec3], shown: &mut Vec<DVec3>) {
-        shown.extend_from_slice(&own[..self.own_vertices()]);
+    pub(super) fn place(&self, positions: &[DVec3], shown: &mut Vec<DVec3>) {
+        shown.extend_from_slice(&positions[..self.own_vertices()]);
         if let Some(tubes) = &self.tubes {
-            tubes.place(own, shown);
+            tubes.place(positions, shown);
         }
-        shown.extend_from_slice(&own[self.vertices..]);
+        shown.extend_from_slice(&positions[self.vertices..]);
     }
 }
 

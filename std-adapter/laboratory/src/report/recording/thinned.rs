@@ -46,15 +46,15 @@ impl<N> Thinned<N> {
     /// Offers values. Steps must increase; a second offer after the same step replaces the first.
     pub(super) fn offer(&mut self, step: u64, values: impl Iterator<Item = N>) {
         let last = self.skipped.as_mut().or(self.kept.last_mut());
-        if let Some((_, own)) = last.filter(|(last, _)| *last == step) {
-            own.clear();
-            own.extend(values);
+        if let Some((_, state)) = last.filter(|(last, _)| *last == step) {
+            state.clear();
+            state.extend(values);
             return;
         }
         // This reuses its memory.
-        let (_, mut own) = self.skipped.take().unwrap_or_default();
-        own.clear();
-        own.extend(values);
+        let (_, mut state) = self.skipped.take().unwrap_or_default();
+        state.clear();
+        state.extend(values);
         if self.wants_next() && self.kept.len() == self.most {
             let mut index = 0;
             self.kept.retain(|_| {
@@ -64,9 +64,9 @@ impl<N> Thinned<N> {
             self.stride *= 2;
         }
         if self.wants_next() {
-            self.kept.push((step, own));
+            self.kept.push((step, state));
         } else {
-            self.skipped = Some((step, own));
+            self.skipped = Some((step, state));
         }
         self.offered += 1;
     }

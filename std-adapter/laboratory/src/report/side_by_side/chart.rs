@@ -1,6 +1,6 @@
 //! Charts of measures over time, one for both simulations.
 
-use crate::report::number::{few, moment};
+use crate::report::number::{moment, three_figures};
 use crate::report::page::Shown;
 use crate::report::recording::{MeasureKind, Recording};
 use maud::{Markup, html};
@@ -90,7 +90,7 @@ fn drawing(lines: &[Line], title: &str) -> Markup {
         svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" aria-label=(title) {
             @for value in [least, 0.5 * (least + most), most] {
                 line .rule x1=(LEFT) x2=(WIDTH - 8.0) y1=(y(value)) y2=(y(value)) {}
-                text x=(LEFT - 8.0) y=(y(value) + 4.0) text-anchor="end" { (few(value)) }
+                text x=(LEFT - 8.0) y=(y(value) + 4.0) text-anchor="end" { (three_figures(value)) }
             }
             @for share in [0.0, 0.5, 1.0] {
                 @let at = begin + share * (end - begin);

@@ -1,7 +1,7 @@
 //! Numbers of both simulations, one row each.
 
 use crate::report::label;
-use crate::report::number::{few, grouped, time};
+use crate::report::number::{grouped, three_figures, time};
 use crate::report::recording::{Knob, MeasureKind, Recording, SeriesKind};
 use maud::{Markup, html};
 
@@ -38,7 +38,7 @@ pub(super) fn table(names: &[String; 2], rows: &[Row]) -> Markup {
             tbody { @for row in rows { tr {
                 th scope="row" { (row.name) }
                 @for value in &row.values { td { (value.as_deref().unwrap_or("–")) } }
-                @if has_ratios { td { (row.ratio.map_or_else(|| "–".to_owned(), few)) } }
+                @if has_ratios { td { (row.ratio.map_or_else(|| "–".to_owned(), three_figures)) } }
             } } }
         } }
     }
@@ -55,7 +55,7 @@ pub(super) fn figures(both: [&Recording; 2]) -> Vec<Row> {
         Row::new("triangles, with bodies", both.map(|one| Some(size(one))), whole),
         Row::new("time step", both.map(|one| Some(one.about.time_step)), time),
         Row::new("steps", both.map(|one| Some(one.steps as f64)), whole),
-        Row::new("steps a second", both.map(speed), few),
+        Row::new("steps a second", both.map(speed), three_figures),
         Row::new("a step", both.map(each), time),
         Row::new("slowest step", both.map(slowest), time),
     ];
@@ -84,7 +84,7 @@ pub(super) fn figures(both: [&Recording; 2]) -> Vec<Row> {
             let mut energies = one.measures_of(MeasureKind::Energy);
             energies.find(|m| m.name == name).and_then(|m| m.values.last().copied())
         };
-        let joules = |value: f64| format!("{} J", few(value));
+        let joules = |value: f64| format!("{} J", three_figures(value));
         rows.push(Row::new(format!("{name} energy at the end"), both.map(last), joules));
     }
     for kind in [SeriesKind::Events, SeriesKind::Effect, SeriesKind::Stage] {

@@ -1,5 +1,5 @@
 use super::table;
-use crate::report::number::{counted, few, finite, grouped, percent};
+use crate::report::number::{counted, finite, grouped, percent, three_figures};
 use crate::study::{Accuracy, AccuracyRow, AccuracySet};
 
 /// Returns a table of filters and their times for each set of pairs and format.
@@ -87,7 +87,7 @@ fn cells(set: &AccuracySet, row: &AccuracyRow, backends: &[&str]) -> Vec<String>
     cells.extend(backends.iter().map(|backend| time(row.time(backend))));
     cells.push(time(row.in_first_cache));
     let cost = row.best_time().and_then(|time| set.over_uncertified(time));
-    cells.push(cost.map_or_else(String::new, few));
+    cells.push(cost.map_or_else(String::new, three_figures));
     cells
 }
 
@@ -95,7 +95,7 @@ fn cells(set: &AccuracySet, row: &AccuracyRow, backends: &[&str]) -> Vec<String>
 fn per_100_000(part: usize, whole: usize) -> String {
     match 1e5 * part as f64 / whole as f64 {
         rate if part > 0 && rate < 0.1 => "< 0.1".to_owned(),
-        rate => few(rate),
+        rate => three_figures(rate),
     }
 }
 
@@ -104,7 +104,7 @@ fn nanoseconds(time: f64) -> String {
     match time {
         time if (999.5..9999.5).contains(&time) => format!("{time:.0}"),
         time if time >= 9999.5 => format!("{:.0}µs", time / 1e3),
-        time => few(time),
+        time => three_figures(time),
     }
 }
 

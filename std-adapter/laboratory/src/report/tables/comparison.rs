@@ -1,6 +1,6 @@
 use super::table;
 use crate::methods::Stage;
-use crate::report::number::{counted, few};
+use crate::report::number::{counted, three_figures};
 use crate::report::paper::printed;
 use crate::report::{distributed, mesh_size};
 use crate::study::{Comparison, ComparisonRow, MeanCounts};
@@ -43,9 +43,9 @@ fn table_1(comparison: &Comparison) -> String {
         let [vertex_face, edge_edge, frames_per_second] = printed(row.preset);
         [
             name(row),
-            few(row.candidates.vertex_face),
-            few(row.candidates.edge_edge),
-            few(row.frames_per_second),
+            three_figures(row.candidates.vertex_face),
+            three_figures(row.candidates.edge_edge),
+            three_figures(row.frames_per_second),
             vertex_face,
             edge_edge,
             frames_per_second,
@@ -68,11 +68,11 @@ fn survivors(comparison: &Comparison, kind: fn(&MeanCounts) -> f64) -> String {
     let rows = comparison.rows.iter().map(|row| {
         [
             name(row),
-            distributed(row).map_or_else(String::new, |counts| few(kind(&counts))),
-            few(kind(&row.after_boxes)),
-            few(kind(&row.candidates)),
-            few(kind(&row.contacts)),
-            few(kind(&row.missed)),
+            distributed(row).map_or_else(String::new, |counts| three_figures(kind(&counts))),
+            three_figures(kind(&row.after_boxes)),
+            three_figures(kind(&row.candidates)),
+            three_figures(kind(&row.contacts)),
+            three_figures(kind(&row.missed)),
         ]
     });
     table(header, rows)
@@ -92,17 +92,17 @@ fn times(comparison: &Comparison) -> String {
     let rows = comparison.rows.iter().map(|row| {
         let of = |wanted: &[Stage]| {
             let stage = row.stages.iter().find(|stage| wanted.contains(&stage.stage));
-            stage.map_or_else(String::new, |stage| few(1e3 * stage.seconds))
+            stage.map_or_else(String::new, |stage| three_figures(1e3 * stage.seconds))
         };
         [
             name(row),
-            few(1e3 * row.broad_phase_seconds),
+            three_figures(1e3 * row.broad_phase_seconds),
             of(&[Stage::Distribution]),
             of(&[Stage::Boxes]),
             of(&[Stage::RelativeBoxes]),
             of(&[Stage::Subspace, Stage::NonCoplanarity]),
             of(&[Stage::Elementary]),
-            few(1e3 * 1.0 / row.frames_per_second),
+            three_figures(1e3 * 1.0 / row.frames_per_second),
         ]
     });
     table(header, rows)

@@ -1,5 +1,5 @@
 use super::table;
-use crate::report::number::{few, grouped};
+use crate::report::number::{grouped, three_figures};
 use crate::study::QueryResult;
 use selvedge::PairKind;
 
@@ -53,9 +53,9 @@ fn row(result: &QueryResult) -> [String; 8] {
         grouped(result.positives),
         count(result.truth.map(|truth| truth.false_positives)),
         count(result.truth.map(|truth| truth.false_negatives)),
-        few(time.mean),
-        few(time.median),
-        few(time.p99),
-        few(time.max),
+        three_figures(time.mean),
+        three_figures(time.median),
+        three_figures(time.p99),
+        three_figures(time.max),
     ]
 }

@@ -1,5 +1,5 @@
 use super::table;
-use crate::report::number::{counted, few, moment, ordinal, signed_time, time};
+use crate::report::number::{counted, moment, ordinal, signed_time, three_figures, time};
 use crate::report::recording::{EDGES_99, LONGEST_EDGE, MeasureKind, Recording};
 use crate::report::start_sentences;
 use crate::study::EffectCost;
@@ -31,7 +31,7 @@ pub fn simulation(simulation: &Simulation, recording: &Recording) -> String {
         simulation.name(),
         counted(steps, "step"),
         time(seconds),
-        few(steps as f64 / seconds),
+        three_figures(steps as f64 / seconds),
         stretch.percentile_99,
         stretch.largest,
     );
@@ -54,8 +54,8 @@ pub fn simulation(simulation: &Simulation, recording: &Recording) -> String {
     }
     let energies = recording.measures_of(MeasureKind::Energy).map(|measure| {
         let ends = [measure.values.first(), measure.values.last()];
-        let [first, last] = ends.map(|end| end.copied().map_or_else(String::new, few));
-        [measure.name.clone(), first, few(measure.largest), last]
+        let [first, last] = ends.map(|end| end.copied().map_or_else(String::new, three_figures));
+        [measure.name.clone(), first, three_figures(measure.largest), last]
     });
     text += "\n";
     text += &table(["energy, in J", "at the start", "most", "at the end"], energies);

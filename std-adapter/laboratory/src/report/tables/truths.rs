@@ -1,10 +1,10 @@
 use super::table;
-use crate::report::number::few;
+use crate::report::number::three_figures;
 use crate::report::truths::error;
 use crate::truths::{ACCURACIES, LawRuns};
 
-/// Returns a table of laws with the simulation's errors at each pace: a row for each mesh and accuracy. The exact and the simulated value are
-/// those of the largest error in the first column.
+/// Returns a table of laws with the simulation's errors at each pace: a row for each mesh and accuracy. The exact and the
+/// simulated value are those of the largest error in the first column.
 #[must_use]
 pub fn truths(all: &[LawRuns]) -> String {
     let Some(first) = all.first().and_then(|runs| runs.by_accuracy().next()) else {
@@ -24,7 +24,12 @@ pub fn truths(all: &[LawRuns]) -> String {
                 String::new()
             };
             let mesh = format!("{}{accuracy}", first.conditions.grid);
-            let mut row = vec![name.to_owned(), mesh, few(worst.exact), few(worst.simulated)];
+            let mut row = vec![
+                name.to_owned(),
+                mesh,
+                three_figures(worst.exact),
+                three_figures(worst.simulated),
+            ];
             row.extend(own.iter().map(|run| error(runs.law, run.error())));
             Some(row)
         })

@@ -4,8 +4,8 @@
  * Draws frames on a canvas with WebGL 2, or returns null without it.
  *
  * The viewer has its own axes: x to the right, y up, z towards the reader, the scene's middle at 0. A recording has its direction
- * `up`, the number of `vertices`, `triangles`, `parts` of them, `frameSteps`, `bounds` of each frame, and `write(frame, out)`, which
- * writes positions.
+ * `up`, the number of `vertices`, `triangles`, `parts` of them, `frameSteps`, `bounds` of each frame, and `write(frame, out)`,
+ * which writes positions.
  */
 function createViewer(canvas, recording, onChange) {
   const gl = canvas.getContext("webgl2", { alpha: true, antialias: true });

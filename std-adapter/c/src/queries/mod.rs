@@ -1,9 +1,9 @@
-//! The questions that C asks a detector about a step or a state.
+//! The queries that C asks a detector about a step or a state.
 
-mod ask;
 /// The functions for `double`. `build.rs` makes those for `float` from this file.
 pub mod double;
+mod generic;
 /// The functions for `float`.
 pub mod single {
-    include!(concat!(env!("OUT_DIR"), "/questions.rs"));
+    include!(concat!(env!("OUT_DIR"), "/queries.rs"));
 }

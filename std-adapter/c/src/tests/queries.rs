@@ -1,4 +1,4 @@
-//! Every question and setting, from C and from Rust.
+//! Every query and setting, from C and from Rust.
 
 use super::*;
 use crate::answers::{Boxes, ContactRow, IntersectionRow, Pair, TruncationRow};

@@ -1,4 +1,4 @@
-//! The questions, generic over the format of the positions.
+//! The queries, generic over the format of the positions.
 
 use crate::answers::{Answers, Boxes, CandidatePairs, ContactRow, GeometryRow, IntersectionRow, Pair, TruncationRow};
 use crate::detector::{Detector, Finder, Format, Handle, on};
@@ -7,16 +7,16 @@ use crate::settings::length;
 use crate::status::{Failure, Status};
 use selvedge::{CandidateBoxes, Frame, StepError};
 
-/// The arguments of a question, as C passes them: `N` frames of a mesh, with their names.
-pub(super) struct Asked<S, const N: usize> {
+/// The arguments of a query, as C passes them: `N` frames of a mesh, with their names.
+pub(super) struct Query<S, const N: usize> {
     detector: *mut Handle,
     frames: [(&'static str, *const S); N],
     vertex_count: usize,
 }
 
-pub(super) type AskedStep<S> = Asked<S, 2>;
+pub(super) type StepQuery<S> = Query<S, 2>;
 
-impl<S> AskedStep<S> {
+impl<S> StepQuery<S> {
     pub(super) const fn new(detector: *mut Handle, start: *const S, end: *const S, vertex_count: usize) -> Self {
         Self::between(detector, [("start", start), ("end", end)], vertex_count)
     }
@@ -30,9 +30,9 @@ impl<S> AskedStep<S> {
     }
 }
 
-pub(super) type AskedState<S> = Asked<S, 1>;
+pub(super) type StateQuery<S> = Query<S, 1>;
 
-impl<S> AskedState<S> {
+impl<S> StateQuery<S> {
     pub(super) const fn new(detector: *mut Handle, positions: *const S, vertex_count: usize) -> Self {
         Self {
             detector,
@@ -42,12 +42,12 @@ impl<S> AskedState<S> {
     }
 }
 
-impl<S: Format, const N: usize> Asked<S, N> {
-    /// Runs `question` with the frames.
+impl<S: Format, const N: usize> Query<S, N> {
+    /// Runs `search` with the frames.
     ///
     /// # Safety
     /// Unless they are null or misaligned, the frames have 3 * `vertex_count` numbers, and no other thread writes to them.
-    unsafe fn ask(self, question: impl FnOnce(&mut Finder<S>, &mut Answers, [&[[S; 3]]; N]) -> Result<(), Failure>) -> Status {
+    unsafe fn run(self, search: impl FnOnce(&mut Finder<S>, &mut Answers, [&[[S; 3]]; N]) -> Result<(), Failure>) -> Status {
         on(self.detector, |it| {
             let found = self.vertex_count;
             let expected = it.topology().vertex_count();
@@ -66,19 +66,19 @@ impl<S: Format, const N: usize> Asked<S, N> {
                 // SAFETY: the caller's promise.
                 *frame = unsafe { view(name, start, found) }?;
             }
-            question(finder, answers, frames)
+            search(finder, answers, frames)
         })
     }
 }
 
 pub(super) unsafe fn find_contacts<S: Format>(
-    asked: AskedStep<S>,
+    query: StepQuery<S>,
     contacts: *mut *const ContactRow,
     count: *mut usize,
 ) -> Status {
     // SAFETY: the caller's promises.
     unsafe {
-        asked.ask(|finder, answers, [start, end]| {
+        query.run(|finder, answers, [start, end]| {
             let out = OutList::new("contacts", contacts, count)?;
             finder.detector.contacts(start, end, &mut finder.contacts)?;
             out.set(answers.show_contacts(&finder.contacts, finder.detector.topology()));
@@ -88,7 +88,7 @@ pub(super) unsafe fn find_contacts<S: Format>(
 }
 
 pub(super) unsafe fn find_contacts_of<S: Format>(
-    asked: AskedStep<S>,
+    query: StepQuery<S>,
     vertex_face: (*const Pair, usize),
     edge_edge: (*const Pair, usize),
     contacts: *mut *const ContactRow,
@@ -96,7 +96,7 @@ pub(super) unsafe fn find_contacts_of<S: Format>(
 ) -> Status {
     // SAFETY: the caller's promises. The pairs may be this detector's candidates; they are not written to here.
     unsafe {
-        asked.ask(|finder, answers, [start, end]| {
+        query.run(|finder, answers, [start, end]| {
             let out = OutList::new("contacts", contacts, count)?;
             let vertex_face = view("vertex_face", vertex_face.0.cast::<u32>(), vertex_face.1)?;
             let edge_edge = view("edge_edge", edge_edge.0.cast::<u32>(), edge_edge.1)?;
@@ -108,10 +108,10 @@ pub(super) unsafe fn find_contacts_of<S: Format>(
     }
 }
 
-pub(super) unsafe fn find_earliest<S: Format>(asked: AskedStep<S>, found: *mut bool, contact: *mut ContactRow) -> Status {
+pub(super) unsafe fn find_earliest<S: Format>(query: StepQuery<S>, found: *mut bool, contact: *mut ContactRow) -> Status {
     // SAFETY: the caller's promises.
     unsafe {
-        asked.ask(|finder, _, [start, end]| {
+        query.run(|finder, _, [start, end]| {
             let (found, out) = (Out::new("found", found)?, Out::new("contact", contact)?);
             let earliest = finder.detector.earliest(start, end)?;
             found.set(earliest.is_some());
@@ -123,10 +123,10 @@ pub(super) unsafe fn find_earliest<S: Format>(asked: AskedStep<S>, found: *mut b
     }
 }
 
-pub(super) unsafe fn answer_free<S: Format>(asked: AskedStep<S>, is_free: *mut bool) -> Status {
+pub(super) unsafe fn answer_free<S: Format>(query: StepQuery<S>, is_free: *mut bool) -> Status {
     // SAFETY: the caller's promises.
     unsafe {
-        asked.ask(|finder, _, [start, end]| {
+        query.run(|finder, _, [start, end]| {
             let out = Out::new("is_free", is_free)?;
             out.set(finder.detector.is_free(start, end)?);
             Ok(())
@@ -135,14 +135,14 @@ pub(super) unsafe fn answer_free<S: Format>(asked: AskedStep<S>, is_free: *mut b
 }
 
 pub(super) unsafe fn find_candidates<S: Format>(
-    asked: AskedStep<S>,
+    query: StepQuery<S>,
     boxes: u32,
     vertex_face: (*mut *const Pair, *mut usize),
     edge_edge: (*mut *const Pair, *mut usize),
 ) -> Status {
     // SAFETY: the caller's promises.
     unsafe {
-        asked.ask(|finder, answers, [start, end]| {
+        query.run(|finder, answers, [start, end]| {
             let vf = OutList::new("vertex_face", vertex_face.0, vertex_face.1)?;
             let ee = OutList::new("edge_edge", edge_edge.0, edge_edge.1)?;
             let boxes = match boxes {
@@ -161,13 +161,13 @@ pub(super) unsafe fn find_candidates<S: Format>(
 }
 
 pub(super) unsafe fn find_intersections<S: Format>(
-    asked: AskedState<S>,
+    query: StateQuery<S>,
     intersections: *mut *const IntersectionRow,
     count: *mut usize,
 ) -> Status {
     // SAFETY: the caller's promises.
     unsafe {
-        asked.ask(|finder, answers, [positions]| {
+        query.run(|finder, answers, [positions]| {
             let out = OutList::new("intersections", intersections, count)?;
             finder.detector.intersections(positions, &mut answers.found_at_rest)?;
             out.set(answers.show_intersections());
@@ -176,10 +176,10 @@ pub(super) unsafe fn find_intersections<S: Format>(
     }
 }
 
-pub(super) unsafe fn answer_has_intersections<S: Format>(asked: AskedState<S>, has_any: *mut bool) -> Status {
+pub(super) unsafe fn answer_has_intersections<S: Format>(query: StateQuery<S>, has_any: *mut bool) -> Status {
     // SAFETY: the caller's promises.
     unsafe {
-        asked.ask(|finder, _, [positions]| {
+        query.run(|finder, _, [positions]| {
             let out = Out::new("has_any", has_any)?;
             out.set(finder.detector.has_intersections(positions)?);
             Ok(())
@@ -188,14 +188,14 @@ pub(super) unsafe fn answer_has_intersections<S: Format>(asked: AskedState<S>, h
 }
 
 pub(super) unsafe fn find_contact_geometries<S: Format>(
-    asked: AskedStep<S>,
+    query: StepQuery<S>,
     contacts: (*const ContactRow, usize),
     geometries: *mut *const GeometryRow,
     count: *mut usize,
 ) -> Status {
     // SAFETY: the caller's promises. The contacts may be this detector's own; they are not written to here.
     unsafe {
-        asked.ask(|finder, answers, [start, end]| {
+        query.run(|finder, answers, [start, end]| {
             let out = OutList::new("geometries", geometries, count)?;
             let rows = view::<_, 1>("contacts", contacts.0, contacts.1)?;
             let given = &mut finder.contacts;
@@ -212,14 +212,14 @@ pub(super) unsafe fn find_contact_geometries<S: Format>(
 }
 
 pub(super) unsafe fn find_near<S: Format>(
-    asked: AskedState<S>,
+    query: StateQuery<S>,
     distance: f64,
     geometries: *mut *const GeometryRow,
     count: *mut usize,
 ) -> Status {
     // SAFETY: the caller's promises.
     unsafe {
-        asked.ask(|finder, answers, [positions]| {
+        query.run(|finder, answers, [positions]| {
             let out = OutList::new("geometries", geometries, count)?;
             finder
                 .detector
@@ -230,12 +230,12 @@ pub(super) unsafe fn find_near<S: Format>(
     }
 }
 
-pub(super) unsafe fn truncate<S: Format>(asked: AskedStep<S>, end: *mut S, truncation: *mut TruncationRow) -> Status {
-    let vertex_count = asked.vertex_count;
+pub(super) unsafe fn truncate<S: Format>(query: StepQuery<S>, end: *mut S, truncation: *mut TruncationRow) -> Status {
+    let vertex_count = query.vertex_count;
     let (mut out, mut positions) = (None, Vec::new());
     // SAFETY: the caller's promises.
     let status = unsafe {
-        asked.ask(|finder, _, [start, wanted]| {
+        query.run(|finder, _, [start, wanted]| {
             let (end, truncation) = (OutFrame::new("end", end, vertex_count)?, Out::new("truncation", truncation)?);
             let found = finder.detector.truncate(start, wanted, &mut positions)?;
             out = Some((end, truncation, found.into()));

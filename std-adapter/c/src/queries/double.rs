@@ -1,7 +1,7 @@
-//! Thin functions over `ask.rs`. A C program calls these with positions in double.
+//! Thin functions over `generic.rs`. A C program calls these with positions in double.
 
-use super::ask::{
-    AskedState, AskedStep, answer_free, answer_has_intersections, find_candidates, find_contact_geometries, find_contacts,
+use super::generic::{
+    StateQuery, StepQuery, answer_free, answer_has_intersections, find_candidates, find_contact_geometries, find_contacts,
     find_contacts_of, find_earliest, find_intersections, find_near, truncate,
 };
 use crate::answers::{ContactRow, GeometryRow, IntersectionRow, Pair, TruncationRow};
@@ -23,9 +23,9 @@ pub unsafe extern "C" fn selvedge_detector_contacts_f64(
     contacts: *mut *const ContactRow,
     count: *mut usize,
 ) -> Status {
-    let asked = AskedStep::new(detector, start, end, vertex_count);
+    let query = StepQuery::new(detector, start, end, vertex_count);
     // SAFETY: the caller's promises.
-    unsafe { find_contacts(asked, contacts, count) }
+    unsafe { find_contacts(query, contacts, count) }
 }
 
 /// Finds the contacts among the given pairs, in their order. The pairs may be this detector's own candidates. The list stays valid
@@ -46,10 +46,10 @@ pub unsafe extern "C" fn selvedge_detector_contacts_of_f64(
     contacts: *mut *const ContactRow,
     count: *mut usize,
 ) -> Status {
-    let asked = AskedStep::new(detector, start, end, vertex_count);
+    let query = StepQuery::new(detector, start, end, vertex_count);
     let pairs = ((vertex_face, vertex_face_count), (edge_edge, edge_edge_count));
     // SAFETY: the caller's promises.
-    unsafe { find_contacts_of(asked, pairs.0, pairs.1, contacts, count) }
+    unsafe { find_contacts_of(query, pairs.0, pairs.1, contacts, count) }
 }
 
 /// Finds the earliest contact of the step. If several have the same time, it is the one with the smallest numbers.
@@ -68,9 +68,9 @@ pub unsafe extern "C" fn selvedge_detector_earliest_f64(
     found: *mut bool,
     contact: *mut ContactRow,
 ) -> Status {
-    let asked = AskedStep::new(detector, start, end, vertex_count);
+    let query = StepQuery::new(detector, start, end, vertex_count);
     // SAFETY: the caller's promises.
-    unsafe { find_earliest(asked, found, contact) }
+    unsafe { find_earliest(query, found, contact) }
 }
 
 /// Decides whether the step is certainly free of contact. The search ends at the first contact.
@@ -85,9 +85,9 @@ pub unsafe extern "C" fn selvedge_detector_is_free_f64(
     vertex_count: usize,
     is_free: *mut bool,
 ) -> Status {
-    let asked = AskedStep::new(detector, start, end, vertex_count);
+    let query = StepQuery::new(detector, start, end, vertex_count);
     // SAFETY: the caller's promises.
-    unsafe { answer_free(asked, is_free) }
+    unsafe { answer_free(query, is_free) }
 }
 
 /// Finds the pairs that bounding boxes keep. All other pairs certainly stay farther apart than the separation throughout the step.
@@ -108,9 +108,9 @@ pub unsafe extern "C" fn selvedge_detector_candidates_f64(
     edge_edge: *mut *const Pair,
     edge_edge_count: *mut usize,
 ) -> Status {
-    let asked = AskedStep::new(detector, start, end, vertex_count);
+    let query = StepQuery::new(detector, start, end, vertex_count);
     // SAFETY: the caller's promises.
-    unsafe { find_candidates(asked, boxes, (vertex_face, vertex_face_count), (edge_edge, edge_edge_count)) }
+    unsafe { find_candidates(query, boxes, (vertex_face, vertex_face_count), (edge_edge, edge_edge_count)) }
 }
 
 /// Finds all intersections of the mesh at rest, exactly. They are edges and faces that meet, touching included, and primitives of
@@ -129,9 +129,9 @@ pub unsafe extern "C" fn selvedge_detector_intersections_f64(
     intersections: *mut *const IntersectionRow,
     count: *mut usize,
 ) -> Status {
-    let asked = AskedState::new(detector, positions, vertex_count);
+    let query = StateQuery::new(detector, positions, vertex_count);
     // SAFETY: the caller's promises.
-    unsafe { find_intersections(asked, intersections, count) }
+    unsafe { find_intersections(query, intersections, count) }
 }
 
 /// Decides whether the mesh at rest intersects itself. The search ends at the first intersection.
@@ -145,9 +145,9 @@ pub unsafe extern "C" fn selvedge_detector_has_intersections_f64(
     vertex_count: usize,
     has_any: *mut bool,
 ) -> Status {
-    let asked = AskedState::new(detector, positions, vertex_count);
+    let query = StateQuery::new(detector, positions, vertex_count);
     // SAFETY: the caller's promises.
-    unsafe { answer_has_intersections(asked, has_any) }
+    unsafe { answer_has_intersections(query, has_any) }
 }
 
 /// Computes the geometry of each contact at its time: the closest points, their weights, a normal along which the two sides were
@@ -171,9 +171,9 @@ pub unsafe extern "C" fn selvedge_detector_contact_geometries_f64(
     geometries: *mut *const GeometryRow,
     count: *mut usize,
 ) -> Status {
-    let asked = AskedStep::new(detector, start, end, vertex_count);
+    let query = StepQuery::new(detector, start, end, vertex_count);
     // SAFETY: the caller's promises.
-    unsafe { find_contact_geometries(asked, (contacts, contact_count), geometries, count) }
+    unsafe { find_contact_geometries(query, (contacts, contact_count), geometries, count) }
 }
 
 /// Finds all pairs within `distance` of each other in a mesh at rest, with their closest points. None is missed; a pair that is a
@@ -195,9 +195,9 @@ pub unsafe extern "C" fn selvedge_detector_near_f64(
     geometries: *mut *const GeometryRow,
     count: *mut usize,
 ) -> Status {
-    let asked = AskedState::new(detector, positions, vertex_count);
+    let query = StateQuery::new(detector, positions, vertex_count);
     // SAFETY: the caller's promises.
-    unsafe { find_near(asked, distance, geometries, count) }
+    unsafe { find_near(query, distance, geometries, count) }
 }
 
 /// Moves each vertex from `start` towards `wanted` as far as its neighbourhood allows, and writes the positions to `end`. The step
@@ -217,7 +217,7 @@ pub unsafe extern "C" fn selvedge_detector_truncate_f64(
     end: *mut f64,
     truncation: *mut TruncationRow,
 ) -> Status {
-    let asked = AskedStep::between(detector, [("start", start), ("wanted", wanted)], vertex_count);
+    let query = StepQuery::between(detector, [("start", start), ("wanted", wanted)], vertex_count);
     // SAFETY: the caller's promises.
-    unsafe { truncate(asked, end, truncation) }
+    unsafe { truncate(query, end, truncation) }
 }
