@@ -15,6 +15,21 @@ ROOT = Path(__file__).resolve().parent.parent
 LINE, FILE, FUNCTION = 130, 500, 80
 # Written by programs, or by others.
 GENERATED = re.compile(r"Cargo\.lock|/include/selvedge(_cloth)?\.h$|/reference/|/data/|package-lock\.json|\.coq$|/extracted/.*\.ml")
+# What breaks a rule and waits to be mended. Nothing may be added.
+KNOWN_CIRCLES = [
+    {"cloth/src/effects/air/drag.rs", "cloth/src/effects/plan.rs", "cloth/src/effects/registration.rs"},
+    {"cloth/src/simulate/simulation.rs", "cloth/src/simulate/substep.rs", "cloth/src/simulate/waiting.rs"},
+    {"cloth/src/solve/bands.rs", "cloth/src/solve/matrix.rs"},
+    {"cloth/src/world/keyframes.rs", "cloth/src/world/motion.rs"},
+    {"web/src/numbers.rs", "web/src/values.rs"},
+]
+KNOWN_LENGTHS = {
+    "cloth/src/simulate/assembly.rs: function of": 100,
+    "cloth/src/simulate/substep.rs: function attempt": 160,
+    "cloth/src/world/keyframes.rs": 560,
+    "cloth/tests/simulation/from_code.rs": 590,
+    "python/python/selvedge/ipc.py": 580,
+}
 SOURCE = {".rs", ".py", ".sh", ".bash", ".c", ".h", ".hpp", ".cpp", ".js", ".mjs", ".ts"}
 
 
@@ -29,15 +44,22 @@ def code_of(text):
     return re.sub(token, lambda found: re.sub(r"[^\n]", " ", found[0]), text, flags=re.S)
 
 
+def allowed(what, rule):
+    return KNOWN_LENGTHS.get(what.removeprefix("std-adapter/"), rule)
+
+
 def lengths(name, text):
     lines = text.splitlines()
+    is_figure = False
     for number, line in enumerate(lines, 1):
+        # A diagram in a block of text is as wide as its arrows.
+        is_figure = is_figure != bool(re.match(r"\s*//[/!]? ?```", line))
         # Formatters break code. A row of a table and a link cannot be broken.
         comment = re.match(r"\s*(//[/!]?|#)(?= )" if name.endswith(".rs") else r"\s*(//+|#|/?\*+)(?= )", line)
         words = line[comment.end() :].strip() if comment else ""
-        if len(line) > LINE and " " in words and not words.startswith("|"):
+        if len(line) > LINE and " " in words and not words.startswith("|") and not is_figure:
             yield f"{name}:{number}: {len(line)} characters; at most {LINE}"
-    if len(lines) > FILE and not name.endswith(".v"):
+    if len(lines) > allowed(name, FILE) and not name.endswith(".v"):
         yield f"{name}: {len(lines)} lines; at most {FILE}"
     if name.endswith(".rs"):
         code = code_of(text).splitlines()
@@ -45,7 +67,7 @@ def lengths(name, text):
             found = re.match(r"( *)(?:pub(?:\([^)]*\))? )?(?:const |async |unsafe |extern \S* ?)*fn (\w+)", line)
             if found and not line.rstrip().endswith((";", "}")):
                 last = next((n for n in range(number, len(code)) if code[n].startswith(found[1] + "}")), number)
-                if last + 2 - number > FUNCTION:
+                if last + 2 - number > allowed(f"{name}: function {found[2]}", FUNCTION):
                     yield f"{name}:{number}: function {found[2]} has {last + 2 - number} lines; at most {FUNCTION}"
 
 
@@ -157,6 +179,8 @@ def main():
     if not sys.argv[1:]:
         for root in listed(["*/src/lib.rs", "*/src/main.rs"]):
             for circle in Crate(root).circles():
+                if {line.split(" -> ")[0].removeprefix("std-adapter/") for line in circle} in KNOWN_CIRCLES:
+                    continue
                 problems.append("these files import each other in a circle:\n    " + "\n    ".join(circle))
     print("\n".join(problems) or "structure: no circle of imports, no long line, file or function")
     sys.exit(bool(problems))

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Checks the extension in Blender without a window: bpy from PyPI (373 MB, 1 GB installed), one process a scene, at most five minutes.
-# Needs Python 3.11 with venv, and a package index (PyPI). --present: skips the check where they are missing.
+# Checks the extension in Blender without a window: bpy from PyPI (373 MB, 1 GB installed), one process a scene, at most five
+# minutes. Needs Python 3.11 with venv, and a package index (PyPI). --present: skips the check where they are missing.
 # WHEEL is the package's wheel; without it, ../python/check.sh has built one.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"

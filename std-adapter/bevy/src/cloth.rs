@@ -15,7 +15,8 @@ use bevy_time::{Fixed, Time};
 use bevy_transform::components::Transform;
 use selvedge::glam::{DMat3, DVec3};
 use selvedge_cloth::{
-    Body, BodyMotion, Cloth, FrameError, FrameSteps, Placement, Scene, Simulation, TeleportError, Tubes, ValueError, vertex_normals,
+    Body, BodyMotion, Cloth, FrameError, FrameSteps, Placement, Scene, Simulation, TeleportError, Tubes, ValueError,
+    vertex_normals,
 };
 use std::collections::BTreeMap;
 

@@ -278,8 +278,8 @@ enum selvedge_boxes
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
-   * The boxes at the start and at the end of the step. Two primitives are apart if an axis orders both pairs of boxes alike. This
-   * gives fewer pairs in less time.
+   * The boxes at the start and at the end of the step. Two primitives are apart if an axis orders both pairs of boxes alike.
+   * This gives fewer pairs in less time.
    */
   SELVEDGE_BOXES_MOVING = 0,
   /**
@@ -333,15 +333,16 @@ typedef uint32_t selvedge_intersection_kind;
 typedef struct selvedge_detector selvedge_detector;
 
 /**
- * A world of meshes that come and go and move independently. Its pointer is a handle: a number that is looked up and never followed.
+ * A world of meshes that come and go and move independently. Its pointer is a handle: a number that is looked up and never
+ * followed.
  *
  * One thread at a time may use a world, as for a detector.
  */
 typedef struct selvedge_world selvedge_world;
 
 /**
- * The groups of a vertex and the groups it collides with, a bit for each group. Two vertices collide if each is in a group of the
- * other's filter.
+ * The groups of a vertex and the groups it collides with, a bit for each group. Two vertices collide if each is in a group of
+ * the other's filter.
  */
 typedef struct selvedge_groups {
   /**
@@ -381,7 +382,8 @@ typedef struct selvedge_contact {
    */
   uint32_t kind;
   /**
-   * The vertex and the face, or the two edges. Faces have the numbers of the triangles, edges those of selvedge_detector_edges.
+   * The vertex and the face, or the two edges. Faces have the numbers of the triangles, edges those of
+   * selvedge_detector_edges.
    */
   struct selvedge_pair pair;
   /**
@@ -422,8 +424,8 @@ typedef struct selvedge_geometry {
    */
   uint32_t vertices[4];
   /**
-   * True if there is a normal. There is none if the two cannot be shown to have been apart: they touch at the start of the step or
-   * earlier in it; or, at rest, they touch.
+   * True if there is a normal. There is none if the two cannot be shown to have been apart: they touch at the start of the
+   * step or earlier in it; or, at rest, they touch.
    */
   bool has_normal;
   /**
@@ -439,7 +441,8 @@ typedef struct selvedge_geometry {
    */
   double normal[3];
   /**
-   * A time at which the sides were certainly apart along the normal: that of the contact, or slightly earlier; 0 without a normal.
+   * A time at which the sides were certainly apart along the normal: that of the contact, or slightly earlier; 0 without a
+   * normal.
    */
   double separated_at;
   /**
@@ -447,8 +450,8 @@ typedef struct selvedge_geometry {
    */
   double distance[2];
   /**
-   * The speed at which the first point moves away from the second along the normal, in lengths per step. It is negative if they
-   * approach each other, and zero without a normal.
+   * The speed at which the first point moves away from the second along the normal, in lengths per step. It is negative if
+   * they approach each other, and zero without a normal.
    */
   double speed;
 } selvedge_geometry;
@@ -477,8 +480,8 @@ typedef struct selvedge_truncation {
 typedef uint64_t selvedge_mesh;
 
 /**
- * A mesh of a world whose vertices move, each on a straight path and at constant velocity, such as cloth or a soft body. The mesh
- * can also meet itself.
+ * A mesh of a world whose vertices move, each on a straight path and at constant velocity, such as cloth or a soft body. The
+ * mesh can also meet itself.
  */
 typedef struct selvedge_deforming_f64 {
   /**
@@ -514,10 +517,11 @@ typedef struct selvedge_pose {
 } selvedge_pose;
 
 /**
- * A mesh of a world that moves as a rigid body from one pose to another. It rotates the short way at a constant rate, about an axis
- * through its origin, which moves on a straight path.
+ * A mesh of a world that moves as a rigid body from one pose to another. It rotates the short way at a constant rate, about an
+ * axis through its origin, which moves on a straight path.
  *
- * If the two rotations are equal, every vertex moves straight. Otherwise vertices move on arcs, and no contact on an arc is missed.
+ * If the two rotations are equal, every vertex moves straight. Otherwise vertices move on arcs, and no contact on an arc is
+ * missed.
  */
 typedef struct selvedge_rigid {
   /**
@@ -563,8 +567,8 @@ typedef struct selvedge_world_geometry {
 } selvedge_world_geometry;
 
 /**
- * A mesh of a world whose vertices move, each on a straight path and at constant velocity, such as cloth or a soft body. The mesh
- * can also meet itself.
+ * A mesh of a world whose vertices move, each on a straight path and at constant velocity, such as cloth or a soft body. The
+ * mesh can also meet itself.
  */
 typedef struct selvedge_deforming_f32 {
   /**
@@ -612,11 +616,11 @@ const char *selvedge_last_error(void);
 const char *selvedge_status_string(int32_t status);
 
 /**
- * Creates a detector for a mesh. `scalar` is a selvedge_scalar, the format of its positions. By default it uses the calling thread,
- * all vertices move, steps are not coherent, and contacts are pairs within the default tolerance.
+ * Creates a detector for a mesh. `scalar` is a selvedge_scalar, the format of its positions. By default it uses the calling
+ * thread, all vertices move, steps are not coherent, and contacts are pairs within the default tolerance.
  *
- * A triangle that names a vertex twice, (a, b, b), is a loose edge, and one that names it three times, (p, p, p), a point: parts of
- * ropes, hair and particles. They collide as edges and points. A vertex that no triangle names collides with nothing.
+ * A triangle that names a vertex twice, (a, b, b), is a loose edge, and one that names it three times, (p, p, p), a point: parts
+ * of ropes, hair and particles. They collide as edges and points. A vertex that no triangle names collides with nothing.
  *
  * The triangles are copied. `*detector` receives the handle; free it with selvedge_detector_free.
  *
@@ -645,8 +649,8 @@ selvedge_status selvedge_detector_set_cancelled(struct selvedge_detector *detect
 selvedge_status selvedge_detector_free(struct selvedge_detector *detector);
 
 /**
- * Sets the number of threads of a step. 1, the default, is the calling thread; larger numbers start threads of the detector; 0 is
- * one for each core. Answers are the same bit for bit. More than four for each core, or more than 256, are refused.
+ * Sets the number of threads of a step. 1, the default, is the calling thread; larger numbers start threads of the detector; 0
+ * is one for each core. Answers are the same bit for bit. More than four for each core, or more than 256, are refused.
  */
 selvedge_status selvedge_detector_set_threads(struct selvedge_detector *detector,
                                               size_t count);
@@ -673,8 +677,8 @@ selvedge_status selvedge_detector_set_touching(struct selvedge_detector *detecto
 /**
  * Names the moving vertices: a byte for each vertex, not 0 if it moves. With NULL and 0, the default, all vertices move.
  *
- * From the next step on, pairs without a moving vertex are skipped. The next step sets the positions of resting vertices; they are
- * not read again until the next call of this function. The bytes are copied.
+ * From the next step on, pairs without a moving vertex are skipped. The next step sets the positions of resting vertices; they
+ * are not read again until the next call of this function. The bytes are copied.
  *
  * The caller promises:
  * `moving` points to `count` bytes.
@@ -690,8 +694,8 @@ selvedge_status selvedge_detector_set_moving(struct selvedge_detector *detector,
  * order. A pair of primitives is skipped if no vertex of one side collides with any vertex of the other. NULL omits a rule; with
  * all three NULL, the default, no pair is skipped.
  *
- * `groups` and `patches` have an entry for each of the `vertex_count` vertices; the count is ignored if both are NULL. The filter
- * does not apply to selvedge_detector_contacts_of_f64. All arguments are copied.
+ * `groups` and `patches` have an entry for each of the `vertex_count` vertices; the count is ignored if both are NULL. The
+ * filter does not apply to selvedge_detector_contacts_of_f64. All arguments are copied.
  *
  * The caller promises:
  * `groups` and `patches` are NULL or point to `vertex_count` entries, `excluded` to `excluded_count` pairs of vertices.
@@ -704,8 +708,8 @@ selvedge_status selvedge_detector_set_collision_filter(struct selvedge_detector 
                                                        size_t excluded_count);
 
 /**
- * Sets whether each step starts where the last one ended, as in a simulation: not 0, or 0 as by default. Such steps are faster if
- * vertices move by much less than an edge. The contacts are the same, in ascending order of their pairs.
+ * Sets whether each step starts where the last one ended, as in a simulation: not 0, or 0 as by default. Such steps are faster
+ * if vertices move by much less than an edge. The contacts are the same, in ascending order of their pairs.
  */
 selvedge_status selvedge_detector_set_coherent(struct selvedge_detector *detector,
                                                int32_t coherent);
@@ -718,8 +722,8 @@ selvedge_status selvedge_detector_set_pair_limit(struct selvedge_detector *detec
                                                  uint64_t limit);
 
 /**
- * Limits the memory of the pairs and contacts of a call, in bytes, at 48 bytes for a contact. The default is 2 GiB; UINT64_MAX is
- * no limit. A call that needs more fails with SELVEDGE_STATUS_TOO_MUCH_MEMORY, on any number of threads.
+ * Limits the memory of the pairs and contacts of a call, in bytes, at 48 bytes for a contact. The default is 2 GiB; UINT64_MAX
+ * is no limit. A call that needs more fails with SELVEDGE_STATUS_TOO_MUCH_MEMORY, on any number of threads.
  */
 selvedge_status selvedge_detector_set_memory_limit(struct selvedge_detector *detector,
                                                    uint64_t limit);
@@ -759,11 +763,12 @@ selvedge_status selvedge_detector_contacts_f64(struct selvedge_detector *detecto
                                                size_t *count);
 
 /**
- * Finds the contacts among the given pairs, in their order. The pairs may be this detector's own candidates. The list stays valid
- * as for selvedge_detector_contacts_f64.
+ * Finds the contacts among the given pairs, in their order. The pairs may be this detector's own candidates. The list stays
+ * valid as for selvedge_detector_contacts_f64.
  *
  * The caller promises:
- * The conditions are those of selvedge_detector_contacts_f64; `vertex_face` and `edge_edge` point to as many pairs as their counts say.
+ * The conditions are those of selvedge_detector_contacts_f64; `vertex_face` and `edge_edge` point to as many pairs as their
+ * counts say.
  */
 selvedge_status selvedge_detector_contacts_of_f64(struct selvedge_detector *detector,
                                                   const double *start,
@@ -805,8 +810,8 @@ selvedge_status selvedge_detector_is_free_f64(struct selvedge_detector *detector
                                               bool *is_free);
 
 /**
- * Finds the pairs that bounding boxes keep. All other pairs certainly stay farther apart than the separation throughout the step.
- * `boxes` is a selvedge_boxes. The lists stay valid until the next search for candidates with this detector, or until the
+ * Finds the pairs that bounding boxes keep. All other pairs certainly stay farther apart than the separation throughout the
+ * step. `boxes` is a selvedge_boxes. The lists stay valid until the next search for candidates with this detector, or until the
  * detector is freed.
  *
  * The caller promises:
@@ -853,9 +858,9 @@ selvedge_status selvedge_detector_has_intersections_f64(struct selvedge_detector
  * Computes the geometry of each contact at its time: the closest points, their weights, a normal along which the two sides were
  * certainly apart, and bounds of their distance.
  *
- * `contacts` may be this detector's own list or rows of the caller, of which kind, pair and time are read. The geometries have the
- * same order. A detector for float rounds a time down to a float. The list stays valid until the next call of this function for
- * this detector, or until the detector is freed.
+ * `contacts` may be this detector's own list or rows of the caller, of which kind, pair and time are read. The geometries have
+ * the same order. A detector for float rounds a time down to a float. The list stays valid until the next call of this function
+ * for this detector, or until the detector is freed.
  *
  * The caller promises:
  * `start` and `end` point to 3 * `vertex_count` numbers, `contacts` to `contact_count` rows, `geometries` to a pointer, `count`
@@ -874,10 +879,10 @@ selvedge_status selvedge_detector_contact_geometries_f64(struct selvedge_detecto
  * Finds all pairs within `distance` of each other in a mesh at rest, with their closest points. None is missed; a pair that is a
  * little farther apart may be included, and each row has bounds of its distance.
  *
- * Rows ascend by kind and pair. Pairs that share a vertex, pairs without a moving vertex (selvedge_detector_set_moving) and pairs
- * that selvedge_detector_set_collision_filter excludes are left out. `distance` is in the unit of the positions; a detector for
- * float rounds it up to a float. The list stays valid until the next call of this function for this detector, or until the
- * detector is freed.
+ * Rows ascend by kind and pair. Pairs that share a vertex, pairs without a moving vertex (selvedge_detector_set_moving) and
+ * pairs that selvedge_detector_set_collision_filter excludes are left out. `distance` is in the unit of the positions; a
+ * detector for float rounds it up to a float. The list stays valid until the next call of this function for this detector, or
+ * until the detector is freed.
  *
  * The caller promises:
  * `positions` points to 3 * `vertex_count` numbers, `geometries` to a pointer, `count` to a number.
@@ -890,9 +895,9 @@ selvedge_status selvedge_detector_near_f64(struct selvedge_detector *detector,
                                            size_t *count);
 
 /**
- * Moves each vertex from `start` towards `wanted` as far as its neighbourhood allows, and writes the positions to `end`. The step
- * from `start` to `end` is free of contact, except for pairs in contact at the start; their vertices rest. `*truncation` receives
- * the counts.
+ * Moves each vertex from `start` towards `wanted` as far as its neighbourhood allows, and writes the positions to `end`. The
+ * step from `start` to `end` is free of contact, except for pairs in contact at the start; their vertices rest. `*truncation`
+ * receives the counts.
  *
  * `end` may be `wanted` or `start` itself: it is written last, and not by a call that fails.
  *
@@ -907,8 +912,8 @@ selvedge_status selvedge_detector_truncate_f64(struct selvedge_detector *detecto
                                                struct selvedge_truncation *truncation);
 
 /**
- * Creates a world without meshes. `scalar` is a selvedge_scalar, the format of its positions. By default it uses the calling thread,
- * and contacts are pairs within the default tolerance of that format.
+ * Creates a world without meshes. `scalar` is a selvedge_scalar, the format of its positions. By default it uses the calling
+ * thread, and contacts are pairs within the default tolerance of that format.
  *
  * `*world` receives the handle; free it with selvedge_world_free.
  *
@@ -919,7 +924,8 @@ selvedge_status selvedge_world_new(uint32_t scalar,
                                    struct selvedge_world **world);
 
 /**
- * Frees a world, its meshes and its lists. NULL is allowed. A world that another thread is using is freed when that call has ended.
+ * Frees a world, its meshes and its lists. NULL is allowed. A world that another thread is using is freed when that call has
+ * ended.
  */
 selvedge_status selvedge_world_free(struct selvedge_world *world);
 
@@ -936,15 +942,16 @@ selvedge_status selvedge_world_set_cancelled(struct selvedge_world *world,
 selvedge_status selvedge_world_set_threads(struct selvedge_world *world, size_t count);
 
 /**
- * Sets the minimum separation and the tolerance, as selvedge_detector_set_within. If the separation changes, the next step fits all
- * boxes again.
+ * Sets the minimum separation and the tolerance, as selvedge_detector_set_within. If the separation changes, the next step fits
+ * all boxes again.
  */
 selvedge_status selvedge_world_set_within(struct selvedge_world *world,
                                           double separation,
                                           double tolerance);
 
 /**
- * Reports only pairs that truly touch, as selvedge_detector_set_touching. For rotating bodies it reports pairs within the tolerance.
+ * Reports only pairs that truly touch, as selvedge_detector_set_touching. For rotating bodies it reports pairs within the
+ * tolerance.
  */
 selvedge_status selvedge_world_set_touching(struct selvedge_world *world,
                                             double tolerance);
@@ -995,8 +1002,8 @@ selvedge_status selvedge_world_edges(const struct selvedge_world *world,
  * points of ropes, hair and particles are triangles that name a vertex twice or three times, as for a detector.
  *
  * The caller promises:
- * `triangles` points to 3 * `triangle_count` vertex numbers, `positions` to 3 * `vertex_count` numbers, `groups` to one entry unless it is
- * NULL, `mesh` to a number.
+ * `triangles` points to 3 * `triangle_count` vertex numbers, `positions` to 3 * `vertex_count` numbers, `groups` to one entry
+ * unless it is NULL, `mesh` to a number.
  */
 selvedge_status selvedge_world_insert_f64(struct selvedge_world *world,
                                           size_t vertex_count,
@@ -1007,15 +1014,15 @@ selvedge_status selvedge_world_insert_f64(struct selvedge_world *world,
                                           selvedge_mesh *mesh);
 
 /**
- * Finds all contacts of a step in which the given meshes move. Each mesh is given at most once. All other meshes rest where their
- * last motion ended.
+ * Finds all contacts of a step in which the given meshes move. Each mesh is given at most once. All other meshes rest where
+ * their last motion ended.
  *
- * The list stays valid until the next search for contacts in this world, or until the world is freed. An empty list is at NULL. A
- * refused call changes nothing; for a cancelled one see selvedge_world_set_cancelled.
+ * The list stays valid until the next search for contacts in this world, or until the world is freed. An empty list is at NULL.
+ * A refused call changes nothing; for a cancelled one see selvedge_world_set_cancelled.
  *
  * The caller promises:
- * `deforming` and `rigid` point to as many entries as their counts say, each frame to 3 * `vertex_count` numbers, `contacts` to a
- * pointer, `count` to a number.
+ * `deforming` and `rigid` point to as many entries as their counts say, each frame to 3 * `vertex_count` numbers, `contacts` to
+ * a pointer, `count` to a number.
  */
 selvedge_status selvedge_world_contacts_f64(struct selvedge_world *world,
                                             const struct selvedge_deforming_f64 *deforming,
@@ -1055,8 +1062,8 @@ selvedge_status selvedge_world_is_free_f64(struct selvedge_world *world,
                                            bool *is_free);
 
 /**
- * Computes the geometry of each contact of the last step at its time, in the same order. The contacts may be the world's own list.
- * The geometries stay valid until the next call of this function for this world, or until the world is freed.
+ * Computes the geometry of each contact of the last step at its time, in the same order. The contacts may be the world's own
+ * list. The geometries stay valid until the next call of this function for this world, or until the world is freed.
  *
  * The last step is the one of the last call. Contacts of earlier steps are refused.
  *
@@ -1070,10 +1077,10 @@ selvedge_status selvedge_world_contact_geometries(struct selvedge_world *world,
                                                   size_t *count);
 
 /**
- * Finds the vertices that are at most `tolerance` apart, such as the split seams of a garment; 0 finds those in the same place. A chain of
- * near vertices becomes one. `vertex_of` receives the new number of each vertex: the mesh without the others has `*new_count` vertices, in the
- * same order, each with the position of the first that was merged into it. Number triangles with it, and leave out those that name a vertex
- * twice; read positions through it to get the seams back.
+ * Finds the vertices that are at most `tolerance` apart, such as the split seams of a garment; 0 finds those in the same place.
+ * A chain of near vertices becomes one. `vertex_of` receives the new number of each vertex: the mesh without the others has
+ * `*new_count` vertices, in the same order, each with the position of the first that was merged into it. Number triangles with
+ * it, and leave out those that name a vertex twice; read positions through it to get the seams back.
  *
  * The caller promises:
  * `positions` points to 3 * `vertex_count` numbers, `vertex_of` to room for `vertex_count` numbers, `new_count` to one.

@@ -86,8 +86,8 @@ typedef struct selvedge_frame {
 } selvedge_frame;
 
 /**
- * The sizes of a scene. Only tearing changes them. The vertices and triangles of the cloths come first, then those of the bodies,
- * in the order of the scene.
+ * The sizes of a scene. Only tearing changes them. The vertices and triangles of the cloths come first, then those of the
+ * bodies, in the order of the scene.
  */
 typedef struct selvedge_sizes {
   /**
@@ -161,8 +161,8 @@ typedef struct selvedge_progress {
    */
   size_t tolerated_pairs;
   /**
-   * True if the state is certified free of the intersections that the scene's contact effects name. It is false without a contact
-   * effect, while a body is let through, and while a tangled start is tolerated.
+   * True if the state is certified free of the intersections that the scene's contact effects name. It is false without a
+   * contact effect, while a body is let through, and while a tangled start is tolerated.
    */
   bool is_certified;
 } selvedge_progress;
@@ -194,8 +194,8 @@ typedef struct selvedge_near_pair {
    */
   uint32_t vertices[4];
   /**
-   * The weight of each vertex in the vector between the closest points: positive on the first side, where they add up to one, and
-   * negative on the second.
+   * The weight of each vertex in the vector between the closest points: positive on the first side, where they add up to one,
+   * and negative on the second.
    */
   double weights[4];
   /**
@@ -213,8 +213,9 @@ extern "C" {
 #endif // __cplusplus
 
 /**
- * Reads a mesh file: OBJ, PLY, STL or OFF, by its extension. Vertices have the file's numbers, positions every bit that the file holds, in the
- * file's unit. Polygons are split by their shape. SELVEDGE_STATUS_BAD_FILE means that it cannot be read; the message names the place.
+ * Reads a mesh file: OBJ, PLY, STL or OFF, by its extension. Vertices have the file's numbers, positions every bit that the file
+ * holds, in the file's unit. Polygons are split by their shape. SELVEDGE_STATUS_BAD_FILE means that it cannot be read; the
+ * message names the place.
  *
  * `*file` receives the handle; free it with selvedge_file_free.
  *
@@ -225,9 +226,9 @@ selvedge_status selvedge_file_new(const char *path,
                                   struct selvedge_file **file);
 
 /**
- * Returns the mesh of a file, and the report about it. `*missing` receives a text that names the parts which may have an area and were not
- * read, or NULL. With such parts, contacts of this mesh are not all contacts of the file. `*notes` receives one line of counts, and of what
- * was split or left out.
+ * Returns the mesh of a file, and the report about it. `*missing` receives a text that names the parts which may have an area
+ * and were not read, or NULL. With such parts, contacts of this mesh are not all contacts of the file. `*notes` receives one
+ * line of counts, and of what was split or left out.
  *
  * Lists and texts belong to the file. They stay valid until it is freed.
  *
@@ -245,11 +246,11 @@ selvedge_status selvedge_file_mesh(const struct selvedge_file *file,
 selvedge_status selvedge_file_free(struct selvedge_file *file);
 
 /**
- * Creates a simulation from the text of a scene (TOML, see std-adapter/cloth/scenes/README.md). It uses `threads` threads, 0 for one
- * per core; the result is the same bit for bit. Paths in the text are relative to `folder`; NULL is the current folder.
+ * Creates a simulation from the text of a scene (TOML, see std-adapter/cloth/scenes/README.md). It uses `threads` threads, 0 for
+ * one per core; the result is the same bit for bit. Paths in the text are relative to `folder`; NULL is the current folder.
  *
- * Texts are UTF-8, end with a zero and are copied. Messages call the scene scene.toml. `*simulation` receives the handle; free it with
- * selvedge_simulation_free.
+ * Texts are UTF-8, end with a zero and are copied. Messages call the scene scene.toml. `*simulation` receives the handle; free
+ * it with selvedge_simulation_free.
  *
  * The caller promises:
  * `scene`, and `folder` unless it is NULL, point to texts that a zero ends, `simulation` to a pointer.
@@ -268,15 +269,16 @@ selvedge_status selvedge_simulation_new(const char *scene,
 selvedge_status selvedge_simulation_read(const char *path, size_t threads, struct selvedge_simulation **simulation);
 
 /**
- * Runs one step. SELVEDGE_STATUS_BLOCKED means that no motion leaves the cloth free of intersections, in a scene that stops then. The
- * part of the step that was done remains, the message names the obstacle, and the state stays free of intersections. It also means
- * that a body or pins were to move faster than 100 m/s, before anything moved; selvedge_simulation_teleport jumps.
+ * Runs one step. SELVEDGE_STATUS_BLOCKED means that no motion leaves the cloth free of intersections, in a scene that stops
+ * then. The part of the step that was done remains, the message names the obstacle, and the state stays free of intersections.
+ * It also means that a body or pins were to move faster than 100 m/s, before anything moved; selvedge_simulation_teleport jumps.
  */
 selvedge_status selvedge_simulation_step(struct selvedge_simulation *simulation);
 
 /**
- * Runs a frame of a game or film: lets time pass, from a microsecond to a second, in as many steps as the cloth needs, at least one and
- * at most `most`; 64 is a good limit. The scene's time step has no part in it. Bodies and pins that were moved do so evenly throughout.
+ * Runs a frame of a game or film: lets time pass, from a microsecond to a second, in as many steps as the cloth needs, at least
+ * one and at most `most`; 64 is a good limit. The scene's time step has no part in it. Bodies and pins that were moved do so
+ * evenly throughout.
  *
  * Statuses are those of selvedge_simulation_step, and SELVEDGE_STATUS_BAD_VALUE for a time out of range, which changes nothing.
  *
@@ -289,7 +291,8 @@ selvedge_status selvedge_simulation_advance(struct selvedge_simulation *simulati
                                             struct selvedge_frame *frame);
 
 /**
- * Frees a simulation and its lists. NULL is allowed. A simulation that another thread is using is freed when that call has ended.
+ * Frees a simulation and its lists. NULL is allowed. A simulation that another thread is using is freed when that call has
+ * ended.
  */
 selvedge_status selvedge_simulation_free(struct selvedge_simulation *simulation);
 
@@ -351,8 +354,8 @@ selvedge_status selvedge_simulation_velocities(const struct selvedge_simulation 
                                                size_t vertex_count);
 
 /**
- * Copies the normal of the surface at each vertex: the mean of its triangles' normals, weighted by area, of length one. It is zero
- * for a vertex without a surface.
+ * Copies the normal of the surface at each vertex: the mean of its triangles' normals, weighted by area, of length one. It is
+ * zero for a vertex without a surface.
  *
  * The caller promises:
  * `normals` has room for 3 * `vertex_count` numbers.
@@ -362,8 +365,8 @@ selvedge_status selvedge_simulation_normals(const struct selvedge_simulation *si
                                             size_t vertex_count);
 
 /**
- * Copies all triangles, three vertex numbers each. Only tearing changes them; it also adds vertices, and selvedge_simulation_sizes
- * then returns new counts. `triangle_count` is that of selvedge_simulation_sizes.
+ * Copies all triangles, three vertex numbers each. Only tearing changes them; it also adds vertices, and
+ * selvedge_simulation_sizes then returns new counts. `triangle_count` is that of selvedge_simulation_sizes.
  *
  * The caller promises:
  * `triangles` has room for 3 * `triangle_count` numbers.
@@ -373,8 +376,8 @@ selvedge_status selvedge_simulation_triangles(const struct selvedge_simulation *
                                               size_t triangle_count);
 
 /**
- * Copies all loose edges (ropes, laces and fringes), two vertex numbers each. Only tearing changes them. `loose_edge_count` is that of
- * selvedge_simulation_sizes.
+ * Copies all loose edges (ropes, laces and fringes), two vertex numbers each. Only tearing changes them. `loose_edge_count` is
+ * that of selvedge_simulation_sizes.
  *
  * The caller promises:
  * `loose_edges` has room for 2 * `loose_edge_count` numbers.
@@ -396,9 +399,10 @@ selvedge_status selvedge_simulation_near_pairs(struct selvedge_simulation *simul
                                                size_t *count);
 
 /**
- * Returns the state as one mesh in which cloths from files have the vertices and faces of their files: each cloth, then the bodies. Vertices
- * that `weld` merged are apart again, those that the cloth does not have stay where the file puts them, and copies that tears made follow those
- * of the file. `*number_of` receives a list with the number in this mesh of each of the simulation's vertices.
+ * Returns the state as one mesh in which cloths from files have the vertices and faces of their files: each cloth, then the
+ * bodies. Vertices that `weld` merged are apart again, those that the cloth does not have stay where the file puts them, and
+ * copies that tears made follow those of the file. `*number_of` receives a list with the number in this mesh of each of the
+ * simulation's vertices.
  *
  * The lists belong to the simulation. They stay valid until the next call of this function, or until the simulation is freed.
  *
@@ -411,9 +415,9 @@ selvedge_status selvedge_simulation_mesh_in_files(struct selvedge_simulation *si
                                                   size_t *count);
 
 /**
- * Moves a driven body to a placement in the next step: its mesh in the scene is rotated and then translated. It rotates the short way
- * about its origin while it moves, both at a constant rate. It then stays there. A step that is cut or has to wait leaves it on its
- * way; selvedge_simulation_placement says where.
+ * Moves a driven body to a placement in the next step: its mesh in the scene is rotated and then translated. It rotates the
+ * short way about its origin while it moves, both at a constant rate. It then stays there. A step that is cut or has to wait
+ * leaves it on its way; selvedge_simulation_placement says where.
  *
  * The caller promises:
  * `placement` points to one entry.
@@ -423,16 +427,17 @@ selvedge_status selvedge_simulation_place_body(struct selvedge_simulation *simul
                                                const selvedge_pose *placement);
 
 /**
- * Moves driven bodies elsewhere at once, and with them their pins and the cloth that hangs on them, for a figure that teleports. No time
- * passes, and nothing is swept on the way. `by` is applied to positions in the world: they are rotated about the origin, then translated.
- * Velocities turn along. Cloth moves if it is pinned or attached to one of the bodies, or if it belongs to one of `cloths`, such as a garment
- * without pins. Bodies and cloths have their numbers in the scene.
+ * Moves driven bodies elsewhere at once, and with them their pins and the cloth that hangs on them, for a figure that teleports.
+ * No time passes, and nothing is swept on the way. `by` is applied to positions in the world: they are rotated about the origin,
+ * then translated. Velocities turn along. Cloth moves if it is pinned or attached to one of the bodies, or if it belongs to one
+ * of `cloths`, such as a garment without pins. Bodies and cloths have their numbers in the scene.
  *
- * On an error nothing has changed. SELVEDGE_STATUS_NOT_DRIVEN means that a body is not driven, or that something that stays holds the cloth as
- * well, SELVEDGE_STATUS_BLOCKED that there is no room.
+ * On an error nothing has changed. SELVEDGE_STATUS_NOT_DRIVEN means that a body is not driven, or that something that stays
+ * holds the cloth as well, SELVEDGE_STATUS_BLOCKED that there is no room.
  *
  * The caller promises:
- * `bodies` points to `body_count` numbers, `cloths` to `cloth_count`, `by` to one entry. Lists may be NULL if they have no entry.
+ * `bodies` points to `body_count` numbers, `cloths` to `cloth_count`, `by` to one entry. Lists may be NULL if they have no
+ * entry.
  */
 selvedge_status selvedge_simulation_teleport(struct selvedge_simulation *simulation,
                                              const size_t *bodies,
@@ -442,8 +447,8 @@ selvedge_status selvedge_simulation_teleport(struct selvedge_simulation *simulat
                                              const selvedge_pose *by);
 
 /**
- * Returns the current placement of a driven body. `*is_known` is false for other bodies and for one that was moved vertex by vertex;
- * `*placement` then stays unchanged.
+ * Returns the current placement of a driven body. `*is_known` is false for other bodies and for one that was moved vertex by
+ * vertex; `*placement` then stays unchanged.
  *
  * The caller promises:
  * `is_known` and `placement` point to one entry each.
@@ -454,8 +459,8 @@ selvedge_status selvedge_simulation_placement(const struct selvedge_simulation *
                                               selvedge_pose *placement);
 
 /**
- * Moves each vertex of a driven body straight to a position, in metres, in the next step. Use it for a body that changes its shape,
- * such as a skinned figure. Pins that follow such a body stay where they are; move them separately.
+ * Moves each vertex of a driven body straight to a position, in metres, in the next step. Use it for a body that changes its
+ * shape, such as a skinned figure. Pins that follow such a body stay where they are; move them separately.
  *
  * The caller promises:
  * `positions` points to 3 * `vertex_count` numbers.
@@ -482,8 +487,8 @@ selvedge_status selvedge_simulation_move_pins(struct selvedge_simulation *simula
 selvedge_status selvedge_simulation_set_wind(struct selvedge_simulation *simulation, double x, double y, double z);
 
 /**
- * Returns the state of the simulation as bytes. Motions that were set for the next step and the wind are not included. The call fails
- * with SELVEDGE_STATUS_NO_CHECKPOINT unless SELVEDGE_CHECKPOINT_STEPS divides the number of steps done.
+ * Returns the state of the simulation as bytes. Motions that were set for the next step and the wind are not included. The call
+ * fails with SELVEDGE_STATUS_NO_CHECKPOINT unless SELVEDGE_CHECKPOINT_STEPS divides the number of steps done.
  *
  * The bytes belong to the simulation. They stay valid until its next checkpoint, or until it is freed.
  *
@@ -495,8 +500,8 @@ selvedge_status selvedge_simulation_checkpoint(struct selvedge_simulation *simul
                                                size_t *count);
 
 /**
- * Continues from a checkpoint of the same scene, with the same bits as an uninterrupted simulation. The bytes are copied; they may be
- * this simulation's own.
+ * Continues from a checkpoint of the same scene, with the same bits as an uninterrupted simulation. The bytes are copied; they
+ * may be this simulation's own.
  *
  * The caller promises:
  * `bytes` points to `count` bytes.

@@ -28,8 +28,8 @@ impl From<PairKind> for Kind {
 #[repr(u32)]
 #[derive(Clone, Copy)]
 pub enum Boxes {
-    /// The boxes at the start and at the end of the step. Two primitives are apart if an axis orders both pairs of boxes alike. This
-    /// gives fewer pairs in less time.
+    /// The boxes at the start and at the end of the step. Two primitives are apart if an axis orders both pairs of boxes alike.
+    /// This gives fewer pairs in less time.
     Moving = 0,
     /// The boxes that primitives sweep; they overlap. Other libraries call these pairs candidates.
     Swept = 1,
@@ -66,7 +66,8 @@ pub struct ContactRow {
     pub time: f64,
     /// A selvedge_kind.
     pub kind: u32,
-    /// The vertex and the face, or the two edges. Faces have the numbers of the triangles, edges those of selvedge_detector_edges.
+    /// The vertex and the face, or the two edges. Faces have the numbers of the triangles, edges those of
+    /// selvedge_detector_edges.
     pub pair: Pair,
     /// The vertex and the face's three, or the ends of the first edge and of the second.
     pub vertices: [u32; 4],
@@ -113,8 +114,8 @@ pub struct GeometryRow {
     pub pair: Pair,
     /// The vertex and the face's three, or the ends of the first edge and of the second.
     pub vertices: [u32; 4],
-    /// True if there is a normal. There is none if the two cannot be shown to have been apart: they touch at the start of the step or
-    /// earlier in it; or, at rest, they touch.
+    /// True if there is a normal. There is none if the two cannot be shown to have been apart: they touch at the start of the
+    /// step or earlier in it; or, at rest, they touch.
     pub has_normal: bool,
     /// Barycentric weights of the four vertices, in [0, 1]. The weights of each side add up to one.
     pub weights: [f64; 4],
@@ -122,12 +123,13 @@ pub struct GeometryRow {
     pub points: [[f64; 3]; 2],
     /// The direction from the second side to the first, of length one; zeros if there is no normal.
     pub normal: [f64; 3],
-    /// A time at which the sides were certainly apart along the normal: that of the contact, or slightly earlier; 0 without a normal.
+    /// A time at which the sides were certainly apart along the normal: that of the contact, or slightly earlier; 0 without a
+    /// normal.
     pub separated_at: f64,
     /// A lower and an upper bound of the distance of the two sides at that time.
     pub distance: [f64; 2],
-    /// The speed at which the first point moves away from the second along the normal, in lengths per step. It is negative if they
-    /// approach each other, and zero without a normal.
+    /// The speed at which the first point moves away from the second along the normal, in lengths per step. It is negative if
+    /// they approach each other, and zero without a normal.
     pub speed: f64,
 }
 

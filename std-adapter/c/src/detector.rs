@@ -117,11 +117,11 @@ pub(crate) fn on(handle: *const Handle, action: impl FnOnce(&mut Detector) -> Re
     handles::on(handle, |_, detector| action(detector))
 }
 
-/// Creates a detector for a mesh. `scalar` is a selvedge_scalar, the format of its positions. By default it uses the calling thread,
-/// all vertices move, steps are not coherent, and contacts are pairs within the default tolerance.
+/// Creates a detector for a mesh. `scalar` is a selvedge_scalar, the format of its positions. By default it uses the calling
+/// thread, all vertices move, steps are not coherent, and contacts are pairs within the default tolerance.
 ///
-/// A triangle that names a vertex twice, (a, b, b), is a loose edge, and one that names it three times, (p, p, p), a point: parts of
-/// ropes, hair and particles. They collide as edges and points. A vertex that no triangle names collides with nothing.
+/// A triangle that names a vertex twice, (a, b, b), is a loose edge, and one that names it three times, (p, p, p), a point: parts
+/// of ropes, hair and particles. They collide as edges and points. A vertex that no triangle names collides with nothing.
 ///
 /// The triangles are copied. `*detector` receives the handle; free it with selvedge_detector_free.
 ///

@@ -92,8 +92,9 @@ impl Handled for File {
     }
 }
 
-/// Reads a mesh file: OBJ, PLY, STL or OFF, by its extension. Vertices have the file's numbers, positions every bit that the file holds, in the
-/// file's unit. Polygons are split by their shape. SELVEDGE_STATUS_BAD_FILE means that it cannot be read; the message names the place.
+/// Reads a mesh file: OBJ, PLY, STL or OFF, by its extension. Vertices have the file's numbers, positions every bit that the file
+/// holds, in the file's unit. Polygons are split by their shape. SELVEDGE_STATUS_BAD_FILE means that it cannot be read; the
+/// message names the place.
 ///
 /// `*file` receives the handle; free it with selvedge_file_free.
 ///
@@ -122,9 +123,9 @@ pub unsafe extern "C" fn selvedge_file_new(path: *const c_char, file: *mut *mut 
     })
 }
 
-/// Returns the mesh of a file, and the report about it. `*missing` receives a text that names the parts which may have an area and were not
-/// read, or NULL. With such parts, contacts of this mesh are not all contacts of the file. `*notes` receives one line of counts, and of what
-/// was split or left out.
+/// Returns the mesh of a file, and the report about it. `*missing` receives a text that names the parts which may have an area
+/// and were not read, or NULL. With such parts, contacts of this mesh are not all contacts of the file. `*notes` receives one
+/// line of counts, and of what was split or left out.
 ///
 /// Lists and texts belong to the file. They stay valid until it is freed.
 ///

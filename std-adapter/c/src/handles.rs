@@ -1,7 +1,7 @@
 //! The registry of detectors, worlds and simulations.
 //!
-//! C sees a handle as a pointer. Here it is a number that is given out once, looked up at each call and never followed. A freed or
-//! invented handle is therefore recognised, whatever memory contains.
+//! C sees a handle as a pointer. Here it is a number that is given out once, looked up at each call and never followed. A freed
+//! or invented handle is therefore recognised, whatever memory contains.
 //!
 //! Each item has a lock. A second thread is refused and does not wait. A panic poisons the lock, which marks the item as broken.
 

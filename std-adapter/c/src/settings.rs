@@ -26,8 +26,8 @@ pub(crate) fn length<S: Scalar>(given: f64) -> Result<S, Failure> {
     }
 }
 
-/// Sets the number of threads of a step. 1, the default, is the calling thread; larger numbers start threads of the detector; 0 is
-/// one for each core. Answers are the same bit for bit. More than four for each core, or more than 256, are refused.
+/// Sets the number of threads of a step. 1, the default, is the calling thread; larger numbers start threads of the detector; 0
+/// is one for each core. Answers are the same bit for bit. More than four for each core, or more than 256, are refused.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_detector_set_threads(detector: *mut Handle, count: usize) -> Status {
     handles::on::<Detector>(detector, |kept, it| {
@@ -69,8 +69,8 @@ pub extern "C" fn selvedge_detector_set_touching(detector: *mut Handle, toleranc
 
 /// Names the moving vertices: a byte for each vertex, not 0 if it moves. With NULL and 0, the default, all vertices move.
 ///
-/// From the next step on, pairs without a moving vertex are skipped. The next step sets the positions of resting vertices; they are
-/// not read again until the next call of this function. The bytes are copied.
+/// From the next step on, pairs without a moving vertex are skipped. The next step sets the positions of resting vertices; they
+/// are not read again until the next call of this function. The bytes are copied.
 ///
 /// # Safety
 /// `moving` points to `count` bytes.
@@ -94,8 +94,8 @@ pub unsafe extern "C" fn selvedge_detector_set_moving(detector: *mut Handle, mov
     })
 }
 
-/// The groups of a vertex and the groups it collides with, a bit for each group. Two vertices collide if each is in a group of the
-/// other's filter.
+/// The groups of a vertex and the groups it collides with, a bit for each group. Two vertices collide if each is in a group of
+/// the other's filter.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct GroupsRow {
@@ -111,8 +111,8 @@ pub struct GroupsRow {
 /// order. A pair of primitives is skipped if no vertex of one side collides with any vertex of the other. NULL omits a rule; with
 /// all three NULL, the default, no pair is skipped.
 ///
-/// `groups` and `patches` have an entry for each of the `vertex_count` vertices; the count is ignored if both are NULL. The filter
-/// does not apply to selvedge_detector_contacts_of_f64. All arguments are copied.
+/// `groups` and `patches` have an entry for each of the `vertex_count` vertices; the count is ignored if both are NULL. The
+/// filter does not apply to selvedge_detector_contacts_of_f64. All arguments are copied.
 ///
 /// # Safety
 /// `groups` and `patches` are NULL or point to `vertex_count` entries, `excluded` to `excluded_count` pairs of vertices.
@@ -153,8 +153,8 @@ pub unsafe extern "C" fn selvedge_detector_set_collision_filter(
     })
 }
 
-/// Sets whether each step starts where the last one ended, as in a simulation: not 0, or 0 as by default. Such steps are faster if
-/// vertices move by much less than an edge. The contacts are the same, in ascending order of their pairs.
+/// Sets whether each step starts where the last one ended, as in a simulation: not 0, or 0 as by default. Such steps are faster
+/// if vertices move by much less than an edge. The contacts are the same, in ascending order of their pairs.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_detector_set_coherent(detector: *mut Handle, coherent: i32) -> Status {
     on(detector, |it| {
@@ -174,8 +174,8 @@ pub extern "C" fn selvedge_detector_set_pair_limit(detector: *mut Handle, limit:
     })
 }
 
-/// Limits the memory of the pairs and contacts of a call, in bytes, at 48 bytes for a contact. The default is 2 GiB; UINT64_MAX is
-/// no limit. A call that needs more fails with SELVEDGE_STATUS_TOO_MUCH_MEMORY, on any number of threads.
+/// Limits the memory of the pairs and contacts of a call, in bytes, at 48 bytes for a contact. The default is 2 GiB; UINT64_MAX
+/// is no limit. A call that needs more fails with SELVEDGE_STATUS_TOO_MUCH_MEMORY, on any number of threads.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_detector_set_memory_limit(detector: *mut Handle, limit: u64) -> Status {
     on(detector, |it| {

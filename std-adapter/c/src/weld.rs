@@ -6,10 +6,10 @@ use crate::status::{Failure, Status};
 use selvedge::first_coincident;
 use selvedge::glam::DVec3;
 
-/// Finds the vertices that are at most `tolerance` apart, such as the split seams of a garment; 0 finds those in the same place. A chain of
-/// near vertices becomes one. `vertex_of` receives the new number of each vertex: the mesh without the others has `*new_count` vertices, in the
-/// same order, each with the position of the first that was merged into it. Number triangles with it, and leave out those that name a vertex
-/// twice; read positions through it to get the seams back.
+/// Finds the vertices that are at most `tolerance` apart, such as the split seams of a garment; 0 finds those in the same place.
+/// A chain of near vertices becomes one. `vertex_of` receives the new number of each vertex: the mesh without the others has
+/// `*new_count` vertices, in the same order, each with the position of the first that was merged into it. Number triangles with
+/// it, and leave out those that name a vertex twice; read positions through it to get the seams back.
 ///
 /// # Safety
 /// `positions` points to 3 * `vertex_count` numbers, `vertex_of` to room for `vertex_count` numbers, `new_count` to one.

@@ -1,4 +1,5 @@
-//! Your own effects: a magnet that attracts the cloth's vertices for a second, as a force, and a soft ceiling above them, as an energy.
+//! Your own effects: a magnet that attracts the cloth's vertices for a second, as a force, and a soft ceiling above them, as an
+//! energy.
 //!
 //! ```text
 //! cargo run --release -p selvedge-cloth --example own_effect

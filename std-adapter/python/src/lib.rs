@@ -1,7 +1,7 @@
 //! Selvedge for Python: the native part of the package `selvedge`.
 //!
 //! ```text
-//! numpy arrays ──▶ arrays.rs (borrowed, or converted by _arrays.py) ──▶ the detector, without the interpreter lock ──▶ answers.rs
+//! numpy arrays ──▶ arrays.rs (borrowed, or converted by _arrays.py) ──▶ the detector, without the GIL ──▶ answers.rs
 //! ```
 //! `call.rs` and `errors.rs` handle threads, processes and exceptions. The names of ipctk are in `ipc.py`, in Python only.
 

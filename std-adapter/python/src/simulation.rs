@@ -191,8 +191,14 @@ impl Simulation {
     #[pyo3(signature = (bodies, translation=[0.0; 3], rotation=[0.0, 0.0, 0.0, 1.0], *, cloths=Vec::new()))]
     fn teleport(&self, bodies: Vec<Body>, translation: [f64; 3], rotation: [f64; 4], cloths: Vec<Cloth>) -> PyResult<()> {
         let names = &self.of_scene;
-        let bodies: Vec<usize> = bodies.iter().map(|body| body.index(&names.body_names)).collect::<PyResult<_>>()?;
-        let cloths: Vec<usize> = cloths.iter().map(|cloth| cloth.index(&names.cloth_names)).collect::<PyResult<_>>()?;
+        let bodies: Vec<usize> = bodies
+            .iter()
+            .map(|body| body.index(&names.body_names))
+            .collect::<PyResult<_>>()?;
+        let cloths: Vec<usize> = cloths
+            .iter()
+            .map(|cloth| cloth.index(&names.cloth_names))
+            .collect::<PyResult<_>>()?;
         let by = Placement {
             rotation: DQuat::from_array(rotation),
             translation: translation.into(),

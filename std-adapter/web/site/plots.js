@@ -10,8 +10,8 @@ export function few(number) {
 }
 
 /**
- * Draws the four control values in units of their error bounds, on a logarithmic scale with both signs. Inside the band the sign is
- * unknown.
+ * Draws the four control values in units of their error bounds, on a logarithmic scale with both signs. Inside the band the
+ * sign is unknown.
  */
 export function drawBars(svg, values, bounds) {
   const middle = 56, unit = 2.6;

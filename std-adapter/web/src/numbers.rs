@@ -81,7 +81,9 @@ pub(crate) fn large(value: &JsValue, name: &str) -> Result<u64, Exception> {
 pub(crate) fn numbers(list: &JsValue, name: &str) -> Result<Vec<f64>, Exception> {
     let is_view = ArrayBuffer::is_view(list) && !list.is_instance_of::<DataView>();
     if list.is_instance_of::<BigInt64Array>() || list.is_instance_of::<BigUint64Array>() {
-        return Err(Exception::input(&format!("{name} must hold numbers, not values of type bigint")));
+        return Err(Exception::input(&format!(
+            "{name} must hold numbers, not values of type bigint"
+        )));
     }
     if let Some(array) = list.dyn_ref::<Float64Array>() {
         return Ok(array.to_vec());

@@ -347,7 +347,8 @@ fn placement(translation: &Numbers, rotation: Option<Numbers>) -> Result<Placeme
 }
 
 fn vector(values: &Numbers, name: &str) -> Result<DVec3, Exception> {
-    let values = <[f64; 3]>::try_from(numbers(values, name)?).map_err(|_| Exception::input(&format!("{name} must have three numbers")))?;
+    let values =
+        <[f64; 3]>::try_from(numbers(values, name)?).map_err(|_| Exception::input(&format!("{name} must have three numbers")))?;
     Ok(values.into())
 }
 

@@ -19,7 +19,8 @@ export async function serve(folder) {
   return { address: `http://127.0.0.1:${server.address().port}/`, close: () => server.close() };
 }
 
-/** Opens Chromium, or Firefox if `SELVEDGE_BROWSER` says so. Firefox draws by WebGL only with a display, such as that of `xvfb-run`. */
+/** Opens Chromium, or Firefox if `SELVEDGE_BROWSER` says so.
+ * Firefox draws by WebGL only with a display, such as that of `xvfb-run`. */
 export function open() {
   if (process.env.SELVEDGE_BROWSER === "firefox") {
     // Playwright cannot emulate media there.

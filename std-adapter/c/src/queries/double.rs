@@ -28,11 +28,12 @@ pub unsafe extern "C" fn selvedge_detector_contacts_f64(
     unsafe { find_contacts(query, contacts, count) }
 }
 
-/// Finds the contacts among the given pairs, in their order. The pairs may be this detector's own candidates. The list stays valid
-/// as for selvedge_detector_contacts_f64.
+/// Finds the contacts among the given pairs, in their order. The pairs may be this detector's own candidates. The list stays
+/// valid as for selvedge_detector_contacts_f64.
 ///
 /// # Safety
-/// The conditions are those of selvedge_detector_contacts_f64; `vertex_face` and `edge_edge` point to as many pairs as their counts say.
+/// The conditions are those of selvedge_detector_contacts_f64; `vertex_face` and `edge_edge` point to as many pairs as their
+/// counts say.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn selvedge_detector_contacts_of_f64(
     detector: *mut Handle,
@@ -90,8 +91,8 @@ pub unsafe extern "C" fn selvedge_detector_is_free_f64(
     unsafe { answer_free(query, is_free) }
 }
 
-/// Finds the pairs that bounding boxes keep. All other pairs certainly stay farther apart than the separation throughout the step.
-/// `boxes` is a selvedge_boxes. The lists stay valid until the next search for candidates with this detector, or until the
+/// Finds the pairs that bounding boxes keep. All other pairs certainly stay farther apart than the separation throughout the
+/// step. `boxes` is a selvedge_boxes. The lists stay valid until the next search for candidates with this detector, or until the
 /// detector is freed.
 ///
 /// # Safety
@@ -153,9 +154,9 @@ pub unsafe extern "C" fn selvedge_detector_has_intersections_f64(
 /// Computes the geometry of each contact at its time: the closest points, their weights, a normal along which the two sides were
 /// certainly apart, and bounds of their distance.
 ///
-/// `contacts` may be this detector's own list or rows of the caller, of which kind, pair and time are read. The geometries have the
-/// same order. A detector for float rounds a time down to a float. The list stays valid until the next call of this function for
-/// this detector, or until the detector is freed.
+/// `contacts` may be this detector's own list or rows of the caller, of which kind, pair and time are read. The geometries have
+/// the same order. A detector for float rounds a time down to a float. The list stays valid until the next call of this function
+/// for this detector, or until the detector is freed.
 ///
 /// # Safety
 /// `start` and `end` point to 3 * `vertex_count` numbers, `contacts` to `contact_count` rows, `geometries` to a pointer, `count`
@@ -179,10 +180,10 @@ pub unsafe extern "C" fn selvedge_detector_contact_geometries_f64(
 /// Finds all pairs within `distance` of each other in a mesh at rest, with their closest points. None is missed; a pair that is a
 /// little farther apart may be included, and each row has bounds of its distance.
 ///
-/// Rows ascend by kind and pair. Pairs that share a vertex, pairs without a moving vertex (selvedge_detector_set_moving) and pairs
-/// that selvedge_detector_set_collision_filter excludes are left out. `distance` is in the unit of the positions; a detector for
-/// float rounds it up to a float. The list stays valid until the next call of this function for this detector, or until the
-/// detector is freed.
+/// Rows ascend by kind and pair. Pairs that share a vertex, pairs without a moving vertex (selvedge_detector_set_moving) and
+/// pairs that selvedge_detector_set_collision_filter excludes are left out. `distance` is in the unit of the positions; a
+/// detector for float rounds it up to a float. The list stays valid until the next call of this function for this detector, or
+/// until the detector is freed.
 ///
 /// # Safety
 /// `positions` points to 3 * `vertex_count` numbers, `geometries` to a pointer, `count` to a number.
@@ -200,9 +201,9 @@ pub unsafe extern "C" fn selvedge_detector_near_f64(
     unsafe { find_near(query, distance, geometries, count) }
 }
 
-/// Moves each vertex from `start` towards `wanted` as far as its neighbourhood allows, and writes the positions to `end`. The step
-/// from `start` to `end` is free of contact, except for pairs in contact at the start; their vertices rest. `*truncation` receives
-/// the counts.
+/// Moves each vertex from `start` towards `wanted` as far as its neighbourhood allows, and writes the positions to `end`. The
+/// step from `start` to `end` is free of contact, except for pairs in contact at the start; their vertices rest. `*truncation`
+/// receives the counts.
 ///
 /// `end` may be `wanted` or `start` itself: it is written last, and not by a call that fails.
 ///

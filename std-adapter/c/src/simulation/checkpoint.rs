@@ -17,8 +17,8 @@ impl From<CheckpointError> for Failure {
     }
 }
 
-/// Returns the state of the simulation as bytes. Motions that were set for the next step and the wind are not included. The call fails
-/// with SELVEDGE_STATUS_NO_CHECKPOINT unless SELVEDGE_CHECKPOINT_STEPS divides the number of steps done.
+/// Returns the state of the simulation as bytes. Motions that were set for the next step and the wind are not included. The call
+/// fails with SELVEDGE_STATUS_NO_CHECKPOINT unless SELVEDGE_CHECKPOINT_STEPS divides the number of steps done.
 ///
 /// The bytes belong to the simulation. They stay valid until its next checkpoint, or until it is freed.
 ///
@@ -44,8 +44,8 @@ pub unsafe extern "C" fn selvedge_simulation_checkpoint(
     })
 }
 
-/// Continues from a checkpoint of the same scene, with the same bits as an uninterrupted simulation. The bytes are copied; they may be
-/// this simulation's own.
+/// Continues from a checkpoint of the same scene, with the same bits as an uninterrupted simulation. The bytes are copied; they
+/// may be this simulation's own.
 ///
 /// # Safety
 /// `bytes` points to `count` bytes.

@@ -8,8 +8,8 @@ use selvedge_cloth::Simulation;
 use std::ffi::c_char;
 use std::ops::Range;
 
-/// The sizes of a scene. Only tearing changes them. The vertices and triangles of the cloths come first, then those of the bodies,
-/// in the order of the scene.
+/// The sizes of a scene. Only tearing changes them. The vertices and triangles of the cloths come first, then those of the
+/// bodies, in the order of the scene.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SizesRow {
@@ -51,8 +51,8 @@ pub struct ProgressRow {
     pub overstretched_steps: u64,
     /// The number of pairs without a guarantee, in a scene that tolerates a tangled start.
     pub tolerated_pairs: usize,
-    /// True if the state is certified free of the intersections that the scene's contact effects name. It is false without a contact
-    /// effect, while a body is let through, and while a tangled start is tolerated.
+    /// True if the state is certified free of the intersections that the scene's contact effects name. It is false without a
+    /// contact effect, while a body is let through, and while a tangled start is tolerated.
     pub is_certified: bool,
 }
 

@@ -53,9 +53,9 @@ unsafe fn placement_at(name: &str, placement: *const Pose) -> Result<Placement, 
     Ok(Placement::new(DQuat::from_xyzw(x, y, z, w), DVec3::new(a, b, c)))
 }
 
-/// Moves a driven body to a placement in the next step: its mesh in the scene is rotated and then translated. It rotates the short way
-/// about its origin while it moves, both at a constant rate. It then stays there. A step that is cut or has to wait leaves it on its
-/// way; selvedge_simulation_placement says where.
+/// Moves a driven body to a placement in the next step: its mesh in the scene is rotated and then translated. It rotates the
+/// short way about its origin while it moves, both at a constant rate. It then stays there. A step that is cut or has to wait
+/// leaves it on its way; selvedge_simulation_placement says where.
 ///
 /// # Safety
 /// `placement` points to one entry.
@@ -72,16 +72,17 @@ pub unsafe extern "C" fn selvedge_simulation_place_body(
     })
 }
 
-/// Moves driven bodies elsewhere at once, and with them their pins and the cloth that hangs on them, for a figure that teleports. No time
-/// passes, and nothing is swept on the way. `by` is applied to positions in the world: they are rotated about the origin, then translated.
-/// Velocities turn along. Cloth moves if it is pinned or attached to one of the bodies, or if it belongs to one of `cloths`, such as a garment
-/// without pins. Bodies and cloths have their numbers in the scene.
+/// Moves driven bodies elsewhere at once, and with them their pins and the cloth that hangs on them, for a figure that teleports.
+/// No time passes, and nothing is swept on the way. `by` is applied to positions in the world: they are rotated about the origin,
+/// then translated. Velocities turn along. Cloth moves if it is pinned or attached to one of the bodies, or if it belongs to one
+/// of `cloths`, such as a garment without pins. Bodies and cloths have their numbers in the scene.
 ///
-/// On an error nothing has changed. SELVEDGE_STATUS_NOT_DRIVEN means that a body is not driven, or that something that stays holds the cloth as
-/// well, SELVEDGE_STATUS_BLOCKED that there is no room.
+/// On an error nothing has changed. SELVEDGE_STATUS_NOT_DRIVEN means that a body is not driven, or that something that stays
+/// holds the cloth as well, SELVEDGE_STATUS_BLOCKED that there is no room.
 ///
 /// # Safety
-/// `bodies` points to `body_count` numbers, `cloths` to `cloth_count`, `by` to one entry. Lists may be NULL if they have no entry.
+/// `bodies` points to `body_count` numbers, `cloths` to `cloth_count`, `by` to one entry. Lists may be NULL if they have no
+/// entry.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn selvedge_simulation_teleport(
     simulation: *mut SimulationHandle,
@@ -111,8 +112,8 @@ pub unsafe extern "C" fn selvedge_simulation_teleport(
     })
 }
 
-/// Returns the current placement of a driven body. `*is_known` is false for other bodies and for one that was moved vertex by vertex;
-/// `*placement` then stays unchanged.
+/// Returns the current placement of a driven body. `*is_known` is false for other bodies and for one that was moved vertex by
+/// vertex; `*placement` then stays unchanged.
 ///
 /// # Safety
 /// `is_known` and `placement` point to one entry each.
@@ -164,8 +165,8 @@ unsafe fn move_to(
     })
 }
 
-/// Moves each vertex of a driven body straight to a position, in metres, in the next step. Use it for a body that changes its shape,
-/// such as a skinned figure. Pins that follow such a body stay where they are; move them separately.
+/// Moves each vertex of a driven body straight to a position, in metres, in the next step. Use it for a body that changes its
+/// shape, such as a skinned figure. Pins that follow such a body stay where they are; move them separately.
 ///
 /// # Safety
 /// `positions` points to 3 * `vertex_count` numbers.

@@ -31,11 +31,11 @@ fn keep(scene: Scene, threads: usize, out: Out<*mut SimulationHandle>) -> Result
     Ok(())
 }
 
-/// Creates a simulation from the text of a scene (TOML, see std-adapter/cloth/scenes/README.md). It uses `threads` threads, 0 for one
-/// per core; the result is the same bit for bit. Paths in the text are relative to `folder`; NULL is the current folder.
+/// Creates a simulation from the text of a scene (TOML, see std-adapter/cloth/scenes/README.md). It uses `threads` threads, 0 for
+/// one per core; the result is the same bit for bit. Paths in the text are relative to `folder`; NULL is the current folder.
 ///
-/// Texts are UTF-8, end with a zero and are copied. Messages call the scene scene.toml. `*simulation` receives the handle; free it with
-/// selvedge_simulation_free.
+/// Texts are UTF-8, end with a zero and are copied. Messages call the scene scene.toml. `*simulation` receives the handle; free
+/// it with selvedge_simulation_free.
 ///
 /// # Safety
 /// `scene`, and `folder` unless it is NULL, point to texts that a zero ends, `simulation` to a pointer.
@@ -76,9 +76,9 @@ pub unsafe extern "C" fn selvedge_simulation_read(
     })
 }
 
-/// Runs one step. SELVEDGE_STATUS_BLOCKED means that no motion leaves the cloth free of intersections, in a scene that stops then. The
-/// part of the step that was done remains, the message names the obstacle, and the state stays free of intersections. It also means
-/// that a body or pins were to move faster than 100 m/s, before anything moved; selvedge_simulation_teleport jumps.
+/// Runs one step. SELVEDGE_STATUS_BLOCKED means that no motion leaves the cloth free of intersections, in a scene that stops
+/// then. The part of the step that was done remains, the message names the obstacle, and the state stays free of intersections.
+/// It also means that a body or pins were to move faster than 100 m/s, before anything moved; selvedge_simulation_teleport jumps.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_simulation_step(simulation: *mut SimulationHandle) -> Status {
     on(simulation, |it| {
@@ -97,8 +97,9 @@ pub struct FrameRow {
     pub needed: u32,
 }
 
-/// Runs a frame of a game or film: lets time pass, from a microsecond to a second, in as many steps as the cloth needs, at least one and
-/// at most `most`; 64 is a good limit. The scene's time step has no part in it. Bodies and pins that were moved do so evenly throughout.
+/// Runs a frame of a game or film: lets time pass, from a microsecond to a second, in as many steps as the cloth needs, at least
+/// one and at most `most`; 64 is a good limit. The scene's time step has no part in it. Bodies and pins that were moved do so
+/// evenly throughout.
 ///
 /// Statuses are those of selvedge_simulation_step, and SELVEDGE_STATUS_BAD_VALUE for a time out of range, which changes nothing.
 ///
@@ -131,7 +132,8 @@ pub unsafe extern "C" fn selvedge_simulation_advance(
     })
 }
 
-/// Frees a simulation and its lists. NULL is allowed. A simulation that another thread is using is freed when that call has ended.
+/// Frees a simulation and its lists. NULL is allowed. A simulation that another thread is using is freed when that call has
+/// ended.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_simulation_free(simulation: *mut SimulationHandle) -> Status {
     handles::free::<HandledSimulation>(simulation)

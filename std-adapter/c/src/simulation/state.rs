@@ -14,8 +14,8 @@ use std::borrow::Cow;
 pub struct NearPairRow {
     /// The vertices of the two sides. The vertices of bodies follow those of the cloths.
     pub vertices: [u32; 4],
-    /// The weight of each vertex in the vector between the closest points: positive on the first side, where they add up to one, and
-    /// negative on the second.
+    /// The weight of each vertex in the vector between the closest points: positive on the first side, where they add up to one,
+    /// and negative on the second.
     pub weights: [f64; 4],
     /// The direction from the second side to the first, of length one.
     pub normal: [f64; 3],
@@ -96,8 +96,8 @@ pub unsafe extern "C" fn selvedge_simulation_velocities(
     }
 }
 
-/// Copies the normal of the surface at each vertex: the mean of its triangles' normals, weighted by area, of length one. It is zero
-/// for a vertex without a surface.
+/// Copies the normal of the surface at each vertex: the mean of its triangles' normals, weighted by area, of length one. It is
+/// zero for a vertex without a surface.
 ///
 /// # Safety
 /// `normals` has room for 3 * `vertex_count` numbers.
@@ -116,8 +116,8 @@ pub unsafe extern "C" fn selvedge_simulation_normals(
     unsafe { copy_rows(simulation, ("normals", normals, vertex_count), all) }
 }
 
-/// Copies all triangles, three vertex numbers each. Only tearing changes them; it also adds vertices, and selvedge_simulation_sizes
-/// then returns new counts. `triangle_count` is that of selvedge_simulation_sizes.
+/// Copies all triangles, three vertex numbers each. Only tearing changes them; it also adds vertices, and
+/// selvedge_simulation_sizes then returns new counts. `triangle_count` is that of selvedge_simulation_sizes.
 ///
 /// # Safety
 /// `triangles` has room for 3 * `triangle_count` numbers.
@@ -135,8 +135,8 @@ pub unsafe extern "C" fn selvedge_simulation_triangles(
     }
 }
 
-/// Copies all loose edges (ropes, laces and fringes), two vertex numbers each. Only tearing changes them. `loose_edge_count` is that of
-/// selvedge_simulation_sizes.
+/// Copies all loose edges (ropes, laces and fringes), two vertex numbers each. Only tearing changes them. `loose_edge_count` is
+/// that of selvedge_simulation_sizes.
 ///
 /// # Safety
 /// `loose_edges` has room for 2 * `loose_edge_count` numbers.
@@ -177,9 +177,10 @@ pub unsafe extern "C" fn selvedge_simulation_near_pairs(
     })
 }
 
-/// Returns the state as one mesh in which cloths from files have the vertices and faces of their files: each cloth, then the bodies. Vertices
-/// that `weld` merged are apart again, those that the cloth does not have stay where the file puts them, and copies that tears made follow those
-/// of the file. `*number_of` receives a list with the number in this mesh of each of the simulation's vertices.
+/// Returns the state as one mesh in which cloths from files have the vertices and faces of their files: each cloth, then the
+/// bodies. Vertices that `weld` merged are apart again, those that the cloth does not have stay where the file puts them, and
+/// copies that tears made follow those of the file. `*number_of` receives a list with the number in this mesh of each of the
+/// simulation's vertices.
 ///
 /// The lists belong to the simulation. They stay valid until the next call of this function, or until the simulation is freed.
 ///

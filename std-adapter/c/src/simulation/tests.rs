@@ -252,7 +252,10 @@ fn a_teleport_is_that_of_rust_and_a_jump_is_refused() {
     assert_eq!(selvedge_simulation_step(handle), Status::Ok);
     are_alike(handle, &simulation);
     // Twenty metres in a step of 2 ms are too fast.
-    let far = Pose { origin: [0.0; 3], ..pose };
+    let far = Pose {
+        origin: [0.0; 3],
+        ..pose
+    };
     // SAFETY: there is one entry.
     let status = unsafe { selvedge_simulation_place_body(handle, 0, &raw const far) };
     assert_eq!((status, selvedge_simulation_step(handle)), (Status::Ok, Status::Blocked));

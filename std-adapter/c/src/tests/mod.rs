@@ -1,4 +1,5 @@
-//! C's functions, called as C does, beside the detector itself. Programs in C and C++ are tested in `tests/interface/programs.rs`.
+//! C's functions, called as C does, beside the detector itself. Programs in C and C++ are tested in
+//! `tests/interface/programs.rs`.
 
 use crate::answers::{ContactRow, GeometryRow, Kind};
 use crate::detector::{Handle, ScalarFormat, on, selvedge_detector_free, selvedge_detector_new, selvedge_detector_set_cancelled};

@@ -1,5 +1,5 @@
-//! Thin functions over `steps.rs` and the world itself. A C program calls these with positions in double; `build.rs` makes those for
-//! float from this file.
+//! Thin functions over `steps.rs` and the world itself. A C program calls these with positions in double; `build.rs` makes those
+//! for float from this file.
 
 use crate::settings::GroupsRow;
 use crate::status::Status;
@@ -12,8 +12,8 @@ use crate::world::{Inserted, Mesh, WorldHandle};
 /// points of ropes, hair and particles are triangles that name a vertex twice or three times, as for a detector.
 ///
 /// # Safety
-/// `triangles` points to 3 * `triangle_count` vertex numbers, `positions` to 3 * `vertex_count` numbers, `groups` to one entry unless it is
-/// NULL, `mesh` to a number.
+/// `triangles` points to 3 * `triangle_count` vertex numbers, `positions` to 3 * `vertex_count` numbers, `groups` to one entry
+/// unless it is NULL, `mesh` to a number.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn selvedge_world_insert_f64(
     world: *mut WorldHandle,
@@ -35,15 +35,15 @@ pub unsafe extern "C" fn selvedge_world_insert_f64(
     unsafe { inserted.into(world) }
 }
 
-/// Finds all contacts of a step in which the given meshes move. Each mesh is given at most once. All other meshes rest where their
-/// last motion ended.
+/// Finds all contacts of a step in which the given meshes move. Each mesh is given at most once. All other meshes rest where
+/// their last motion ended.
 ///
-/// The list stays valid until the next search for contacts in this world, or until the world is freed. An empty list is at NULL. A
-/// refused call changes nothing; for a cancelled one see selvedge_world_set_cancelled.
+/// The list stays valid until the next search for contacts in this world, or until the world is freed. An empty list is at NULL.
+/// A refused call changes nothing; for a cancelled one see selvedge_world_set_cancelled.
 ///
 /// # Safety
-/// `deforming` and `rigid` point to as many entries as their counts say, each frame to 3 * `vertex_count` numbers, `contacts` to a
-/// pointer, `count` to a number.
+/// `deforming` and `rigid` point to as many entries as their counts say, each frame to 3 * `vertex_count` numbers, `contacts` to
+/// a pointer, `count` to a number.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn selvedge_world_contacts_f64(
     world: *mut WorldHandle,

@@ -23,7 +23,8 @@ use selvedge::{
 };
 use steps::{WorldContactRow, WorldGeometryRow};
 
-/// A world of meshes that come and go and move independently. Its pointer is a handle: a number that is looked up and never followed.
+/// A world of meshes that come and go and move independently. Its pointer is a handle: a number that is looked up and never
+/// followed.
 ///
 /// One thread at a time may use a world, as for a detector.
 pub struct WorldHandle {
@@ -103,8 +104,8 @@ fn mesh(bits: Mesh) -> Result<MeshHandle, Failure> {
     MeshHandle::from_bits(bits).ok_or_else(none)
 }
 
-/// Creates a world without meshes. `scalar` is a selvedge_scalar, the format of its positions. By default it uses the calling thread,
-/// and contacts are pairs within the default tolerance of that format.
+/// Creates a world without meshes. `scalar` is a selvedge_scalar, the format of its positions. By default it uses the calling
+/// thread, and contacts are pairs within the default tolerance of that format.
 ///
 /// `*world` receives the handle; free it with selvedge_world_free.
 ///
@@ -128,7 +129,8 @@ pub unsafe extern "C" fn selvedge_world_new(scalar: u32, world: *mut *mut WorldH
     })
 }
 
-/// Frees a world, its meshes and its lists. NULL is allowed. A world that another thread is using is freed when that call has ended.
+/// Frees a world, its meshes and its lists. NULL is allowed. A world that another thread is using is freed when that call has
+/// ended.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_world_free(world: *mut WorldHandle) -> Status {
     handles::free::<HandledWorld>(world)
@@ -151,8 +153,8 @@ pub extern "C" fn selvedge_world_set_threads(world: *mut WorldHandle, count: usi
     })
 }
 
-/// Sets the minimum separation and the tolerance, as selvedge_detector_set_within. If the separation changes, the next step fits all
-/// boxes again.
+/// Sets the minimum separation and the tolerance, as selvedge_detector_set_within. If the separation changes, the next step fits
+/// all boxes again.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_world_set_within(world: *mut WorldHandle, separation: f64, tolerance: f64) -> Status {
     on(world, |it| {
@@ -164,7 +166,8 @@ pub extern "C" fn selvedge_world_set_within(world: *mut WorldHandle, separation:
     })
 }
 
-/// Reports only pairs that truly touch, as selvedge_detector_set_touching. For rotating bodies it reports pairs within the tolerance.
+/// Reports only pairs that truly touch, as selvedge_detector_set_touching. For rotating bodies it reports pairs within the
+/// tolerance.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_world_set_touching(world: *mut WorldHandle, tolerance: f64) -> Status {
     on(world, |it| {

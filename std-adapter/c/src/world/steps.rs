@@ -8,8 +8,8 @@ use selvedge::core::narrowing::rounded_down;
 use selvedge::glam::{DQuat, DVec3};
 use selvedge::{Frame, MeshHandle, MeshMotion, Scalar, StepError, World, WorldContact, WorldContactGeometry, WorldError};
 
-/// A mesh of a world whose vertices move, each on a straight path and at constant velocity, such as cloth or a soft body. The mesh
-/// can also meet itself.
+/// A mesh of a world whose vertices move, each on a straight path and at constant velocity, such as cloth or a soft body. The
+/// mesh can also meet itself.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct Deforming<S> {
@@ -33,10 +33,11 @@ pub struct Pose {
     pub origin: [f64; 3],
 }
 
-/// A mesh of a world that moves as a rigid body from one pose to another. It rotates the short way at a constant rate, about an axis
-/// through its origin, which moves on a straight path.
+/// A mesh of a world that moves as a rigid body from one pose to another. It rotates the short way at a constant rate, about an
+/// axis through its origin, which moves on a straight path.
 ///
-/// If the two rotations are equal, every vertex moves straight. Otherwise vertices move on arcs, and no contact on an arc is missed.
+/// If the two rotations are equal, every vertex moves straight. Otherwise vertices move on arcs, and no contact on an arc is
+/// missed.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct Rigid {
@@ -236,8 +237,8 @@ unsafe fn find_geometries<S: Format>(
     Ok(())
 }
 
-/// Computes the geometry of each contact of the last step at its time, in the same order. The contacts may be the world's own list.
-/// The geometries stay valid until the next call of this function for this world, or until the world is freed.
+/// Computes the geometry of each contact of the last step at its time, in the same order. The contacts may be the world's own
+/// list. The geometries stay valid until the next call of this function for this world, or until the world is freed.
 ///
 /// The last step is the one of the last call. Contacts of earlier steps are refused.
 ///

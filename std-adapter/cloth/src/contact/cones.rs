@@ -15,10 +15,10 @@
 //!
 //! Cones are those of surfaces at the start of the step, so that bodies may change their shape.
 //!
-//! **Cloth against cloth.** Oblique pushes make layers that lie on each other slide and tremble. But a fold lies beside itself, and
-//! cones on both sides would drop the pairs that keep it open, since the way along the cloth leads through the fold. So the
-//! test looks at the face of a vertex-face pair alone, which keeps all pairs whose foot is inside the face. It leaves out edges that
-//! cross, and these push. Where an end of an edge is closest, that vertex pushes against the faces beside the other edge.
+//! **Cloth against cloth.** Oblique pushes make layers that lie on each other slide and tremble. But a fold lies beside itself,
+//! and cones on both sides would drop the pairs that keep it open, since the way along the cloth leads through the fold. So the
+//! test looks at the face of a vertex-face pair alone, which keeps all pairs whose foot is inside the face. It leaves out edges
+//! that cross, and these push. Where an end of an edge is closest, that vertex pushes against the faces beside the other edge.
 
 use crate::model::length::length;
 use selvedge::Topology;

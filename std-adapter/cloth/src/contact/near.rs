@@ -1,14 +1,14 @@
 //! Pairs that are near: the contacts of a step, which become [rows](crate::solve) of its solve.
 //!
-//! Each contact has the direction and the weights of the closest points at the start of the step. On a fine mesh neighbours at rest
-//! may be nearer than the thickness. Then the thickness of such a pair is at most half its distance at rest, or the mesh would lock,
-//! and [less](super::neighbours). A tangled pair has no such distance at rest, and the distance of the two sides of a tear is zero.
-//! They come apart to at least the thickness of neighbours.
+//! Each contact has the direction and the weights of the closest points at the start of the step. On a fine mesh neighbours at
+//! rest may be nearer than the thickness. Then the thickness of such a pair is at most half its distance at rest, or the mesh
+//! would lock, and [less](super::neighbours). A tangled pair has no such distance at rest, and the distance of the two sides of a
+//! tear is zero. They come apart to at least the thickness of neighbours.
 //!
 //! Contacts with a body are those with its [surface](super::cones).
 //!
-//! **Only necessary work.** The step computes the closest points of a pair only if the direction that the pair stores does not keep
-//! it at its thickness.
+//! **Only necessary work.** The step computes the closest points of a pair only if the direction that the pair stores does not
+//! keep it at its thickness.
 
 use super::candidate::{Aim, Candidate};
 use super::cones::Cones;
@@ -133,9 +133,9 @@ fn near_within(pair: &mut Candidate, rules: Rules<'_>, step: &TimeStep<'_>, with
     Some((near, distance))
 }
 
-/// Returns whether a contact is one of [surfaces](super::cones), and not only of faces and edges of theirs: the point of a body is the
-/// closest point of its surface. Between cloth and cloth this rule holds for the face that a vertex meets. Edges push where they cross.
-/// Where an end of an edge is closest, its vertex and the other edge's face push.
+/// Returns whether a contact is one of [surfaces](super::cones), and not only of faces and edges of theirs: the point of a body
+/// is the closest point of its surface. Between cloth and cloth this rule holds for the face that a vertex meets. Edges push
+/// where they cross. Where an end of an edge is closest, its vertex and the other edge's face push.
 fn is_of_surface(pair: &Candidate, closest: &ClosestPoints, rules: Rules<'_>, positions: &[DVec3]) -> bool {
     let Rules { cones, .. } = rules;
     let of_first = match pair.kind {

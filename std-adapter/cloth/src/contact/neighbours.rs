@@ -12,8 +12,8 @@ use selvedge::core::separation::closest::ClosestPoints;
 use selvedge_core::glam::DVec3;
 use std::sync::Arc;
 
-/// Returns whether more pairs of one cloth are [so near](NEIGHBOURS_AT_REST) each other at rest than cloths have edges. Then it pays
-/// to look them up. The cloth's vertices are those below `cloth_vertices`.
+/// Returns whether more pairs of one cloth are [so near](NEIGHBOURS_AT_REST) each other at rest than cloths have edges. Then it
+/// pays to look them up. The cloth's vertices are those below `cloth_vertices`.
 pub(super) fn are_many(topology: &Arc<Topology>, rest: &[DVec3], cloth_vertices: usize, settings: &ContactSettings) -> bool {
     let Some(distance) = settings.of_cloths().iter().map(|own| at_rest(*own)).reduce(f64::max) else {
         return false;

@@ -6,8 +6,8 @@
 //!                                                      └▶ cut: half the step
 //! ```
 //!
-//! **The distance kept.** A pair keeps its [separation](super::separations), or a little less than its distance at the start if it
-//! starts nearer: m_P of [core](selvedge_core::separation::carried). So a zone that is carried rigidly is free, as long as no
+//! **The distance kept.** A pair keeps its [separation](super::separations), or a little less than its distance at the start if
+//! it starts nearer: m_P of [core](selvedge_core::separation::carried). So a zone that is carried rigidly is free, as long as no
 //! carrier turns by more than [`LARGEST_TURN`]. A simulation refuses to start with a pair that is nearer than rounding can
 //! distinguish.
 //!

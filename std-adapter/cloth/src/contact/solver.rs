@@ -49,8 +49,8 @@ pub(crate) struct ContactSolver {
 }
 
 impl ContactSolver {
-    /// `rest` and `carriers` are of all vertices, the cloth's first; `topology` is of all triangles, and the cloth's loose edges. Steps mostly
-    /// take `time_step` seconds.
+    /// `rest` and `carriers` are of all vertices, the cloth's first; `topology` is of all triangles, and the cloth's loose edges.
+    /// Steps mostly take `time_step` seconds.
     pub(crate) fn new(
         mut settings: ContactSettings,
         topology: Topology,
@@ -119,8 +119,8 @@ impl ContactSolver {
         Ok(crossings)
     }
 
-    /// Visits the pairs that may be nearer than their thickness at the end of a step, each with its distance at the start: `guess`
-    /// has the positions at which the solve begins, and `goal` those to which everything but contact leads.
+    /// Visits the pairs that may be nearer than their thickness at the end of a step, each with its distance at the start:
+    /// `guess` has the positions at which the solve begins, and `goal` those to which everything but contact leads.
     pub(crate) fn visit_near(
         &mut self,
         step: &TimeStep<'_>,

@@ -4,8 +4,8 @@
 //! the spring is as long as `give`. A vertex is released when an accepted step ends with the vertex farther from its anchor than
 //! that.
 //!
-//! The step is [solved](crate::solve::springs) with the springs in it. At rest the force is then k·|x − a| whatever else pulls, and
-//! light vertices are held as well as heavy ones.
+//! The step is [solved](crate::solve::springs) with the springs in it. At rest the force is then k·|x − a| whatever else pulls,
+//! and light vertices are held as well as heavy ones.
 
 use super::anchor::Anchor;
 use super::pins::PinMotion;

@@ -1,6 +1,6 @@
 //! Inflation: a prescribed pressure over time on one side of the cloth. The force on a vertex is the pressure times the gradient
-//! of the volume ([walls](crate::solve::walls)). So a closed cloth gets neither a net force nor a torque. The pressure does work, like wind, and
-//! stores no energy.
+//! of the volume ([walls](crate::solve::walls)). So a closed cloth gets neither a net force nor a torque. The pressure does work,
+//! like wind, and stores no energy.
 
 use super::enclosed::{open_edges, volume};
 use super::registration::{ActsOn, Effect, Registration};

@@ -1,8 +1,8 @@
 //! Effects: everything that acts on cloth, one file each. Their fields are the settings of scene files, in SI units.
 //! [`Scene::add`](crate::Scene::add) adds one to a scene, [`Scene::add_to`](crate::Scene::add_to) to one of several cloths.
 //!
-//! Your own effect implements [`Effect`], and puts [`Force`]s and [`Term`]s into the [`Plan`] of a step: accelerations, and energies
-//! that the step minimises together with those of this crate. Every step is certified whatever they do. See
+//! Your own effect implements [`Effect`], and puts [`Force`]s and [`Term`]s into the [`Plan`] of a step: accelerations, and
+//! energies that the step minimises together with those of this crate. Every step is certified whatever they do. See
 //! `examples/own_effect.rs`.
 // To add an effect here: its own file, a `mod` line, a `pub use`, and a line of `REGISTRY`.
 

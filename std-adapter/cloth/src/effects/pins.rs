@@ -28,7 +28,8 @@ pub(super) const REGISTRATION: Registration = Registration::new(&["group"], |tab
 /// Vertices of the cloth that follow a prescribed motion. Forces do not move them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pins {
-    /// Groups of vertices. A vertex may be in several groups if their motions are the same and not driven, such as the corner of two sides.
+    /// Groups of vertices. A vertex may be in several groups if their motions are the same and not driven, such as the corner of
+    /// two sides.
     pub groups: Vec<PinGroup>,
 }
 

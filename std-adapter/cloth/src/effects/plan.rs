@@ -1,7 +1,7 @@
 //! The plan of a step. Effects register with it.
 //!
-//! Each effect adds forces and terms, which own their data. What no effect adds costs nothing. Effects register in the order of the
-//! registry; the file's order does not matter.
+//! Each effect adds forces and terms, which own their data. What no effect adds costs nothing. Effects register in the order of
+//! the registry; the file's order does not matter.
 //!
 //! An effect that acts on each cloth by itself registers once for each. Its forces see the vertices of that cloth alone.
 
@@ -172,8 +172,8 @@ impl<'a> Plan<'a> {
         self.fabrics[self.cloth()]
     }
 
-    /// Returns the vertices of the cloth on which the registering effect acts, as the scene numbers them; those of all cloths if it
-    /// acts on the whole scene.
+    /// Returns the vertices of the cloth on which the registering effect acts, as the scene numbers them; those of all cloths if
+    /// it acts on the whole scene.
     #[must_use]
     pub fn vertices(&self) -> Range<usize> {
         self.cloth
@@ -199,8 +199,8 @@ impl<'a> Plan<'a> {
         self.scene.cloth.masses()
     }
 
-    /// Adds a term of the energy that a step minimises. It numbers vertices as the scene does, whatever [`vertices`](Self::vertices) it
-    /// acts on.
+    /// Adds a term of the energy that a step minimises. It numbers vertices as the scene does, whatever
+    /// [`vertices`](Self::vertices) it acts on.
     pub fn add_term(&mut self, term: impl Term + 'static) {
         self.terms.push(self.entry(Box::new(term)));
     }
@@ -272,8 +272,8 @@ impl<'a> Plan<'a> {
         self.drag[own].iter_mut().for_each(|drag| *drag += rate);
     }
 
-    /// Adds a force. Forces run first in a step, in the order of these calls. A force of an effect on one cloth sees the vertices of that
-    /// cloth alone.
+    /// Adds a force. Forces run first in a step, in the order of these calls. A force of an effect on one cloth sees the vertices
+    /// of that cloth alone.
     pub fn add_force(&mut self, force: impl Force + 'static) {
         self.forces.push(ActingForce {
             effect: self.effect,

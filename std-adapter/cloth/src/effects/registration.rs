@@ -58,8 +58,9 @@ pub trait Effect: Debug + Send + Sync {
 /// The extent of an effect in a scene of several cloths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
-    /// Each cloth by itself. The forces of the effect see the vertices of that cloth alone, numbered as in its mesh. Its terms number
-    /// vertices as the scene does, from the first of [`Plan::vertices`] on. A cloth may have [its own](crate::Scene::add_to) effect.
+    /// Each cloth by itself. The forces of the effect see the vertices of that cloth alone, numbered as in its mesh. Its terms
+    /// number vertices as the scene does, from the first of [`Plan::vertices`] on. A cloth may have [its
+    /// own](crate::Scene::add_to) effect.
     Cloth,
     /// Each cloth by itself. The effect concerns pairs of cloths, so all cloths must have it if one has.
     AllCloths,

@@ -53,8 +53,9 @@ impl SceneError {
 }
 
 impl SceneError {
-    /// Returns the path of the field that the error is about, such as `effects.friction.coefficient` or `cloth[1].density`; `None` if it is
-    /// about the scene as a whole. `text` is that of the scene. This suits scenes that code writes, whose lines nobody sees.
+    /// Returns the path of the field that the error is about, such as `effects.friction.coefficient` or `cloth[1].density`;
+    /// `None` if it is about the scene as a whole. `text` is that of the scene. This suits scenes that code writes, whose lines
+    /// nobody sees.
     #[must_use]
     pub fn field(&self, text: &str) -> Option<String> {
         let (line, column) = self.place?;

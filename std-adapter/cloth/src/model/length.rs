@@ -1,6 +1,7 @@
 //! Lengths of vectors in code that runs many times in a step.
 //!
-//! The results have the bits of glam's methods. Those take square roots from libm, which has no instruction for them on WebAssembly.
+//! The results have the bits of glam's methods. Those take square roots from libm, which has no instruction for them on
+//! WebAssembly.
 
 use selvedge_core::glam::DVec3;
 

@@ -50,8 +50,8 @@ pub trait Force: Debug + Send + Sync {
     }
 }
 
-/// The state that a [`Term`](crate::effects::Term) keeps from step to step. It changes only after an accepted step, or part of one; failed steps
-/// leave no trace. Checkpoints contain it.
+/// The state that a [`Term`](crate::effects::Term) keeps from step to step. It changes only after an accepted step, or part of
+/// one; failed steps leave no trace. Checkpoints contain it.
 pub trait Memory {
     /// Records an accepted step from `step.start` to `positions`.
     fn settle(&mut self, step: &TimeStep<'_>, positions: &[DVec3]);

@@ -97,8 +97,8 @@ pub struct Scene {
     pub bodies: Vec<Body>,
     /// The length of a step, in seconds, at most a sixtieth. A scene [by frames](Self::by_frames) has no longer ones.
     pub time_step: f64,
-    /// True if the scene runs [frame by frame](crate::Simulation::advance), in as many steps as the cloth needs: in a file, without a
-    /// `time_step`. The frames are those of [`frame_rate`](Self::frame_rate), which is then at least 1 Hz.
+    /// True if the scene runs [frame by frame](crate::Simulation::advance), in as many steps as the cloth needs: in a file,
+    /// without a `time_step`. The frames are those of [`frame_rate`](Self::frame_rate), which is then at least 1 Hz.
     pub by_frames: bool,
     /// The length of the simulation, in seconds.
     pub duration: f64,
@@ -379,8 +379,8 @@ impl Scene {
         settings
     }
 
-    /// Returns the time that passes in one call of [`Simulation::run`](crate::Simulation::run), in seconds: a step, or a frame in a scene
-    /// [by frames](Self::by_frames).
+    /// Returns the time that passes in one call of [`Simulation::run`](crate::Simulation::run), in seconds: a step, or a frame in
+    /// a scene [by frames](Self::by_frames).
     #[must_use]
     pub fn time_of_run(&self) -> f64 {
         if self.by_frames {

@@ -59,8 +59,8 @@ pub enum DriveError {
 }
 
 impl Simulation {
-    /// Moves a [driven](crate::BodyMotion::Driven) body to another placement in the next step. A step in which a vertex would be faster than
-    /// 100 m/s fails, before anything moves; [`teleport`](Self::teleport) jumps. It turns about its origin, the
+    /// Moves a [driven](crate::BodyMotion::Driven) body to another placement in the next step. A step in which a vertex would be
+    /// faster than 100 m/s fails, before anything moves; [`teleport`](Self::teleport) jumps. It turns about its origin, the
     /// shorter way round, and moves along, both evenly. After a step that is cut or has to wait the body is on the way, where
     /// [`placement`](Self::placement) says. It stays there until the next call.
     ///
@@ -129,8 +129,8 @@ impl Simulation {
         if is_taken { Ok(()) } else { Err(DriveError::NoWind) }
     }
 
-    /// Sets the velocity, in m/s, with which vertices of cloth start the next step, as if a hand pulled them. Pinned vertices keep theirs. The next
-    /// step is certified like any other.
+    /// Sets the velocity, in m/s, with which vertices of cloth start the next step, as if a hand pulled them. Pinned vertices
+    /// keep theirs. The next step is certified like any other.
     ///
     /// # Errors
     /// If a vertex is not of cloth, or a component of the velocity is not finite or not below [`FASTEST`].
@@ -149,7 +149,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// Returns the first body or group of pins that the caller moves faster than [`FASTEST_VERTEX`] in the step that begins. Drops all goals then.
+    /// Returns the first body or group of pins that the caller moves faster than [`FASTEST_VERTEX`] in the step that begins.
+    /// Drops all goals then.
     pub(super) fn too_fast(&mut self) -> Option<Blocked> {
         let Assembly { motions, carriers, .. } = &self.made;
         let driven = (0_u32..)

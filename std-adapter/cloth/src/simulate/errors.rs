@@ -15,8 +15,8 @@ pub struct Blocked {
     pub what: String,
     /// The body that is in the way or too fast; `None` if it is a pin.
     pub body: Option<String>,
-    /// The speed in m/s of what the caller moves too fast; `None` if something is in the way. Then nothing has moved, and the motions that the
-    /// caller has set for this step are dropped.
+    /// The speed in m/s of what the caller moves too fast; `None` if something is in the way. Then nothing has moved, and the
+    /// motions that the caller has set for this step are dropped.
     pub speed: Option<f64>,
 }
 

@@ -9,7 +9,8 @@
 //! * **Speed.** Contacts push along directions at the start of a step, which turn where cloth passes a face. So nothing near the
 //!   cloth moves more than [`FARTHEST`] of the cloth's mean edge in a step, relative to the mean of the cloth.
 //!
-//! The number of steps follows from the state and the scene alone. So it is the same for any number of threads, and after a resume.
+//! The number of steps follows from the state and the scene alone. So it is the same for any number of threads, and after a
+//! resume.
 
 use super::errors::Blocked;
 use super::simulation::Simulation;
@@ -31,7 +32,8 @@ const SECONDS: Field = Field::new("seconds", TIME, 1e-6, 1.0);
 pub struct FrameSteps {
     /// The number of steps that were done.
     pub steps: u32,
-    /// The number of steps that the cloth needs. If that is more than were allowed, edges may be longer than their limit, and contacts act late.
+    /// The number of steps that the cloth needs. If that is more than were allowed, edges may be longer than their limit, and
+    /// contacts act late.
     pub needed: u32,
 }
 
@@ -63,7 +65,8 @@ impl Simulation {
     /// Advances by a frame of a game or a film, a microsecond to a second, in as many steps as the cloth needs (at most 64).
     ///
     /// The scene's own time step has no part in it. Bodies and pins that the caller moves do so evenly throughout the frame. A
-    /// [checkpoint](Self::checkpoint) can be taken after the frame in which a multiple of [`CHECKPOINT_STEPS`](crate::CHECKPOINT_STEPS) was reached.
+    /// [checkpoint](Self::checkpoint) can be taken after the frame in which a multiple of
+    /// [`CHECKPOINT_STEPS`](crate::CHECKPOINT_STEPS) was reached.
     ///
     /// ```
     /// use selvedge_cloth::effects::{Gravity, Stretch};
@@ -94,8 +97,8 @@ impl Simulation {
         self.advance_while(seconds, most, &mut |_| ControlFlow::Continue(()))
     }
 
-    /// Advances like [`advance_within`](Self::advance_within), and calls `tell` after each step. If that returns `Break`, the frame stops
-    /// there, with fewer steps than it takes; bodies and pins that the caller moves are then on their way.
+    /// Advances like [`advance_within`](Self::advance_within), and calls `tell` after each step. If that returns `Break`, the
+    /// frame stops there, with fewer steps than it takes; bodies and pins that the caller moves are then on their way.
     ///
     /// # Errors
     /// Returns the errors of [`advance`](Self::advance).

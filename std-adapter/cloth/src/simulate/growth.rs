@@ -4,12 +4,12 @@
 //! a body that cloth passes through ─▶ shrinks until it is off the cloth ─▶ grows back in certified steps, and pushes the cloth out
 //! ```
 //!
-//! **Shrinking.** The vertices of the body move to the mean of their neighbours, again and again: limbs become thin, and what is round stays
-//! round, so a garment stays around its limb. If that never leaves the cloth, the body shrinks towards its vertex that is farthest from
-//! cloth. The shrunken body may pass through itself, which is no concern of cloth.
+//! **Shrinking.** The vertices of the body move to the mean of their neighbours, again and again: limbs become thin, and what is
+//! round stays round, so a garment stays around its limb. If that never leaves the cloth, the body shrinks towards its vertex
+//! that is farthest from cloth. The shrunken body may pass through itself, which is no concern of cloth.
 //!
-//! **Growing.** No time passes. Each step starts at rest, and the body moves straight by about as much as cloth can follow. A step that is
-//! not certified is cut, or the body waits for the cloth to relax.
+//! **Growing.** No time passes. Each step starts at rest, and the body moves straight by about as much as cloth can follow. A
+//! step that is not certified is cut, or the body waits for the cloth to relax.
 
 use super::simulation::Simulation;
 use crate::scene::OnBlocked;
@@ -29,8 +29,8 @@ const MOST_STEPS: usize = 4000;
 const MOST_WAITS: u32 = 100;
 
 impl Simulation {
-    /// Pushes the cloth out of bodies that it passes through. Returns whether no body passes through cloth any more; otherwise all is as it
-    /// was.
+    /// Pushes the cloth out of bodies that it passes through. Returns whether no body passes through cloth any more; otherwise
+    /// all is as it was.
     pub(super) fn grow_bodies(&mut self, spacing: f64) -> bool {
         let bodies: BTreeSet<usize> = self.crossings().iter().filter_map(|crossing| crossing.body).collect();
         if bodies.is_empty() {

@@ -1,8 +1,8 @@
 //! The steps of a simulation.
 //!
-//! A step is one [solve](crate::solve): forces change velocities, inertia predicts positions, and Newton's method finds the positions
-//! of the least energy. With a contact effect the resulting motion is then certified ([`contact`](crate::contact)), repaired or cut.
-//! Bodies and pins have a separate clock, which may have to wait.
+//! A step is one [solve](crate::solve): forces change velocities, inertia predicts positions, and Newton's method finds the
+//! positions of the least energy. With a contact effect the resulting motion is then certified ([`contact`](crate::contact)),
+//! repaired or cut. Bodies and pins have a separate clock, which may have to wait.
 //!
 //! **All numbers stay finite, whatever the scene**: nothing divides by a number that may be zero, and no vertex moves
 //! faster than [`FASTEST`].

@@ -1,12 +1,12 @@
 //! Conservation of momentum: inner forces neither move nor turn a piece of cloth.
 //!
-//! The solve ends with a small error, and forces act at other positions than those between which angular momentum is counted. So after
-//! a solve each piece gets the velocity of a rigid body on top, with which its momentum is what forces from outside leave it
-//! ([`Piece::keep_momentum`]). It moves the whole piece, so that no strain changes but in the second order of the turn.
+//! The solve ends with a small error, and forces act at other positions than those between which angular momentum is counted. So
+//! after a solve each piece gets the velocity of a rigid body on top, with which its momentum is what forces from outside leave
+//! it ([`Piece::keep_momentum`]). It moves the whole piece, so that no strain changes but in the second order of the turn.
 //!
-//! **Held pieces.** A pinned vertex takes up any force but no moment about itself. Pins on a line take up every moment except the one
-//! about that line. Then the piece turns about it. Other pins take up all moments. A piece that something presses is left as it
-//! is.
+//! **Held pieces.** A pinned vertex takes up any force but no moment about itself. Pins on a line take up every moment except the
+//! one about that line. Then the piece turns about it. Other pins take up all moments. A piece that something presses is left as
+//! it is.
 //!
 //! **A piece** is what edges and [joints](crate::solve::Term::joints) connect, pinned vertices included.
 
@@ -147,15 +147,21 @@ impl Piece {
     /// A vertex has v′ = (x′ − b)/r with the base b and the rate r of its [prediction](Prediction), so that x′ × v′ = b × v′. The
     /// equation of motion is m(v′ − w)/r = −g with w = (y − b)/r, and the gradient g of inner forces has no sum. The
     /// angular momentum about a fixed point is L′ = L + h·τ after a step of first order, and L′ = (4L − L₋)/3 + ⅔h·τ after one
-    /// of second order: the same formulas as for v′, with the moment τ of forces from outside. A pinned point is at its place at the
-    /// end of the step, where its force has no moment about it.
+    /// of second order: the same formulas as for v′, with the moment τ of forces from outside. A pinned point is at its place at
+    /// the end of the step, where its force has no moment about it.
     fn keep_momentum(&self, step: &TimeStep<'_>, motion: &Motion<'_>, x: &mut [DVec3], velocities: &mut [DVec3]) {
         let Some(hinge) = self.hinge(x) else { return };
         let Motion {
             forced,
             velocities: before,
             history,
-            prediction: Prediction { goal, masses, base, rate },
+            prediction:
+                Prediction {
+                    goal,
+                    masses,
+                    base,
+                    rate,
+                },
         } = motion;
         let (h, start) = (step.h, step.start);
         let free = || self.free.iter().map(|&vertex| vertex as usize);
@@ -189,7 +195,8 @@ impl Piece {
             let end = x[vertex] - centre;
             let angular = |at: DVec3, velocity: DVec3| (at - centre).cross(velocity * mass);
             let kept = if is_second_order {
-                let kept = angular(start[vertex], before[vertex]) * 4.0 - angular(history.positions[vertex], history.velocities[vertex]);
+                let kept =
+                    angular(start[vertex], before[vertex]) * 4.0 - angular(history.positions[vertex], history.velocities[vertex]);
                 let forces = (forced[vertex] - before[vertex]) * mass;
                 kept / 3.0 + end.cross(forces) * (2.0 / 3.0)
             } else {

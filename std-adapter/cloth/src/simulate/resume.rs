@@ -6,8 +6,9 @@ use crate::model::step::Memory;
 use crate::world::{Driven, Kinematic};
 
 impl Simulation {
-    /// Returns all that the rest of the simulation depends on, and what has been measured so far, every [`CHECKPOINT_STEPS`](crate::CHECKPOINT_STEPS) steps;
-    /// `None` in between. Motions that the caller has set for the next step, and the wind, are not in it.
+    /// Returns all that the rest of the simulation depends on, and what has been measured so far, every
+    /// [`CHECKPOINT_STEPS`](crate::CHECKPOINT_STEPS) steps; `None` in between. Motions that the caller has set for the next step,
+    /// and the wind, are not in it.
     #[must_use]
     pub fn checkpoint(&self) -> Option<Vec<u8>> {
         if !self.is_fresh {
@@ -68,7 +69,10 @@ impl Simulation {
         }
         let made = torn.as_ref().map_or(&self.made, |(retorn, _)| &retorn.made);
         let counts = [vertices, made.cloth_vertices];
-        let kept = made.solve.read_kept(&checkpoint.kept, counts).ok_or(CheckpointError::Damaged)?;
+        let kept = made
+            .solve
+            .read_kept(&checkpoint.kept, counts)
+            .ok_or(CheckpointError::Damaged)?;
         if let Some((retorn, edges)) = torn {
             self.adopt_torn(retorn, edges);
         }

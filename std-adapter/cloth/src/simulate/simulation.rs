@@ -130,8 +130,8 @@ impl Simulation {
 
     /// Returns the present state as one mesh, in which cloths from files have the vertices and faces of their files.
     ///
-    /// Vertices that `weld` merged are apart again, in the same place, so that texture coordinates and seams fit. Vertices that the cloth does
-    /// not have stay where the file puts them. Vertices that tears add follow those of the file.
+    /// Vertices that `weld` merged are apart again, in the same place, so that texture coordinates and seams fit. Vertices that
+    /// the cloth does not have stay where the file puts them. Vertices that tears add follow those of the file.
     #[must_use]
     pub fn mesh_in_files(&self) -> MeshInFiles {
         self.numbering

@@ -68,7 +68,11 @@ impl Simulation {
         let count = *cloth_vertices;
         let clock = state.clock;
         poses.clear();
-        poses.extend(motions.iter().map(|motion| [clock, clock + ticks].map(|time| motion.pose(time))));
+        poses.extend(
+            motions
+                .iter()
+                .map(|motion| [clock, clock + ticks].map(|time| motion.pose(time))),
+        );
         let step = TimeStep {
             time: state.time(*time_step),
             h,
@@ -99,13 +103,22 @@ impl Simulation {
         };
         ends.clear();
         ends.extend((0..step.start.len()).map(end));
-        motions.iter_mut().for_each(|motion: &mut Kinematic| motion.put(clock + ticks, ends));
+        motions
+            .iter_mut()
+            .for_each(|motion: &mut Kinematic| motion.put(clock + ticks, ends));
 
         let both = [&state.velocities[..], &forced[..]];
         let order = (&drag[..], solve.accuracy.is_of_second_order());
         prediction::predict(prediction, &step, history, both, order, ends, count);
         prediction::guess(x, &step, history, both, ends, count);
-        collect_rows(solve, smooth_bodies, contact, &step, [x, &prediction.goal], *friction_coefficient);
+        collect_rows(
+            solve,
+            smooth_bodies,
+            contact,
+            &step,
+            [x, &prediction.goal],
+            *friction_coefficient,
+        );
         solve.remind_rows(h);
         prediction::hold_pressed(&solve.rows, &step, x, count);
         let follow = |row: &mut ContactRow, x: &[DVec3]| follow_smooth(row, &step, smooth_bodies, x);
@@ -124,10 +137,17 @@ impl Simulation {
         is_pressed.clear();
         is_pressed.resize(count, false);
         for row in solve.rows.iter().filter(|row| row.push > 0.0) {
-            row.parts().filter(|(vertex, _)| *vertex < count).for_each(|(vertex, _)| is_pressed[vertex] = true);
+            row.parts()
+                .filter(|(vertex, _)| *vertex < count)
+                .for_each(|(vertex, _)| is_pressed[vertex] = true);
         }
         let farthest = FASTEST * h;
-        for (vertex, position) in x.iter_mut().enumerate().take(count).filter(|(vertex, _)| carriers[*vertex] == FREE) {
+        for (vertex, position) in x
+            .iter_mut()
+            .enumerate()
+            .take(count)
+            .filter(|(vertex, _)| carriers[*vertex] == FREE)
+        {
             let start = step.start[vertex];
             *position = start + limited(*position - start, farthest);
         }
@@ -166,7 +186,9 @@ impl Simulation {
             }
         }
         history.is_first_order.clear();
-        history.is_first_order.extend(is_pressed.iter().zip(&*is_moved).map(|(pressed, moved)| *pressed || *moved));
+        history
+            .is_first_order
+            .extend(is_pressed.iter().zip(&*is_moved).map(|(pressed, moved)| *pressed || *moved));
         history.record(&state.positions, &state.velocities, h);
         std::mem::swap(&mut state.velocities, velocities);
         std::mem::swap(&mut state.positions, x);
@@ -205,8 +227,8 @@ fn collect_rows(
         let far = body.radius + REACH * body.thickness;
         for vertex in body.vertices.clone().filter(|&vertex| step.inverse_masses[vertex] > 0.0) {
             let start = step.start[vertex];
-            let [at_start, at_guess, at_goal] = [(axis_before, start), (axis, guess[vertex]), (axis, goal[vertex])]
-                .map(|(axis, point)| away(axis, point).1);
+            let [at_start, at_guess, at_goal] =
+                [(axis_before, start), (axis, guess[vertex]), (axis, goal[vertex])].map(|(axis, point)| away(axis, point).1);
             if at_start.min(at_guess).min(at_goal) > far {
                 continue;
             }
@@ -233,8 +255,18 @@ fn collect_rows(
             thickness,
         } = near;
         // Bodies are at their ends in the guess, and the cloth at the start.
-        let at = |vertex: u32| if step.inverse_masses[vertex as usize] > 0.0 { step.start[vertex as usize] } else { guess[vertex as usize] };
-        let left = vertices.into_iter().zip(weights).map(|(vertex, weight)| weight * normal.dot(at(vertex))).sum();
+        let at = |vertex: u32| {
+            if step.inverse_masses[vertex as usize] > 0.0 {
+                step.start[vertex as usize]
+            } else {
+                guess[vertex as usize]
+            }
+        };
+        let left = vertices
+            .into_iter()
+            .zip(weights)
+            .map(|(vertex, weight)| weight * normal.dot(at(vertex)))
+            .sum();
         rows.push(ContactRow {
             thickness,
             is_with_body,

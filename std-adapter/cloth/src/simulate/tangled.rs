@@ -73,7 +73,8 @@ pub struct Tangled {
     pub cloth_triangles: usize,
     /// The names of bodies, in the order of the scene.
     pub body_names: Vec<String>,
-    /// The pinned vertices of cloth that these edges and faces have, by the numbers of `mesh`, in their order. Untangling cannot move them.
+    /// The pinned vertices of cloth that these edges and faces have, by the numbers of `mesh`, in their order. Untangling cannot
+    /// move them.
     pub pinned: Vec<u32>,
     /// The result of untangling, if the scene requests it.
     pub untangled: Option<Untangled>,

@@ -57,15 +57,16 @@ struct Moved {
 }
 
 impl Simulation {
-    /// Moves [driven](crate::BodyMotion::Driven) bodies elsewhere at once, and with them their pins and the cloth that hangs on them. A game uses
-    /// it for a figure that teleports, or for a world whose origin moves.
+    /// Moves [driven](crate::BodyMotion::Driven) bodies elsewhere at once, and with them their pins and the cloth that hangs on
+    /// them. A game uses it for a figure that teleports, or for a world whose origin moves.
     ///
-    /// It is no step: no time passes, nothing is swept on the way, and the cloth does not feel it. `by` is applied to positions in the world:
-    /// they are rotated about the origin, then translated. Velocities turn along, so that they stay the same relative to the bodies.
+    /// It is no step: no time passes, nothing is swept on the way, and the cloth does not feel it. `by` is applied to positions
+    /// in the world: they are rotated about the origin, then translated. Velocities turn along, so that they stay the same
+    /// relative to the bodies.
     ///
-    /// A piece of cloth moves if it is pinned or attached to one of the `bodies`, or if it belongs to one of the `cloths`. Name a garment there
-    /// that a figure wears without pins. Driven pins of such cloth move as well. Goals of earlier calls for the next step are dropped for all
-    /// that moves. The new state is checked like the start of a scene.
+    /// A piece of cloth moves if it is pinned or attached to one of the `bodies`, or if it belongs to one of the `cloths`. Name a
+    /// garment there that a figure wears without pins. Driven pins of such cloth move as well. Goals of earlier calls for the
+    /// next step are dropped for all that moves. The new state is checked like the start of a scene.
     ///
     /// ```
     /// use selvedge_cloth::effects::{PinGroup, PinMotion, Pins, Stretch};
@@ -89,8 +90,8 @@ impl Simulation {
     /// ```
     ///
     /// # Errors
-    /// Returns an error, and changes nothing, if a number is wrong, a body is not driven, something else holds the cloth, or the cloth or a body
-    /// would meet something there.
+    /// Returns an error, and changes nothing, if a number is wrong, a body is not driven, something else holds the cloth, or the
+    /// cloth or a body would meet something there.
     pub fn teleport(&mut self, bodies: &[usize], cloths: &[usize], by: Placement) -> Result<(), TeleportError> {
         let by = by.checked()?;
         let moved = self.moved_by(bodies, cloths)?;
@@ -177,7 +178,9 @@ impl Simulation {
             memory.teleport(&moved.vertices, &|point| by.apply(point));
         }
         self.waiting = None;
-        self.forget_motion();
+        let history = &mut self.work.substep.history;
+        history.teleport(&moved.vertices, |point| by.apply(point), |vector| by.rotation * vector);
+        self.made.solve.forget();
     }
 
     /// Finds what moves with the bodies and cloths.

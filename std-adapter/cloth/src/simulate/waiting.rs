@@ -1,9 +1,9 @@
 //! Steps of bodies and pins that wait (`hold`) because the motion that they want is not possible.
 //!
-//! To find that out takes many times as long as a free step, and after a step that waited the same motion is most often impossible again. So it is
-//! tried again only after 1, 4, 16, 64, 64 … steps, and then its shortest part first. In the steps between, bodies and pins stay where they are.
-//! A motion that becomes possible is noticed within 64 steps, and sooner if it was impossible for less time. Any other motion, such as one that
-//! the caller sets, is tried at once.
+//! To find that out takes many times as long as a free step, and after a step that waited the same motion is most often
+//! impossible again. So it is tried again only after 1, 4, 16, 64, 64 … steps, and then its shortest part first. In the steps
+//! between, bodies and pins stay where they are. A motion that becomes possible is noticed within 64 steps, and sooner if it was
+//! impossible for less time. Any other motion, such as one that the caller sets, is tried at once.
 
 use super::simulation::Simulation;
 use crate::scene::OnBlocked;

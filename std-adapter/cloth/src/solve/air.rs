@@ -1,12 +1,12 @@
 //! The push of moving air on triangles and on loose edges.
 //!
-//! A triangle of area A with the normal n and the velocity u of itself against the air feels −½ρcA|u·n|(u·n)n, a third at each corner
-//! (Keller et al. 2003 use the same normal term). A loose edge of length L and diameter d feels −½ρcdL|u|u with the part u of its
-//! velocity across it (the cross-flow principle; Hoerner, Fluid-Dynamic Drag, 1965, chapter 3), half at each end.
+//! A triangle of area A with the normal n and the velocity u of itself against the air feels −½ρcA|u·n|(u·n)n, a third at each
+//! corner (Keller et al. 2003 use the same normal term). A loose edge of length L and diameter d feels −½ρcdL|u|u with the part u
+//! of its velocity across it (the cross-flow principle; Hoerner, Fluid-Dynamic Drag, 1965, chapter 3), half at each end.
 //!
-//! The velocity is that at the end of the step. So light cloth goes with the wind and never overshoots it, and cloth that is held feels
-//! the whole push. With r the time in which a move becomes a velocity, the push has the potential r/6·ρcA|u·n|³ for a constant area
-//! and normal: both are those at the start of each Newton step.
+//! The velocity is that at the end of the step. So light cloth goes with the wind and never overshoots it, and cloth that is held
+//! feels the whole push. With r the time in which a move becomes a velocity, the push has the potential r/6·ρcA|u·n|³ for a
+//! constant area and normal: both are those at the start of each Newton step.
 
 use super::matrix::{Matrix, directed};
 use super::term::{Prediction, Renewed, Term};
@@ -32,8 +32,8 @@ struct Panel<const N: usize> {
     vertices: [u32; N],
     /// The velocity of the air, in m/s.
     air: DVec3,
-    /// Half the density of the air, times drag and area, in kg/m; and the direction, at the start of the Newton step: the normal of a
-    /// triangle, or the line of an edge.
+    /// Half the density of the air, times drag and area, in kg/m; and the direction, at the start of the Newton step: the normal
+    /// of a triangle, or the line of an edge.
     size: f64,
     direction: DVec3,
 }
@@ -67,7 +67,11 @@ impl<B: Blowing> InAir<B> {
             half_density,
             of_edges: half_density * diameter,
             triangles: triangles.into_iter().map(Panel::new).collect(),
-            edges: if diameter > 0.0 { edges.into_iter().map(Panel::new).collect() } else { Vec::new() },
+            edges: if diameter > 0.0 {
+                edges.into_iter().map(Panel::new).collect()
+            } else {
+                Vec::new()
+            },
             base: Vec::new(),
             rate: Vec::new(),
         }
@@ -146,10 +150,14 @@ impl<B: Blowing> Term for InAir<B> {
         self.rate.clone_from(&prediction.rate);
         let time = step.time + step.h;
         for panel in &mut self.triangles {
-            panel.air = self.air.velocity(&panel.vertices.map(|vertex| step.start[vertex as usize]), time);
+            panel.air = self
+                .air
+                .velocity(&panel.vertices.map(|vertex| step.start[vertex as usize]), time);
         }
         for panel in &mut self.edges {
-            panel.air = self.air.velocity(&panel.vertices.map(|vertex| step.start[vertex as usize]), time);
+            panel.air = self
+                .air
+                .velocity(&panel.vertices.map(|vertex| step.start[vertex as usize]), time);
         }
         self.look(x);
     }
@@ -165,7 +173,10 @@ impl<B: Blowing> Term for InAir<B> {
             let block = directed(panel.direction, stiffness / 9.0, 0.0);
             matrix.add_triangle(self.first_triangle + place, [block; 3]);
             // A corner itself has the block once, and the triangle's blocks imply minus twice of it.
-            panel.vertices.into_iter().for_each(|vertex| matrix.add_own(vertex, block * 3.0));
+            panel
+                .vertices
+                .into_iter()
+                .for_each(|vertex| matrix.add_own(vertex, block * 3.0));
         }
         for panel in &self.edges {
             let (against, rate) = panel.against(x, &self.base, &self.rate);

@@ -37,7 +37,11 @@ impl Bands {
     /// Makes bands of successive vertices. A vertex of several rows belongs to the first.
     pub(super) fn new(rows: &[Vec<u32>], vertex_count: usize) -> Self {
         let mut bands = Self {
-            places: if rows.is_empty() { Vec::new() } else { vec![NONE; vertex_count] },
+            places: if rows.is_empty() {
+                Vec::new()
+            } else {
+                vec![NONE; vertex_count]
+            },
             ..Self::default()
         };
         for (band, row) in (0..).zip(rows) {

@@ -1,7 +1,7 @@
 //! Bending of cloth: the quadratic energy of [hinges](crate::model::bending), with permanent folds.
 //!
-//! Its second derivative is constant and has no directions, so the [matrix](super::matrix) holds one number for each pair of vertices.
-//! A fold adds a load that is constant within a step.
+//! Its second derivative is constant and has no directions, so the [matrix](super::matrix) holds one number for each pair of
+//! vertices. A fold adds a load that is constant within a step.
 
 use super::matrix::Matrix;
 use super::term::{Prediction, Term};
@@ -21,10 +21,12 @@ pub(crate) struct Bending {
 }
 
 impl Bending {
-    /// Makes the term of hinges that number vertices as the scene does. `folds` has the point at which folds become permanent, and
-    /// the sources of the last vertices of the cloth, which are copies.
+    /// Makes the term of hinges that number vertices as the scene does. `folds` has the point at which folds become permanent,
+    /// and the sources of the last vertices of the cloth, which are copies.
     pub(crate) fn new(hinges: &[PlacedHinge], first_vertex: u32, vertex_count: usize, folds: Option<(Yield, &[u32])>) -> Self {
-        let placed = hinges.iter().map(|(own, hinge)| (own.map(|vertex| vertex + first_vertex), *hinge));
+        let placed = hinges
+            .iter()
+            .map(|(own, hinge)| (own.map(|vertex| vertex + first_vertex), *hinge));
         Self {
             hinges: placed.collect(),
             folds: folds.map(|(when, copied)| Folds::new(hinges, first_vertex, vertex_count, copied, when)),
@@ -35,7 +37,9 @@ impl Bending {
 
     /// Returns the vertices, the weights and the stiffness of each hinge.
     pub(crate) fn constant(&self) -> impl Iterator<Item = ([u32; 4], [f64; 4], f64)> {
-        self.hinges.iter().map(|(vertices, hinge)| (*vertices, hinge.weights, hinge.coefficient))
+        self.hinges
+            .iter()
+            .map(|(vertices, hinge)| (*vertices, hinge.weights, hinge.coefficient))
     }
 }
 

@@ -2,7 +2,8 @@
 
 /// The accuracy of a simulation: one tolerance of the solve in each step.
 ///
-/// It is the error that a step may leave, as a share of what it changes, in the norm of the energy. All three come to the same rest.
+/// It is the error that a step may leave, as a share of what it changes, in the norm of the energy. All three come to the same
+/// rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Accuracy {
     /// A twentieth, in steps of first order, which damp fast motion.
@@ -17,9 +18,9 @@ pub enum Accuracy {
 impl Accuracy {
     /// Returns the error that a solve may leave, as a share of what it changes.
     ///
-    /// What a solve leaves of a slow motion comes late. A force that lags by the share ε feeds a swing of the frequency ω by about
-    /// ε(ωh)² a step. Steps of first order damp it by ½(ωh)², so they are stable for any ε below a half. Steps of second order damp
-    /// it by ¼(ωh)⁴, so they need a small ε: the law of the cantilever pins it.
+    /// What a solve leaves of a slow motion comes late. A force that lags by the share ε feeds a swing of the frequency ω by
+    /// about ε(ωh)² a step. Steps of first order damp it by ½(ωh)², so they are stable for any ε below a half. Steps of second
+    /// order damp it by ¼(ωh)⁴, so they need a small ε: the law of the cantilever pins it.
     pub(super) const fn share(self) -> f64 {
         match self {
             Self::Game => 0.05,
@@ -33,7 +34,8 @@ impl Accuracy {
         !matches!(self, Self::Game)
     }
 
-    /// Returns the largest number of Newton steps. What is not finished goes on in the next step of time, as multipliers are kept.
+    /// Returns the largest number of Newton steps. What is not finished goes on in the next step of time, as multipliers are
+    /// kept.
     pub(super) const fn most_newton_steps(self) -> u32 {
         match self {
             Self::Game => 6,
@@ -56,16 +58,17 @@ impl Accuracy {
 pub(super) const MOST_ITERATIONS: usize = 1000;
 /// The largest number of halvings of a Newton step. Slack foil may fly ten thousand times too far.
 pub(super) const MOST_HALVINGS: usize = 16;
-/// An error of velocity that does not matter, in m/s: a thousandth of a millimetre in half a second. Pinned by the speed of layers at rest.
+/// An error of velocity that does not matter, in m/s: a thousandth of a millimetre in half a second. Pinned by the speed of
+/// layers at rest.
 pub(super) const STILL: f64 = 2e-6;
-/// A speed that is hardly visible, in m/s. What changes by less is solved more accurately, since the error of many layers that rest on each
-/// other would keep them in motion: the speed of ten layers.
+/// A speed that is hardly visible, in m/s. What changes by less is solved more accurately, since the error of many layers that
+/// rest on each other would keep them in motion: the speed of ten layers.
 pub(super) const QUIET: f64 = 1e-3;
 /// The ratio of the square of the remaining force to that of the linear problem below which another Newton step gains little.
 pub(super) const NEARLY_LINEAR: f64 = 4.0;
 
-/// The stiffness of a contact with a body, beside that of its vertices. Larger values need fewer Newton steps and more iterations. The
-/// result does not depend on it.
+/// The stiffness of a contact with a body, beside that of its vertices. Larger values need fewer Newton steps and more
+/// iterations. The result does not depend on it.
 pub(super) const STIFFER_THAN_BODIES: f64 = 5.0;
 /// The same for contacts of cloth. Layers pass a load on from one to the next, which takes stiffer contacts: stack laws.
 pub(super) const STIFFER_THAN_CLOTH: f64 = 20.0;
@@ -81,9 +84,10 @@ pub(super) const SLOWEST_CHANGE: f64 = 5e-4;
 /// The change of a limited stretch that needs no other Newton step.
 pub(super) const LIMIT_CHANGE: f64 = 5e-3;
 
-/// The rate at which contacts that start too near come apart, in 1/s. A layer that was pressed has its height again in a tenth of a second.
+/// The rate at which contacts that start too near come apart, in 1/s. A layer that was pressed has its height again in a tenth of
+/// a second.
 pub(crate) const RECOVERY: f64 = 50.0;
 
-/// The largest stiffness of a rope's edge, as a multiple of the mass of its lighter end over h². Single precision resolves its mass
-/// beside it. A rope of 1,000 vertices stretches by less than a micrometre at 4 ms by its weight.
+/// The largest stiffness of a rope's edge, as a multiple of the mass of its lighter end over h². Single precision resolves its
+/// mass beside it. A rope of 1,000 vertices stretches by less than a micrometre at 4 ms by its weight.
 pub(super) const STIFFEST: f64 = 1e6;

@@ -1,12 +1,12 @@
 //! A contact in the solve: C = n·Σw·x − r ≥ 0, with friction.
 //!
-//! **Contact.** The augmented Lagrangian is t²/2κ with the push t = max(0, λ − κC), and λ ← t after each Newton step. It is exact when it
-//! converges, for any κ. n and w are those of the closest points at the start of the step; on capsules and balls, n follows each Newton
-//! step.
+//! **Contact.** The augmented Lagrangian is t²/2κ with the push t = max(0, λ − κC), and λ ← t after each Newton step. It is exact
+//! when it converges, for any κ. n and w are those of the closest points at the start of the step; on capsules and balls, n
+//! follows each Newton step.
 //!
-//! **Friction** is bounded by μ times the push that the *last* solve found: the depth of something that lands is not yet a force. With
-//! the sliding u since the start of the step and the multiplier f, it sticks with f − κu as long as this is within the bound. Otherwise
-//! it slips with the bound in the direction of f − κu. What turns round sticks again.
+//! **Friction** is bounded by μ times the push that the *last* solve found: the depth of something that lands is not yet a force.
+//! With the sliding u since the start of the step and the multiplier f, it sticks with f − κu as long as this is within the
+//! bound. Otherwise it slips with the bound in the direction of f − κu. What turns round sticks again.
 
 use super::constants::RECOVERY;
 use super::matrix::{Matrix, outer};
@@ -134,15 +134,19 @@ impl ContactRow {
 
     /// Chooses r for a step of `h` seconds, and `reach` from it.
     ///
-    /// It is the thickness. A pair that starts nearer comes apart at a [rate](super::RECOVERY), as long as it gains something by that.
-    /// Where there is no room, as between two pads, it asks for less and less, down to the distance that it has: no position satisfies
-    /// both sides, and their forces would grow without end. Nor does it then resist bodies that come nearer.
+    /// It is the thickness. A pair that starts nearer comes apart at a [rate](super::RECOVERY), as long as it gains something by
+    /// that. Where there is no room, as between two pads, it asks for less and less, down to the distance that it has: no
+    /// position satisfies both sides, and their forces would grow without end. Nor does it then resist bodies that come nearer.
     pub(crate) fn choose_rest(&mut self, before: Option<&Remembered>, h: f64) {
         if let Some(before) = before {
             (self.push, self.grip) = (before.push, before.grip - self.normal * before.grip.dot(self.normal));
             let asked = before.asked;
             let has_gained = !(asked > 0.0) || self.distance - before.distance >= LEAST_GAIN * asked;
-            self.share = if has_gained { (2.0 * before.share).min(1.0) } else { (0.5 * before.share).max(LEAST_RECOVERY) };
+            self.share = if has_gained {
+                (2.0 * before.share).min(1.0)
+            } else {
+                (0.5 * before.share).max(LEAST_RECOVERY)
+            };
         }
         self.rest = self.thickness.min(self.distance) + self.asked(h);
         if self.share <= JAMMED {
@@ -199,7 +203,8 @@ impl ContactRow {
     /// The vertices that take part, with their weights.
     pub(crate) fn parts(&self) -> impl Iterator<Item = (usize, f64)> + use<> {
         let all = self.vertices.into_iter().zip(self.weights);
-        all.filter(|(_, weight)| *weight != 0.0).map(|(vertex, weight)| (vertex as usize, weight))
+        all.filter(|(_, weight)| *weight != 0.0)
+            .map(|(vertex, weight)| (vertex as usize, weight))
     }
 
     /// Returns Σw·x.
@@ -232,8 +237,8 @@ impl ContactRow {
         length(self.grip) >= 0.999 * self.friction * self.push
     }
 
-    /// Chooses whether the row takes part in the linear problem. At the start of a solve, `goal` is where everything else wants to
-    /// be; a row that pushes there, or pushed in the last step, takes part as well.
+    /// Chooses whether the row takes part in the linear problem. At the start of a solve, `goal` is where everything else wants
+    /// to be; a row that pushes there, or pushed in the last step, takes part as well.
     pub(super) fn choose(&mut self, x: &[DVec3], goal: Option<&[DVec3]>) {
         let push = self.push - self.stiffness * self.gap(x);
         self.is_active = push > 0.0 || goal.is_some_and(|goal| self.push > 0.0 || self.gap(goal) < 0.0);
@@ -345,8 +350,8 @@ impl ContactRow {
         change
     }
 
-    /// Prepares the line search along `moves`; returns what the row adds to the slope, and its pieces: the push, its fall along the
-    /// whole way in N, and the way in m.
+    /// Prepares the line search along `moves`; returns what the row adds to the slope, and its pieces: the push, its fall along
+    /// the whole way in N, and the way in m.
     pub(super) fn along(&self, x: &[DVec3], moves: &[selvedge_core::glam::Vec3A]) -> Along {
         let mut moved = DVec3::ZERO;
         for (vertex, weight) in self.parts() {

@@ -1,5 +1,5 @@
-//! What a solve keeps from step to step, as bytes: the forces of contacts by their keys, the multipliers of terms, and the motion before
-//! the present step. A checkpoint has them, so that a resumed simulation goes on with the same bits.
+//! What a solve keeps from step to step, as bytes: the forces of contacts by their keys, the multipliers of terms, and the motion
+//! before the present step. A checkpoint has them, so that a resumed simulation goes on with the same bits.
 
 use super::Solve;
 use super::contact_row::{Remembered, RowKey};
@@ -46,7 +46,8 @@ impl Solve {
         bytes
     }
 
-    /// Reads what [`write_kept`](Self::write_kept) has written, for so many vertices in all and of cloth; `None` if it is damaged.
+    /// Reads what [`write_kept`](Self::write_kept) has written, for so many vertices in all and of cloth; `None` if it is
+    /// damaged.
     pub(crate) fn read_kept(&self, bytes: &[u8], [vertices, of_cloth]: [usize; 2]) -> Option<Kept> {
         let mut reader = Reader(bytes);
         let mut pushes = Vec::new();
@@ -67,7 +68,11 @@ impl Solve {
         if known != 0 && known != vertices {
             return None;
         }
-        let mut vectors = || (0..known).map(|_| numbers(&mut reader).map(DVec3::from_array)).collect::<Option<Vec<_>>>();
+        let mut vectors = || {
+            (0..known)
+                .map(|_| numbers(&mut reader).map(DVec3::from_array))
+                .collect::<Option<Vec<_>>>()
+        };
         let (positions, velocities) = (vectors()?, vectors()?);
         let is_first_order: Vec<bool> = reader.0.iter().map(|&byte| byte == 1).collect();
         if !is_first_order.is_empty() && is_first_order.len() != of_cloth || known != 0 && is_first_order.is_empty() {

@@ -3,8 +3,8 @@
 //! It consists of
 //!
 //! * a block for each vertex: its mass over h², and springs to fixed points;
-//! * blocks between the corners of triangles, whose rows sum to zero with the vertex's block, since inner energies do not change when
-//!   all vertices move alike;
+//! * blocks between the corners of triangles, whose rows sum to zero with the vertex's block, since inner energies do not change
+//!   when all vertices move alike;
 //! * one number for the two vertices of a hinge that share no triangle. Bending is the same along all axes, and constant;
 //! * [links](Link) JᵀKJ of up to four vertices: contacts, ropes, stitches;
 //! * [products](RankOne) β·g·gᵀ of whole cloths: a gas in a closed cloth.
@@ -77,20 +77,26 @@ pub struct Matrix {
 }
 
 impl Matrix {
-    /// Makes a matrix of zeros for `vertex_count` vertices in these triangles. `bending` has the vertices and the weights of hinges,
-    /// and the stiffness of each, `ropes` successive vertices.
+    /// Makes a matrix of zeros for `vertex_count` vertices in these triangles. `bending` has the vertices and the weights of
+    /// hinges, and the stiffness of each, `ropes` successive vertices.
     pub(super) fn new(
         triangles: &[[u32; 3]],
         bending: &[([u32; 4], [f64; 4], f64)],
         ropes: &[Vec<u32>],
         vertex_count: usize,
     ) -> Self {
-        let pairs = || triangles.iter().flat_map(|vertices| PAIRS.map(|pair| pair.map(|corner| vertices[corner])));
+        let pairs = || {
+            triangles
+                .iter()
+                .flat_map(|vertices| PAIRS.map(|pair| pair.map(|corner| vertices[corner])))
+        };
         let mut both: Vec<[u32; 2]> = pairs().flat_map(|[one, other]| [[one, other], [other, one]]).collect();
         both.sort_unstable();
         both.dedup();
         let place = |pair: [u32; 2]| both.partition_point(|&other| other < pair) as u32;
-        let places: Vec<_> = pairs().map(|[one, other]| [place([one, other]), place([other, one])]).collect();
+        let places: Vec<_> = pairs()
+            .map(|[one, other]| [place([one, other]), place([other, one])])
+            .collect();
         let mut bent: Vec<([u32; 2], f64)> = Vec::new();
         for (vertices, weights, stiffness) in bending {
             for [i, j] in (0..4).flat_map(|i| (0..4).map(move |j| [i, j])).filter(|[i, j]| i != j) {
@@ -251,7 +257,9 @@ impl Matrix {
     /// Adds a link after [`find_diagonal`](Self::find_diagonal).
     #[inline]
     pub(super) fn add_late(&mut self, vertices: &[u32], weights: &[f64], stiffness: Mat3A) {
-        let Some(link) = self.link(vertices, weights, stiffness) else { return };
+        let Some(link) = self.link(vertices, weights, stiffness) else {
+            return;
+        };
         link.add_to(&mut self.diagonal);
         link.add_to(&mut self.beside_ropes);
         self.take(link);
@@ -266,9 +274,11 @@ impl Matrix {
             let sum = others.fold(self.own[vertex] * own, |sum, (&other, block)| {
                 sum + *block * (moves[other as usize] - own)
             });
-            *product = self.bent.of(vertex).iter().fold(sum, |sum, &(other, k)| {
-                sum + (moves[other as usize] - own) * k
-            });
+            *product = self
+                .bent
+                .of(vertex)
+                .iter()
+                .fold(sum, |sum, &(other, k)| sum + (moves[other as usize] - own) * k);
         };
         if product.len() < WORTH_THREADS {
             for (vertex, product) in product.iter_mut().enumerate() {

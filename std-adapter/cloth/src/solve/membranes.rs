@@ -1,14 +1,14 @@
 //! Stretch, shear and strain limit of a cloth's triangles.
 //!
-//! Warp and weft of a triangle of area A have the images u and v ([`Membrane`]). It stores ½k_u·A·(|u| − 1)² + ½k_v·A·(|v| − 1)² +
-//! ½G·A·(u·v)² (Baraff and Witkin 1998).
+//! Warp and weft of a triangle of area A have the images u and v ([`Membrane`]). It stores ½k_u·A·(|u| − 1)² + ½k_v·A·(|v| − 1)²
+//! + ½G·A·(u·v)² (Baraff and Witkin 1998).
 //!
-//! **Strain limit.** F = (u, v) may stretch no direction beyond L: the eigenvalues of FᵀF − L² are not positive. This is a condition
-//! on a symmetric matrix, so its multiplier Λ is one as well. With S = Λ + κ(FᵀF − L²) and its positive part P, the augmented
-//! Lagrangian is |P|²/2κ, and Λ ← P after each Newton step. (Two multipliers for the two principal stretches would jump where these
-//! are equal.) Its gradient is 2(P₁₁u + P₁₂v) on u and 2(P₁₂u + P₂₂v) on v. Its second derivative is 2P along all axes, and 4κ·Σ
-//! Ωᵢⱼ·gᵢⱼgᵢⱼᵀ with the derivatives gᵢⱼ of the entries of S in its own axes. Ω is one for two positive eigenvalues, σ₁/(σ₁ − σ₂) for
-//! a positive and a negative one, and zero otherwise.
+//! **Strain limit.** F = (u, v) may stretch no direction beyond L: the eigenvalues of FᵀF − L² are not positive. This is a
+//! condition on a symmetric matrix, so its multiplier Λ is one as well. With S = Λ + κ(FᵀF − L²) and its positive part P, the
+//! augmented Lagrangian is |P|²/2κ, and Λ ← P after each Newton step. (Two multipliers for the two principal stretches would jump
+//! where these are equal.) Its gradient is 2(P₁₁u + P₁₂v) on u and 2(P₁₂u + P₂₂v) on v. Its second derivative is 2P along all
+//! axes, and 4κ·Σ Ωᵢⱼ·gᵢⱼgᵢⱼᵀ with the derivatives gᵢⱼ of the entries of S in its own axes. Ω is one for two positive
+//! eigenvalues, σ₁/(σ₁ − σ₂) for a positive and a negative one, and zero otherwise.
 
 use super::constants::{LIMIT_CHANGE, STIFFER_THAN_LIMITS};
 use super::matrix::{Matrix, PAIRS, outer};
@@ -107,7 +107,9 @@ impl Membranes {
     /// Sets the stiffness of shear, in N/m.
     pub(crate) fn shear(&mut self, effect: usize, stiffness: f64) {
         self.shear = Some(effect);
-        self.triangles.iter_mut().for_each(|own| own.stiffness[2] = stiffness * own.area);
+        self.triangles
+            .iter_mut()
+            .for_each(|own| own.stiffness[2] = stiffness * own.area);
     }
 
     /// Sets the largest stretch along any direction.
@@ -226,7 +228,11 @@ impl Limit {
         let along: [f32; 3] = [0, 1, 2].map(|i| (cosine * a[i] + sine * b[i]) as f32);
         let across: [f32; 3] = [0, 1, 2].map(|i| (cosine * b[i] - sine * a[i]) as f32);
         let stiffness = self.stiffness[place] as f32;
-        let (of_second, mixed) = if second > 0.0 { (1.0, 1.0) } else { (0.0, (first / (first - second)) as f32) };
+        let (of_second, mixed) = if second > 0.0 {
+            (1.0, 1.0)
+        } else {
+            (0.0, (first / (first - second)) as f32)
+        };
         let [pull, other_pull] = [first, second.max(0.0)].map(|value| (2.0 * value) as f32);
         let (n, m) = ((u * cosine + v * sine).as_vec3a(), (v * cosine - u * sine).as_vec3a());
         for (block, [i, j]) in blocks.iter_mut().zip(PAIRS) {
@@ -245,7 +251,11 @@ fn axis(half: f64, shear: f64, spread: f64) -> [f64; 2] {
     if !(spread > 0.0) {
         return [1.0, 0.0];
     }
-    let [x, y] = if half >= 0.0 { [half + spread, shear] } else { [shear, spread - half] };
+    let [x, y] = if half >= 0.0 {
+        [half + spread, shear]
+    } else {
+        [shear, spread - half]
+    };
     let length = (x * x + y * y).sqrt();
     [x / length, y / length]
 }
@@ -312,7 +322,12 @@ impl Term for Membranes {
                 continue;
             }
             let stiffness = limit.stiffness[place];
-            let energy = |own: &Acting| own.values.into_iter().map(|value| if value > 0.0 { value * value } else { 0.0 }).sum::<f64>();
+            let energy = |own: &Acting| {
+                own.values
+                    .into_iter()
+                    .map(|value| if value > 0.0 { value * value } else { 0.0 })
+                    .sum::<f64>()
+            };
             let energy_before = energy(&before);
             let change = [0, 1, 2].map(|k| before.positive[k] - old[k]);
             let squared = change[0] * change[0] + 2.0 * change[1] * change[1] + change[2] * change[2];
@@ -341,7 +356,10 @@ impl Term for Membranes {
     }
 
     fn multipliers(&self) -> Vec<f64> {
-        self.limit.iter().flat_map(|limit| limit.accepted.as_flattened().to_vec()).collect()
+        self.limit
+            .iter()
+            .flat_map(|limit| limit.accepted.as_flattened().to_vec())
+            .collect()
     }
 
     fn set_multipliers(&mut self, numbers: &[f64]) {
@@ -374,6 +392,9 @@ impl Term for Membranes {
             StoredEnergy::Elastic(self.triangles.iter().map(of).sum())
         };
         let stretch = self.stretch.map(|effect| (effect, sum([1.0, 1.0, 0.0])));
-        stretch.into_iter().chain(self.shear.map(|effect| (effect, sum([0.0, 0.0, 1.0])))).collect()
+        stretch
+            .into_iter()
+            .chain(self.shear.map(|effect| (effect, sum([0.0, 0.0, 1.0]))))
+            .collect()
     }
 }

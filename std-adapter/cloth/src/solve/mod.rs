@@ -6,8 +6,9 @@
 //! effects ────────────▶ terms ────────────┘
 //! ```
 //!
-//! A step minimises ½Σ M|x − y|² + Σ terms, with contacts, friction, strain limits and stitches as augmented Lagrangians. An effect
-//! registers a [`Term`]: its energy, gradient and second derivative. A term that no effect registers does not exist, and takes no time.
+//! A step minimises ½Σ M|x − y|² + Σ terms, with contacts, friction, strain limits and stitches as augmented Lagrangians. An
+//! effect registers a [`Term`]: its energy, gradient and second derivative. A term that no effect registers does not exist, and
+//! takes no time.
 //!
 //! | file | content |
 //! |---|---|
@@ -177,13 +178,17 @@ impl Solve {
 
 /// Returns κ of a row, in N/m; zero if neither side moves.
 ///
-/// It is stiffer than the vertices by a factor, and stiff enough that the load of the last step presses it by a small share of its
-/// thickness alone.
+/// It is stiffer than the vertices by a factor, and stiff enough that the load of the last step presses it by a small share of
+/// its thickness alone.
 fn row_stiffness(row: &ContactRow, matrix: &Matrix) -> f64 {
     let compliance = matrix.compliance(&row.vertices, &row.weights, row.normal);
     if !(compliance > 0.0) {
         return 0.0;
     }
-    let stiffer = if row.is_with_body { STIFFER_THAN_BODIES } else { STIFFER_THAN_CLOTH };
+    let stiffer = if row.is_with_body {
+        STIFFER_THAN_BODIES
+    } else {
+        STIFFER_THAN_CLOTH
+    };
     (stiffer / compliance).max(row.push / (GIVE * row.thickness))
 }

@@ -8,7 +8,8 @@
 //!
 //! **The end.** Iteration i of conjugate gradients lowers twice the energy by dᵢ, the square of the energy norm of what it mends
 //! (Hestenes and Stiefel 1952). The error is about that of the next iterations, and those are like the last ones. So it ends when
-//! the last third has mended little: at most the accuracy squared of all that the step has mended. Newton's method ends when the remaining force is about what the linear problem left, and the multipliers change little.
+//! the last third has mended little: at most the accuracy squared of all that the step has mended. Newton's method ends when the
+//! remaining force is about what the linear problem left, and the multipliers change little.
 //!
 //! **Not finished** after the most Newton steps is not a failure. Multipliers go on in the next step, and the certificate guards
 //! the state. A cloth that buckles goes down from a saddle of the energy, which takes many steps, and none of them is wrong.
@@ -68,7 +69,11 @@ impl Tolerance {
     /// Returns twice the energy that may remain.
     fn rest(&self) -> f64 {
         // Below the quiet energy the error fades faster than what causes it, so that layers come to rest.
-        let fading = if self.mended < self.quiet { self.mended / self.quiet } else { 1.0 };
+        let fading = if self.mended < self.quiet {
+            self.mended / self.quiet
+        } else {
+            1.0
+        };
         self.still.max(self.squared * self.mended * fading)
     }
 }
@@ -103,7 +108,11 @@ impl Solve {
         work.resize(count);
         work.drops.clear();
         work.drops.reserve(MOST_ITERATIONS);
-        let mass = prediction.masses.iter().zip(&prediction.rate).map(|(mass, rate)| mass * rate * rate);
+        let mass = prediction
+            .masses
+            .iter()
+            .zip(&prediction.rate)
+            .map(|(mass, rate)| mass * rate * rate);
         let mass: f64 = mass.sum();
         let mut tolerance = Tolerance {
             squared: self.accuracy.share().powi(2),
@@ -289,7 +298,10 @@ impl Solve {
             work.pieces.extend(along.piece);
         }
         let at = |share: f64| {
-            let pushes = work.pieces.iter().map(|[push, fall, way]| (push - fall * share).max(0.0) * way);
+            let pushes = work
+                .pieces
+                .iter()
+                .map(|[push, fall, way]| (push - fall * share).max(0.0) * way);
             slope + share * bend - pushes.sum::<f64>()
         };
         if at(1.0) <= 0.0 {
@@ -318,8 +330,15 @@ impl Solve {
         if self.rows.is_empty() {
             return error;
         }
-        let farthest = x.iter().zip(&prediction.base).zip(&prediction.masses).filter(|(_, mass)| **mass > 0.0);
-        let farthest = farthest.map(|((x, base), _)| x.distance_squared(*base)).fold(0.0, f64::max).sqrt();
+        let farthest = x
+            .iter()
+            .zip(&prediction.base)
+            .zip(&prediction.masses)
+            .filter(|(_, mass)| **mass > 0.0);
+        let farthest = farthest
+            .map(|((x, base), _)| x.distance_squared(*base))
+            .fold(0.0, f64::max)
+            .sqrt();
         let largest = self.accuracy.largest_change();
         for row in &mut self.rows {
             let change = row.renew(x);
@@ -332,7 +351,13 @@ impl Solve {
 
 impl Work {
     fn resize(&mut self, count: usize) {
-        for all in [&mut self.residual, &mut self.moves, &mut self.image, &mut self.direction, &mut self.product] {
+        for all in [
+            &mut self.residual,
+            &mut self.moves,
+            &mut self.image,
+            &mut self.direction,
+            &mut self.product,
+        ] {
             all.resize(count, Vec3A::ZERO);
         }
     }

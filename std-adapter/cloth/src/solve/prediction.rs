@@ -1,22 +1,23 @@
 //! The start of a solve: where inertia and constant forces lead, and where the solve begins.
 //!
-//! **Order.** With the velocity v, the change Δv by constant forces, and v₋ and x₋ one step before, a step of second order (BDF2) has
+//! **Order.** With the velocity v, the change Δv by constant forces, and v₋ and x₋ one step before, a step of second order (BDF2)
+//! has
 //!
 //! ```text
 //! y = 4/3·x − 1/3·x₋ + h(8/9·v − 2/9·v₋ + 4/9·Δv),   M = 9/4·m/h²,   v′ = (3x′ − 4x + x₋)/2h,
 //! ```
 //!
-//! and a step of first order (implicit Euler) y = x + h(v + Δv), M = m/h², v′ = (x′ − x)/h. The second order throws back what stops:
-//! x′ = x gives v′ = −v₀/2. So a vertex that a contact presses takes steps of first order, and so does a vertex that the certificate
-//! has moved. The others take steps of second order, if the step is as long as the last one.
+//! and a step of first order (implicit Euler) y = x + h(v + Δv), M = m/h², v′ = (x′ − x)/h. The second order throws back what
+//! stops: x′ = x gives v′ = −v₀/2. So a vertex that a contact presses takes steps of first order, and so does a vertex that the
+//! certificate has moved. The others take steps of second order, if the step is as long as the last one.
 //!
-//! **Drag.** Still air that slows a vertex at the rate k adds ½k·r·M|x − b|² with b and r of v′ = (x′ − b)/r. So cloth at rest does not
-//! feel it, and any rate is stable.
+//! **Drag.** Still air that slows a vertex at the rate k adds ½k·r·M|x − b|² with b and r of v′ = (x′ − b)/r. So cloth at rest
+//! does not feel it, and any rate is stable.
 //!
 //! **The first guess.** Cloth at rest should have no force left at the first guess, or conjugate gradients that end early would
-//! leave some of it as speed. Cloth in motion should begin where it goes. So the guess is x + h·v, with as much of the constant force
-//! as the last step let the vertex follow. What something presses begins where it is, moved with what presses it; what slides begins
-//! without its motion along the normal.
+//! leave some of it as speed. Cloth in motion should begin where it goes. So the guess is x + h·v, with as much of the constant
+//! force as the last step let the vertex follow. What something presses begins where it is, moved with what presses it; what
+//! slides begins without its motion along the normal.
 
 use super::Prediction;
 use super::contact_row::ContactRow;
@@ -44,6 +45,14 @@ impl History {
         self.velocities.clear();
     }
 
+    /// Moves the earlier motion of some vertices with them: points by one function, directions by the other.
+    pub(crate) fn teleport(&mut self, moved: &[bool], point: impl Fn(DVec3) -> DVec3, direction: impl Fn(DVec3) -> DVec3) {
+        let vectors = self.positions.iter_mut().zip(&mut self.velocities);
+        for ((position, velocity), _) in vectors.zip(moved).filter(|(_, moves)| **moves) {
+            (*position, *velocity) = (point(*position), direction(*velocity));
+        }
+    }
+
     fn is_known(&self) -> bool {
         !self.positions.is_empty()
     }
@@ -66,9 +75,9 @@ struct Own {
     rate: f64,
 }
 
-/// Fills the prediction for `count` vertices of cloth. `velocities` are those at the start of the step, `forced` those after forces;
-/// `drag` is the rate at which still air slows each vertex, in 1/s, or empty, and comes with whether steps may be of second order; `ends` has the positions of kinematic vertices at the end
-/// of the step.
+/// Fills the prediction for `count` vertices of cloth. `velocities` are those at the start of the step, `forced` those after
+/// forces; `drag` is the rate at which still air slows each vertex, in 1/s, or empty, and comes with whether steps may be of
+/// second order; `ends` has the positions of kinematic vertices at the end of the step.
 pub(crate) fn predict(
     prediction: &mut Prediction,
     step: &TimeStep<'_>,
@@ -78,7 +87,12 @@ pub(crate) fn predict(
     ends: &[DVec3],
     count: usize,
 ) {
-    let Prediction { goal, masses, base, rate } = prediction;
+    let Prediction {
+        goal,
+        masses,
+        base,
+        rate,
+    } = prediction;
     for all in [&mut *goal, &mut *base] {
         all.clear();
     }
@@ -164,7 +178,11 @@ pub(crate) fn hold_pressed(rows: &[ContactRow], step: &TimeStep<'_>, x: &mut [DV
             drift -= (x[vertex] - step.start[vertex]) * weight;
         }
         for (vertex, weight) in row.parts().filter(|(vertex, _)| is_free(*vertex)) {
-            let drift = if row.is_with_body { drift * weight.signum() } else { DVec3::ZERO };
+            let drift = if row.is_with_body {
+                drift * weight.signum()
+            } else {
+                DVec3::ZERO
+            };
             let start = step.start[vertex];
             if !row.is_at_bound() {
                 x[vertex] = start + drift;

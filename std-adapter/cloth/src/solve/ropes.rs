@@ -1,9 +1,9 @@
 //! Stretch and bending of ropes.
 //!
-//! An edge of stiffness k = (axial stiffness)/(length L at rest) and length ℓ stores ½k(ℓ − L)². A joint b between a and c, with edges
-//! of lengths u and v at rest, has the change of direction e = (c − b)/v − (b − a)/u, up to stretch. With D the flexural rigidity it
-//! stores ½D/w·|e|², w = (u + v)/2 (Bergou et al. 2006). A joint that is bent by r at rest stores ½D/w·|e − r·ê|², with the direction ê of
-//! e in the last Newton step: the side of the bend is free.
+//! An edge of stiffness k = (axial stiffness)/(length L at rest) and length ℓ stores ½k(ℓ − L)². A joint b between a and c, with
+//! edges of lengths u and v at rest, has the change of direction e = (c − b)/v − (b − a)/u, up to stretch. With D the flexural
+//! rigidity it stores ½D/w·|e|², w = (u + v)/2 (Bergou et al. 2006). A joint that is bent by r at rest stores ½D/w·|e − r·ê|²,
+//! with the direction ê of e in the last Newton step: the side of the bend is free.
 //!
 //! A rope is solved as a [band](super::preconditioner) of vertices that are each linked with the next two.
 
@@ -74,7 +74,9 @@ impl Ropes {
             joints: Vec::new(),
             stretch: None,
             bend: None,
-            rows: rows.map(|row| row.into_iter().map(|vertex| first + vertex).collect()).collect(),
+            rows: rows
+                .map(|row| row.into_iter().map(|vertex| first + vertex).collect())
+                .collect(),
         }
     }
 

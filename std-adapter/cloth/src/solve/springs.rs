@@ -1,4 +1,5 @@
-//! Springs between vertices and anchors, which carry attachments: ½k|x − a|², with the anchor a where it is at the end of the step.
+//! Springs between vertices and anchors, which carry attachments: ½k|x − a|², with the anchor a where it is at the end of the
+//! step.
 
 use super::matrix::Matrix;
 use super::term::{Prediction, Term};

@@ -1,10 +1,11 @@
 //! Stitches: points that a seam draws to within a length L of each other, and ties, which keep two vertices in one place.
 //!
-//! With p the vector between the points, the augmented Lagrangian of a stitch is t²/2κ with the pull t = λ + κ(|p| − L), at least zero until
-//! the seam is closed, and λ ← t after each Newton step. Its second derivative is κ along p and t/|p| across. Contact keeps the rows of a seam apart.
+//! With p the vector between the points, the augmented Lagrangian of a stitch is t²/2κ with the pull t = λ + κ(|p| − L), at least
+//! zero until the seam is closed, and λ ← t after each Newton step. Its second derivative is κ along p and t/|p| across. Contact
+//! keeps the rows of a seam apart.
 //!
-//! A tie has no direction: its multiplier is a vector, its pull λ + κp, and its second derivative κ along all axes. κ is that of its
-//! stiffer side, so that a light cord carries a heavy load within a few Newton steps.
+//! A tie has no direction: its multiplier is a vector, its pull λ + κp, and its second derivative κ along all axes. κ is that of
+//! its stiffer side, so that a light cord carries a heavy load within a few Newton steps.
 
 use super::constants::{RECOVERY, SLOWEST_CHANGE, STIFFER_THAN_LIMITS};
 use super::matrix::{Matrix, directed};
@@ -93,7 +94,11 @@ impl Pull {
             if !self.is_closed && !(pull > 0.0) {
                 pull = 0.0;
             }
-            if distance > 0.0 { between * (pull / distance) } else { DVec3::ZERO }
+            if distance > 0.0 {
+                between * (pull / distance)
+            } else {
+                DVec3::ZERO
+            }
         };
         Force {
             along,
@@ -109,17 +114,31 @@ impl Pull {
 
     /// Returns κ for the compliances of a matrix.
     fn wanted(&self, matrix: &Matrix, x: &[DVec3]) -> f64 {
-        let compliance = |which: std::ops::Range<usize>, axis| matrix.compliance(&self.vertices[which.clone()], &self.weights[which], axis);
+        let compliance =
+            |which: std::ops::Range<usize>, axis| matrix.compliance(&self.vertices[which.clone()], &self.weights[which], axis);
         let compliance = if self.is_tie() {
-            let of_side = |which: std::ops::Range<usize>| DVec3::AXES.map(|axis| compliance(which.clone(), axis)).into_iter().fold(0.0, f64::max);
+            let of_side = |which: std::ops::Range<usize>| {
+                DVec3::AXES
+                    .map(|axis| compliance(which.clone(), axis))
+                    .into_iter()
+                    .fold(0.0, f64::max)
+            };
             let [one, other] = [of_side(0..1), of_side(1..3)];
             // A side that does not move has no compliance.
-            if one > 0.0 && other > 0.0 { one.min(other) } else { one.max(other) }
+            if one > 0.0 && other > 0.0 {
+                one.min(other)
+            } else {
+                one.max(other)
+            }
         } else {
             let axis = self.between(x).try_normalize().unwrap_or(DVec3::Z);
             compliance(0..3, axis)
         };
-        if compliance > 0.0 { STIFFER_THAN_LIMITS / compliance } else { 0.0 }
+        if compliance > 0.0 {
+            STIFFER_THAN_LIMITS / compliance
+        } else {
+            0.0
+        }
     }
 }
 
@@ -129,7 +148,11 @@ impl Term for Stitches {
         let is_tie = self.sewing.is_closed_tie(step);
         let Sewing { stitches, gap, closing } = &self.sewing;
         for (pull, (_, start)) in self.stitches.iter_mut().zip(stitches) {
-            let length = if is_tie { 0.0 } else { length_at_end(step, *start, *gap, *closing) };
+            let length = if is_tie {
+                0.0
+            } else {
+                length_at_end(step, *start, *gap, *closing)
+            };
             if (length == 0.0) != pull.is_tie() {
                 pull.accepted = DVec3::ZERO;
             }
@@ -167,7 +190,11 @@ impl Term for Stitches {
             let force = pull.force(between).along.dot(between);
             if force != 0.0 {
                 let across = (force / (distance * distance)).clamp(0.0, pull.stiffness);
-                matrix.add_late(&pull.vertices, &pull.weights, directed(between / distance, pull.stiffness, across));
+                matrix.add_late(
+                    &pull.vertices,
+                    &pull.weights,
+                    directed(between / distance, pull.stiffness, across),
+                );
             }
         }
     }
@@ -238,6 +265,9 @@ impl Term for Stitches {
     }
 
     fn joints(&self) -> Vec<[u32; 2]> {
-        self.stitches.iter().flat_map(|pull| pull.vertices[1..].iter().map(|&other| [pull.vertices[0], other])).collect()
+        self.stitches
+            .iter()
+            .flat_map(|pull| pull.vertices[1..].iter().map(|&other| [pull.vertices[0], other]))
+            .collect()
     }
 }

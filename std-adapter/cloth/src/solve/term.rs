@@ -30,8 +30,8 @@ pub struct Renewed {
 
 /// A term of the energy of a step, with its gradient and second derivative.
 ///
-/// The step finds the positions x with the least sum of ½Σ M|x − y|² and all terms. So a term says what it stores, and never moves
-/// anything. Vertices are numbered as in the scene: cloths', then bodies', which are where they are at the end of the step.
+/// The step finds the positions x with the least sum of ½Σ M|x − y|² and all terms. So a term says what it stores, and never
+/// moves anything. Vertices are numbered as in the scene: cloths', then bodies', which are where they are at the end of the step.
 ///
 /// A step may be repeated in parts, so a term must depend on its arguments, and on what it stores as its [`Memory`], alone.
 pub trait Term: Debug + Send + Sync {
@@ -41,8 +41,8 @@ pub trait Term: Debug + Send + Sync {
     /// Adds the gradient at `x`, in N, to that of the cloth's vertices, and returns the energy, in J.
     fn gradient(&mut self, x: &[DVec3], gradient: &mut [DVec3]) -> f64;
 
-    /// Adds the second derivative at the positions of the last gradient. It must be positive semidefinite; an approximation slows the
-    /// solve down and does not change its result.
+    /// Adds the second derivative at the positions of the last gradient. It must be positive semidefinite; an approximation slows
+    /// the solve down and does not change its result.
     fn curvature(&mut self, x: &[DVec3], matrix: &mut Matrix);
 
     /// Adds the second derivative of multipliers, after [`weigh`](Self::weigh) has seen everything else.
@@ -78,8 +78,8 @@ pub trait Term: Debug + Send + Sync {
     /// where the solve left it.
     fn accept(&mut self, _is_moved: &[bool]) {}
 
-    /// Returns true if the term consists of inner forces between vertices of cloth, whose sum and moment are zero. A step then keeps
-    /// the momentum of the pieces that [`joints`](Self::joints) and the edges of the cloth connect.
+    /// Returns true if the term consists of inner forces between vertices of cloth, whose sum and moment are zero. A step then
+    /// keeps the momentum of the pieces that [`joints`](Self::joints) and the edges of the cloth connect.
     fn is_inner(&self) -> bool {
         false
     }

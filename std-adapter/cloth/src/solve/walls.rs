@@ -1,14 +1,15 @@
 //! Pressure on a cloth.
 //!
-//! V = ⅙Σ a·(b × c) is the volume that the triangles enclose. A pressure p stores −p·V, and pushes each corner by p/6·(b − a) × (c − a),
-//! a third of the triangle's share. This is the gradient of the volume where the border is closed or held.
+//! V = ⅙Σ a·(b × c) is the volume that the triangles enclose. A pressure p stores −p·V, and pushes each corner by p/6·(b − a) ×
+//! (c − a), a third of the triangle's share. This is the gradient of the volume where the border is closed or held.
 //!
-//! * **A given pressure**: −p·V. If vertices at an open border move, the push has no potential. Then it is constant within a Newton step.
+//! * **A given pressure**: −p·V. If vertices at an open border move, the push has no potential. Then it is constant within a
+//!   Newton step.
 //! * **A gas** with the bulk modulus K and the volume V₀ without pressure: ½K(V − V₀)²/V₀.
 //!
-//! **Second derivative.** The block between corners i and j with the third corner k is ±p/6·[x_k − (x_i + x_j)/2]×, and none for a corner
-//! itself. It is indefinite, but cancels the stiffness that tension pretends for turns of the surface; so it is used for taut closed
-//! cloth, and left out where it makes the matrix indefinite. A gas adds K/V₀·∇V·∇Vᵀ.
+//! **Second derivative.** The block between corners i and j with the third corner k is ±p/6·[x_k − (x_i + x_j)/2]×, and none for
+//! a corner itself. It is indefinite, but cancels the stiffness that tension pretends for turns of the surface; so it is used for
+//! taut closed cloth, and left out where it makes the matrix indefinite. A gas adds K/V₀·∇V·∇Vᵀ.
 
 use super::matrix::{Matrix, PAIRS};
 use super::term::{Prediction, Renewed, Term};
@@ -204,5 +205,9 @@ impl<F: Filling> Term for Walls<F> {
 
 /// Returns the matrix of a×.
 fn cross_matrix(a: Vec3A) -> Mat3A {
-    Mat3A::from_cols(Vec3A::new(0.0, a.z, -a.y), Vec3A::new(-a.z, 0.0, a.x), Vec3A::new(a.y, -a.x, 0.0))
+    Mat3A::from_cols(
+        Vec3A::new(0.0, a.z, -a.y),
+        Vec3A::new(-a.z, 0.0, a.x),
+        Vec3A::new(a.y, -a.x, 0.0),
+    )
 }

@@ -113,8 +113,8 @@ impl Animation {
         }))
     }
 
-    /// Makes an animation from a [figure](crate::files::animation) of a glTF file, in metres. Its keys are at the file's times, so that
-    /// figures of one animation stay together.
+    /// Makes an animation from a [figure](crate::files::animation) of a glTF file, in metres. Its keys are at the file's times,
+    /// so that figures of one animation stay together.
     ///
     /// # Errors
     /// Returns an error if a vertex is beyond a kilometre, or not finite, at a key.

@@ -186,8 +186,8 @@ impl Driven {
         };
     }
 
-    /// Returns a bound on the speed in m/s of its points in the step that [began](Self::begin). `positions` are those of the points that a rigid
-    /// motion moves.
+    /// Returns a bound on the speed in m/s of its points in the step that [began](Self::begin). `positions` are those of the
+    /// points that a rigid motion moves.
     pub(crate) fn speed(&self, positions: impl Iterator<Item = DVec3>) -> f64 {
         let way = match &self.leg {
             Leg::Rigid { from, to, .. } if from == to => 0.0,

@@ -158,7 +158,8 @@ mod tests {
     #[test]
     fn a_torn_cloth_of_merged_vertices_gets_its_files_numbers_back() {
         let at = |x: i32| DVec3::X * f64::from(x);
-        // Two triangles with a split seam (1 and 3, 2 and 4), one that collapses between 1 and 3, an unused vertex 5; and a loose edge.
+        // Two triangles with a split seam (1 and 3, 2 and 4), one that collapses between 1 and 3, an unused vertex 5; and a loose
+        // edge.
         let file = FileMesh {
             mesh: Mesh::new([0, 1, 2, 1, 2, 9, 3].map(at).to_vec(), vec![[0, 1, 2], [1, 3, 2], [3, 6, 4]]),
             loose_edges: vec![[6, 0]],

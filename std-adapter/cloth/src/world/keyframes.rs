@@ -357,12 +357,13 @@ impl KeyframeMotion {
             (seconds, std::array::from_fn::<f64, 4, _>(|k| (to[k] - from[k]) / seconds))
         };
         let last = keys.len() - 1;
-        let (joined, ways): (fn([f64; 2], [f64; 2]) -> f64, _) = match place {
+        let (is_end, ways) = match place {
             _ if last == 1 => return only,
-            0 => (at_end, [way(0), way(1)]),
-            _ if place == last => (at_end, [way(last - 1), way(last - 2)]),
-            _ => (between, [way(place - 1), way(place)]),
+            0 => (true, [way(0), way(1)]),
+            _ if place == last => (true, [way(last - 1), way(last - 2)]),
+            _ => (false, [way(place - 1), way(place)]),
         };
+        let joined = if is_end { at_end } else { between };
         let [(near, a), (far, b)] = ways;
         std::array::from_fn(|k| joined([near, far], [a[k], b[k]]))
     }

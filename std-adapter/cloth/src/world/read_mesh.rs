@@ -118,8 +118,8 @@ pub(crate) fn cloth_of_code(table: &Table<'_>, given: &NamedMesh) -> Result<Clot
     })
 }
 
-/// Returns the positions at rest of a cloth's vertices from those of its file. Vertices that `weld` merges must be near each other at
-/// rest too.
+/// Returns the positions at rest of a cloth's vertices from those of its file. Vertices that `weld` merges must be near each
+/// other at rest too.
 fn of_cloth(table: &Table<'_>, rest: &[DVec3], file: &FileMesh, vertices: usize) -> Result<Vec<DVec3>, SceneError> {
     let tolerance = table.number(&WELD)?.unwrap_or(0.0);
     let mut of_cloth = vec![None; vertices];
@@ -269,7 +269,8 @@ pub(super) fn read_whole(table: &Table<'_>, key: &str, path: &Path, options: &Re
     }
 }
 
-/// Reads the way from the positions of a file to those of the scene, in metres: `unit` and `scale`, then `rotation`, then `translation`.
+/// Reads the way from the positions of a file to those of the scene, in metres: `unit` and `scale`, then `rotation`, then
+/// `translation`.
 pub(super) fn placement(table: &Table<'_>) -> Result<DAffine3, SceneError> {
     let scale = table.number(&SCALE)?.unwrap_or(1.0) * table.choice("unit", &UNITS)?.unwrap_or(1.0);
     let mut placement = Placement::at(table.vector(&TRANSLATION)?.unwrap_or_default());

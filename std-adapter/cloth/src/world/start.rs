@@ -10,8 +10,8 @@ use std::slice;
 impl Cloth {
     /// Returns the cloth, to start at other positions than those at rest: a garment that is made in one pose and worn in another.
     ///
-    /// The mesh at rest stays what lengths, angles, areas, masses and the warp are measured on. There is one position for each vertex, in
-    /// metres. Boxes and balls that select vertices select them where they start.
+    /// The mesh at rest stays what lengths, angles, areas, masses and the warp are measured on. There is one position for each
+    /// vertex, in metres. Boxes and balls that select vertices select them where they start.
     ///
     /// ```
     /// use selvedge_cloth::effects::Stretch;

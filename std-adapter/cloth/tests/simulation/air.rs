@@ -84,7 +84,10 @@ fn a_closed_cloth_is_not_pushed_as_a_whole_and_an_open_one_along_its_normals() {
     let expected = DVec3::Z * (30.0 * 5e-4 / 0.2);
     for velocity in open.velocities() {
         // The push is that at the end of the step, where the sheet is a little bent.
-        assert!(velocity.distance(expected) < 1e-6 * expected.length(), "{velocity}, not {expected}");
+        assert!(
+            velocity.distance(expected) < 1e-6 * expected.length(),
+            "{velocity}, not {expected}"
+        );
     }
 }
 

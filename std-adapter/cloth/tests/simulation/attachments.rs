@@ -115,7 +115,14 @@ fn attachments_from_a_file_and_from_code_are_the_same_to_the_last_bit() {
     let mut resting = AttachmentGroup::resting([CORNERS[0]], 0.5);
     resting.give = 2e-3;
     let mut moved = AttachmentGroup::resting([CORNERS[1]], 0.1);
-    moved.motion = PinMotion::Own(along([(0.1, DVec3::ZERO), (0.5, DVec3::new(0.2, 0.0, 0.1))]));
+    // A file's keyframes are linear unless it says more.
+    let key = |time: f64, translation: DVec3| Keyframe {
+        time,
+        translation,
+        ..Keyframe::default()
+    };
+    let keys = vec![key(0.1, DVec3::ZERO), key(0.5, DVec3::new(0.2, 0.0, 0.1))];
+    moved.motion = PinMotion::Own(KeyframeMotion::new(DVec3::ZERO, DVec3::Z, keys).unwrap().into());
     let of_code = run(hung(vec![resting, moved]), 600);
     let of_file = run(of_file(), 600);
     assert_eq!(of_file.positions(), of_code.positions());

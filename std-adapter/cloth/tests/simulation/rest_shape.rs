@@ -25,11 +25,13 @@ fn lengths_and_angles_at_rest_are_those_of_the_rest_shape() {
         heights.clone().fold(f64::MIN, f64::max) - heights.fold(f64::MAX, f64::min)
     };
     let before = height(&simulation);
+    let mut lowest = before;
     for _ in 0..100 {
         simulation.step().unwrap();
+        lowest = lowest.min(height(&simulation));
     }
-    // It unbends, since its rest shape is flat.
-    assert!(height(&simulation) < 0.9 * before, "{before} {}", height(&simulation));
+    // It swings through its rest shape, which is flat.
+    assert!(lowest < 0.5 * before, "{before} {lowest}");
 }
 
 #[test]

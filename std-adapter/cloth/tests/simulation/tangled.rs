@@ -240,5 +240,8 @@ fn a_waist_that_is_too_small_goes_around_its_limb() {
     let simulation = Simulation::new(scene, 1).unwrap();
     assert_eq!(intersections(&simulation), []);
     let waist = simulation.vertices_of_cloth(0).unwrap();
-    assert!(simulation.positions()[waist].iter().all(|p| p.with_z(0.0).length() > 0.11));
+    let narrowest = { simulation.positions()[waist].iter() }
+        .map(|p| p.with_z(0.0).length())
+        .fold(f64::MAX, f64::min);
+    assert!(narrowest > 0.11, "{narrowest}");
 }

@@ -144,6 +144,8 @@ fn sum(masses: &[f64], of: &[DVec3]) -> DVec3 {
 #[test]
 fn a_tear_keeps_mass_momentum_and_the_centre_of_mass() {
     let mut scene = Scene::new(strip("cloth", DVec3::ZERO), 1e-3);
+    // In steps of first order, the new velocity alone moves the positions.
+    scene.accuracy = Accuracy::Game;
     scene.add(Stretch::isotropic(1000.0)).add(SelfCollision(Thickness::new(1e-3)));
     scene.add(Tearing::above(4.0)).add(Apart);
     let mut simulation = Simulation::new(scene, 1).unwrap();
@@ -159,7 +161,12 @@ fn a_tear_keeps_mass_momentum_and_the_centre_of_mass() {
         let now = masses(&simulation);
         let momentum = sum(&now, simulation.velocities());
         assert!((now.iter().sum::<f64>() - all).abs() < 1e-15);
-        assert!(momentum.distance(expected) < 1e-9 * expected.length());
+        assert!(
+            momentum.distance(expected) < 1e-9 * expected.length(),
+            "{} {momentum} {expected} {}",
+            simulation.time(),
+            simulation.torn_edges().len()
+        );
         let moved = sum(&now, simulation.positions()) - sum(&before, &positions);
         assert!(moved.distance(momentum * 1e-3) < 1e-12);
     }
@@ -318,6 +325,8 @@ fn refined((mut positions, triangles): (Vec<DVec3>, Vec<[u32; 3]>)) -> (Vec<DVec
 fn in_a_groove() -> Scene {
     let cloth = Cloth::from_mesh(folded(2, 0..4, 0.0), DVec3::X, 0.2).unwrap();
     let mut scene = Scene::new(cloth, 1e-3);
+    // Steps of first order damp the swings from the drawing, which make room now and then.
+    scene.accuracy = Accuracy::Game;
     let away = along([(0.35, DVec3::ZERO), (0.4, DVec3::Z * -0.02)]);
     let gap = 27e-6 * std::f64::consts::SQRT_2;
     let mut groove = Body::from_mesh("groove", folded(3, -1..5, -gap));

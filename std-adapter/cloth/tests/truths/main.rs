@@ -1,5 +1,5 @@
-//! The simulation against exact predictions: momenta, strain limits, and rest. `selvedge truths` has the laws with closed forms, which the
-//! laboratory tests.
+//! The simulation against exact predictions: momenta, strain limits, and rest. `selvedge truths` has the laws with closed forms,
+//! which the laboratory tests.
 
 mod limits;
 mod momentum;

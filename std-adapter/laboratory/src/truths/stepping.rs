@@ -1,8 +1,9 @@
 //! What the time stepping gives for motions of one degree of freedom, from the lengths of its steps.
 //!
-//! With the velocity v, and x₋ and v₋ one step before, a step of h has x′ = b + r·v′ and v′ = c + r·f(x′, v′), where f is the acceleration. Steps of first
-//! order (implicit Euler) have b = x, c = v and r = h. Steps of second order (BDF2) have b = (4x − x₋)/3, c = (4v − v₋)/3 and r = ⅔h. The first step, and
-//! one after a step of another length, is of first order. So is every step of what something presses.
+//! With the velocity v, and x₋ and v₋ one step before, a step of h has x′ = b + r·v′ and v′ = c + r·f(x′, v′), where f is the
+//! acceleration. Steps of first order (implicit Euler) have b = x, c = v and r = h. Steps of second order (BDF2) have b = (4x −
+//! x₋)/3, c = (4v − v₋)/3 and r = ⅔h. The first step, and one after a step of another length, is of first order. So is every step
+//! of what something presses.
 
 use super::conditions::Accuracy;
 

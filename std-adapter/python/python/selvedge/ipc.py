@@ -4,7 +4,8 @@
 
 * Every answer is certified: a step size is never too long, and a free step never has a contact. A step size reaches to the first
   contact and is not scaled back.
-* A pair that comes within the tolerance of ``min_distance`` (a nanometre, if positions are in metres) may be reported as a contact.
+* A pair that comes within the tolerance of ``min_distance`` (a nanometre, if positions are in metres) may be reported as a
+  contact.
 * ``broad_phase`` and ``narrow_phase_ccd`` accept only None, since there is one of each.
 * Only three dimensions are supported. Barriers, potentials, friction and derivatives of distances are missing; using them raises
   AttributeError.

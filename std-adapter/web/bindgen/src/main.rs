@@ -30,9 +30,16 @@ fn with_errors(script: &str) -> Result<String, String> {
     let mut replace = |from: &str, to: &str| {
         let found = text.contains(from);
         text = text.replace(from, to);
-        if found { Ok(()) } else { Err(format!("the JavaScript has no '{from}'")) }
+        if found {
+            Ok(())
+        } else {
+            Err(format!("the JavaScript has no '{from}'"))
+        }
     };
-    replace("let wasmModule, wasmInstance, wasm;", &format!("{ERRORS}\nlet wasmModule, wasmInstance, wasm = notLoaded;"))?;
+    replace(
+        "let wasmModule, wasmInstance, wasm;",
+        &format!("{ERRORS}\nlet wasmModule, wasmInstance, wasm = notLoaded;"),
+    )?;
     replace("if (wasm !== undefined) return wasm;", "if (wasm !== notLoaded) return wasm;")?;
     const DESTROY: &str = "this.__wbg_ptr = 0;";
     let mut parts = text.split(DESTROY);
