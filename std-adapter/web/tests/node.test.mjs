@@ -122,7 +122,7 @@ test("every number is checked, and errors name the argument and the place", () =
   assert.throws(() => detector.setPairLimit(-1), fails("InputError", "limit must be a whole number"));
   assert.throws(() => detector.setMemoryLimit(NaN), fails("InputError", "limit must be a whole number"));
   assert.throws(() => detector.setLimits({ separation: "1" }), fails("InputError", "separation must be a number"));
-  assert.throws(() => detector.setLimits({ seperation: 1 }), fails("InputError", "limits has no property 'seperation'"));
+  assert.throws(() => detector.setLimits({ separations: 1 }), fails("InputError", "limits has no property 'separations'"));
   assert.throws(() => detector.setMoving([1, 1, 1, NaN, 1, 1]), fails("InputError", "moving: entry 3"));
   detector.setMoving([true, false, 256, 1, 1, 1]);
   detector.setMoving();
