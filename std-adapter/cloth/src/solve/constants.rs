@@ -7,9 +7,9 @@
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Accuracy {
     /// A twentieth, in steps of first order, which damp fast motion.
+    #[default]
     Game,
     /// A hundredth, in steps of second order: cloth swings on, and long steps show the motion of short ones.
-    #[default]
     Film,
     /// Two thousandths, for measurements of forces and motion.
     Exact,

@@ -55,10 +55,10 @@ pub struct Accuracy {
     pub name: &'static str,
 }
 
-/// The accuracies at which laws are measured. Tests use the first.
+/// The accuracies at which laws are measured. Tests use the first, which is the default.
 pub const ACCURACIES: [Accuracy; 3] = [
-    Accuracy { name: "film" },
     Accuracy { name: "game" },
+    Accuracy { name: "film" },
     Accuracy { name: "exact" },
 ];
 
