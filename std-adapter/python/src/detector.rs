@@ -326,7 +326,6 @@ impl Detector {
         })
     }
 
-    /// Cancels the running call. Any thread may call this.
     #[doc = crate::stub!("Detector.cancel")]
     fn cancel(&self) {
         if let Some(asked) = &*self.asked() {

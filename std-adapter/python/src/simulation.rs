@@ -189,7 +189,14 @@ impl Simulation {
 
     #[doc = crate::stub!("Simulation.teleport")]
     #[pyo3(signature = (bodies, translation=[0.0; 3], rotation=[0.0, 0.0, 0.0, 1.0], *, cloths=Vec::new()))]
-    fn teleport(&self, bodies: Vec<Body>, translation: [f64; 3], rotation: [f64; 4], cloths: Vec<Cloth>) -> PyResult<()> {
+    fn teleport(
+        &self,
+        py: Python<'_>,
+        bodies: Vec<Body>,
+        translation: [f64; 3],
+        rotation: [f64; 4],
+        cloths: Vec<Cloth>,
+    ) -> PyResult<()> {
         let names = &self.of_scene;
         let bodies: Vec<usize> = bodies
             .iter()
@@ -203,8 +210,10 @@ impl Simulation {
             rotation: DQuat::from_array(rotation),
             translation: translation.into(),
         };
-        let teleported = self.simulation()?.teleport(&bodies, &cloths, by);
-        teleported.map_err(|error| errors::of_teleport(&error))
+        let mut simulation = self.simulation()?;
+        let teleported = simulation.teleport(&bodies, &cloths, by);
+        teleported.map_err(|error| errors::of_teleport(&error))?;
+        self.show(py, &simulation)
     }
 
     #[doc = crate::stub!("Simulation.placement")]

@@ -31,7 +31,7 @@ fn wrong(name: &str, expected: &str, found: &JsValue) -> Exception {
 fn shown(value: &JsValue) -> String {
     if let Some(number) = value.as_f64() {
         return js_sys::Number::from(number)
-            .to_string(10)
+            .to_string_with_radix(10)
             .map_or_else(|_| number.to_string(), String::from);
     }
     if let Some(text) = value.as_string() {
@@ -155,7 +155,8 @@ pub(crate) fn check_names(object: &JsValue, what: &str, names: &[&str]) -> Resul
     let Some(own) = object.dyn_ref::<js_sys::Object>() else {
         return Err(wrong(what, "an object", object));
     };
-    let mut keys = js_sys::Object::keys(own).iter().filter_map(|key| key.as_string());
+    let all = js_sys::Object::keys(own);
+    let mut keys = all.iter().filter_map(|key| key.as_string());
     match keys.find(|key| !names.contains(&&**key)) {
         None => Ok(()),
         Some(key) => {
