@@ -112,11 +112,11 @@ fn a_hem_pulled_through_folds_at_high_speed_is_free() {
     let mut simulation = load("violent.toml", |text| text);
     run(&mut simulation, 600, 60);
     let counts = simulation.contact_counts().expect("a scene with contact");
-    assert!(counts.violated > 1000, "the pass had something to do");
+    assert!(counts.pushed > 1000, "contacts had something to do: {counts:?}");
 }
 
-/// Cloth that is coarser, thicker and a thousand times as stiff jams between the pins: thousands of pairs are repaired, and
-/// vertices are truncated. The pins never wait, and hardly a step is cut.
+/// Cloth that is coarser, thicker and a thousand times as stiff jams between the pins: thousands of pairs push. The pins never wait,
+/// and hardly a step is cut.
 #[test]
 fn stiff_cloth_that_is_jammed_between_pins_is_free_and_does_not_stop_them() {
     let change = |text: String| {
@@ -127,8 +127,7 @@ fn stiff_cloth_that_is_jammed_between_pins_is_free_and_does_not_stop_them() {
     let mut simulation = load("violent.toml", change);
     run(&mut simulation, 1500, 100);
     let counts = simulation.contact_counts().expect("a scene with contact");
-    assert!(counts.violated > 10_000, "it is jammed: {counts:?}");
-    assert!(counts.held > 0, "and truncated: {counts:?}");
+    assert!(counts.pushed > 10_000, "it is jammed: {counts:?}");
     assert_eq!(simulation.blocked_steps(), 0, "{counts:?}");
     assert!(counts.cuts < 65, "{counts:?}");
 }
