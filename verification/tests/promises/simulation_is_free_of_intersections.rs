@@ -115,8 +115,8 @@ fn a_hem_pulled_through_folds_at_high_speed_is_free() {
     assert!(counts.pushed > 1000, "contacts had something to do: {counts:?}");
 }
 
-/// Cloth that is coarser, thicker and a thousand times as stiff jams between the pins: thousands of pairs push. The pins never wait,
-/// and hardly a step is cut.
+/// Cloth that is coarser, thicker and a thousand times as stiff jams between the pins: thousands of pairs push. The pins never
+/// wait, and hardly a step is cut.
 #[test]
 fn stiff_cloth_that_is_jammed_between_pins_is_free_and_does_not_stop_them() {
     let change = |text: String| {
