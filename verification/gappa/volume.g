@@ -19,7 +19,7 @@
 #    the products with s (2), the sum with the bound: 10 at most. Three squares that underflow.
 
 error = 64;  #! core/src/kernels/advance/volume.rs: let sixty_four = roundoffs(m.x, 64);
-of_normal = 512; #~ core/src/kernels/advance/volume.rs: length_error: eight * sixty_four * areas + vanishing,
+of_normal = 512; #~ core/src/kernels/advance/volume.rs: length_error: eight * roundoffs(m.x, 64) * areas + vanishing,
 of_lengths = 64; #~ core/src/kernels/advance/volume.rs: separation: separation * more_roundoffs(separation, 64),
 of_part = 32; #~ core/src/kernels/advance/volume.rs: let next = (time + part * rest * less_roundoffs(time, 32)) * less_roundoffs(time, 8);
 of_time = 8;

@@ -1,11 +1,11 @@
 //! Scenes from TOML files.
 
 use super::{
-    ACCURACIES, OnBlocked, START, Scene, TIME_STEP, TangledStart, check_name, check_start, duration_field, frame_rate_field,
-    steps_of_frame,
+    OnBlocked, START, Scene, TIME_STEP, TangledStart, check_name, check_start, duration_field, frame_rate_field, steps_of_frame,
 };
 use crate::effects::{self, Called, Effects, Gravity, Wrong};
 use crate::input::{LARGEST_TIME, SceneContext, SceneError, Source, Table};
+use crate::solve::Accuracy;
 use crate::world::{Body, Cloth, SceneParts};
 use selvedge_core::glam::DVec3;
 use selvedge_files::FileSource;
@@ -126,7 +126,9 @@ impl Scene {
             by_frames: fixed.is_none(),
             on_blocked: root.choice("on_blocked", &choices)?.unwrap_or_default(),
             tangled_start,
-            accuracy: root.choice("accuracy", &ACCURACIES)?.unwrap_or_default(),
+            accuracy: root
+                .choice("accuracy", &Accuracy::ALL.map(|accuracy| (accuracy.name(), accuracy)))?
+                .unwrap_or_default(),
             up: gravity.map_or(DVec3::Z, |acceleration| -acceleration),
             text: text.to_owned(),
             remarks,

@@ -121,9 +121,6 @@ pub struct Scene {
     own: Vec<(String, Effects)>,
 }
 
-/// The names of accuracies in scene files.
-const ACCURACIES: [(&str, Accuracy); 3] = [("game", Accuracy::Game), ("film", Accuracy::Film), ("exact", Accuracy::Exact)];
-
 /// A longer step stretches cloth under its own weight beyond any limit.
 const TIME_STEP: Field = Field::new("time_step", TIME, 1e-6, 0.0167).with_hint(
     "; use a shorter step, or frames (without `time_step`, or `advance` in code), which take as many steps as the cloth needs",
@@ -366,10 +363,9 @@ impl Scene {
     #[must_use]
     pub fn settings(&self) -> Vec<(String, String)> {
         let longest = if self.by_frames { "longest time step" } else { "time step" };
-        let accuracy = ACCURACIES.iter().find(|(_, accuracy)| *accuracy == self.accuracy);
         let mut settings = vec![
             (longest.to_owned(), TIME.written_short(self.time_step)),
-            ("accuracy".to_owned(), accuracy.map_or("", |(name, _)| name).to_owned()),
+            ("accuracy".to_owned(), self.accuracy.name().to_owned()),
         ];
         self.each_acting(|cloth, effect| {
             let name = cloth.map_or_else(|| effect.name().to_owned(), |cloth| self.of_cloth(cloth, effect.name()));

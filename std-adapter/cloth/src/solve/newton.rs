@@ -14,7 +14,9 @@
 //! **Not finished** after the most Newton steps is not a failure. Multipliers go on in the next step, and the certificate guards
 //! the state. A cloth that buckles goes down from a saddle of the energy, which takes many steps, and none of them is wrong.
 
-use super::constants::{MOST_HALVINGS, MOST_ITERATIONS, NEARLY_LINEAR, QUIET, SLOWEST_CHANGE, SMALL_CHANGE, STILL};
+use super::constants::{
+    MOST_HALVINGS, MOST_ITERATIONS, MOST_NEWTON_STEPS, NEARLY_LINEAR, QUIET, SLOWEST_CHANGE, SMALL_CHANGE, STILL,
+};
 use super::contact_row::ContactRow;
 use super::matrix::dot;
 use super::term::{Prediction, Term};
@@ -129,8 +131,7 @@ impl Solve {
         self.begin_rows(prediction, x, &mut energy, &mut work.gradient);
         let (mut error, mut was_short, mut linear_rest) = (f64::INFINITY, false, f64::INFINITY);
         let mut result = Ok(());
-        let most = self.accuracy.most_newton_steps();
-        for newton in 0..=most {
+        for newton in 0..=MOST_NEWTON_STEPS {
             if !energy.is_finite() {
                 result = Err(NotFinite);
                 break;
@@ -153,7 +154,7 @@ impl Solve {
                     outcome.is_finished = true;
                     break;
                 }
-                if newton == most {
+                if newton == MOST_NEWTON_STEPS {
                     break;
                 }
                 self.assemble(prediction, x);

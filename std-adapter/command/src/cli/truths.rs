@@ -4,8 +4,9 @@ use super::Failure;
 use super::output::{self, OutputFiles};
 use super::progress::Progress;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use selvedge_cloth::Accuracy;
 use selvedge_laboratory::report::{PriorRuns, json, tables, truths_html};
-use selvedge_laboratory::truths::{ACCURACIES, Accuracy, Extent, LAWS, Law, LawRuns, PACES, Pace};
+use selvedge_laboratory::truths::{Extent, LAWS, Law, LawRuns, PACES, Pace};
 use std::path::{Path, PathBuf};
 
 /// Compares the cloth simulation with laws whose answers are known
@@ -75,9 +76,9 @@ fn parse_pace(name: &str) -> Result<Pace, String> {
 
 /// Parses an accuracy's name. The error lists the known ones.
 fn parse_accuracy(name: &str) -> Result<Accuracy, String> {
-    let known = ACCURACIES.map(|accuracy| accuracy.name).join(", ");
-    { ACCURACIES.into_iter() }
-        .find(|accuracy| accuracy.name == name)
+    let known = Accuracy::ALL.map(Accuracy::name).join(", ");
+    { Accuracy::ALL.into_iter() }
+        .find(|accuracy| accuracy.name() == name)
         .ok_or_else(|| format!("the accuracies are {known}"))
 }
 
@@ -99,7 +100,7 @@ impl Truths {
         let is_asked = |pace: &Pace| self.pace.is_empty() || self.pace.contains(pace);
         let extent = Extent {
             paces: PACES.into_iter().filter(is_asked).collect(),
-            accuracies: { ACCURACIES.into_iter() }
+            accuracies: { Accuracy::ALL.into_iter() }
                 .filter(|accuracy| self.accuracy.is_empty() || self.accuracy.contains(accuracy))
                 .collect(),
             is_coarse: self.coarse,

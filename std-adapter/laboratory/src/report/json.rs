@@ -302,7 +302,7 @@ pub fn truths(all: &[LawRuns]) -> Value {
                 "law": law.name,
                 "mesh": run.conditions.grid.number,
                 "irregular": run.conditions.grid.is_irregular,
-                "accuracy": run.conditions.accuracy.name,
+                "accuracy": run.conditions.accuracy.name(),
                 "pace": run.conditions.pace.to_string(),
                 "error": run.error(),
                 "error_of": of,

@@ -69,7 +69,7 @@ fn law(runs: &LawRuns, prior: Option<&PriorRuns>) -> Markup {
                     }
                 } }
                 tbody { @for own in runs.by_accuracy() { tr {
-                    th scope="row" { (own[0].conditions.grid) } th scope="row" { (own[0].conditions.accuracy.name) }
+                    th scope="row" { (own[0].conditions.grid) } th scope="row" { (own[0].conditions.accuracy.name()) }
                     @for run in own { (cell(run)) }
                 } } }
             } }
@@ -109,7 +109,7 @@ fn beside(all: &[LawRuns], prior: &PriorRuns) -> Markup {
                 thead { tr { @for title in titles { th scope="col" { (title) } } } }
                 tbody { @for (law, run, before) in rows { tr {
                     th scope="row" { (law.name.replace('_', " ")) }
-                    td { (run.conditions.pace) } td { (run.conditions.accuracy.name) }
+                    td { (run.conditions.pace) } td { (run.conditions.accuracy.name()) }
                     td { (error(law, before.error)) } td { (error(law, run.error())) }
                     td { (time(before.seconds)) } td { (three_figures(run.seconds / before.seconds)) }
                 } } }

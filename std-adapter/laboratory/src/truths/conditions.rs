@@ -1,6 +1,6 @@
 //! The conditions of a run: mesh, pace and accuracy.
 
-use selvedge_cloth::Scene;
+use selvedge_cloth::Accuracy;
 use std::fmt::{Display, Formatter, Result as Written};
 
 /// How time advances in a run.
@@ -45,37 +45,6 @@ impl Display for Pace {
             Self::Steps(seconds) => write!(formatter, "{} ms", (seconds * 1e9).round() / 1e6),
             Self::Frames => formatter.write_str("frames"),
         }
-    }
-}
-
-/// An accuracy of the simulation, by its name in scenes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Accuracy {
-    /// The name.
-    pub name: &'static str,
-}
-
-/// The accuracies at which laws are measured. Tests use the first, which is the default.
-pub const ACCURACIES: [Accuracy; 3] = [
-    Accuracy { name: "game" },
-    Accuracy { name: "film" },
-    Accuracy { name: "exact" },
-];
-
-impl Accuracy {
-    /// Returns whether steps are of second order, where nothing presses.
-    pub(super) fn is_of_second_order(self) -> bool {
-        self.name != "game"
-    }
-
-    /// Gives a scene this accuracy.
-    pub(super) fn set(self, scene: &mut Scene) {
-        use selvedge_cloth::Accuracy;
-        scene.accuracy = match self.name {
-            "game" => Accuracy::Game,
-            "exact" => Accuracy::Exact,
-            _ => Accuracy::Film,
-        };
     }
 }
 

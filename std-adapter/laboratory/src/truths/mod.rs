@@ -23,8 +23,9 @@ mod swinging;
 #[cfg(test)]
 mod tests;
 
-pub use conditions::{ACCURACIES, Accuracy, Conditions, Grid, PACES, Pace};
+pub use conditions::{Conditions, Grid, PACES, Pace};
 
+use selvedge_cloth::Accuracy;
 use std::error::Error;
 use std::time::Instant;
 

@@ -32,7 +32,7 @@ impl Run {
     /// Sets up a scene on one thread.
     pub(super) fn new(mut scene: Scene, conditions: &Conditions) -> Result<Self, Failure> {
         scene.time_step = conditions.pace.time_step();
-        conditions.accuracy.set(&mut scene);
+        scene.accuracy = conditions.accuracy;
         Ok(Self {
             simulation: Simulation::new(scene, 1)?,
             pace: conditions.pace,

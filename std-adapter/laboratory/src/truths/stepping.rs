@@ -5,7 +5,7 @@
 //! x₋)/3, c = (4v − v₋)/3 and r = ⅔h. The first step, and one after a step of another length, is of first order. So is every step
 //! of what something presses.
 
-use super::conditions::Accuracy;
+use selvedge_cloth::Accuracy;
 
 /// The largest share by which steps of one length differ, from rounding.
 const EQUAL: f64 = 1e-9;

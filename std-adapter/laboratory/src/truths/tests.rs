@@ -1,10 +1,10 @@
 //! The errors of each law, and how they fall with the mesh.
 
 use super::bending::{drape_coefficient, specimen};
-use super::conditions::{ACCURACIES, Conditions, Grid, PACES, Pace, regular};
+use super::conditions::{Conditions, Grid, PACES, Pace, regular};
 use super::{LAWS, Law, measure};
 use selvedge_cloth::glam::DVec3;
-use selvedge_cloth::{Cloth, Material, Scene};
+use selvedge_cloth::{Accuracy, Cloth, Material, Scene};
 
 /// Returns the meshes that tests use: all but the finest, unless there is one only.
 fn tested(law: &Law) -> &'static [Grid] {
@@ -19,7 +19,7 @@ fn check(name: &str, largest: [f64; 3], unpredicted: f64) -> Vec<f64> {
     let mut of_regular = Vec::new();
     for &grid in tested(law) {
         for (pace, largest) in PACES.into_iter().zip(largest) {
-            let accuracy = ACCURACIES[0];
+            let accuracy = Accuracy::default();
             let run = measure(law, Conditions { grid, accuracy, pace });
             let (error, beyond) = (run.error(), run.unpredicted().unwrap_or(0.0));
             println!("{grid} {}, {pace}: {error}, {beyond} beyond", law.mesh);
@@ -158,7 +158,7 @@ fn every_material_drapes_as_was_published() {
             cloth.set_material(material);
             let conditions = Conditions {
                 grid: regular(rings),
-                accuracy: ACCURACIES[0],
+                accuracy: Accuracy::default(),
                 pace: Pace::Steps(1e-3 * milliseconds),
             };
             let found = 100.0 * drape_coefficient(Scene::new(cloth, 1e-3), &conditions).unwrap();

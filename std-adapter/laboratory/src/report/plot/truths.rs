@@ -6,7 +6,8 @@ use super::picture::{Curve, Mark, Panel, Plot};
 use super::svg::INK;
 use crate::report::number::{magnitude, round_time, three_figures};
 use crate::report::prior::{PriorRun, PriorRuns};
-use crate::truths::{ACCURACIES, LawRuns, Measured, Sample};
+use crate::truths::{LawRuns, Measured, Sample};
+use selvedge_cloth::Accuracy;
 
 const SIZE: [f64; 2] = [330.0, 260.0];
 /// The plot of all laws has as many names as laws.
@@ -86,11 +87,11 @@ pub fn cost_of_law_svg(runs: &LawRuns, prior: Option<&PriorRuns>) -> String {
     let paces = runs.by_accuracy().next().unwrap_or_default();
     let panels = paces.iter().enumerate().map(|(at, first)| {
         let pace = first.conditions.pace.to_string();
-        let own = ACCURACIES.iter().zip(COLOURS).filter_map(|(accuracy, colour)| {
+        let own = Accuracy::ALL.into_iter().zip(COLOURS).filter_map(|(accuracy, colour)| {
             let own = runs.by_accuracy().map(|own| &own[at]);
-            let own = own.filter(|run| run.conditions.accuracy == *accuracy && !run.conditions.grid.is_irregular);
+            let own = own.filter(|run| run.conditions.accuracy == accuracy && !run.conditions.grid.is_irregular);
             let points = own.map(|run| [run.seconds, run.error()]);
-            line(accuracy.name.to_owned(), colour, points, false)
+            line(accuracy.name().to_owned(), colour, points, false)
         });
         let mut lines: Vec<Line> = own.collect();
         lines.extend(prior.into_iter().flat_map(|prior| lines_before(runs, prior, &pace)));
@@ -129,11 +130,8 @@ fn lines_before(runs: &LawRuns, prior: &PriorRuns, pace: &str) -> Vec<Line> {
 pub fn convergence_svg(runs: &LawRuns) -> String {
     let line_of = |(own, colour): (&[Measured], &'static str)| {
         let conditions = own.first()?.conditions;
-        let accuracy = match ACCURACIES.len() {
-            1 => String::new(),
-            _ => format!(", {}", conditions.accuracy.name),
-        };
-        let name = format!("{} {}{accuracy}", conditions.grid, runs.law.mesh);
+        let accuracy = conditions.accuracy.name();
+        let name = format!("{} {}, {accuracy}", conditions.grid, runs.law.mesh);
         let points = own.iter().map(|run| [run.conditions.pace.seconds(), run.error()]);
         line(name, colour, points, false)
     };

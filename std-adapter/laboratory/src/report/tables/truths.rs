@@ -1,7 +1,7 @@
 use super::table;
 use crate::report::number::three_figures;
 use crate::report::truths::error;
-use crate::truths::{ACCURACIES, LawRuns};
+use crate::truths::LawRuns;
 
 /// Returns a table of laws with the simulation's errors at each pace: a row for each mesh and accuracy. The exact and the
 /// simulated value are those of the largest error in the first column.
@@ -18,12 +18,7 @@ pub fn truths(all: &[LawRuns]) -> String {
             let first = own.first()?;
             let worst = first.worst();
             let name = if index == 0 { runs.law.name } else { "" };
-            let accuracy = if ACCURACIES.len() > 1 {
-                format!(", {}", first.conditions.accuracy.name)
-            } else {
-                String::new()
-            };
-            let mesh = format!("{}{accuracy}", first.conditions.grid);
+            let mesh = format!("{}, {}", first.conditions.grid, first.conditions.accuracy.name());
             let mut row = vec![
                 name.to_owned(),
                 mesh,
