@@ -61,7 +61,7 @@ node_modules/.bin/tsc --project "$work/tsconfig.json"
 cp tests/alone.mts "$work"
 for resolution in "nodenext --moduleResolution nodenext" "node16 --moduleResolution node16" "esnext --moduleResolution bundler"; do
     # shellcheck disable=SC2086 # words on purpose
-    (cd "$work" && "$OLDPWD/node_modules/.bin/tsc" --noEmit --strict --target es2022 --lib es2022 --types "" --module $resolution alone.mts)
+    (cd "$work" && "$OLDPWD/node_modules/.bin/tsc" --ignoreConfig --noEmit --strict --target es2022 --lib es2022 --types "" --module $resolution alone.mts)
 done
 node_modules/.bin/vite build --logLevel warn "$work"
 

@@ -1,9 +1,17 @@
 //! Capsules and balls, from which cloth keeps its exact distance, so that it slides on a smooth surface.
+//!
+//! Vertices keep the thickness from the smooth surface. The pairs with the body's mesh keep edges and faces of the cloth off it,
+//! and aim at [half of it](OF_MESH): a mesh lies inside of the surface, and the edge between two vertices on it as well. If both
+//! aimed at all of it, they would press in turn, with friction of their own. Then a rope slides around a cylinder in jerks: law
+//! of the capstan.
 
 use crate::model::length::length;
 use crate::world::Pose;
 use selvedge_core::glam::DVec3;
 use std::ops::Range;
+
+/// The share of the thickness at which pairs with the mesh of a smooth body aim.
+pub(crate) const OF_MESH: f64 = 0.5;
 
 /// A capsule or a ball, and the cloth that it meets.
 #[derive(Clone, Debug)]

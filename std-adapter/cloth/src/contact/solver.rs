@@ -128,6 +128,10 @@ impl ContactSolver {
         visit: &mut dyn FnMut(PairKey, bool, ProximityPair, f64),
     ) {
         let begin = Clock::now();
+        // What comes fast is near only at the end of the step.
+        self.candidates.cover(step.start, guess, step.h);
+        self.stages.candidates += begin.elapsed().as_secs_f64();
+        let begin = Clock::now();
         self.error = gap_error(&self.candidates, [step.start, guess]).larger(gap_error(&self.candidates, [goal, goal]));
         if self.pushes {
             let (pairs, rules) = self.parts();

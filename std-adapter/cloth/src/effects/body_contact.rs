@@ -1,7 +1,7 @@
 //! Body contact: the cloth keeps a thickness from bodies, and every step is certified not to pass through their triangles.
 //!
-//! Capsules and balls push vertices by their exact distance, so that cloth slides on a smooth surface. Edges and faces of the
-//! cloth are kept off by the pairs with the body's mesh, as for any other body.
+//! Capsules and balls push vertices by their exact distance, so that cloth [slides on a smooth
+//! surface](crate::contact::smooth_body). Edges and faces of the cloth are kept off by the pairs with the body's mesh.
 
 use super::registration::{Effect, Registration, Scope};
 use super::thickness;

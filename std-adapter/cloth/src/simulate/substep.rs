@@ -8,9 +8,9 @@ use super::assembly::Assembly;
 use super::momentum::Motion;
 use super::simulation::{Simulation, Work};
 use super::state::{FASTEST, limited};
-use crate::contact::smooth_body::{SmoothBody, away};
+use crate::contact::smooth_body::{OF_MESH, SmoothBody, away};
 use crate::contact::{Blocker, ContactSolver, ProximityPair};
-use crate::model::step::{FREE, TimeStep};
+use crate::model::step::{Carrier, FREE, TimeStep};
 use crate::solve::prediction::{self, History};
 use crate::solve::{ContactRow, Prediction, RowKey, Solve};
 use crate::world::Kinematic;
@@ -113,7 +113,7 @@ impl Simulation {
         prediction::guess(x, &step, history, both, ends, count);
         collect_rows(
             solve,
-            smooth_bodies,
+            (smooth_bodies, carriers),
             contact,
             &step,
             [x, &prediction.goal],
@@ -210,7 +210,7 @@ const fn not_finite(step: &TimeStep<'_>) -> Blocker {
 /// Makes the rows of a step, whose solve begins at `guess`; everything but contact leads to `goal`.
 fn collect_rows(
     solve: &mut Solve,
-    smooth_bodies: &[SmoothBody],
+    (smooth_bodies, carriers): (&[SmoothBody], &[Carrier]),
     contact: &mut Option<ContactSolver>,
     step: &TimeStep<'_>,
     [guess, goal]: [&[DVec3]; 2],
@@ -247,13 +247,23 @@ fn collect_rows(
         }
     }
     let Some(contact) = contact else { return };
+    // Bodies' vertices come after the cloths'.
+    let is_smooth = |vertices: [u32; 4]| {
+        let [a, b, c, d] = vertices;
+        let carrier = carriers[a.max(b).max(c.max(d)) as usize];
+        let own = smooth_bodies.iter().map(|body| body.carrier);
+        { own }.any(|own| own == carrier as usize && step.poses[own][1].is_rigid())
+    };
     contact.visit_near(step, [guess, goal], &mut |key, is_with_body, near, distance| {
         let ProximityPair {
             vertices,
             weights,
             normal,
-            thickness,
+            mut thickness,
         } = near;
+        if is_with_body && is_smooth(vertices) {
+            thickness *= OF_MESH;
+        }
         // Bodies are at their ends in the guess, and the cloth at the start.
         let at = |vertex: u32| {
             if step.inverse_masses[vertex as usize] > 0.0 {

@@ -9,7 +9,10 @@
 //! **The end.** Iteration i of conjugate gradients lowers twice the energy by dᵢ, the square of the energy norm of what it mends
 //! (Hestenes and Stiefel 1952). The error is about that of the next iterations, and those are like the last ones. So it ends when
 //! the last third has mended little: at most the accuracy squared of all that the step has mended. Newton's method ends when the
-//! remaining force is about what the linear problem left, and the multipliers change little.
+//! remaining force is about what the linear problem left, and the multipliers change little. What remains must also move little,
+//! in the norm of the masses, beside the way from the first guess. A rope that swings is longer at the first guess, by the
+//! square of its turn. That stretch has so much energy that the energy alone would let the swing go on for ever: law of the
+//! hanging chain.
 //!
 //! **Not finished** after the most Newton steps is not a failure. Multipliers go on in the next step, and the certificate guards
 //! the state. A cloth that buckles goes down from a saddle of the energy, which takes many steps, and none of them is wrong.
@@ -41,6 +44,7 @@ const FEWEST: usize = 2;
 /// Buffers of a solve; their memory is used again.
 #[derive(Debug, Default)]
 pub(super) struct Work {
+    guess: Vec<DVec3>,
     gradient: Vec<DVec3>,
     next_gradient: Vec<DVec3>,
     whole: Vec<DVec3>,
@@ -70,13 +74,14 @@ struct Tolerance {
 impl Tolerance {
     /// Returns twice the energy that may remain.
     fn rest(&self) -> f64 {
+        self.rest_of(self.mended)
+    }
+
+    /// Returns how much of twice an energy may remain.
+    fn rest_of(&self, changed: f64) -> f64 {
         // Below the quiet energy the error fades faster than what causes it, so that layers come to rest.
-        let fading = if self.mended < self.quiet {
-            self.mended / self.quiet
-        } else {
-            1.0
-        };
-        self.still.max(self.squared * self.mended * fading)
+        let fading = if changed < self.quiet { changed / self.quiet } else { 1.0 };
+        self.still.max(self.squared * changed * fading)
     }
 }
 
@@ -123,6 +128,7 @@ impl Solve {
             mended: 0.0,
         };
         let mut outcome = Outcome::default();
+        work.guess.clone_from(x);
         self.matrix.may_be_indefinite = true;
         for Entry { action, .. } in &mut self.terms {
             action.begin(step, prediction, x);
@@ -150,7 +156,11 @@ impl Solve {
             }
             if newton > 0 {
                 let left = self.preconditioner.measure(&self.matrix, &work.residual, &mut work.image);
-                if left <= tolerance.rest().max(NEARLY_LINEAR * linear_rest) && error <= 1.0 {
+                let moved = x.iter().zip(&work.guess).map(|(x, guess)| *x - *guess);
+                let of_motion = tolerance.rest_of(by_mass(prediction, moved));
+                let is_still = by_mass(prediction, work.image.iter().map(|image| image.as_dvec3()))
+                    <= of_motion.max(NEARLY_LINEAR * linear_rest);
+                if is_still && left <= tolerance.rest().max(NEARLY_LINEAR * linear_rest) && error <= 1.0 {
                     outcome.is_finished = true;
                     break;
                 }
@@ -369,6 +379,12 @@ impl ContactRow {
     fn choose_at(&mut self, x: &[DVec3], goal: Option<&[DVec3]>) {
         self.choose(x, goal);
     }
+}
+
+/// Returns Σ M|v|².
+fn by_mass(prediction: &Prediction, vectors: impl Iterator<Item = DVec3>) -> f64 {
+    let each = prediction.masses.iter().zip(vectors);
+    each.map(|(mass, vector)| mass * vector.length_squared()).sum()
 }
 
 /// Finds the gradient of inertia and all terms at `x`, and returns their energy.
