@@ -125,8 +125,8 @@ def test_left_handed_faces_and_stale_normals(stage, tmp_path):
     made.GetNormalsAttr().Set([(0, 1, 0)] * 169)
     stage.Save()
     result = run(stage, tmp_path)
-    corners = result.simulation.positions[result.simulation.faces[0]]
-    assert np.cross(corners[1] - corners[0], corners[2] - corners[0])[1] < 0
+    a, b, c = np.moveaxis(result.simulation.positions[result.simulation.faces], 1, 0)
+    assert np.cross(b - a, c - a).sum(axis=0)[1] < 0
     over = Usd.Stage.Open(str(tmp_path / "result.usda"))
     assert UsdGeom.Mesh(over.GetPrimAtPath("/world/sheet")).GetNormalsAttr().Get() is None
 

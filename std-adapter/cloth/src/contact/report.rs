@@ -62,7 +62,7 @@ pub(crate) struct Blocker {
 pub struct ContactSeconds {
     /// The time to find candidate pairs.
     pub candidates: f64,
-    /// The time to find the pairs that may need a push; the pushes count as time of the effects.
+    /// The time to find the pairs that may need a push; the pushes count as time of the solve.
     pub constraints: f64,
     /// The time to prove pairs free.
     pub certificates: f64,

@@ -19,6 +19,7 @@ use crate::solve::membranes::Membranes;
 use crate::solve::ropes::Ropes;
 use crate::solve::walls::{Filling, Walls};
 use crate::world::{BodyMotion, Cloth, Kinematic, SceneParts};
+use selvedge::clock::Clock;
 use selvedge_core::glam::DVec3;
 use std::ops::Range;
 
@@ -27,11 +28,25 @@ pub(crate) struct Entry<T: ?Sized> {
     /// Index into the scene's effects.
     pub(crate) effect: usize,
     pub(crate) action: Box<T>,
+    /// The seconds that it has taken since they were last counted.
+    pub(crate) seconds: f64,
 }
 
 impl<T: ?Sized> Entry<T> {
     pub(crate) const fn of(effect: usize, action: Box<T>) -> Self {
-        Self { effect, action }
+        Self {
+            effect,
+            action,
+            seconds: 0.0,
+        }
+    }
+
+    /// Calls the action, and counts its time.
+    pub(crate) fn timed<R>(&mut self, call: impl FnOnce(&mut T) -> R) -> R {
+        let begin = Clock::now();
+        let result = call(&mut self.action);
+        self.seconds += begin.elapsed().as_secs_f64();
+        result
     }
 }
 
@@ -181,10 +196,7 @@ impl<'a> Plan<'a> {
     }
 
     fn entry<T: ?Sized>(&self, action: Box<T>) -> Entry<T> {
-        Entry {
-            effect: self.effect,
-            action,
-        }
+        Entry::of(self.effect, action)
     }
 
     /// Returns the scene on which the effect acts.

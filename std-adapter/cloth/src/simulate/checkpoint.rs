@@ -116,8 +116,8 @@ pub(super) struct Checkpoint {
     pub(super) yielding: Vec<bool>,
     /// The pairs of a tangle at the start that no longer meet and are not yet apart; `None` if there is no tangle.
     pub(super) parting: Option<Vec<PairKey>>,
-    /// The seconds of each effect.
-    pub(super) effects: Vec<f64>,
+    /// The seconds of each effect, and of the solve.
+    pub(super) seconds: Vec<f64>,
     /// The placement of each body and group of pins that the caller moves, unless it was moved point by point.
     pub(super) placements: Vec<Option<Placement>>,
     pub(super) memories: Vec<f64>,
@@ -134,7 +134,7 @@ pub(super) struct Checkpoint {
 pub(super) struct Sizes {
     pub(super) vertices: usize,
     pub(super) yielding: usize,
-    pub(super) effects: usize,
+    pub(super) seconds: usize,
     pub(super) placements: usize,
     pub(super) memories: usize,
 }
@@ -164,7 +164,7 @@ impl Checkpoint {
                 bytes.extend(pair.iter().flat_map(|feature| u64::from(*feature).to_le_bytes()));
             }
         }
-        bytes.extend(self.effects.iter().flat_map(|x| x.to_le_bytes()));
+        bytes.extend(self.seconds.iter().flat_map(|x| x.to_le_bytes()));
         for placement in &self.placements {
             bytes.push(u8::from(placement.is_some()));
             let Placement { rotation, translation } = placement.unwrap_or_default();
@@ -245,7 +245,7 @@ impl Checkpoint {
             }
             false => None,
         };
-        let effects: Option<Vec<_>> = (0..sizes.effects).map(|_| reader.f64()).collect();
+        let seconds: Option<Vec<_>> = (0..sizes.seconds).map(|_| reader.f64()).collect();
         let placements: Option<Vec<_>> = (0..sizes.placements).map(|_| placement(reader)).collect();
         let memories: Option<Vec<_>> = (0..sizes.memories).map(|_| reader.f64()).collect();
         Some(Self {
@@ -264,7 +264,7 @@ impl Checkpoint {
                 .map(|&byte| (byte <= 1).then_some(byte == 1))
                 .collect::<Option<_>>()?,
             parting,
-            effects: effects?,
+            seconds: seconds?,
             placements: placements?,
             memories: memories?,
             counts: ContactCounts {
@@ -325,7 +325,7 @@ mod tests {
     const SIZES: Sizes = Sizes {
         vertices: 2,
         yielding: 2,
-        effects: 1,
+        seconds: 1,
         placements: 2,
         memories: 3,
     };
@@ -356,7 +356,7 @@ mod tests {
             },
             yielding: vec![true, false],
             parting: Some(vec![(PairKind::VertexFace, [1, 0]), (PairKind::EdgeEdge, [0, 2])]),
-            effects: vec![0.25],
+            seconds: vec![0.25],
             placements: vec![Some(Placement::at(DVec3::Y)), None],
             memories: vec![-1.0, 0.5, 2.0],
             kept: vec![1, 2, 3],

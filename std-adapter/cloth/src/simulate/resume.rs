@@ -16,7 +16,7 @@ impl Simulation {
         }
         let mut checkpoint = Checkpoint {
             state: self.state.clone(),
-            effects: self.effects.iter().map(|effect| effect.seconds).collect(),
+            seconds: self.seconds(),
             placements: self.driven().map(|driven| driven.placement).collect(),
             torn: self.torn_cloths(),
             memories: self.remembered(),
@@ -53,7 +53,7 @@ impl Simulation {
         let sizes = Sizes {
             vertices,
             yielding: self.made.contact.as_ref().map_or(0, |c| c.exempt().yielding.len()),
-            effects: self.effects.len(),
+            seconds: self.seconds().len(),
             placements: self.driven().count(),
             memories,
         };
@@ -81,8 +81,9 @@ impl Simulation {
             checkpoint.state.begin_anew(contact, self.time_step);
             (contact.counts, contact.stages) = (checkpoint.counts, checkpoint.stages);
         }
-        for (effect, seconds) in self.effects.iter_mut().zip(checkpoint.effects) {
-            effect.seconds = seconds;
+        let effects = self.effects.iter_mut().map(|effect| &mut effect.seconds);
+        for (own, seconds) in effects.chain([&mut self.made.solve.seconds]).zip(checkpoint.seconds) {
+            *own = seconds;
         }
         let driven = self.made.motions.iter_mut().filter_map(Kinematic::driven_mut);
         for (driven, placement) in driven.zip(checkpoint.placements) {
@@ -100,6 +101,12 @@ impl Simulation {
     pub(super) fn forget_motion(&mut self) {
         self.work.substep.history.forget();
         self.made.solve.forget();
+    }
+
+    /// Returns the seconds of each effect, and of the solve.
+    fn seconds(&self) -> Vec<f64> {
+        let effects = self.effects.iter().map(|effect| effect.seconds);
+        effects.chain([self.made.solve.seconds]).collect()
     }
 
     /// Returns the memories of all terms, one after the other.

@@ -258,6 +258,13 @@ impl Simulation {
         self.made.solve.counts
     }
 
+    /// Returns the seconds of the solves so far, without those of [effects](Self::effects): contact and friction in the solve,
+    /// and its linear problems.
+    #[must_use]
+    pub fn solve_seconds(&self) -> f64 {
+        self.made.solve.seconds
+    }
+
     /// Returns the counts of contact so far; `None` if the scene has no contact effect.
     #[must_use]
     pub fn contact_counts(&self) -> Option<&ContactCounts> {

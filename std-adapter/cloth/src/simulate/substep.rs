@@ -132,7 +132,11 @@ impl Simulation {
             }
             follow_smooth(row, &step, smooth_bodies, x);
         }
-        solve.run(&step, prediction, x, &follow).map_err(|_| not_finite(&step))?;
+        let outcome = solve.run(&step, prediction, x, &follow);
+        for entry in &mut solve.terms {
+            effects[entry.effect].seconds += std::mem::take(&mut entry.seconds);
+        }
+        outcome.map_err(|_| not_finite(&step))?;
 
         is_pressed.clear();
         is_pressed.resize(count, false);

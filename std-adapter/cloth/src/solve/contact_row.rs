@@ -4,6 +4,11 @@
 //! when it converges, for any κ. n and w are those of the closest points at the start of the step; on capsules and balls, n
 //! follows each Newton step.
 //!
+//! **Where there is no room**, as between two pads, no position satisfies both sides, and their multipliers would grow without
+//! end. But no contact carries more than all that inertia and terms pull: what is beyond can only be pads that press on each
+//! other. So λ is at most the sum of those forces. (In a narrow wedge a contact may carry more. Then it gives way a little.)
+//! Law of the pinched cloth's speed.
+//!
 //! **Friction** is bounded by μ times the push that the *last* solve found: the depth of something that lands is not yet a force.
 //! With the sliding u since the start of the step and the multiplier f, it sticks with f − κu as long as this is within the
 //! bound. Otherwise it slips with the bound in the direction of f − κu. What turns round sticks again.
@@ -326,15 +331,15 @@ impl ContactRow {
         matrix.add_late(&self.vertices, &self.weights, stiffness);
     }
 
-    /// Takes the forces at `x` as multipliers. Returns the largest change, in m.
-    pub(super) fn renew(&mut self, x: &[DVec3]) -> f64 {
+    /// Takes the forces at `x` as multipliers; inertia and terms pull by `all` in sum, in N. Returns the largest change, in m.
+    pub(super) fn renew(&mut self, x: &[DVec3], all: f64) -> f64 {
         let gap = self.gap(x);
         if !self.is_active {
             // Its force comes from the next solve.
             (self.push, self.grip) = (0.0, DVec3::ZERO);
             return (-gap).max(0.0);
         }
-        let push = (self.push - self.stiffness * gap).max(0.0);
+        let push = (self.push - self.stiffness * gap).min(all).max(0.0);
         let mut grip = DVec3::ZERO;
         if self.friction > 0.0 {
             let wanted = self.wanted(x);

@@ -54,6 +54,7 @@ use constants::{GIVE, STIFFER_THAN_BODIES, STIFFER_THAN_CLOTH};
 use contact_row::Remembered;
 use preconditioner::Preconditioner;
 use rustc_hash::FxHashMap;
+use selvedge::clock::Clock;
 use selvedge_core::glam::DVec3;
 
 /// The counts of the solves so far.
@@ -80,6 +81,8 @@ pub(crate) struct Solve {
     pub(crate) rows: Vec<ContactRow>,
     pub(crate) counts: SolveCounts,
     pub(crate) accuracy: Accuracy,
+    /// The seconds so far, without those of the terms.
+    pub(crate) seconds: f64,
     matrix: Matrix,
     preconditioner: Preconditioner,
     /// The contacts that pushed in the last accepted step.
@@ -102,6 +105,7 @@ impl Solve {
             rows: Vec::new(),
             counts: SolveCounts::default(),
             accuracy,
+            seconds: 0.0,
             matrix: Matrix::new(triangles, bending, ropes, vertex_count),
             preconditioner: Preconditioner::default(),
             pushes: FxHashMap::default(),
@@ -127,7 +131,11 @@ impl Solve {
         x: &mut Vec<DVec3>,
         follow: &dyn Fn(&mut ContactRow, &[DVec3]),
     ) -> Result<Outcome, NotFinite> {
-        let outcome = self.minimise(step, prediction, x, follow)?;
+        let begin = Clock::now();
+        let result = self.minimise(step, prediction, x, follow);
+        let of_terms: f64 = self.terms.iter().map(|entry| entry.seconds).sum();
+        self.seconds += begin.elapsed().as_secs_f64() - of_terms;
+        let outcome = result?;
         let counts = &mut self.counts;
         counts.solves += 1;
         counts.newton_steps += u64::from(outcome.newton_steps);

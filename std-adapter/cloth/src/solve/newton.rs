@@ -130,8 +130,8 @@ impl Solve {
         let mut outcome = Outcome::default();
         work.guess.clone_from(x);
         self.matrix.may_be_indefinite = true;
-        for Entry { action, .. } in &mut self.terms {
-            action.begin(step, prediction, x);
+        for entry in &mut self.terms {
+            entry.timed(|action| action.begin(step, prediction, x));
         }
         let mut energy = gradient(&mut self.terms, prediction, x, &mut work.gradient);
         self.begin_rows(prediction, x, &mut energy, &mut work.gradient);
@@ -156,11 +156,10 @@ impl Solve {
             }
             if newton > 0 {
                 let left = self.preconditioner.measure(&self.matrix, &work.residual, &mut work.image);
-                let moved = x.iter().zip(&work.guess).map(|(x, guess)| *x - *guess);
-                let of_motion = tolerance.rest_of(by_mass(prediction, moved));
-                let is_still = by_mass(prediction, work.image.iter().map(|image| image.as_dvec3()))
-                    <= of_motion.max(NEARLY_LINEAR * linear_rest);
-                if is_still && left <= tolerance.rest().max(NEARLY_LINEAR * linear_rest) && error <= 1.0 {
+                let [left_to_move, moved] = work.motion(prediction, x);
+                let little = NEARLY_LINEAR * linear_rest;
+                let is_right = left <= tolerance.rest().max(little) && left_to_move <= tolerance.rest_of(moved).max(little);
+                if is_right && error <= 1.0 {
                     outcome.is_finished = true;
                     break;
                 }
@@ -188,16 +187,16 @@ impl Solve {
     /// Fills the matrix with the terms at `x`.
     fn assemble(&mut self, prediction: &Prediction, x: &[DVec3]) {
         self.matrix.clear(&prediction.masses);
-        for Entry { action, .. } in &mut self.terms {
-            action.curvature(x, &mut self.matrix);
+        for entry in &mut self.terms {
+            entry.timed(|action| action.curvature(x, &mut self.matrix));
         }
         self.matrix.find_diagonal();
     }
 
     /// Adds the multipliers to the matrix.
     fn add_multipliers(&mut self, x: &[DVec3]) {
-        for Entry { action, .. } in &mut self.terms {
-            action.curvature_of_multipliers(x, &mut self.matrix);
+        for entry in &mut self.terms {
+            entry.timed(|action| action.curvature_of_multipliers(x, &mut self.matrix));
         }
         self.rows.iter().for_each(|row| row.add_curvature(x, &mut self.matrix));
     }
@@ -206,8 +205,8 @@ impl Solve {
     fn begin_rows(&mut self, prediction: &Prediction, x: &[DVec3], energy: &mut f64, slope: &mut Vec<DVec3>) {
         self.assemble(prediction, x);
         let mut has_changed = false;
-        for Entry { action, .. } in &mut self.terms {
-            has_changed |= action.weigh(&self.matrix, x);
+        for entry in &mut self.terms {
+            has_changed |= entry.timed(|action| action.weigh(&self.matrix, x));
         }
         if has_changed {
             *energy = gradient(&mut self.terms, prediction, x, slope);
@@ -333,8 +332,8 @@ impl Solve {
     /// Renews all multipliers. Returns the largest change over the one that does not matter.
     fn renew(&mut self, h: f64, prediction: &Prediction, x: &[DVec3], energy: &mut f64, gradient: &mut [DVec3]) -> f64 {
         let mut error = 0.0_f64;
-        for Entry { action, .. } in &mut self.terms {
-            let renewed = action.renew(x, gradient);
+        for entry in &mut self.terms {
+            let renewed = entry.timed(|action| action.renew(x, gradient));
             *energy += renewed.energy;
             error = error.max(renewed.error);
         }
@@ -351,8 +350,10 @@ impl Solve {
             .fold(0.0, f64::max)
             .sqrt();
         let largest = self.accuracy.largest_change();
+        let pulls = gradient.iter().zip(&prediction.masses).filter(|(_, mass)| **mass > 0.0);
+        let all = pulls.map(|(pull, _)| pull.length()).sum();
         for row in &mut self.rows {
-            let change = row.renew(x);
+            let change = row.renew(x, all);
             let small = (SMALL_CHANGE * farthest).min(largest * row.thickness).max(SLOWEST_CHANGE * h);
             error = error.max(change / small);
         }
@@ -372,6 +373,18 @@ impl Work {
             all.resize(count, Vec3A::ZERO);
         }
     }
+
+    /// Returns the squares, in the norm of the masses, of what remains to move, and of the way from the first guess to `x`.
+    fn motion(&self, prediction: &Prediction, x: &[DVec3]) -> [f64; 2] {
+        let by_mass = |vectors: &mut dyn Iterator<Item = DVec3>| {
+            let each = prediction.masses.iter().zip(vectors);
+            each.map(|(mass, vector)| mass * vector.length_squared()).sum()
+        };
+        [
+            by_mass(&mut self.image.iter().map(|image| image.as_dvec3())),
+            by_mass(&mut x.iter().zip(&self.guess).map(|(x, guess)| *x - *guess)),
+        ]
+    }
 }
 
 impl ContactRow {
@@ -379,12 +392,6 @@ impl ContactRow {
     fn choose_at(&mut self, x: &[DVec3], goal: Option<&[DVec3]>) {
         self.choose(x, goal);
     }
-}
-
-/// Returns Σ M|v|².
-fn by_mass(prediction: &Prediction, vectors: impl Iterator<Item = DVec3>) -> f64 {
-    let each = prediction.masses.iter().zip(vectors);
-    each.map(|(mass, vector)| mass * vector.length_squared()).sum()
 }
 
 /// Finds the gradient of inertia and all terms at `x`, and returns their energy.
@@ -397,8 +404,8 @@ fn gradient(terms: &mut [Entry<dyn Term>], prediction: &Prediction, x: &[DVec3],
         gradient.push(way * *mass);
         energy += 0.5 * mass * way.length_squared();
     }
-    for Entry { action, .. } in terms {
-        energy += action.gradient(x, gradient);
+    for entry in terms {
+        energy += entry.timed(|action| action.gradient(x, gradient));
     }
     energy
 }

@@ -223,7 +223,7 @@ fn ropes_stay_apart_from_each_other_from_cloth_and_from_bodies() {
             .fold(1.0, f64::min)
     };
     // The tie draws that vertex near, over what lies between.
-    assert!(closest(60) < 15e-3, "{}", closest(60));
+    assert!(closest(60) < 9e-3, "{}", closest(60));
 }
 
 #[test]

@@ -62,6 +62,6 @@ fn what_is_pinned_too_near_to_a_body_flings_nothing_away() {
         simulation.step().unwrap();
         let ways = before.iter().zip(simulation.positions()).map(|(a, b)| (*b - *a).length());
         let farthest = ways.fold(0.0, f64::max);
-        assert!(farthest < 2.0 * thickness, "{farthest} m in a step of {}", simulation.time());
+        assert!(farthest < thickness, "{farthest} m in a step of {}", simulation.time());
     }
 }

@@ -176,6 +176,7 @@ pub fn simulation(simulation: &selvedge_cloth::Simulation, recording: &Recording
     let pairs = pairs.map(|(stage, count)| json!({"stage": stage, "pairs": count}));
     let stages = simulation.contact_seconds().into_iter();
     let stages = stages.flat_map(|seconds| seconds.stages());
+    let stages = [("solve", simulation.solve_seconds())].into_iter().chain(stages);
     let stages = stages.map(|(stage, seconds)| json!({"stage": stage, "seconds": seconds}));
     let stretch = simulation.edge_stretch();
     let released = simulation.released().into_iter();

@@ -226,6 +226,7 @@ fn counters(simulation: &Simulation, seconds: f64) -> Vec<(&'static str, SeriesK
         let pairs = ("pairs out of the promise", simulation.tolerated_pairs() as f64);
         add(SeriesKind::Gauge(""), &[crossings, pairs]);
     }
+    add(SeriesKind::Stage, &[("solve", simulation.solve_seconds())]);
     if let Some(seconds) = simulation.contact_seconds() {
         add(SeriesKind::Stage, &seconds.stages());
     }

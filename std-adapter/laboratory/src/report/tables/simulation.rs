@@ -39,6 +39,7 @@ pub fn simulation(simulation: &Simulation, recording: &Recording) -> String {
     text += "\n";
     let effects = simulation.effects().iter();
     let mut rows: Vec<_> = effects.map(|effect| per_step((effect.name, effect.seconds))).collect();
+    rows.push(per_step(("solve", simulation.solve_seconds())));
     if let Some(seconds) = simulation.contact_seconds() {
         rows.extend(seconds.stages().map(per_step));
     }
