@@ -1,9 +1,10 @@
 //! Pairs that are near: the contacts of a step, which become [rows](crate::solve) of its solve.
 //!
-//! Each contact has the direction and the weights of the closest points at the start of the step. On a fine mesh neighbours at
-//! rest may be nearer than the thickness. Then the thickness of such a pair is at most half its distance at rest, or the mesh
-//! would lock, and [less](super::neighbours). A tangled pair has no such distance at rest, and the distance of the two sides of a
-//! tear is zero. They come apart to at least the thickness of neighbours.
+//! Each contact has the direction and the weights of the closest points at the start of the step, or, for what comes from afar,
+//! where it first comes near on the way to the first guess. (The plane of a far pair would hold what passes by.) On a fine mesh
+//! neighbours at rest may be nearer than the thickness. Then the thickness of such a pair is at most half its distance at rest,
+//! or the mesh would lock, and [less](super::neighbours). A tangled pair has no such distance at rest, and the distance of
+//! the two sides of a tear is zero. They come apart to at least the thickness of neighbours.
 //!
 //! Contacts with a body are those with its [surface](super::cones).
 //!
@@ -21,6 +22,7 @@ use selvedge_core::glam::DVec3;
 use selvedge_core::separation::closest::ClosestPoints;
 use selvedge_core::separation::gap::{GapError, distance_from_below};
 use selvedge_core::separation::largest_coordinate;
+use std::array;
 
 /// A pair that is near at the start of a step, and that may come nearer than its thickness.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,24 +106,55 @@ pub(super) fn visit_near(
         if gap > wide.max(aim + closing) + 0.25 * closing {
             continue;
         }
-        if let Some((near, distance)) = near_within(pair, rules, step, aim + closing) {
+        if let Some((near, distance)) = near_on_way(pair, rules, [step.start, guess], closing) {
             visit(pair, near, distance);
         }
     }
 }
 
-/// Returns the pair at the start of the step, and its distance, if it is a contact and within a distance there.
-fn near_within(pair: &mut Candidate, rules: Rules<'_>, step: &TimeStep<'_>, within: f64) -> Option<(ProximityPair, f64)> {
-    let closest = pair.closest(step.start);
-    pair.refresh(closest.direction, step.start, rules.error);
-    let distance = closest.distance();
-    if distance > reach(pair.data.aim.length()).max(within) || closest.direction == DVec3::ZERO {
+/// The largest number of places at which the way to the first guess is looked at.
+const MOST_PLACES: f64 = 16.0;
+
+/// Returns the closest points where a pair first comes near on a straight way on which its vertices move apart by up to
+/// `closing`. Where it passes through, they are those at the start.
+fn first_near(pair: &Candidate, [start, guess]: [&[DVec3]; 2], closing: f64, at_start: ClosestPoints) -> Option<ClosestPoints> {
+    let aim = pair.data.aim.length();
+    let places = (closing / aim).ceil().clamp(1.0, MOST_PLACES);
+    let (from, to) = (pair.points(start), pair.points(guess));
+    for place in 1..=places as u32 {
+        let time = f64::from(place) / places;
+        let closest = ClosestPoints::from_points(pair.kind, array::from_fn(|k| from[k].lerp(to[k], time)));
+        let has_turned = closest.direction.dot(at_start.direction) <= 0.0;
+        if has_turned && closest.distance() <= closing / places {
+            return Some(at_start);
+        }
+        if !has_turned && closest.distance() <= ROOM * aim {
+            return Some(closest);
+        }
+    }
+    None
+}
+
+/// Returns the pair with its distance at the start of the step, if it is a contact on the way to the first guess.
+fn near_on_way(pair: &mut Candidate, rules: Rules<'_>, way: [&[DVec3]; 2], closing: f64) -> Option<(ProximityPair, f64)> {
+    let [start, _] = way;
+    let mut closest = pair.closest(start);
+    pair.refresh(closest.direction, start, rules.error);
+    let (distance, aim) = (closest.distance(), pair.data.aim.length());
+    if distance > reach(aim).max(aim + closing) || closest.direction == DVec3::ZERO {
         return None;
+    }
+    if distance > reach(aim) {
+        // Cloth that flies at cloth seldom keeps to its first guess.
+        if !pair.data.is_with_body() {
+            return None;
+        }
+        closest = first_near(pair, way, closing, closest)?;
     }
     if !pair.data.aim.is_own() {
         pair.data.aim = Aim::own(thickness_of(pair, rules)?);
     }
-    if !is_of_surface(pair, &closest, rules, step.start) {
+    if !is_of_surface(pair, &closest, rules, start) {
         return None;
     }
     let near = ProximityPair {

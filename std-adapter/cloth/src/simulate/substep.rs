@@ -222,6 +222,61 @@ fn collect_rows(
 ) {
     let rows = &mut solve.rows;
     rows.clear();
+    collect_smooth_rows(rows, smooth_bodies, step, [guess, goal], friction);
+    let Some(contact) = contact else { return };
+    // Bodies' vertices come after the cloths'.
+    let is_smooth = |vertices: [u32; 4]| {
+        let [a, b, c, d] = vertices;
+        let carrier = carriers[a.max(b).max(c.max(d)) as usize];
+        let own = smooth_bodies.iter().map(|body| body.carrier);
+        { own }.any(|own| own == carrier as usize && step.poses[own][1].is_rigid())
+    };
+    contact.visit_near(step, [guess, goal], &mut |key, is_with_body, near, distance| {
+        let ProximityPair {
+            vertices,
+            weights,
+            normal,
+            mut thickness,
+        } = near;
+        if is_with_body && is_smooth(vertices) {
+            // Its own rows stop what comes from afar, whose tangent planes would hold it off the surface.
+            if distance > REACH * thickness {
+                return;
+            }
+            thickness *= OF_MESH;
+        }
+        // Bodies are at their ends in the guess, and the cloth at the start.
+        let at = |vertex: u32| {
+            if step.inverse_masses[vertex as usize] > 0.0 {
+                step.start[vertex as usize]
+            } else {
+                guess[vertex as usize]
+            }
+        };
+        let left = vertices
+            .into_iter()
+            .zip(weights)
+            .map(|(vertex, weight)| weight * normal.dot(at(vertex)))
+            .sum();
+        rows.push(ContactRow {
+            thickness,
+            is_with_body,
+            distance,
+            left,
+            friction,
+            ..ContactRow::new(RowKey::Pair(key), vertices, weights, normal, step.start)
+        });
+    });
+}
+
+/// Adds the rows of vertices and smooth bodies.
+fn collect_smooth_rows(
+    rows: &mut Vec<ContactRow>,
+    smooth_bodies: &[SmoothBody],
+    step: &TimeStep<'_>,
+    [guess, goal]: [&[DVec3]; 2],
+    friction: f64,
+) {
     for (index, body) in smooth_bodies.iter().enumerate() {
         let [before, now] = step.poses[body.carrier];
         if !now.is_rigid() {
@@ -250,46 +305,6 @@ fn collect_rows(
             });
         }
     }
-    let Some(contact) = contact else { return };
-    // Bodies' vertices come after the cloths'.
-    let is_smooth = |vertices: [u32; 4]| {
-        let [a, b, c, d] = vertices;
-        let carrier = carriers[a.max(b).max(c.max(d)) as usize];
-        let own = smooth_bodies.iter().map(|body| body.carrier);
-        { own }.any(|own| own == carrier as usize && step.poses[own][1].is_rigid())
-    };
-    contact.visit_near(step, [guess, goal], &mut |key, is_with_body, near, distance| {
-        let ProximityPair {
-            vertices,
-            weights,
-            normal,
-            mut thickness,
-        } = near;
-        if is_with_body && is_smooth(vertices) {
-            thickness *= OF_MESH;
-        }
-        // Bodies are at their ends in the guess, and the cloth at the start.
-        let at = |vertex: u32| {
-            if step.inverse_masses[vertex as usize] > 0.0 {
-                step.start[vertex as usize]
-            } else {
-                guess[vertex as usize]
-            }
-        };
-        let left = vertices
-            .into_iter()
-            .zip(weights)
-            .map(|(vertex, weight)| weight * normal.dot(at(vertex)))
-            .sum();
-        rows.push(ContactRow {
-            thickness,
-            is_with_body,
-            distance,
-            left,
-            friction,
-            ..ContactRow::new(RowKey::Pair(key), vertices, weights, normal, step.start)
-        });
-    });
 }
 
 /// Finds the normal of a smooth body again, and the rest distance along it.
