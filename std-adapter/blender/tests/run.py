@@ -1,4 +1,4 @@
-"""Runs each scene in a process of its own with a time limit: python run.py [NAME ...]. Without names, all but those that wait."""
+"""Runs each scene in a process of its own with a time limit: python run.py [NAME ...]."""
 
 import os
 import subprocess
@@ -7,12 +7,6 @@ import time
 from pathlib import Path
 
 SCENES = Path(__file__).parent / "scenes"
-# Scenes that do not pass yet. They run if they are named.
-WAITING = {
-    "a_beginners_five_steps_end_in_clean_cloth",
-    "a_sheet_falls_on_suzanne",
-    "cloth_comes_out_of_a_ball_a_cube_and_a_cylinder",
-}
 SECONDS = float(os.environ.get("SELVEDGE_SCENE_SECONDS", 120))
 
 
@@ -34,7 +28,7 @@ def run(scene):
 
 
 def main(names):
-    scenes = sorted(scene for scene in SCENES.glob("*.py") if scene.stem in names or not names and scene.stem not in WAITING)
+    scenes = sorted(scene for scene in SCENES.glob("*.py") if not names or scene.stem in names)
     passed = sum(run(scene) for scene in scenes)
     print(f"{passed} passed, {len(scenes) - passed} failed")
     return 0 if passed == len(scenes) > 0 else 1
