@@ -7,7 +7,7 @@ import time
 from pathlib import Path
 
 SCENES = Path(__file__).parent / "scenes"
-SECONDS = float(os.environ.get("SELVEDGE_SCENE_SECONDS", 120))
+SECONDS = float(os.environ.get("SELVEDGE_SCENE_SECONDS", 240))
 
 
 def run(scene):
