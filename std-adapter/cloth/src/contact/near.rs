@@ -112,7 +112,8 @@ pub(super) fn visit_near(
     }
 }
 
-/// The largest number of places at which the way to the first guess is looked at.
+/// The largest number of places at which a pair is looked at on its way to the first guess. They are a thickness apart on ways of
+/// up to so many thicknesses, so that no pair comes near between two of them. On a longer way one may; the certificate holds it.
 const MOST_PLACES: f64 = 16.0;
 
 /// Returns the closest points where a pair first comes near on a straight way on which its vertices move apart by up to

@@ -10,7 +10,8 @@ use crate::world::Pose;
 use selvedge_core::glam::DVec3;
 use std::ops::Range;
 
-/// The share of the thickness at which pairs with the mesh of a smooth body aim.
+/// The share of the thickness at which pairs with the mesh of a smooth body aim. The rest is room for edges of the cloth, whose
+/// middle is nearer than their ends. The law of the capstan pins it: with 1 its error is up to 48 %.
 pub(crate) const OF_MESH: f64 = 0.5;
 
 /// A capsule or a ball, and the cloth that it meets.

@@ -119,8 +119,9 @@ impl ContactSolver {
         Ok(crossings)
     }
 
-    /// Visits the pairs that may be nearer than their thickness at the end of a step, each with its distance at the start:
-    /// `guess` has the positions at which the solve begins, and `goal` those to which everything but contact leads.
+    /// Finds the candidates of a step, and visits those that may be nearer than their thickness at its end, each with its
+    /// distance at the start: `guess` has the positions at which the solve begins, and `goal` those to which everything but
+    /// contact leads.
     pub(crate) fn visit_near(
         &mut self,
         step: &TimeStep<'_>,

@@ -222,7 +222,6 @@ fn ropes_stay_apart_from_each_other_from_cloth_and_from_bodies() {
             .map(|p| p.distance(simulation.positions()[one.start + from]))
             .fold(1.0, f64::min)
     };
-    // The tie draws that vertex near, over what lies between.
     assert!(closest(60) < 9e-3, "{}", closest(60));
 }
 
