@@ -6,6 +6,7 @@ use super::errors::Blocked;
 use super::frame::{FrameProgress, MOST_STEPS};
 use super::simulation::Simulation;
 use super::state::FASTEST;
+use super::substep::Overstretched;
 use super::waiting::Waits;
 use crate::contact::Blocker;
 use crate::model::step::Carrier;
@@ -18,6 +19,9 @@ use std::ops::ControlFlow;
 /// The shortest part of a step that is tried, so that a step has an end. It is in steps, or in parts of one in which nothing
 /// turns too far.
 const SHORTEST: f64 = 1.0 / 64.0;
+
+/// The longest part of a step that may end with overstretched edges, in shortest parts: a quarter of a step.
+const LONGEST_OVERSTRETCHED: f64 = 0.25 / SHORTEST;
 
 /// A step that ends with an edge longer than this, over its limit, is counted.
 const OVERSTRETCHED: f64 = 1.05;
@@ -143,7 +147,8 @@ impl Simulation {
         // The same motion failed a moment ago, so that not even a short part of it is likely to be possible.
         let mut longest = if waited == Waits::Tries { shortest } else { left };
         if waited == Waits::Stays {
-            self.attempt(left, 0.0).map_err(|blocker| self.described(blocker))?;
+            self.attempt(left, 0.0, Overstretched::Accepted)
+                .map_err(|blocker| self.described(blocker))?;
             left = 0.0;
             (of_the_step, was_blocked) = (BodyClock::Waited, true);
         }
@@ -163,7 +168,8 @@ impl Simulation {
                 (OnBlocked::Yield | OnBlocked::Hold, ..) => {
                     self.has_waited(left);
                     // If nothing is forced to move, a step can always be made.
-                    self.attempt(left, 0.0).map_err(|blocker| self.described(blocker))?;
+                    self.attempt(left, 0.0, Overstretched::Accepted)
+                        .map_err(|blocker| self.described(blocker))?;
                     left = 0.0;
                     of_the_step = BodyClock::Waited;
                 }
@@ -184,9 +190,7 @@ impl Simulation {
     /// more than 1.05 after a step, use shorter steps, or [frames](Self::advance).
     #[must_use]
     pub fn longest_over_limit(&self) -> Option<f64> {
-        let terms = self.made.solve.terms.iter();
-        let over = terms.filter_map(|entry| entry.action.over_limit(&self.state.positions));
-        over.reduce(f64::max)
+        self.made.solve.longest_over_limit(&self.state.positions)
     }
 
     /// Advances by as much of `left` seconds as possible, and returns how much. It tries half of it if that fails, and so on, but
@@ -194,7 +198,12 @@ impl Simulation {
     fn part(&mut self, left: f64, shortest: f64) -> Result<f64, Blocker> {
         let mut h = self.without_large_turn(left);
         loop {
-            match self.attempt(h, h) {
+            let overstretched = if h > LONGEST_OVERSTRETCHED * shortest {
+                Overstretched::Refused
+            } else {
+                Overstretched::Accepted
+            };
+            match self.attempt(h, h, overstretched) {
                 Err(_) if 0.5 * h >= shortest => {
                     h *= 0.5;
                     if let Some(contact) = &mut self.made.contact {

@@ -13,6 +13,7 @@
 
 use super::errors::SetupError;
 use super::simulation::Simulation;
+use super::substep::Overstretched;
 use super::tangled::{Tangled, Untangled, UntanglingEnd, UntanglingProgress};
 use selvedge::clock::Clock;
 use selvedge_core::glam::DVec3;
@@ -175,7 +176,7 @@ impl Simulation {
                 // The move is small where the pull is small, and the full reach where it is large.
                 *velocity = *way * (reach / (1.0 + way.length_squared()).sqrt() / h);
             }
-            if self.attempt(h, 0.0).is_ok() {
+            if self.attempt(h, 0.0, Overstretched::Accepted).is_ok() {
                 if let Some(contact) = &mut self.made.contact {
                     contact.take_back(&self.state.positions);
                 }

@@ -65,6 +65,14 @@ impl Accuracy {
 pub(super) const MOST_NEWTON_STEPS: u32 = 12;
 /// The largest number of iterations of conjugate gradients in one Newton step.
 pub(super) const MOST_ITERATIONS: usize = 1000;
+/// The largest number of linear problems in one Newton step, between which contacts join in and drop out. The line search sees
+/// to the rest. Where cloth buckles on a body, 122 of 491 solves were not converged after the most Newton steps with one linear
+/// problem, 86 with two, 32 with four, 7 with nine; the time is the same from four on.
+pub(super) const MOST_ROUNDS: u32 = 4;
+/// The share, in the norm of the energy, of what a Newton step mends that it may leave to the next one, which has another matrix.
+/// Smaller values need more iterations, larger ones more Newton steps. The result does not depend on it, since the last Newton
+/// step leaves less.
+pub(super) const LINEAR_SHARE: f64 = 0.05;
 /// The largest number of halvings of a Newton step. Slack foil may fly ten thousand times too far.
 pub(super) const MOST_HALVINGS: usize = 16;
 /// An error of velocity that does not matter, in m/s: a thousandth of a millimetre in half a second. Pinned by the speed of

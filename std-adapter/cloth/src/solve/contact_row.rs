@@ -17,7 +17,7 @@ use super::constants::RECOVERY;
 use super::matrix::{Matrix, outer};
 use crate::contact::PairKey;
 use crate::model::length::{length, shortened};
-use selvedge_core::glam::{DVec3, Mat3A};
+use selvedge_core::glam::{DVec3, Mat3A, Vec3A};
 
 /// The name of a contact from step to step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -246,8 +246,7 @@ impl ContactRow {
     /// to be; a row that pushes there, or pushed in the last step, takes part as well.
     pub(super) fn choose(&mut self, x: &[DVec3], goal: Option<&[DVec3]>) {
         let push = self.push - self.stiffness * self.gap(x);
-        self.is_active = push > 0.0 || goal.is_some_and(|goal| self.push > 0.0 || self.gap(goal) < 0.0);
-        self.bound = if self.is_active { self.friction * self.push } else { 0.0 };
+        self.take_part(push > 0.0 || goal.is_some_and(|goal| self.push > 0.0 || self.gap(goal) < 0.0));
         if goal.is_some() && self.bound > 0.0 {
             let wanted = self.wanted(x);
             self.slips = (length(wanted) > self.bound).then(|| wanted.normalize_or_zero());
@@ -328,7 +327,26 @@ impl ContactRow {
                 }
             }
         }
-        matrix.add_late(&self.vertices, &self.weights, stiffness);
+        matrix.add_contact(&self.vertices, &self.weights, stiffness);
+    }
+
+    /// Returns the push after moves, as the linear problem has it.
+    pub(super) fn push_after(&self, x: &[DVec3], moves: &[Vec3A]) -> f64 {
+        self.push - self.stiffness * (self.gap(x) + self.moved(moves).dot(self.normal))
+    }
+
+    /// Takes part in the linear problem, or no more.
+    pub(super) fn take_part(&mut self, does: bool) {
+        self.is_active = does;
+        self.bound = if does { self.friction * self.push } else { 0.0 };
+    }
+
+    /// Returns Σ w·move.
+    fn moved(&self, moves: &[Vec3A]) -> DVec3 {
+        let of_cloth = self
+            .parts()
+            .filter_map(|(vertex, weight)| moves.get(vertex).map(|own| own.as_dvec3() * weight));
+        of_cloth.sum()
     }
 
     /// Takes the forces at `x` as multipliers; inertia and terms pull by `all` in sum, in N. Returns the largest change, in m.
@@ -357,13 +375,8 @@ impl ContactRow {
 
     /// Prepares the line search along `moves`; returns what the row adds to the slope, and its pieces: the push, its fall along
     /// the whole way in N, and the way in m.
-    pub(super) fn along(&self, x: &[DVec3], moves: &[selvedge_core::glam::Vec3A]) -> Along {
-        let mut moved = DVec3::ZERO;
-        for (vertex, weight) in self.parts() {
-            if let Some(own) = moves.get(vertex) {
-                moved += own.as_dvec3() * weight;
-            }
-        }
+    pub(super) fn along(&self, x: &[DVec3], moves: &[Vec3A]) -> Along {
+        let moved = self.moved(moves);
         let way = moved.dot(self.normal);
         let push = self.push - self.stiffness * self.gap(x);
         let fall = self.stiffness * way;

@@ -46,6 +46,15 @@ pub(super) struct RankOne {
     pub(super) direction: Vec<Vec3A>,
 }
 
+/// The blocks of a vertex.
+#[derive(Clone, Copy, Debug)]
+struct Blocks {
+    vertex: u32,
+    own: Mat3A,
+    diagonal: Mat3A,
+    beside_ropes: Mat3A,
+}
+
 /// The second derivative of the energy of a step.
 #[derive(Debug, Default)]
 pub struct Matrix {
@@ -61,6 +70,11 @@ pub struct Matrix {
     /// The block of each vertex besides those that the rows of `blocks` and `bent` imply.
     own: Vec<Mat3A>,
     pub(super) links: Vec<Link>,
+    /// The first link of a contact, and the blocks that contacts have changed, as they were before.
+    first_contact: usize,
+    before_contacts: Vec<Blocks>,
+    /// The vertices of all contacts since [`begin_contacts`](Self::begin_contacts); many twice.
+    pub(super) pressed: Vec<u32>,
     /// The links of ropes, and the same in double precision, for the preconditioner.
     of_ropes: Vec<Link>,
     pub(super) bands: Bands,
@@ -257,12 +271,53 @@ impl Matrix {
     /// Adds a link after [`find_diagonal`](Self::find_diagonal).
     #[inline]
     pub(super) fn add_late(&mut self, vertices: &[u32], weights: &[f64], stiffness: Mat3A) {
-        let Some(link) = self.link(vertices, weights, stiffness) else {
-            return;
-        };
+        if let Some(link) = self.link(vertices, weights, stiffness) {
+            self.take_late(link);
+        }
+    }
+
+    fn take_late(&mut self, link: Link) {
         link.add_to(&mut self.diagonal);
         link.add_to(&mut self.beside_ropes);
         self.take(link);
+    }
+
+    /// Begins to add contacts. Those of the last matrix are gone.
+    pub(super) fn begin_contacts(&mut self) {
+        self.first_contact = self.links.len();
+        self.before_contacts.clear();
+        self.pressed.clear();
+    }
+
+    /// Adds the link of a contact.
+    pub(super) fn add_contact(&mut self, vertices: &[u32], weights: &[f64], stiffness: Mat3A) {
+        let Some(link) = self.link(vertices, weights, stiffness) else {
+            return;
+        };
+        for (&vertex, weight) in link.vertices.iter().zip(link.weights) {
+            if weight != 0.0 {
+                let place = vertex as usize;
+                self.before_contacts.push(Blocks {
+                    vertex,
+                    own: self.own[place],
+                    diagonal: self.diagonal[place],
+                    beside_ropes: self.beside_ropes[place],
+                });
+                self.pressed.push(vertex);
+            }
+        }
+        self.take_late(link);
+    }
+
+    /// Removes all contacts.
+    pub(super) fn remove_contacts(&mut self) {
+        self.links.truncate(self.first_contact);
+        // Backwards, so that the first of several contacts of a vertex has the last word.
+        for before in self.before_contacts.drain(..).rev() {
+            let place = before.vertex as usize;
+            (self.own[place], self.diagonal[place]) = (before.own, before.diagonal);
+            self.beside_ropes[place] = before.beside_ropes;
+        }
     }
 
     /// Finds the product with moves. Fixed vertices must not move.

@@ -13,8 +13,8 @@
 //! | file | content |
 //! |---|---|
 //! | [`prediction`] | y and M: implicit Euler for what something presses, second order for the rest; where the solve begins |
-//! | [`newton`] | the loop |
-//! | [`matrix`], [`preconditioner`], [`bands`] | the linear problem |
+//! | [`newton`], [`tolerance`] | the loop, and its end |
+//! | [`linear`], [`matrix`], [`preconditioner`], [`bands`] | the linear problem of a Newton step |
 //! | [`contact_row`] | contact and friction |
 //! | [`membranes`], [`bending`], [`ropes`], [`stitches`], [`springs`], [`walls`], [`air`] | the terms |
 //! | [`kept`] | what goes on from step to step, for checkpoints |
@@ -26,10 +26,12 @@ mod bands;
 mod constants;
 mod contact_row;
 mod kept;
+mod linear;
 mod matrix;
 mod newton;
 mod preconditioner;
 mod term;
+mod tolerance;
 
 pub(crate) mod air;
 pub(crate) mod bending;
@@ -45,8 +47,9 @@ pub use constants::Accuracy;
 use constants::RECOVERY;
 pub(crate) use contact_row::{ContactRow, RowKey};
 pub use matrix::Matrix;
-pub(crate) use newton::{NotFinite, Outcome};
+pub(crate) use newton::NotFinite;
 pub use term::{Prediction, Renewed, Term};
+pub(crate) use tolerance::Outcome;
 
 use crate::effects::plan::Entry;
 use crate::model::step::TimeStep;
@@ -155,6 +158,12 @@ impl Solve {
         let pushing = self.rows.iter().filter(|row| row.push > 0.0);
         let kept = pushing.filter(|row| row.parts().all(|(vertex, _)| !is_moved[vertex]));
         self.pushes.extend(kept.map(|row| (row.key, row.remembered(h))));
+    }
+
+    /// Returns the length of the longest edge over its limit; `None` without a limit.
+    pub(crate) fn longest_over_limit(&self, positions: &[DVec3]) -> Option<f64> {
+        let over = self.terms.iter().filter_map(|entry| entry.action.over_limit(positions));
+        over.reduce(f64::max)
     }
 
     /// Forgets all multipliers.

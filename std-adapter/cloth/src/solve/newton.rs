@@ -6,9 +6,7 @@
 //!                      └─▶ end
 //! ```
 //!
-//! **The end.** Iteration i of conjugate gradients lowers twice the energy by dᵢ, the square of the energy norm of what it mends
-//! (Hestenes and Stiefel 1952). The error is about that of the next iterations, and those are like the last ones. So it ends when
-//! the last third has mended little: at most the accuracy squared of all that the step has mended. Newton's method ends when the
+//! **The end.** Newton's method ends when the
 //! remaining force is about what the linear problem left, and the multipliers change little. What remains must also move little,
 //! in the norm of the masses, beside the way from the first guess. A rope that swings is longer at the first guess, by the
 //! square of its turn. That stretch has so much energy that the energy alone would let the swing go on for ever: law of the
@@ -17,16 +15,16 @@
 //! **Not finished** after the most Newton steps is not a failure. Multipliers go on in the next step, and the certificate guards
 //! the state. A cloth that buckles goes down from a saddle of the energy, which takes many steps, and none of them is wrong.
 
-use super::constants::{
-    MOST_HALVINGS, MOST_ITERATIONS, MOST_NEWTON_STEPS, NEARLY_LINEAR, QUIET, SLOWEST_CHANGE, SMALL_CHANGE, STILL,
-};
+use super::constants::{MOST_HALVINGS, MOST_NEWTON_STEPS, NEARLY_LINEAR, SLOWEST_CHANGE, SMALL_CHANGE};
 use super::contact_row::ContactRow;
+use super::linear::{Linear, Vectors};
 use super::matrix::dot;
 use super::term::{Prediction, Term};
+use super::tolerance::{Outcome, Tolerance};
 use super::{Solve, row_stiffness};
 use crate::effects::plan::Entry;
 use crate::model::step::TimeStep;
-use selvedge_core::glam::{DVec3, Vec3A};
+use selvedge_core::glam::DVec3;
 
 /// The rounding of the energy, as a share of it, and in J.
 const ROUNDING: [f64; 2] = [1e-9, 1e-13];
@@ -38,59 +36,15 @@ const ENOUGH: f64 = 0.7;
 const LEAST_SHARE: f64 = 0.02;
 /// The bisections of the line search, which then knows a share to a four-thousandth.
 const BISECTIONS: usize = 12;
-/// The least number of last iterations that must mend little.
-const FEWEST: usize = 2;
-
 /// Buffers of a solve; their memory is used again.
 #[derive(Debug, Default)]
 pub(super) struct Work {
     guess: Vec<DVec3>,
     gradient: Vec<DVec3>,
     next_gradient: Vec<DVec3>,
-    whole: Vec<DVec3>,
     next: Vec<DVec3>,
-    residual: Vec<Vec3A>,
-    moves: Vec<Vec3A>,
-    image: Vec<Vec3A>,
-    direction: Vec<Vec3A>,
-    product: Vec<Vec3A>,
-    drops: Vec<f64>,
+    linear: Linear,
     pieces: Vec<[f64; 3]>,
-}
-
-/// The tolerances of a solve.
-#[derive(Clone, Copy, Debug)]
-struct Tolerance {
-    /// The square of the accuracy.
-    squared: f64,
-    /// An energy that does not matter, in J.
-    still: f64,
-    /// Twice the energy of motion that is hardly visible, in J.
-    quiet: f64,
-    /// Twice the energy that the solve has mended so far, in J.
-    mended: f64,
-}
-
-impl Tolerance {
-    /// Returns twice the energy that may remain.
-    fn rest(&self) -> f64 {
-        self.rest_of(self.mended)
-    }
-
-    /// Returns how much of twice an energy may remain.
-    fn rest_of(&self, changed: f64) -> f64 {
-        // Below the quiet energy the error fades faster than what causes it, so that layers come to rest.
-        let fading = if changed < self.quiet { changed / self.quiet } else { 1.0 };
-        self.still.max(self.squared * changed * fading)
-    }
-}
-
-/// How a solve ended.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Outcome {
-    pub(crate) is_finished: bool,
-    pub(crate) newton_steps: u32,
-    pub(crate) iterations: u32,
 }
 
 /// An energy that is not finite.
@@ -112,21 +66,8 @@ impl Solve {
     ) -> Result<Outcome, NotFinite> {
         let count = prediction.masses.len();
         let mut work = std::mem::take(&mut self.work);
-        work.resize(count);
-        work.drops.clear();
-        work.drops.reserve(MOST_ITERATIONS);
-        let mass = prediction
-            .masses
-            .iter()
-            .zip(&prediction.rate)
-            .map(|(mass, rate)| mass * rate * rate);
-        let mass: f64 = mass.sum();
-        let mut tolerance = Tolerance {
-            squared: self.accuracy.share().powi(2),
-            still: mass * STILL * STILL,
-            quiet: mass * QUIET * QUIET,
-            mended: 0.0,
-        };
+        work.linear.resize(count);
+        let mut tolerance = Tolerance::new(self.accuracy, prediction);
         let mut outcome = Outcome::default();
         work.guess.clone_from(x);
         self.matrix.may_be_indefinite = true;
@@ -149,13 +90,10 @@ impl Solve {
             }
             let goal = (newton == 0).then_some(&prediction.goal[..]);
             self.rows.iter_mut().for_each(|row| row.choose_at(x, goal));
-            work.whole.clone_from(&work.gradient);
-            self.rows.iter().for_each(|row| row.add_gradient(x, true, &mut work.whole));
-            for ((residual, whole), mass) in work.residual.iter_mut().zip(&work.whole).zip(&prediction.masses) {
-                *residual = if *mass > 0.0 { (-*whole).as_vec3a() } else { Vec3A::ZERO };
-            }
+            self.find_residual(prediction, x, &work.gradient, &mut work.linear);
             if newton > 0 {
-                let left = self.preconditioner.measure(&self.matrix, &work.residual, &mut work.image);
+                let Vectors { residual, image, .. } = &mut work.linear.vectors;
+                let left = self.preconditioner.measure(&self.matrix, residual, image);
                 let [left_to_move, moved] = work.motion(prediction, x);
                 let little = NEARLY_LINEAR * linear_rest;
                 let is_right = left <= tolerance.rest().max(little) && left_to_move <= tolerance.rest_of(moved).max(little);
@@ -168,9 +106,8 @@ impl Solve {
                 }
                 self.assemble(prediction, x);
             }
-            self.add_multipliers(x);
-            self.preconditioner.prepare(&self.matrix);
-            linear_rest = self.solve_linear(&mut work, &mut tolerance, &mut outcome);
+            let at = (&x[..], &work.gradient[..]);
+            linear_rest = self.find_moves(prediction, at, &mut work.linear, &mut tolerance, &mut outcome);
             outcome.newton_steps += 1;
             let share = self.advance(prediction, x, &mut energy, &mut work);
             if share > ENOUGH || std::mem::replace(&mut was_short, true) {
@@ -193,14 +130,6 @@ impl Solve {
         self.matrix.find_diagonal();
     }
 
-    /// Adds the multipliers to the matrix.
-    fn add_multipliers(&mut self, x: &[DVec3]) {
-        for entry in &mut self.terms {
-            entry.timed(|action| action.curvature_of_multipliers(x, &mut self.matrix));
-        }
-        self.rows.iter().for_each(|row| row.add_curvature(x, &mut self.matrix));
-    }
-
     /// Fills the matrix, and chooses the stiffness of multipliers.
     fn begin_rows(&mut self, prediction: &Prediction, x: &[DVec3], energy: &mut f64, slope: &mut Vec<DVec3>) {
         self.assemble(prediction, x);
@@ -218,57 +147,6 @@ impl Solve {
         });
     }
 
-    /// Finds moves by conjugate gradients. Returns rᵀWr of what remains.
-    fn solve_linear(&mut self, work: &mut Work, tolerance: &mut Tolerance, outcome: &mut Outcome) -> f64 {
-        let Self {
-            matrix, preconditioner, ..
-        } = self;
-        work.moves.fill(Vec3A::ZERO);
-        work.drops.clear();
-        preconditioner.apply(matrix, &work.residual, &mut work.image);
-        work.direction.clone_from(&work.image);
-        let mut rest = dot(&work.residual, &work.image);
-        for _ in 0..MOST_ITERATIONS {
-            // NaN ends the iteration, too.
-            if !(rest > 0.0) {
-                break;
-            }
-            matrix.multiply(&work.direction, &mut work.product);
-            let curvature = dot(&work.direction, &work.product);
-            if !(curvature > 0.0) {
-                matrix.may_be_indefinite = false;
-                if work.drops.is_empty() {
-                    // Along the preconditioned force the energy falls in any case.
-                    work.moves.clone_from(&work.image);
-                }
-                break;
-            }
-            outcome.iterations += 1;
-            let by = rest / curvature;
-            let step = by as f32;
-            for (moved, direction) in work.moves.iter_mut().zip(&work.direction) {
-                *moved += *direction * step;
-            }
-            for (residual, product) in work.residual.iter_mut().zip(&work.product) {
-                *residual -= *product * step;
-            }
-            work.drops.push(by * rest);
-            tolerance.mended += by * rest;
-            let next = preconditioner.measure(matrix, &work.residual, &mut work.image);
-            let last = FEWEST.max(work.drops.len() / 3);
-            let mended: f64 = work.drops.iter().rev().take(last).sum();
-            let share = (next / rest) as f32;
-            rest = next;
-            if work.drops.len() >= last && mended <= tolerance.rest() {
-                break;
-            }
-            for (direction, image) in work.direction.iter_mut().zip(&work.image) {
-                *direction = *image + *direction * share;
-            }
-        }
-        rest
-    }
-
     /// Moves `x` by a share of the moves at which the energy is less, and finds energy and gradient there. Returns the share.
     fn advance(&mut self, prediction: &Prediction, x: &mut Vec<DVec3>, energy: &mut f64, work: &mut Work) -> f64 {
         let mut share = if self.rows.is_empty() { 1.0 } else { self.best_share(x, work) };
@@ -276,7 +154,7 @@ impl Solve {
         let before = *energy + of_rows(&self.rows, x);
         work.next.clone_from(x);
         for _ in 0..MOST_HALVINGS {
-            for ((next, x), moved) in work.next.iter_mut().zip(&*x).zip(&work.moves) {
+            for ((next, x), moved) in work.next.iter_mut().zip(&*x).zip(&work.linear.vectors.moves) {
                 *next = *x + moved.as_dvec3() * share;
             }
             let found = gradient(&mut self.terms, prediction, &work.next, &mut work.next_gradient);
@@ -296,13 +174,17 @@ impl Solve {
 
     /// Returns the share of the moves with the least energy, for the quadratic model of the terms and the exact energy of pushes.
     fn best_share(&self, x: &[DVec3], work: &mut Work) -> f64 {
-        self.matrix.multiply(&work.moves, &mut work.product);
-        let mut bend = dot(&work.product, &work.moves);
-        let each = work.gradient.iter().zip(&work.moves);
-        let mut slope: f64 = each.map(|(gradient, moved)| gradient.dot(moved.as_dvec3())).sum();
+        let Vectors { residual, moves, .. } = &work.linear.vectors;
+        let along = |gradient: &[DVec3]| {
+            let each = gradient.iter().zip(moves);
+            each.map(|(gradient, moved)| gradient.dot(moved.as_dvec3())).sum::<f64>()
+        };
+        let mut slope = along(&work.gradient);
+        // A·moves is minus the gradient and what remains.
+        let mut bend = -along(&work.linear.gradient) - dot(residual, moves);
         work.pieces.clear();
         for row in &self.rows {
-            let along = row.along(x, &work.moves);
+            let along = row.along(x, moves);
             slope += along.slope;
             bend += along.bend;
             work.pieces.extend(along.piece);
@@ -362,18 +244,6 @@ impl Solve {
 }
 
 impl Work {
-    fn resize(&mut self, count: usize) {
-        for all in [
-            &mut self.residual,
-            &mut self.moves,
-            &mut self.image,
-            &mut self.direction,
-            &mut self.product,
-        ] {
-            all.resize(count, Vec3A::ZERO);
-        }
-    }
-
     /// Returns the squares, in the norm of the masses, of what remains to move, and of the way from the first guess to `x`.
     fn motion(&self, prediction: &Prediction, x: &[DVec3]) -> [f64; 2] {
         let by_mass = |vectors: &mut dyn Iterator<Item = DVec3>| {
@@ -381,7 +251,7 @@ impl Work {
             each.map(|(mass, vector)| mass * vector.length_squared()).sum()
         };
         [
-            by_mass(&mut self.image.iter().map(|image| image.as_dvec3())),
+            by_mass(&mut self.linear.vectors.image.iter().map(|image| image.as_dvec3())),
             by_mass(&mut x.iter().zip(&self.guess).map(|(x, guess)| *x - *guess)),
         ]
     }

@@ -1,0 +1,50 @@
+//! What a solve may leave, and how it ended.
+
+use super::constants::{Accuracy, QUIET, STILL};
+use super::term::Prediction;
+
+/// The tolerances of a solve.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Tolerance {
+    /// The square of the accuracy.
+    squared: f64,
+    /// An energy that does not matter, in J.
+    still: f64,
+    /// Twice the energy of motion that is hardly visible, in J.
+    quiet: f64,
+    /// Twice the energy that the solve has mended so far, in J.
+    pub(super) mended: f64,
+}
+
+impl Tolerance {
+    pub(super) fn new(accuracy: Accuracy, prediction: &Prediction) -> Self {
+        let masses = prediction.masses.iter().zip(&prediction.rate);
+        let mass: f64 = masses.map(|(mass, rate)| mass * rate * rate).sum();
+        Self {
+            squared: accuracy.share().powi(2),
+            still: mass * STILL * STILL,
+            quiet: mass * QUIET * QUIET,
+            mended: 0.0,
+        }
+    }
+
+    /// Returns twice the energy that may remain.
+    pub(super) fn rest(&self) -> f64 {
+        self.rest_of(self.mended)
+    }
+
+    /// Returns how much of twice an energy may remain.
+    pub(super) fn rest_of(&self, changed: f64) -> f64 {
+        // Below the quiet energy the error fades faster than what causes it, so that layers come to rest.
+        let fading = if changed < self.quiet { changed / self.quiet } else { 1.0 };
+        self.still.max(self.squared * changed * fading)
+    }
+}
+
+/// How a solve ended.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Outcome {
+    pub(crate) is_finished: bool,
+    pub(crate) newton_steps: u32,
+    pub(crate) iterations: u32,
+}
