@@ -91,6 +91,10 @@ pub(super) fn visit_near(
         let aim = pair.data.aim.length();
         let wide = ROOM * aim;
         let gap = f64::from(pair.gap());
+        // Of what comes from afar only contacts with bodies have rows: cloth that flies at cloth seldom keeps to its first guess.
+        if gap > reach(aim) && !pair.data.is_with_body() {
+            continue;
+        }
         // No pair beyond the reach of the search is near; most candidates are kept apart by far.
         if pair.is_kept_at(wide, guess) && pair.is_kept_at(aim, goal) || rules.exempt.is_tangled(pair) {
             continue;
@@ -146,7 +150,6 @@ fn near_on_way(pair: &mut Candidate, rules: Rules<'_>, way: [&[DVec3]; 2], closi
         return None;
     }
     if distance > reach(aim) {
-        // Cloth that flies at cloth seldom keeps to its first guess.
         if !pair.data.is_with_body() {
             return None;
         }

@@ -94,6 +94,13 @@ impl Simulation {
         self.state.step
     }
 
+    /// Returns the seconds of a frame in a scene [by frames](crate::Scene::by_frames), where the simulation chooses its steps;
+    /// `None` if its steps are as long as the scene says.
+    #[must_use]
+    pub const fn frame_seconds(&self) -> Option<f64> {
+        self.frame
+    }
+
     /// Returns the number of times that [`run`](Self::run) has succeeded, where nothing else has run: steps, or frames in a scene
     /// [by frames](crate::Scene::by_frames).
     #[must_use]

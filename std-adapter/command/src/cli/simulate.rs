@@ -97,7 +97,8 @@ pub(super) fn run_steps(
         let begin = Instant::now();
         let overstretched = simulation.overstretched_steps();
         simulation.run()?;
-        if overstretched == 0 && simulation.overstretched_steps() > 0 {
+        // By frames the simulation has chosen its steps itself.
+        if overstretched == 0 && simulation.overstretched_steps() > 0 && simulation.frame_seconds().is_none() {
             let time = simulation.time();
             eprintln!(
                 "warning: at {time:.6} s an edge is more than 5 % above its limit: the time step is too long for this scene"
