@@ -3,7 +3,7 @@
 use super::assembly::Assembly;
 use super::checkpoint::CHECKPOINT_STEPS;
 use super::errors::Blocked;
-use super::frame::{FrameProgress, MOST_STEPS};
+use super::frame::{FrameProgress, FrameSteps, MOST_STEPS};
 use super::simulation::Simulation;
 use super::state::FASTEST;
 use super::substep::Overstretched;
@@ -55,28 +55,28 @@ impl Simulation {
     pub fn run(&mut self) -> Result<(), Blocked> {
         match self.frame {
             None => self.step(),
-            Some(seconds) => {
-                let steps = self.steps_needed(seconds).min(MOST_STEPS);
-                self.steps_of_frame(seconds, steps, &mut |_| ControlFlow::Continue(()))
-                    .map(drop)
-            }
+            Some(seconds) => self
+                .steps_of_frame(seconds, MOST_STEPS, &mut |_| ControlFlow::Continue(()))
+                .map(drop),
         }
     }
 
-    /// Makes the steps of one frame of so many seconds, until `tell` stops it. Returns the number of steps that were done.
+    /// Makes the steps of one frame of so many seconds, at most `most` of them, until `tell` stops it.
     ///
     /// # Errors
     /// Returns the errors of [`step`](Self::step).
     pub(super) fn steps_of_frame(
         &mut self,
         seconds: f64,
-        steps: u32,
+        most: u32,
         tell: &mut (dyn FnMut(FrameProgress) -> ControlFlow<()> + Send),
-    ) -> Result<u32, Blocked> {
-        let h = seconds / f64::from(steps);
+    ) -> Result<FrameSteps, Blocked> {
         let end = self.time() + seconds;
-        let mut done = 0;
+        let (mut done, mut needed) = (0, 0);
         self.drive(seconds, |simulation| {
+            needed = simulation.steps_needed(seconds);
+            let steps = needed.min(most).max(1);
+            let h = seconds / f64::from(steps);
             let mut of_frame = BodyClock::Went;
             while done < steps {
                 if matches!(simulation.whole_step(h)?, BodyClock::Waited) {
@@ -97,7 +97,7 @@ impl Simulation {
             }
             Ok(of_frame)
         })?;
-        Ok(done)
+        Ok(FrameSteps { steps: done, needed })
     }
 
     /// Runs steps of so many seconds in all, during which the caller's bodies and pins move evenly.

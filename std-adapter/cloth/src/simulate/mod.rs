@@ -8,6 +8,7 @@
 //! faster than [`FASTEST`].
 
 mod advance;
+mod ahead;
 mod assembly;
 mod checkpoint;
 mod drive;

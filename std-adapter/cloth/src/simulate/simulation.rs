@@ -1,5 +1,6 @@
 //! A simulation, and the results that a caller can read between two steps.
 
+use super::ahead::Ahead;
 use super::assembly::Assembly;
 use super::measures::{EdgeStretch, EffectTime};
 use super::state::State;
@@ -79,6 +80,7 @@ pub struct Simulation {
 pub(super) struct Work {
     pub(super) poses: Vec<[Pose; 2]>,
     pub(super) substep: SubstepWork,
+    pub(super) ahead: Ahead,
 }
 
 impl Simulation {

@@ -9,6 +9,7 @@ mod determinism;
 mod energy;
 mod far_bodies;
 mod files;
+mod frames;
 mod from_code;
 mod garments;
 mod irregular;

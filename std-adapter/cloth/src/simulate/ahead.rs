@@ -1,0 +1,51 @@
+//! What is about to happen in a frame: how fast its bodies and pins become.
+
+use super::assembly::Assembly;
+use super::state::State;
+use crate::model::step::{Carrier, FREE};
+use selvedge_core::glam::DVec3;
+
+/// The number of places at which bodies and pins are looked at on their way through a frame. A motion that begins or ends within
+/// a frame of a film is seen, and one that does not turn round is followed.
+const PLACES: u32 = 4;
+
+/// Buffers of the look ahead.
+#[derive(Debug, Default)]
+pub(super) struct Ahead {
+    speeds: Vec<f64>,
+    from: Vec<DVec3>,
+    to: Vec<DVec3>,
+}
+
+impl Ahead {
+    /// Returns the speed of each vertex relative to `mean`: of cloth as it is, and of bodies and pins the largest on their way
+    /// through a frame of so many seconds.
+    pub(super) fn speeds(&mut self, state: &State, made: &mut Assembly, carried: &[DVec3], seconds: f64, mean: DVec3) -> &[f64] {
+        let Self { speeds, from, to } = self;
+        let Assembly { carriers, motions, .. } = made;
+        let of_cloth = |(velocity, carrier): (&DVec3, &Carrier)| match *carrier {
+            FREE => (*velocity - mean).length(),
+            _ => 0.0,
+        };
+        speeds.clear();
+        speeds.extend(state.velocities.iter().zip(&*carriers).map(of_cloth));
+        from.clone_from(&state.positions);
+        let between = seconds / f64::from(PLACES);
+        for place in 1..=PLACES {
+            let clock = state.clock + between * f64::from(place);
+            to.clone_from(&state.positions);
+            for (vertex, &carrier) in carriers.iter().enumerate().filter(|(_, carrier)| **carrier != FREE) {
+                let pose = motions[carrier as usize].pose(clock);
+                if pose.is_rigid() {
+                    to[vertex] = pose.apply(carried[vertex]);
+                }
+            }
+            motions.iter_mut().for_each(|motion| motion.put(clock, to));
+            for (vertex, speed) in speeds.iter_mut().enumerate().filter(|(vertex, _)| carriers[*vertex] != FREE) {
+                *speed = speed.max(((to[vertex] - from[vertex]) / between - mean).length());
+            }
+            std::mem::swap(from, to);
+        }
+        speeds
+    }
+}
