@@ -72,7 +72,7 @@ pub(super) const MOST_ROUNDS: u32 = 4;
 /// The share, in the norm of the energy, of what a Newton step mends that it may leave to the next one, which has another matrix.
 /// Smaller values need more iterations, larger ones more Newton steps. The result does not depend on it, since the last Newton
 /// step leaves less.
-pub(super) const LINEAR_SHARE: f64 = 0.05;
+pub(super) const LINEAR_SHARE: f64 = 0.02;
 /// The largest number of halvings of a Newton step. Slack foil may fly ten thousand times too far.
 pub(super) const MOST_HALVINGS: usize = 16;
 /// An error of velocity that does not matter, in m/s: a thousandth of a millimetre in half a second. Pinned by the speed of

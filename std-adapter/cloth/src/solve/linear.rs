@@ -45,9 +45,9 @@ pub(super) struct Linear {
     pub(super) gradient: Vec<DVec3>,
     /// The pushes after the moves.
     pushes: Vec<f64>,
-    /// What each iteration has mended, and all in the Newton step.
+    /// What each iteration has mended, and all Newton steps before.
     drops: Vec<f64>,
-    mended: f64,
+    before: f64,
 }
 
 impl Linear {
@@ -96,7 +96,7 @@ impl Solve {
         self.rows.iter().for_each(|row| row.add_curvature(x, &mut self.matrix));
         self.preconditioner.prepare(&self.matrix);
         linear.vectors.moves.fill(Vec3A::ZERO);
-        linear.mended = 0.0;
+        linear.before = tolerance.mended;
         let mut rest = self.descend(linear, tolerance, outcome);
         for _ in 1..MOST_ROUNDS {
             if !self.change_contacts(x, linear, tolerance) {
@@ -110,11 +110,15 @@ impl Solve {
                 ..
             } = &mut linear.vectors;
             self.matrix.multiply(moves, product);
+            // Moves m mend 2m·r − m·A·m = m·r + m·(r − A·m) of twice the energy.
+            let mut mended = dot(moves, residual);
             for ((residual, product), mass) in residual.iter_mut().zip(product).zip(&prediction.masses) {
                 if *mass > 0.0 {
                     *residual -= *product;
                 }
             }
+            mended += dot(moves, residual);
+            tolerance.mended = linear.before + mended.max(0.0);
             rest = self.descend(linear, tolerance, outcome);
         }
         rest
@@ -150,7 +154,7 @@ impl Solve {
             matrix, preconditioner, ..
         } = self;
         let Linear {
-            vectors, drops, mended, ..
+            vectors, drops, before, ..
         } = linear;
         drops.clear();
         let mut rest = preconditioner.measure(matrix, &vectors.residual, &mut vectors.image);
@@ -164,7 +168,7 @@ impl Solve {
             let curvature = dot(&vectors.direction, &vectors.product);
             if !(curvature > 0.0) {
                 matrix.may_be_indefinite = false;
-                if *mended == 0.0 {
+                if tolerance.mended == *before {
                     // Along the preconditioned force the energy falls in any case.
                     vectors.moves.clone_from(&vectors.image);
                 }
@@ -174,7 +178,6 @@ impl Solve {
             let by = rest / curvature;
             drops.push(by * rest);
             tolerance.mended += by * rest;
-            *mended += by * rest;
             let next = preconditioner.follow(matrix, by as f32, vectors);
             let share = (next / rest) as f32;
             rest = next;
@@ -184,7 +187,7 @@ impl Solve {
                 if of_last <= tolerance.rest() {
                     break;
                 }
-                if of_last <= LINEAR_SHARE * LINEAR_SHARE * *mended {
+                if of_last <= LINEAR_SHARE * LINEAR_SHARE * (tolerance.mended - *before) {
                     return 0.0;
                 }
             }
