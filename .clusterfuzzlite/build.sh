@@ -6,12 +6,14 @@ host=$(rustc -vV | sed -n 's/^host: //p')
 for source in fuzz_targets/*.rs; do
     target=$(basename "$source" .rs)
     cp "../target/$host/release/$target" "$OUT/"
-    folders=("corpus/$target")
-    [ ! -d "regressions/$target" ] || folders+=("regressions/$target")
-    zip -q -j -r "$OUT/${target}_seed_corpus.zip" "${folders[@]}"
+    folders=()
+    for folder in "corpus/$target" "regressions/$target"; do
+        [ ! -d "$folder" ] || folders+=("$folder")
+    done
+    [ ${#folders[@]} -eq 0 ] || zip -q -j -r "$OUT/${target}_seed_corpus.zip" "${folders[@]}"
     [ ! -f "dictionaries/$target.dict" ] || cp "dictionaries/$target.dict" "$OUT/"
     case $target in
-    obj | ply | stl | off) longest=2048 ;;
+    obj | ply | stl | off | gltf) longest=2048 ;;
     scene) longest=4096 ;;
     *) longest=700 ;;
     esac

@@ -6,8 +6,11 @@
 #   fuzz/campaign.sh --record                               writes the totals of the record into README.md
 #
 # In the background all targets take turns of five minutes, at the lowest priority, so that each gets its share whenever it is
-# stopped: kill the number that it prints. Each turn adds a line to record.csv (date, target, executions, seconds of processor
-# time, findings).
+# stopped: kill the number that it prints. Each turn that ends adds a line to record.csv (date, target, executions, seconds of
+# processor time, findings).
+#
+# The target `npm` calls the npm package with any values (std-adapter/web/tests/border.mjs). It takes part where Node and the
+# package are there: std-adapter/web/build.sh writes it to target/web.
 #
 # Needs a nightly compiler; installs cargo-fuzz if it is missing. Interesting inputs are kept in $FUZZ_WORK (fuzz/campaign), and
 # the next campaign continues from them, so it may be stopped at any time. Inputs that break a promise go to
@@ -63,22 +66,46 @@ case ${1:-30} in
 esac
 shift || true
 targets=("$@")
+package=${CARGO_TARGET_DIR:-$PWD/../target}/web/package
 if [ ${#targets[@]} -eq 0 ]; then
     for program in fuzz_targets/*.rs; do
         targets+=("$(basename "$program" .rs)")
     done
+    if command -v node >/dev/null && [ -d "$package" ]; then targets+=(npm); fi
 fi
 
-command -v cargo-fuzz >/dev/null || cargo install cargo-fuzz --locked
-mkdir -p "$work"
-# Without the address sanitizer targets run up to fifteen times as fast. They have no unsafe code.
-cargo +nightly fuzz build -s none
-# Copies, so that a campaign is not disturbed by changes of its sources.
-host=$(rustc +nightly -vV | sed -n 's/^host: //p')
 mkdir -p "$work/programs"
+if [ "${targets[*]}" != npm ]; then
+    command -v cargo-fuzz >/dev/null || cargo install cargo-fuzz --locked
+    # Without the address sanitizer targets run up to fifteen times as fast. All but c_interface have no unsafe code.
+    cargo +nightly fuzz build -s none
+fi
+# Copies, so that a campaign is not disturbed by changes of its sources.
 for target in "${targets[@]}"; do
-    cp "${CARGO_TARGET_DIR:-../target}/$host/release/$target" "$work/programs/"
+    if [ "$target" = npm ]; then
+        cp -r "$package" ../std-adapter/web/tests/border.mjs "$work/programs/"
+    else
+        host=${host:-$(rustc +nightly -vV | sed -n 's/^host: //p')}
+        cp "${CARGO_TARGET_DIR:-../target}/$host/release/$target" "$work/programs/"
+    fi
 done
+
+# Runs a target for some seconds. Findings are files: an input, or what the package said.
+run_target() { # TARGET SECONDS INPUTS...
+    local target=$1 seconds=$2 said status=0
+    shift 2
+    if [ "$target" = npm ]; then
+        said=$(mktemp)
+        node "$work/programs/border.mjs" "$work/programs/package" "$seconds" 2>"$said" || status=$?
+        cat "$said"
+        [ "$status" = 0 ] || cp "$said" "$work/npm.broken/$(date +%s)"
+        rm "$said"
+        return "$status"
+    fi
+    # shellcheck disable=SC2046 # words on purpose
+    "$work/programs/$target" "$@" $(options "$target") -max_total_time="$seconds" \
+        -print_final_stats=1 -timeout=60 -artifact_prefix="$work/$target.broken/"
+}
 
 options() {
     case $1 in
@@ -95,22 +122,25 @@ broken=0
 # In the background, as many turns as the hours have.
 [ -z "${FUZZ_HOURS:-}" ] || turns=$(((60 * FUZZ_HOURS + minutes - 1) / minutes))
 [ -n "${FUZZ_HOURS:-}" ] || turns=${#targets[@]}
+# A campaign that is stopped leaves no program behind: each turn is a group of processes of its own.
+set -m
+run=
+trap '[ -z "$run" ] || kill -- "-$run" 2>/dev/null || true' EXIT
+trap 'exit 143' INT TERM
 [ -e "$record" ] || echo "date,target,executions,seconds of processor time,findings" >"$record"
 for ((turn = 0; turn < turns; turn++)); do
     target=${targets[turn % ${#targets[@]}]}
     log=$work/$target.log
     mkdir -p "$work/$target" "$work/$target.broken"
-    kept=("$work/$target" "corpus/$target")
-    mkdir -p "corpus/$target"
+    kept=("$work/$target")
+    [ ! -d "corpus/$target" ] || kept+=("corpus/$target")
     [ ! -d "regressions/$target" ] || kept+=("regressions/$target")
     # Files of other kinds in the zoo do no harm.
     case $target in obj | ply | stl | off | gltf) kept+=(../std-adapter/files/tests/zoo) ;; esac
     before=$(find "$work/$target.broken" -type f | wc -l)
     {
         TIMEFORMAT='%U %S'
-        # shellcheck disable=SC2046 # words on purpose
-        time "$work/programs/$target" "${kept[@]}" $(options "$target") -max_total_time=$((60 * minutes)) \
-            -print_final_stats=1 -timeout=60 -artifact_prefix="$work/$target.broken/" >"$log" 2>&1
+        time run_target "$target" $((60 * minutes)) "${kept[@]}" >"$log" 2>&1
     } 2>"$work/$target.time" &
     run=$!
     begin=$SECONDS
@@ -127,6 +157,7 @@ for ((turn = 0; turn < turns; turn++)); do
         broken=1
         found="$work/$target.broken"
     fi
+    run=
     row=$(printf '%-18s %8s %14s %10s %8s %s\n' "$target" $(((SECONDS - begin + 30) / 60)) \
         "$(statistic number_of_executed_units "$log")" "$(statistic average_exec_per_sec "$log")" \
         "$(find "$work/$target" -type f | wc -l)" "$found")
@@ -135,8 +166,8 @@ for ((turn = 0; turn < turns; turn++)); do
     executions=$(statistic number_of_executed_units "$log")
     printf '%s,%s,%s,%s,%s\n' "$(date +%F)" "$target" "${executions:-0}" \
         "$(awk '{ seconds = $1 + $2 } END { printf "%.0f", seconds }' "$work/$target.time")" "$findings" >>"$record"
+    show_record
     table+=$'\n'$row
 done
 echo "$table"
-show_record
 exit $broken

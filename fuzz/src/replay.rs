@@ -60,7 +60,8 @@ replayed!(
     stl,
     off,
     gltf,
-    scene
+    scene,
+    c_interface
 );
 
 #[test]

@@ -1,6 +1,7 @@
 //! The targets. Each takes any bytes, and panics if a promise of the project is broken on them.
 
 mod box_tests;
+mod c_interface;
 mod certified_filter;
 mod detector;
 mod exact_signs;
@@ -12,6 +13,7 @@ mod scene;
 mod time_of_impact;
 
 pub use box_tests::box_tests;
+pub use c_interface::c_interface;
 pub use certified_filter::certified_filter;
 pub use detector::detector;
 pub use exact_signs::exact_signs;
@@ -24,7 +26,7 @@ pub use time_of_impact::time_of_impact;
 pub type Target = (&'static str, fn(&[u8]));
 
 /// Every target.
-pub const ALL: [Target; 12] = [
+pub const ALL: [Target; 13] = [
     ("certified_filter", certified_filter),
     ("box_tests", box_tests),
     ("exact_signs", exact_signs),
@@ -37,4 +39,5 @@ pub const ALL: [Target; 12] = [
     ("off", off),
     ("gltf", gltf),
     ("scene", scene),
+    ("c_interface", c_interface),
 ];

@@ -16,7 +16,7 @@
 //! weld        merges vertices in the same place
 //! ```
 //!
-//! This crate holds all `unsafe` code of the project. Its functions rely on one promise of the caller. A pointer that is neither
+//! This crate holds all `unsafe` code of the product. Its functions rely on one promise of the caller. A pointer that is neither
 //! null nor misaligned points to as many items as the count says. No other thread writes to them during the call.
 
 #![deny(unsafe_op_in_unsafe_fn, clippy::undocumented_unsafe_blocks)]
@@ -43,3 +43,21 @@ mod tests;
 mod version;
 mod weld;
 mod world;
+
+/// The functions and rows that C sees. C's headers declare them; this is for the fuzz target that calls them as C does, so that
+/// the compiler checks its calls.
+#[doc(hidden)]
+pub mod interface {
+    pub use crate::answers::{Boxes, ContactRow, GeometryRow, IntersectionRow, Pair, TruncationRow};
+    pub use crate::detector::*;
+    #[cfg(feature = "cloth")]
+    pub use crate::files::*;
+    pub use crate::queries::{double::*, single::*};
+    pub use crate::settings::*;
+    #[cfg(feature = "cloth")]
+    pub use crate::simulation::{checkpoint::*, counts::*, lead::*, run::*, state::*};
+    pub use crate::status::*;
+    pub use crate::weld::*;
+    pub use crate::world::steps::{Deforming, Pose, Rigid, WorldContactRow, WorldGeometryRow, selvedge_world_contact_geometries};
+    pub use crate::world::{double::*, single::*, *};
+}
