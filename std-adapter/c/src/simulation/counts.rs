@@ -133,7 +133,10 @@ unsafe fn find_part(
         let number = names.iter().position(|known| known == name);
         let found = number.and_then(|number| Some((number, vertices_of(&it.simulation, number)?)));
         let (number, vertices) = found.ok_or_else(|| {
-            let text = format!("the scene has no {kind} '{name}'; it has {names:?}");
+            // A name of the caller's may be long, or have characters that are not shown.
+            let short: String = name.chars().take(40).collect();
+            let short = short.escape_debug();
+            let text = format!("there is no {kind} '{short}'; the scene has {names:?}");
             Failure::new(Status::NoSuchPart, text)
         })?;
         out.set(PartRow {

@@ -11,22 +11,15 @@ use selvedge_cloth::{DriveError, Placement, Simulation, TeleportError};
 
 impl From<DriveError> for Failure {
     fn from(error: DriveError) -> Self {
-        let (status, text) = match error {
-            DriveError::NoBody { .. } | DriveError::NoPins { .. } | DriveError::NoVertex { .. } => {
-                (Status::NoSuchPart, error.to_string())
+        let status = match error {
+            DriveError::NoBody { .. } | DriveError::NoPins { .. } | DriveError::NoVertex { .. } | DriveError::NoWind => {
+                Status::NoSuchPart
             }
-            DriveError::NoWind => (
-                Status::NoSuchPart,
-                "the scene has no wind: add [effects.wind] to it".to_owned(),
-            ),
-            DriveError::NotDriven { what } => {
-                let text = format!("{what} is not driven: add `driven = true` to it in the scene");
-                (Status::NotDriven, text)
-            }
-            DriveError::VertexCount { .. } => (Status::WrongLength, error.to_string()),
-            DriveError::Value(_) => (Status::BadValue, error.to_string()),
+            DriveError::NotDriven { .. } => Status::NotDriven,
+            DriveError::VertexCount { .. } => Status::WrongLength,
+            DriveError::Value(_) => Status::BadValue,
         };
-        Self::new(status, text)
+        Self::new(status, error)
     }
 }
 

@@ -12,6 +12,8 @@ use std::ffi::CStr;
 use std::fmt::Debug;
 use std::ptr;
 
+#[cfg(feature = "cloth")]
+mod messages;
 #[path = "../../tests/sheet/mod.rs"]
 pub(crate) mod sheet;
 

@@ -54,7 +54,7 @@ pub enum DriveError {
     #[error(transparent)]
     Value(#[from] ValueError),
     /// The scene has no wind.
-    #[error("the scene has no wind: add the effect `Wind` to it")]
+    #[error("the scene has no wind: add it (`[effects.wind]` in a scene's text, `Wind` in code)")]
     NoWind,
 }
 
