@@ -21,7 +21,7 @@ use selvedge_bevy::{
 };
 use std::time::Duration;
 
-fn wide(position: [f32; 3]) -> DVec3 {
+pub(crate) fn wide(position: [f32; 3]) -> DVec3 {
     DVec3::from_array(position.map(f64::from))
 }
 
@@ -46,12 +46,12 @@ fn spawn_over_a_ball(app: &mut App) -> [Entity; 2] {
     [ball, app.world_mut().spawn(cloth).id()]
 }
 
-fn simulation(app: &App, entity: Entity) -> &Simulation {
+pub(crate) fn simulation(app: &App, entity: Entity) -> &Simulation {
     app.world().get::<ClothSimulation>(entity).unwrap().simulation().unwrap()
 }
 
 /// Makes a scene of a sheet above a ball, without the ball's motion.
-fn over_a_ball() -> Scene {
+pub(crate) fn over_a_ball() -> Scene {
     let cloth = Cloth::sheet(
         DVec3::new(-0.15, 0.12, -0.15),
         [DVec3::Z * 0.3, DVec3::X * 0.3],

@@ -4,6 +4,7 @@ mod bodies;
 mod cloth;
 mod contacts;
 mod problems;
+mod teleports;
 
 #[path = "../../example/src/figure.rs"]
 mod figure;
