@@ -1,12 +1,14 @@
 //! The class `Detector`.
 
-use crate::numbers::{Flags, Number, WholeNumbers, check_names, flags, large, number, optional, setting, whole, wholes};
+use crate::numbers::{Flag, Flags, Number, WholeNumbers, check_names, flags, large, number, optional, setting, whole, wholes};
 use crate::values::{
-    Exception, Frame, Positions, array, floats, get, kind_number, object, rows_of, set, take_positions, view, whole_numbers,
+    Exception, Frame as Given, Positions, array, floats, get, kind_number, object, rows_of, set, take_positions, view,
+    whole_numbers,
 };
 use js_sys::{Float64Array, Uint8Array};
 use selvedge::{
-    CandidateBoxes, CollisionDetector, CollisionFilter, Contact, ContactGeometry, Criterion, Groups, Intersection, Topology,
+    CandidateBoxes, CollisionDetector, CollisionFilter, Contact, ContactGeometry, Criterion, Frame, Groups, Intersection,
+    StepError, Topology,
 };
 use selvedge_core::elementary::Limits;
 use selvedge_core::glam::DVec3;
@@ -46,8 +48,8 @@ impl Detector {
         let topology = Topology::with_loose_features(vertex_count, triangles, &edges, &points);
         let topology = topology.map_err(|error| Exception::input(&error))?;
         Ok(Self {
-            start: vec![[0.0; 3]; topology.vertex_count()],
-            end: vec![[0.0; 3]; topology.vertex_count()],
+            start: zeros(vertex_count)?,
+            end: zeros(vertex_count)?,
             detector: CollisionDetector::new(topology),
             contacts: Vec::new(),
             geometries: Vec::new(),
@@ -70,7 +72,7 @@ impl Detector {
     ///
     /// Throws an `InputError` if a frame has the wrong length or a coordinate is NaN or infinite.
     #[wasm_bindgen(unchecked_return_type = "Contacts")]
-    pub fn contacts(&mut self, start: &Frame, end: &Frame, geometry: Option<bool>) -> Result<JsValue, Exception> {
+    pub fn contacts(&mut self, start: &Given, end: &Given, geometry: Option<bool>) -> Result<JsValue, Exception> {
         self.take(start, end)?;
         self.detector.contacts(&self.start, &self.end, &mut self.contacts)?;
         self.geometries.clear();
@@ -83,7 +85,7 @@ impl Detector {
 
     /// Finds the earliest contact. The step is certainly free before its time, and throughout if the result is undefined.
     #[wasm_bindgen(unchecked_return_type = "Contact | undefined")]
-    pub fn earliest(&mut self, start: &Frame, end: &Frame) -> Result<JsValue, Exception> {
+    pub fn earliest(&mut self, start: &Given, end: &Given) -> Result<JsValue, Exception> {
         self.take(start, end)?;
         let earliest = self.detector.earliest(&self.start, &self.end)?;
         Ok(earliest.map_or(JsValue::UNDEFINED, |contact| {
@@ -100,14 +102,14 @@ impl Detector {
 
     /// Decides whether the step is certainly free of contact. The search ends at the first contact.
     #[wasm_bindgen(js_name = isFree)]
-    pub fn is_free(&mut self, start: &Frame, end: &Frame) -> Result<bool, Exception> {
+    pub fn is_free(&mut self, start: &Given, end: &Given) -> Result<bool, Exception> {
         self.take(start, end)?;
         Ok(self.detector.is_free(&self.start, &self.end)?)
     }
 
     /// Finds the pairs that bounding boxes keep: two numbers each, vertices and faces, and edges and edges.
     #[wasm_bindgen(unchecked_return_type = "{ vertexFace: Uint32Array; edgeEdge: Uint32Array }")]
-    pub fn candidates(&mut self, start: &Frame, end: &Frame, swept: Option<bool>) -> Result<JsValue, Exception> {
+    pub fn candidates(&mut self, start: &Given, end: &Given, swept: Option<bool>) -> Result<JsValue, Exception> {
         self.take(start, end)?;
         let boxes = match swept {
             Some(true) => CandidateBoxes::Swept,
@@ -124,7 +126,7 @@ impl Detector {
     #[wasm_bindgen(unchecked_return_type = "Contacts")]
     pub fn near(&mut self, positions: &Positions, distance: &Number) -> Result<JsValue, Exception> {
         let distance = number(distance, "distance")?;
-        take_positions(positions, "positions", &mut self.start)?;
+        self.take_state(positions)?;
         self.detector.near(&self.start, distance, &mut self.geometries)?;
         let contact = |near: &ContactGeometry| Contact {
             kind: near.kind,
@@ -138,8 +140,8 @@ impl Detector {
 
     /// Moves each vertex as far towards `wanted` as its neighbourhood allows, so that the step is certainly free of contact.
     #[wasm_bindgen(unchecked_return_type = "Truncation")]
-    pub fn truncate(&mut self, start: &Frame, wanted: &Frame) -> Result<JsValue, Exception> {
-        self.take(start, wanted)?;
+    pub fn truncate(&mut self, start: &Given, wanted: &Given) -> Result<JsValue, Exception> {
+        self.take_frames([start, wanted], ["start", "wanted"])?;
         let mut end = Vec::new();
         let truncation = self.detector.truncate(&self.start, &self.end, &mut end)?;
         let properties = [
@@ -153,7 +155,7 @@ impl Detector {
     /// Finds all intersections of a mesh at rest, exactly, touching included.
     #[wasm_bindgen(unchecked_return_type = "Intersections")]
     pub fn intersections(&mut self, positions: &Positions) -> Result<JsValue, Exception> {
-        take_positions(positions, "positions", &mut self.start)?;
+        self.take_state(positions)?;
         let mut found = Vec::new();
         self.detector.intersections(&self.start, &mut found)?;
         let row = |intersection: &Intersection| match *intersection {
@@ -173,7 +175,7 @@ impl Detector {
     /// Decides whether there is any intersection. The search ends at the first.
     #[wasm_bindgen(js_name = hasIntersections)]
     pub fn has_intersections(&mut self, positions: &Positions) -> Result<bool, Exception> {
-        take_positions(positions, "positions", &mut self.start)?;
+        self.take_state(positions)?;
         Ok(self.detector.has_intersections(&self.start)?)
     }
 
@@ -223,8 +225,8 @@ impl Detector {
 
     /// Sets whether each step starts where the last one ended. Such steps are faster; the contacts are the same.
     #[wasm_bindgen(js_name = setCoherent)]
-    pub fn set_coherent(&mut self, coherent: bool) {
-        self.detector.set_coherent(coherent);
+    pub fn set_coherent(&mut self, coherent: &Flag) {
+        self.detector.set_coherent(coherent.is_truthy());
     }
 
     /// Limits the pairs that a step may look at; more throw a `TooManyPairsError`. Without an argument there is no limit.
@@ -273,13 +275,25 @@ impl Detector {
     }
 
     fn take(&mut self, start: &JsValue, end: &JsValue) -> Result<(), Exception> {
-        if !start.is_undefined() {
-            take_positions(start, "start", &mut self.start)?;
-        }
-        if !end.is_undefined() {
-            take_positions(end, "end", &mut self.end)?;
+        self.take_frames([start, end], ["start", "end"])
+    }
+
+    /// Copies the frames that are given. A frame of the wrong length changes nothing of the other.
+    fn take_frames(&mut self, frames: [&JsValue; 2], names: [&str; 2]) -> Result<(), Exception> {
+        let expected = self.detector.topology().vertex_count();
+        let own = [(Frame::Start, &mut self.start), (Frame::End, &mut self.end)];
+        for ((positions, name), (frame, rows)) in frames.into_iter().zip(names).zip(own) {
+            if !positions.is_undefined() {
+                take_frame(positions, name, (frame, expected), rows)?;
+            }
         }
         Ok(())
+    }
+
+    /// Copies the positions of a mesh at rest.
+    fn take_state(&mut self, positions: &JsValue) -> Result<(), Exception> {
+        let expected = self.detector.topology().vertex_count();
+        take_frame(positions, "positions", (Frame::Start, expected), &mut self.start)
     }
 
     /// Returns the contacts as arrays.
@@ -312,4 +326,31 @@ impl Detector {
         }
         columns.into()
     }
+}
+
+/// Returns positions of zeros, if the memory has room for them.
+fn zeros(vertex_count: usize) -> Result<Vec<[f64; 3]>, Exception> {
+    let mut rows = Vec::new();
+    rows.try_reserve_exact(vertex_count).map_err(|_| {
+        let text = format!("vertexCount: there is no memory for the positions of {vertex_count} vertices");
+        Exception::input(&text)
+    })?;
+    rows.resize(vertex_count, [0.0; 3]);
+    Ok(rows)
+}
+
+/// Copies the positions of a frame, which keeps its length whatever is given.
+fn take_frame(
+    positions: &JsValue,
+    name: &str,
+    (frame, expected): (Frame, usize),
+    rows: &mut Vec<[f64; 3]>,
+) -> Result<(), Exception> {
+    take_positions(positions, name, rows)?;
+    let found = rows.len();
+    if found == expected {
+        return Ok(());
+    }
+    rows.resize(expected, [0.0; 3]);
+    Err(StepError::WrongLength { frame, found, expected }.into())
 }

@@ -1,8 +1,8 @@
-//! Numbers from JavaScript, checked before they are used. wasm-bindgen itself would turn NaN, `undefined` and 2³² into 0, 2.5
-//! into 2, and −1 into 4294967295.
+//! Numbers and texts from JavaScript, checked before they are used. wasm-bindgen itself would turn NaN, `undefined` and 2³² into
+//! 0, 2.5 into 2, and −1 into 4294967295. It would read any value as a text, and write where it must not if that has no length.
 
 use crate::values::Exception;
-use js_sys::{Array, ArrayBuffer, BigInt64Array, BigUint64Array, DataView, Float64Array, Uint8Array, Uint32Array};
+use js_sys::{Array, ArrayBuffer, BigInt64Array, BigUint64Array, DataView, Float64Array, Reflect, Uint8Array, Uint32Array};
 use wasm_bindgen::{JsCast, JsValue, prelude::wasm_bindgen};
 
 // Arguments with the types that the declarations give them.
@@ -18,6 +18,12 @@ extern "C" {
     pub type Numbers;
     #[wasm_bindgen(typescript_type = "Uint8Array")]
     pub type Bytes;
+    #[wasm_bindgen(typescript_type = "string")]
+    pub type Text;
+    #[wasm_bindgen(typescript_type = "string[]")]
+    pub type Texts;
+    #[wasm_bindgen(typescript_type = "boolean")]
+    pub type Flag;
 }
 
 /// The largest whole number that a `number` holds exactly.
@@ -25,6 +31,11 @@ const LARGEST_WHOLE: f64 = 9_007_199_254_740_991.0;
 
 fn wrong(name: &str, expected: &str, found: &JsValue) -> Exception {
     Exception::input(&format!("{name} must be {expected}, not {}", shown(found)))
+}
+
+/// Returns the beginning of a text, without characters that are not shown.
+pub(crate) fn short(text: &str) -> String {
+    text.chars().take(40).flat_map(char::escape_debug).collect()
 }
 
 /// Returns a value in a few words.
@@ -35,8 +46,7 @@ fn shown(value: &JsValue) -> String {
             .map_or_else(|_| number.to_string(), String::from);
     }
     if let Some(text) = value.as_string() {
-        let short: String = text.chars().take(40).collect();
-        return format!("the text '{short}'");
+        return format!("the text '{}'", short(&text));
     }
     match value {
         _ if value.is_undefined() => "undefined".to_owned(),
@@ -77,6 +87,11 @@ pub(crate) fn large(value: &JsValue, name: &str) -> Result<u64, Exception> {
     whole_below(value, name, LARGEST_WHOLE).map(|whole| whole as u64)
 }
 
+/// Returns whether a list has no entry. So does a typed array whose buffer was transferred; it must not be copied from.
+pub(crate) fn is_empty(list: &JsValue) -> bool {
+    crate::values::get(list, "length").and_then(|length| length.as_f64()) == Some(0.0)
+}
+
 /// Returns the numbers of a list: a typed array, an array, or what is like one. Each entry must be a number.
 pub(crate) fn numbers(list: &JsValue, name: &str) -> Result<Vec<f64>, Exception> {
     let is_view = ArrayBuffer::is_view(list) && !list.is_instance_of::<DataView>();
@@ -85,34 +100,50 @@ pub(crate) fn numbers(list: &JsValue, name: &str) -> Result<Vec<f64>, Exception>
             "{name} must hold numbers, not values of type bigint"
         )));
     }
+    if is_view && is_empty(list) {
+        return Ok(Vec::new());
+    }
     if let Some(array) = list.dyn_ref::<Float64Array>() {
         return Ok(array.to_vec());
     }
     if is_view {
         return Ok(Float64Array::new(list).to_vec());
     }
-    entries(list, name)?
-        .iter()
-        .enumerate()
-        .map(|(place, entry)| number(&entry, &format!("{name}: entry {place}")))
-        .collect()
+    entries(list, name, ["an array of numbers", "a number"], JsValue::as_f64)
 }
 
-/// Returns the entries of an array, or of an object with a length.
-fn entries(list: &JsValue, name: &str) -> Result<Array, Exception> {
-    if let Some(array) = list.dyn_ref::<Array>() {
-        return Ok(array.clone());
-    }
+/// Returns the entries of an array, or of an object with a length, in words the list and an entry if they are something else.
+///
+/// They are read one by one up to the first that is wrong, since a list may claim any length.
+fn entries<T>(
+    list: &JsValue,
+    name: &str,
+    [expected, expected_entry]: [&str; 2],
+    read: impl Fn(&JsValue) -> Option<T>,
+) -> Result<Vec<T>, Exception> {
     let length = crate::values::get(list, "length").filter(|_| list.is_object());
-    match length.and_then(|length| length.as_f64()) {
-        Some(length) if is_whole(length, u32::MAX.into()) => Ok(Array::from(list)),
-        _ => Err(wrong(name, "an array of numbers", list)),
-    }
+    let length = length.and_then(|length| length.as_f64());
+    let Some(length) = length.filter(|&length| is_whole(length, u32::MAX.into())) else {
+        return Err(wrong(name, expected, list));
+    };
+    let entry = |place: u32| {
+        let entry = Reflect::get_u32(list, place).unwrap_or(JsValue::UNDEFINED);
+        read(&entry).ok_or_else(|| wrong(&format!("{name}: entry {place}"), expected_entry, &entry))
+    };
+    (0..length as u32).map(entry).collect()
+}
+
+pub(crate) fn text(value: &JsValue, name: &str) -> Result<String, Exception> {
+    value.as_string().ok_or_else(|| wrong(name, "a text", value))
+}
+
+pub(crate) fn texts(list: &JsValue, name: &str) -> Result<Vec<String>, Exception> {
+    entries(list, name, ["an array of texts", "a text"], JsValue::as_string)
 }
 
 /// Returns the whole numbers of a list.
 pub(crate) fn wholes(list: &JsValue, name: &str) -> Result<Vec<u32>, Exception> {
-    if let Some(array) = list.dyn_ref::<Uint32Array>() {
+    if let Some(array) = list.dyn_ref::<Uint32Array>().filter(|_| !is_empty(list)) {
         return Ok(array.to_vec());
     }
     let numbers = numbers(list, name)?;
@@ -127,21 +158,21 @@ pub(crate) fn wholes(list: &JsValue, name: &str) -> Result<Vec<u32>, Exception> 
 
 /// Returns for each entry of a list whether it is true or a number that is not zero.
 pub(crate) fn flags(list: &JsValue, name: &str) -> Result<Vec<bool>, Exception> {
-    if let Some(array) = list.dyn_ref::<Uint8Array>() {
+    if let Some(array) = list.dyn_ref::<Uint8Array>().filter(|_| !is_empty(list)) {
         return Ok(array.to_vec().into_iter().map(|flag| flag != 0).collect());
     }
     if ArrayBuffer::is_view(list) {
         return Ok(wholes(list, name)?.into_iter().map(|flag| flag != 0).collect());
     }
-    let flag = |(place, entry): (usize, JsValue)| match entry.as_bool() {
-        Some(flag) => Ok(flag),
-        None => whole(&entry, &format!("{name}: entry {place}")).map(|number| number != 0),
-    };
-    entries(list, name)?.iter().enumerate().map(flag).collect()
+    let whole = |entry: &JsValue| entry.as_f64().filter(|&number| is_whole(number, u32::MAX.into()));
+    let flag = |entry: &JsValue| entry.as_bool().or_else(|| Some(whole(entry)? != 0.0));
+    let expected = format!("true, false or a whole number from 0 to {}", u32::MAX);
+    entries(list, name, ["an array of numbers", &expected], flag)
 }
 
 pub(crate) fn bytes(value: &JsValue, name: &str) -> Result<Vec<u8>, Exception> {
-    let bytes = value.dyn_ref::<Uint8Array>().map(Uint8Array::to_vec);
+    let array = value.dyn_ref::<Uint8Array>();
+    let bytes = array.map(|array| if is_empty(value) { Vec::new() } else { array.to_vec() });
     bytes.ok_or_else(|| wrong(name, "a Uint8Array", value))
 }
 
@@ -150,20 +181,21 @@ pub(crate) fn setting(object: &JsValue, name: &str) -> Result<Option<f64>, Excep
     crate::values::get(object, name).map(|value| number(&value, name)).transpose()
 }
 
+/// Returns the names of the properties of an object.
+pub(crate) fn keys(object: &JsValue, what: &str) -> Result<Vec<String>, Exception> {
+    let own = object.dyn_ref::<js_sys::Object>().and_then(|own| Reflect::own_keys(own).ok());
+    let own = own.ok_or_else(|| wrong(what, "an object", object))?;
+    Ok(own.iter().filter_map(|key| key.as_string()).collect())
+}
+
 /// Refuses a settings object with other properties than these.
 pub(crate) fn check_names(object: &JsValue, what: &str, names: &[&str]) -> Result<(), Exception> {
-    let Some(own) = object.dyn_ref::<js_sys::Object>() else {
-        return Err(wrong(what, "an object", object));
-    };
-    let all = js_sys::Object::keys(own);
-    let mut keys = all.iter().filter_map(|key| key.as_string());
-    match keys.find(|key| !names.contains(&&**key)) {
+    match keys(object, what)?.iter().find(|key| !names.contains(&key.as_str())) {
         None => Ok(()),
         Some(key) => {
-            let short: String = key.chars().take(40).collect();
+            let (short, all) = (short(key), names.join(", "));
             Err(Exception::input(&format!(
-                "{what} has no property '{short}'; choose from {}",
-                names.join(", ")
+                "{what} has no property '{short}'; choose from {all}"
             )))
         }
     }

@@ -1,6 +1,6 @@
 //! Functions of one pair.
 
-use crate::numbers::{Number, number, optional};
+use crate::numbers::{Number, Text, number, optional, text};
 use crate::values::{Exception, Positions, floats, kind_of, object, take_positions};
 use selvedge_core::elementary::{ContactVerdict, Impact, Limits, Reason, advance, contact};
 use selvedge_core::filter::{Filter, Tier};
@@ -33,7 +33,7 @@ fn limits(separation: Option<f64>, tolerance: Option<f64>) -> Limits<f64> {
 /// Returns a time before which a pair certainly is farther apart than the separation; undefined if it is throughout the step.
 #[wasm_bindgen(js_name = timeOfImpact)]
 pub fn time_of_impact(
-    #[wasm_bindgen(unchecked_param_type = "PairKind")] kind: &str,
+    #[wasm_bindgen(unchecked_param_type = "PairKind")] kind: &Text,
     start: &Positions,
     end: &Positions,
     separation: Option<Number>,
@@ -41,7 +41,7 @@ pub fn time_of_impact(
 ) -> Result<Option<f64>, Exception> {
     let separation = optional(separation.as_ref(), "separation", number)?;
     let tolerance = optional(tolerance.as_ref(), "tolerance", number)?;
-    let impact = advance::time_of_impact(&pair_of(kind, start, end)?, &limits(separation, tolerance));
+    let impact = advance::time_of_impact(&pair_of(&text(kind, "kind")?, start, end)?, &limits(separation, tolerance));
     Ok(impact.time())
 }
 
@@ -49,11 +49,11 @@ pub fn time_of_impact(
 /// their error bounds.
 #[wasm_bindgen(js_name = pairVerdicts, unchecked_return_type = "PairVerdicts")]
 pub fn pair_verdicts(
-    #[wasm_bindgen(unchecked_param_type = "PairKind")] kind: &str,
+    #[wasm_bindgen(unchecked_param_type = "PairKind")] kind: &Text,
     start: &Positions,
     end: &Positions,
 ) -> Result<JsValue, Exception> {
-    let pair = pair_of(kind, start, end)?;
+    let pair = pair_of(&text(kind, "kind")?, start, end)?;
     let volume = MovingTetrahedron::from(&pair);
     let filter = |tier| JsValue::from(Filter::new(tier).verdict(&pair).is_culled());
     let culled_by = object([

@@ -1,8 +1,8 @@
 //! Scenes and mesh files that come from JavaScript.
 
-use crate::numbers::Bytes;
-use crate::values::{Exception, Files, array, floats, object, whole_numbers};
-use js_sys::{Array, Object, Uint8Array};
+use crate::numbers::{Bytes, Text, bytes, keys, short, text};
+use crate::values::{Exception, Files, array, floats, get, object, whole_numbers};
+use js_sys::Uint8Array;
 use selvedge_cloth::Scene;
 use selvedge_cloth::files::FileSource;
 use selvedge_cloth::files::mesh::{FileFormat, read_bytes};
@@ -11,42 +11,46 @@ use std::path::Path;
 use wasm_bindgen::{JsCast, JsValue, prelude::wasm_bindgen};
 
 /// Reads a scene; its name in messages is `scene.toml`.
-pub(crate) fn scene_of(text: &str, files: &Files) -> Result<Scene, Exception> {
+pub(crate) fn scene_of(scene: &Text, files: &Files) -> Result<Scene, Exception> {
+    let scene = text(scene, "text")?;
     let mut given = BTreeMap::new();
-    if let Some(files) = files.dyn_ref::<Object>() {
-        for entry in Object::entries(files).iter() {
-            let entry: Array = entry.unchecked_into();
-            let name = entry.get(0).as_string().unwrap_or_default();
-            let file = entry.get(1);
-            let bytes = match (file.dyn_ref::<Uint8Array>(), file.as_string()) {
-                (Some(bytes), _) => bytes.to_vec(),
-                (None, Some(text)) => text.into_bytes(),
-                (None, None) => {
-                    return Err(Exception::input(&format!(
-                        "the file '{name}' must be a Uint8Array or a string"
-                    )));
-                }
-            };
-            given.insert(name.into(), bytes);
-        }
+    let names = if files.is_undefined() || files.is_null() {
+        Vec::new()
+    } else {
+        keys(files, "files")?
+    };
+    for name in names {
+        let file = get(files, &name).unwrap_or(JsValue::UNDEFINED);
+        let read = match (file.is_instance_of::<Uint8Array>(), file.as_string()) {
+            (true, _) => bytes(&file, &name)?,
+            (false, Some(text)) => text.into_bytes(),
+            (false, None) => {
+                return Err(Exception::input(&format!(
+                    "files: the file '{}' must be a Uint8Array or a string",
+                    short(&name)
+                )));
+            }
+        };
+        given.insert(name.into(), read);
     }
-    let scene = Scene::parse_with_files(text, Path::new("scene.toml"), &FileSource::Memory(given));
+    let scene = Scene::parse_with_files(&scene, Path::new("scene.toml"), &FileSource::Memory(given));
     scene.map_err(|error| Exception::new("SceneError", &error))
 }
 
 /// Returns the names of the effects that a scene calls for, in the order in which they run.
 #[wasm_bindgen(js_name = effectNames)]
-pub fn effect_names(text: &str, files: &Files) -> Result<Vec<String>, Exception> {
+pub fn effect_names(text: &Text, files: &Files) -> Result<Vec<String>, Exception> {
     Ok(scene_of(text, files)?.effect_names().into_iter().map(str::to_owned).collect())
 }
 
 /// Reads a mesh file: OBJ, PLY, STL, OFF or glTF, as its name says. Throws a `MeshError` that names the place.
 #[wasm_bindgen(js_name = readMesh, unchecked_return_type = "{ positions: Float64Array; triangles: Uint32Array }")]
-pub fn read_mesh(name: &str, bytes: &Bytes) -> Result<JsValue, Exception> {
-    let error = |words: &dyn ToString| Exception::new("MeshError", &format!("{name}: {}", words.to_string()));
-    let format = FileFormat::from_path(Path::new(name))
+pub fn read_mesh(name: &Text, bytes: &Bytes) -> Result<JsValue, Exception> {
+    let name = text(name, "name")?;
+    let bytes = self::bytes(bytes, "bytes")?;
+    let error = |words: &dyn ToString| Exception::new("MeshError", &format!("{}: {}", short(&name), words.to_string()));
+    let format = FileFormat::from_path(Path::new(&name))
         .ok_or_else(|| error(&format!("its ending must be {}", FileFormat::extensions_in_words())))?;
-    let bytes = crate::numbers::bytes(bytes, "bytes")?;
     let mesh = read_bytes(&bytes, format).map_err(|problem| error(&problem))?.mesh;
     let positions: Vec<f64> = mesh.positions.iter().flat_map(|position| position.to_array()).collect();
     let properties = [

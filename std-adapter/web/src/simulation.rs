@@ -1,6 +1,8 @@
 //! The class `Simulation`.
 
-use crate::numbers::{Bytes, Number, Numbers, WholeNumbers, bytes, number, numbers, optional, whole, wholes};
+use crate::numbers::{
+    Bytes, Number, Numbers, Text, Texts, WholeNumbers, bytes, number, numbers, optional, short, text, texts, whole, wholes,
+};
 use crate::scene::{range, scene_of};
 use crate::values::{Exception, Files, Positions, floats, object, take_positions, view, whole_numbers};
 use js_sys::Float64Array;
@@ -25,7 +27,7 @@ impl Simulation {
     ///
     /// Throws a `SceneError` that names line and column, or a `TangledError` if surfaces pass through each other.
     #[wasm_bindgen(constructor)]
-    pub fn new(text: &str, files: &Files) -> Result<Simulation, Exception> {
+    pub fn new(text: &Text, files: &Files) -> Result<Simulation, Exception> {
         let scene = scene_of(text, files)?;
         let (steps, steps_per_frame, time_step) = (scene.steps(), scene.steps_per_frame(), scene.time_step);
         let up = scene.up.normalize_or(DVec3::Z);
@@ -235,13 +237,13 @@ impl Simulation {
 
     /// The vertices of a body, from the first to before the second number.
     #[wasm_bindgen(js_name = bodyVertices, unchecked_return_type = "[number, number]")]
-    pub fn body_vertices(&self, body: &str) -> Result<JsValue, Exception> {
+    pub fn body_vertices(&self, body: &Text) -> Result<JsValue, Exception> {
         Ok(range(self.cloth.body_vertices(self.body(body)?).unwrap_or_default()))
     }
 
     /// Moves a driven body in the next step: its mesh in the scene is rotated by a quaternion (x, y, z, w) and then translated.
     #[wasm_bindgen(js_name = placeBody)]
-    pub fn place_body(&mut self, body: &str, translation: &Numbers, rotation: Option<Numbers>) -> Result<(), Exception> {
+    pub fn place_body(&mut self, body: &Text, translation: &Numbers, rotation: Option<Numbers>) -> Result<(), Exception> {
         let (body, placement) = (self.body(body)?, placement(translation, rotation)?);
         Ok(self.cloth.place_body(body, placement)?)
     }
@@ -253,22 +255,23 @@ impl Simulation {
     /// Throws an `InputError`, and changes nothing, if something else holds the cloth or there is no room.
     pub fn teleport(
         &mut self,
-        bodies: Vec<String>,
+        bodies: &Texts,
         translation: &Numbers,
         rotation: Option<Numbers>,
-        cloths: Option<Vec<String>>,
+        cloths: Option<Texts>,
     ) -> Result<(), Exception> {
         let by = placement(translation, rotation)?;
-        let bodies: Vec<usize> = bodies.iter().map(|name| self.body(name)).collect::<Result<_, _>>()?;
-        let cloths = cloths.unwrap_or_default();
-        let cloths: Vec<usize> = cloths.iter().map(|name| self.cloth(name)).collect::<Result<_, _>>()?;
+        let bodies = texts(bodies, "bodies")?;
+        let cloths = cloths.map_or_else(|| Ok(Vec::new()), |cloths| texts(&cloths, "cloths"))?;
+        let bodies: Vec<usize> = bodies.iter().map(|name| self.body_named(name)).collect::<Result<_, _>>()?;
+        let cloths: Vec<usize> = cloths.iter().map(|name| self.cloth_named(name)).collect::<Result<_, _>>()?;
         let teleported = self.cloth.teleport(&bodies, &cloths, by);
         teleported.map_err(|error| Exception::input(&error))
     }
 
     /// Moves each vertex of a driven body straight to a position in the next step.
     #[wasm_bindgen(js_name = moveBody)]
-    pub fn move_body(&mut self, body: &str, positions: &Positions) -> Result<(), Exception> {
+    pub fn move_body(&mut self, body: &Text, positions: &Positions) -> Result<(), Exception> {
         let (body, positions) = (self.body(body)?, vectors(positions)?);
         Ok(self.cloth.move_body(body, &positions)?)
     }
@@ -305,17 +308,26 @@ impl Simulation {
         resumed.map_err(|error| Exception::new("CheckpointError", &error))
     }
 
-    fn body(&self, name: &str) -> Result<usize, Exception> {
-        let names = self.cloth.body_names();
-        let found = names.iter().position(|known| known == name);
-        found.ok_or_else(|| Exception::input(&format!("there is no body '{name}'; the scene has {names:?}")))
+    fn body(&self, body: &Text) -> Result<usize, Exception> {
+        self.body_named(&text(body, "body")?)
     }
 
-    fn cloth(&self, name: &str) -> Result<usize, Exception> {
-        let names = self.cloth.cloth_names();
-        let found = names.iter().position(|known| known == name);
-        found.ok_or_else(|| Exception::input(&format!("there is no cloth '{name}'; the scene has {names:?}")))
+    fn body_named(&self, name: &str) -> Result<usize, Exception> {
+        numbered(self.cloth.body_names(), "body", name)
     }
+
+    fn cloth_named(&self, name: &str) -> Result<usize, Exception> {
+        numbered(self.cloth.cloth_names(), "cloth", name)
+    }
+}
+
+/// Returns the number of a name of the scene.
+fn numbered(names: &[String], kind: &str, name: &str) -> Result<usize, Exception> {
+    let found = names.iter().position(|known| known == name);
+    found.ok_or_else(|| {
+        let short = short(name);
+        Exception::input(&format!("there is no {kind} '{short}'; the scene has {names:?}"))
+    })
 }
 
 impl From<Blocked> for Exception {

@@ -1,6 +1,6 @@
 //! Conversion of values to JavaScript and back.
 
-use crate::numbers::numbers;
+use crate::numbers::{is_empty, numbers};
 use js_sys::{Error, Float64Array, Object, Reflect, Uint32Array, WebAssembly};
 use selvedge::StepError;
 use selvedge_core::PairKind;
@@ -97,8 +97,11 @@ pub(crate) fn take_positions(positions: &JsValue, name: &str, rows: &mut Vec<[f6
     };
     // Nothing is copied twice.
     if let Some(array) = positions.dyn_ref::<Float64Array>() {
-        take(array.length() as usize)?;
-        array.copy_to(rows.as_flattened_mut());
+        let length = if is_empty(positions) { 0 } else { array.length() as usize };
+        take(length)?;
+        if length > 0 {
+            array.copy_to(rows.as_flattened_mut());
+        }
         return Ok(());
     }
     let numbers = numbers(positions, name)?;

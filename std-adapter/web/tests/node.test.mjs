@@ -6,11 +6,13 @@ import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { before, test } from "node:test";
+import { Border, missing } from "./border.mjs";
 
 const built = process.env.SELVEDGE_WEB;
 const scenes = new URL("../../cloth/scenes/", import.meta.url);
 const scene = (name) => readFileSync(new URL(name, scenes), "utf8");
-const { load, Detector, Simulation, pairVerdicts, timeOfImpact, readMesh, effectNames } = await import(join(built, "package/index.js"));
+const library = await import(join(built, "package/index.js"));
+const { load, Detector, Simulation, pairVerdicts, timeOfImpact, readMesh, effectNames } = library;
 before(async () => {
   const early = (call) => assert.throws(call, (error) => error.name === "InputError" && error.message.includes("call `await load()` before"));
   early(() => new Detector(1, [0, 0, 0]));
@@ -137,6 +139,70 @@ test("every number is checked, and errors name the argument and the place", () =
   assert.throws(() => cloth.setVelocity([2.5], [0, 0, 1]), fails("InputError", "vertices: entry 0"));
   assert.throws(() => cloth.resume([1, 2]), fails("InputError", "checkpoint must be a Uint8Array"));
   cloth.step(1);
+});
+
+test("any value gives a result or an exception that names the argument, never a trap; border.mjs knows every function", () => {
+  assert.deepEqual(missing(library), []);
+  for (const seed of [1, 2, 3]) {
+    const border = new Border(library, seed);
+    for (let k = 0; k < 3000; k++) border.call();
+  }
+});
+
+test("messages are those of Rust and C for the same mistakes", () => {
+  const folder = new URL("../../c/tests/messages/", import.meta.url);
+  const text = readFileSync(new URL("scene.toml", folder), "utf8");
+  const rows = readFileSync(new URL("table.txt", folder), "utf8").split("\n").filter((row) => row && !row.startsWith("#"));
+  const detector = () => new Detector(6, triangles);
+  const wrong = (place, value) => end.with(place, value);
+  const changed = (from, to) => () => new Simulation(text.replace(from, to));
+  const cloth = () => new Simulation(text);
+  const limited = (name, limit) => {
+    const made = detector();
+    made[name](limit);
+    made.contacts(start, end);
+  };
+  const mistakes = {
+    "a body of another name": () => cloth().bodyVertices("bull"),
+    "a body that is not driven": () => cloth().placeBody("post", [0, 0, 0]),
+    "a body that is too fast": () => {
+      const fast = cloth();
+      fast.placeBody("ball", [0, 0, -5]);
+      fast.step();
+    },
+    "a checkpoint that is none": () => cloth().resume(new Uint8Array(64)),
+    "a coordinate that is not a number": () => detector().contacts(start, wrong(16, NaN)),
+    "a frame of two seconds": () => cloth().advance(2),
+    "a mesh file with a wrong number": () => readMesh("a.obj", new TextEncoder().encode("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")),
+    "a negative separation": () => detector().setLimits({ separation: -1, tolerance: 0 }),
+    "a number out of its range": changed("density = 0.15", "density = -1"),
+    "a place that is not a number": () => cloth().placeBody("ball", [0, NaN, 0]),
+    "a rotation of zero": () => cloth().placeBody("ball", [0, 0, 0], [0, 0, 0, 0]),
+    "a scene that is no TOML": changed("time_step = 0.002", "time_step = = 0.002"),
+    "a scene without wind": () => new Simulation(text.replace("[effects.wind]\nvelocity = [0, 0, 0]\n", "")).setWind([1, 0, 0]),
+    "a short frame": () => detector().contacts(start.subarray(3), end),
+    "a start with an intersection": changed("-0.06]\nradius = 0.05\naround = 6\ndriven", "-0.02]\nradius = 0.05\naround = 6\ndriven"),
+    "a teleport into a body": () => cloth().teleport(["ball"], [0.95, 0, -0.05], undefined, ["cloth"]),
+    "a tolerance that is not a number": () => detector().setLimits({ separation: 0, tolerance: NaN }),
+    "a vertex that the mesh does not have": () => new Detector(2, triangles),
+    "an excluded vertex that the mesh does not have": () => detector().setCollisionFilter({ excluded: [0, 6] }),
+    "an infinite coordinate": () => detector().hasIntersections(wrong(16, Infinity)),
+    "an infinite distance": () => detector().near(start, Infinity),
+    "an unknown effect": changed("[effects.gravity]", "[effects.gravty]"),
+    "an unknown fabric": changed("density = 0.15", 'material = "velvte"'),
+    "an unknown key": changed("density", "densty"),
+    "marks of too few vertices": () => detector().setMoving([1, 1, 1, 1, 1]),
+    "no triangles": () => new Detector(6, []),
+    "patches of too few vertices": () => detector().setCollisionFilter({ patches: [0, 0, 0, 0, 0] }),
+    "pins that the scene does not have": () => cloth().movePins(7, [0, 0, 0, 0, 0, 0]),
+    "too few positions of a body": () => cloth().moveBody("ball", [0, 0, 0, 0, 0, 0]),
+    "too little memory": () => limited("setMemoryLimit", 10),
+    "too many pairs": () => limited("setPairLimit", 1),
+    "wind that is not a number": () => cloth().setWind([NaN, NaN, NaN]),
+  };
+  const table = Object.fromEntries(rows.map((row) => row.split(/ \| (.*)/s)));
+  assert.deepEqual(Object.keys(mistakes).sort(), Object.keys(table).sort());
+  for (const [name, call] of Object.entries(mistakes)) assert.throws(call, (error) => error.message === table[name] || assert.fail(`${name}: ${error.message}`));
 });
 
 test("a driven body that is to jump is refused, and teleports", () => {
