@@ -11,6 +11,7 @@ mod advance;
 mod ahead;
 mod assembly;
 mod checkpoint;
+mod doubled;
 mod drive;
 mod errors;
 mod frame;

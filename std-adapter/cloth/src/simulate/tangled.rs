@@ -1,5 +1,6 @@
 //! Reports on a scene that starts tangled.
 
+use super::doubled;
 use super::measures::EdgeStretch;
 use crate::contact::Crossing;
 use crate::model::step::{Carrier, FREE};
@@ -183,8 +184,22 @@ impl fmt::Display for Tangled {
             )?;
         }
         self.write_pinned(f)?;
+        let doubled = if self.untangled.is_none() {
+            doubled::triangles(&self.mesh, self.cloth_triangles)
+        } else {
+            Vec::new()
+        };
+        if !doubled.is_empty() {
+            write!(
+                f,
+                "; the faces {} lie on earlier ones, as those of a second side do: leave them out of the mesh",
+                doubled::in_words(&doubled)
+            )?;
+        }
         match (&self.untangled, self.coincident_vertices()) {
             (Some(_), _) | (None, 0) => {}
+            // Merging vertices leaves both sides.
+            _ if !doubled.is_empty() => {}
             (None, 1) => f.write_str("; 1 vertex lies in the same place as another: merge them with `weld = \"0\"`")?,
             (None, count) => write!(
                 f,

@@ -228,3 +228,29 @@ fn a_split_seam_is_named_with_its_remedy_and_runs_once_it_is_merged() {
     assert_eq!(written.positions, [0, 1, 2, 0, 2, 3].map(|vertex| now[vertex]));
     assert!(now[0].z < 0.0);
 }
+
+#[test]
+fn a_second_side_with_other_diagonals_is_named_and_the_cloth_runs_without_it() {
+    let folder = folder();
+    let vertices = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\n";
+    let front = "f 1 2 5\nf 1 5 4\nf 2 3 6\nf 2 6 5\n";
+    let back = "f 1 4 2\nf 2 4 5\nf 2 5 3\nf 3 5 6\n";
+    let own_back = "f 7 10 8\nf 8 10 11\nf 8 11 9\nf 9 11 12\n";
+    let made = |mesh: String, keys: &str| {
+        fs::write(folder.path().join("sides.obj"), mesh).unwrap();
+        let cloth = format!("shape = \"file\"\nfile = \"sides.obj\"\n{keys}");
+        let scene = scene(&folder, &cloth, "[effects.self_collision]\nthickness = 0.003").unwrap();
+        Simulation::new(scene, 1).map_err(|error| error.to_string())
+    };
+    let advice =
+        "; the faces 4 to 7 lie on earlier ones, as those of a second side do: leave them out of the mesh; `tangled_start";
+    for (mesh, keys) in [
+        (format!("{vertices}{front}{back}"), ""),
+        (format!("{vertices}{vertices}{front}{own_back}"), ""),
+        (format!("{vertices}{vertices}{front}{own_back}"), "weld = 0"),
+    ] {
+        let message = made(mesh, keys).err().unwrap();
+        assert!(message.contains(advice), "{message}");
+    }
+    made(format!("{vertices}{front}"), "").unwrap().step().unwrap();
+}
