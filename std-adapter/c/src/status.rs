@@ -209,15 +209,15 @@ thread_local! {
 
 /// Stores the message for the calling thread.
 pub(crate) fn remember(failure: &Failure) -> Status {
-    let mut end = failure.text.len().min(ROOM - 1);
-    while !failure.text.is_char_boundary(end) {
+    // A path or a name of the caller's may have control characters: a zero would end the text, and others change a terminal.
+    let shown = |letter: char| if letter.is_control() { ' ' } else { letter };
+    let text: String = failure.text.chars().map(shown).collect();
+    let mut end = text.len().min(ROOM - 1);
+    while !text.is_char_boundary(end) {
         end -= 1;
     }
     let mut room = [0; ROOM];
-    for (byte, &of_text) in room.iter_mut().zip(&failure.text.as_bytes()[..end]) {
-        // A zero would end the text.
-        *byte = if of_text == 0 { b' ' } else { of_text };
-    }
+    room[..end].copy_from_slice(&text.as_bytes()[..end]);
     LAST.set(room);
     failure.status
 }

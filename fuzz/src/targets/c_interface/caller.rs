@@ -105,6 +105,18 @@ impl<'a> Caller<'a> {
         }
     }
 
+    /// Returns the address of one entry that may be left out: NULL, or as [`array`](Self::array).
+    pub(super) fn optional<T>(&mut self, entry: &[T; 1]) -> *const T {
+        match self.byte() {
+            0..200 => ptr::null(),
+            200..248 => entry.as_ptr(),
+            _ => {
+                self.has_bad_pointer = true;
+                entry.as_ptr().wrapping_byte_add(1)
+            }
+        }
+    }
+
     /// Returns where an answer goes, sometimes an address that must be refused.
     pub(super) fn place<T>(&mut self, place: *mut T) -> *mut T {
         match self.byte() {

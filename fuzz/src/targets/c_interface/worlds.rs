@@ -98,11 +98,7 @@ impl Worlds {
                 caller.array(&triangles, triangle_count),
                 caller.array(&positions, vertex_count),
             );
-            let groups = if caller.byte() < 200 {
-                ptr::null()
-            } else {
-                caller.array(&groups, 1)
-            };
+            let groups = caller.optional(&groups);
             // SAFETY: the arrays have as many entries as any count that is not refused unread.
             unsafe { selvedge_world_insert_f64(handle, vertex_count, faces, triangle_count, at, groups, caller.place(out)) }
         });
@@ -133,11 +129,7 @@ impl Worlds {
                 }
             }
             1 => drop(caller.call((), |_, caller| {
-                let at = if caller.byte() < 200 {
-                    ptr::null()
-                } else {
-                    caller.array(&groups, 1)
-                };
+                let at = caller.optional(&groups);
                 // SAFETY: there is one entry.
                 unsafe { selvedge_world_set_groups(handle, mesh, at) }
             })),
@@ -175,8 +167,8 @@ impl Worlds {
         let (deforming_count, rigid_count) = (usize::from(caller.byte()) % 3, usize::from(caller.byte()) % 3);
         caller.accept_any_pointer();
         let (moving, turning) = (caller.array(&deforming, deforming_count), caller.array(&rigid, rigid_count));
-        // SAFETY: the arrays have as many entries as the counts, frames as many as any count that is not refused unread, and there
-        // are places for answers.
+        // SAFETY: the arrays have as many entries as the counts, frames as many as any count that is not refused unread, and
+        // there are places for answers.
         unsafe {
             match caller.byte() % 3 {
                 0 => {
