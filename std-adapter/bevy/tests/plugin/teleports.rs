@@ -69,7 +69,7 @@ fn a_teleport_moves_body_pins_and_cloth_without_a_step_and_they_go_on_as_if_they
     for (now, before) in turned.iter().zip(&velocities) {
         assert!(now.distance(by.rotation * *before) < 1e-12);
     }
-    // The other one went on while this one rested, so it is one fixed step ahead. Solves are not exact, so the two differ a little.
+    // The other one went on while this one rested, so it is one fixed step ahead. Solves are not exact, so they differ a little.
     let cloth_of = |app: &App, entity| simulation(app, entity).positions()[..169].to_vec();
     let largest = |ways: &mut dyn Iterator<Item = f64>| ways.fold(0.0, f64::max);
     let here = cloth_of(&app, stays);
