@@ -18,7 +18,7 @@
 //! | [`Cloth`], [`Body`], [`effects`] | the parts of a scene |
 //! | [`Material`] | cotton, denim, silk, wool, leather, latex: density and stiffness |
 //! | [`BodyMotion`], [`Animation`] | how bodies move: along keyframes, by a file's frames or skeleton, or as the caller says |
-//! | [`Simulation`] | runs a scene; gives positions, energy, statistics and checkpoints |
+//! | [`Simulation`] | runs a scene; gives positions, loads, energy, statistics and checkpoints |
 //! | [`vertex_normals`], [`Tubes`] | cloth and ropes as triangles for display |
 //! | [`effect_names`] | all effects that a scene file may name |
 //! | [`sleeve`] | the sleeve of the paper at any resolution |
@@ -58,8 +58,9 @@ pub use selvedge_core::glam;
 /// Readers of meshes, numbered frames and figures, from which [`Animation`]s are made.
 pub use selvedge_files as files;
 pub use simulate::{
-    Blocked, CHECKPOINT_STEPS, CheckpointError, DriveError, EdgeStretch, EffectTime, FASTEST, FrameError, FrameProgress,
-    FrameSteps, SetupError, Simulation, Tangled, TeleportError, Untangled, UntanglingEnd, UntanglingProgress,
+    Blocked, BodyLoad, CHECKPOINT_STEPS, CheckpointError, ContactLoad, DriveError, EdgeStretch, EffectTime, FASTEST, FrameError,
+    FrameProgress, FrameSteps, SetupError, Simulation, Tangled, TeleportError, Untangled, UntanglingEnd, UntanglingProgress,
+    Wrench,
 };
 pub use solve::{Accuracy, SolveCounts};
 pub use world::{

@@ -16,7 +16,7 @@ impl From<DriveError> for Failure {
                 Status::NoSuchPart
             }
             DriveError::NotDriven { .. } => Status::NotDriven,
-            DriveError::VertexCount { .. } => Status::WrongLength,
+            DriveError::VertexCount { .. } | DriveError::ForceCount { .. } => Status::WrongLength,
             DriveError::Value(_) => Status::BadValue,
         };
         Self::new(status, error)

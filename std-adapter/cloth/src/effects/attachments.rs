@@ -14,7 +14,7 @@ use super::selection::{check_body, check_vertices, keys, placed, read_motion, re
 use crate::effects::plan::Plan;
 use crate::input::{FORCE, Field, LENGTH, ValueError};
 use crate::model::step::{Memory, Release, TimeStep};
-use crate::solve::springs::{Held, Springs};
+use crate::solve::springs::{Held, Spring, Springs};
 use crate::world::{BodyMotion, KeyframeMotion, SceneParts};
 use selvedge_core::glam::DVec3;
 
@@ -131,6 +131,7 @@ impl Effect for Attachments {
                 released: None,
             }));
         }
+        plan.attachment_groups = self.groups.len();
         plan.add_term(Held::new(Holding(all)));
     }
 }
@@ -154,9 +155,15 @@ struct Attachment {
 struct Holding(Vec<Attachment>);
 
 impl Springs for Holding {
-    fn springs(&self, step: &TimeStep<'_>, x: &[DVec3], springs: &mut Vec<(u32, DVec3, f64)>) {
+    fn springs(&self, step: &TimeStep<'_>, x: &[DVec3], springs: &mut Vec<Spring>) {
         let holding = self.0.iter().filter(|held| held.released.is_none());
-        springs.extend(holding.map(|held| (held.vertex, held.anchor.at(step, x), held.stiffness)));
+        springs.extend(holding.map(|held| Spring {
+            vertex: held.vertex,
+            anchor: held.anchor.at(step, x),
+            stiffness: held.stiffness,
+            group: held.group,
+            body: held.anchor.vertex_of_body(),
+        }));
     }
 
     fn energy(&self, positions: &[DVec3]) -> f64 {

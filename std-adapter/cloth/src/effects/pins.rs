@@ -123,7 +123,8 @@ impl Effect for Pins {
                 PinMotion::Own(motion) => plan.add_motion(motion.clone(), vertices.clone()),
             };
             plan.pins.push(carrier);
-            vertices.into_iter().for_each(|vertex| plan.pin(vertex, carrier));
+            vertices.iter().for_each(|&vertex| plan.pin(vertex, carrier));
+            plan.pinned.push(vertices);
         }
     }
 }

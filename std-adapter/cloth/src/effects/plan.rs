@@ -122,6 +122,9 @@ pub struct Plan<'a> {
     /// Motions of bodies, then those of pins.
     pub(crate) motions: Vec<Kinematic>,
     pub(crate) pins: Vec<Carrier>,
+    /// The vertices of each group of pins.
+    pub(crate) pinned: Vec<Vec<u32>>,
+    pub(crate) attachment_groups: usize,
     /// Single vertices that seams join; ropes need to know them.
     pub(crate) ties: Vec<[u32; 2]>,
     pub(crate) forces: Vec<ActingForce>,
@@ -152,6 +155,8 @@ impl<'a> Plan<'a> {
         Self {
             motions: motions.collect(),
             pins: Vec::new(),
+            pinned: Vec::new(),
+            attachment_groups: 0,
             ties: Vec::new(),
             scene,
             effect: 0,

@@ -113,6 +113,7 @@ impl Simulation {
             return Err(too_fast);
         }
         let done = self.state.step;
+        self.loads.begin_run();
         self.is_fresh = false;
         let result = threads.run(|| {
             let result = steps(self);
@@ -129,6 +130,7 @@ impl Simulation {
             }
             result
         });
+        self.pushes.0.clear();
         let clock = self.state.clock;
         let has_arrived = matches!(result, Ok(BodyClock::Went));
         for driven in self.made.motions.iter_mut().filter_map(Kinematic::driven_mut) {

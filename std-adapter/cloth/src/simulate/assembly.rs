@@ -1,6 +1,7 @@
 //! The data that a simulation derives from a scene's meshes and effects: at the start, and again after cloth has torn.
 
 use super::errors::SetupError;
+use super::loads::Held;
 use super::momentum::Pieces;
 use crate::contact::ContactSolver;
 use crate::contact::smooth_body::SmoothBody;
@@ -34,6 +35,8 @@ pub(super) struct Assembly {
     pub(super) motions: Vec<Kinematic>,
     /// The carrier of each group of pins.
     pub(super) pins: Vec<Carrier>,
+    /// What holds cloth.
+    pub(super) held: Held,
     pub(super) forces: Vec<ActingForce>,
     pub(super) contact: Option<ContactSolver>,
     pub(super) tearable: Vec<Tearable>,
@@ -63,6 +66,8 @@ impl Assembly {
             mut carriers,
             motions,
             pins,
+            pinned,
+            attachment_groups,
             forces,
             contact,
             tearable,
@@ -138,6 +143,7 @@ impl Assembly {
             carriers,
             motions,
             pins,
+            held: Held::new(pinned, attachment_groups, &scene.cloths),
             forces,
             tearable,
             solve,

@@ -1,15 +1,15 @@
-//! Motions that the caller sets from step to step: of bodies and pins, and of the wind.
+//! What the caller sets from step to step: motions of bodies and pins, the wind, and forces on vertices.
 
 use super::assembly::Assembly;
 use super::errors::Blocked;
 use super::simulation::Simulation;
 use super::state::FASTEST;
 use crate::effects::Wind;
-use crate::input::{Field, LARGEST_COORDINATE, LENGTH, ValueError};
+use crate::input::{FORCE, Field, LARGEST_COORDINATE, LENGTH, ValueError};
 use crate::world::{Driven, FASTEST_VERTEX, Kinematic, Placement};
 use selvedge_core::glam::DVec3;
 
-/// A motion that cannot be set; nothing has changed.
+/// A motion or a force that cannot be set; nothing has changed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DriveError {
     /// There is no such body.
@@ -42,6 +42,14 @@ pub enum DriveError {
         /// The number of positions.
         found: usize,
     },
+    /// The number of forces differs from the number of vertices.
+    #[error("{found} forces were given for {expected} vertices")]
+    ForceCount {
+        /// The number of vertices.
+        expected: usize,
+        /// The number of forces.
+        found: usize,
+    },
     /// There is no such vertex of cloth.
     #[error("there is no vertex {vertex} of cloth: the scene has {vertices}, numbered from 0")]
     NoVertex {
@@ -57,6 +65,9 @@ pub enum DriveError {
     #[error("the scene has no wind: add it (`[effects.wind]` in a scene's text, `Wind` in code)")]
     NoWind,
 }
+
+/// The largest component of a force on a vertex.
+const STRONGEST: Field = Field::vector("force", FORCE, 1e6);
 
 impl Simulation {
     /// Moves a [driven](crate::BodyMotion::Driven) body to another placement in the next step. A step in which a vertex would be
@@ -129,6 +140,63 @@ impl Simulation {
         if is_taken { Ok(()) } else { Err(DriveError::NoWind) }
     }
 
+    /// Adds a force, in N, on each of these vertices of cloth, for the whole of the next [`step`](Self::step),
+    /// [`run`](Self::run) or [`advance`](Self::advance). After that call it is gone, even if the call fails. Forces on the same
+    /// vertex add up. On a pinned vertex, the force goes to what [holds](Self::pin_load) it.
+    ///
+    /// ```
+    /// use selvedge_cloth::effects::{Gravity, RopeStretch};
+    /// use selvedge_cloth::glam::DVec3;
+    /// use selvedge_cloth::{Cloth, Scene, Simulation};
+    ///
+    /// // A rope of 10 g floats while each of its ends is lifted by half of its weight.
+    /// let rope = Cloth::rope(&[DVec3::ZERO, DVec3::X], 1, 0.01)?;
+    /// let mut scene = Scene::new(rope, 1e-3);
+    /// scene.add(Gravity::default()).add(RopeStretch::new(1000.0));
+    /// let mut simulation = Simulation::new(scene, 1)?;
+    /// simulation.add_force(&[0, 1], DVec3::Z * (0.005 * 9.81))?;
+    /// simulation.advance(0.1)?;
+    /// assert!(simulation.velocities().iter().all(|velocity| velocity.length() < 1e-9));
+    /// simulation.advance(0.1)?;
+    /// assert!(simulation.velocities()[0].z < -0.9, "the forces are gone");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Returns an error if a vertex is not of cloth, or a component of the force is not finite or above 1 MN. Then no force is
+    /// added.
+    pub fn add_force(&mut self, vertices: &[u32], force: DVec3) -> Result<(), DriveError> {
+        self.check_pushed(vertices)?;
+        STRONGEST.check_vector(force)?;
+        self.pushes.0.extend(vertices.iter().map(|&vertex| (vertex, force)));
+        Ok(())
+    }
+
+    /// Adds a force of its own on each of these vertices, as [`add_force`](Self::add_force) does.
+    ///
+    /// # Errors
+    /// Returns the errors of [`add_force`](Self::add_force), and one if the number of forces is not that of the vertices.
+    pub fn add_forces(&mut self, vertices: &[u32], forces: &[DVec3]) -> Result<(), DriveError> {
+        let (expected, found) = (vertices.len(), forces.len());
+        if expected != found {
+            return Err(DriveError::ForceCount { expected, found });
+        }
+        self.check_pushed(vertices)?;
+        forces.iter().try_for_each(|&force| STRONGEST.check_vector(force))?;
+        self.pushes
+            .0
+            .extend(vertices.iter().zip(forces).map(|(&vertex, &force)| (vertex, force)));
+        Ok(())
+    }
+
+    fn check_pushed(&self, vertices: &[u32]) -> Result<(), DriveError> {
+        let cloth = self.made.cloth_vertices;
+        match vertices.iter().find(|&&vertex| vertex as usize >= cloth) {
+            Some(&vertex) => Err(DriveError::NoVertex { vertex, vertices: cloth }),
+            None => Ok(()),
+        }
+    }
+
     /// Sets the velocity, in m/s, with which vertices of cloth start the next step, as if a hand pulled them. Pinned vertices
     /// keep theirs. The next step is certified like any other.
     ///
@@ -174,6 +242,7 @@ impl Simulation {
                 format!("the group {} of pins", group.unwrap_or_default())
             }
         };
+        self.pushes.0.clear();
         for driven in self.made.motions.iter_mut().filter_map(Kinematic::driven_mut) {
             driven.stand(driven.placement);
         }

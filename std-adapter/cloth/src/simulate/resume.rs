@@ -92,6 +92,8 @@ impl Simulation {
         self.recall(&checkpoint.memories);
         self.made.solve.keep(kept, &mut self.work.substep.history);
         self.state = checkpoint.state;
+        self.loads.forget();
+        self.pushes.0.clear();
         self.waiting = None;
         self.is_fresh = true;
         Ok(())

@@ -2,7 +2,9 @@
 
 use super::assembly::Assembly;
 use super::errors::SetupError;
+use super::loads::Loads;
 use super::measures::EffectTime;
+use super::pushes::Pushes;
 use super::simulation::{Simulation, Work};
 use super::state::State;
 use super::tangled::{Tangled, UntanglingProgress};
@@ -84,6 +86,8 @@ impl Simulation {
             threads,
             state,
             work: Work::default(),
+            loads: Loads::new(&made.held, bodies.len()),
+            pushes: Pushes::default(),
             carried,
             untangled: None,
             waiting: None,

@@ -2,7 +2,9 @@
 
 use super::ahead::Ahead;
 use super::assembly::Assembly;
+use super::loads::Loads;
 use super::measures::{EdgeStretch, EffectTime};
+use super::pushes::Pushes;
 use super::state::State;
 use super::substep::SubstepWork;
 use super::tangled::Untangled;
@@ -68,6 +70,8 @@ pub struct Simulation {
     pub(super) threads: Workers,
     pub(super) state: State,
     pub(super) work: Work,
+    pub(super) loads: Loads,
+    pub(super) pushes: Pushes,
     pub(super) untangled: Option<Untangled>,
     /// The motion for which bodies and pins wait.
     pub(super) waiting: Option<Waiting>,

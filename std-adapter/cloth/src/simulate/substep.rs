@@ -5,11 +5,15 @@
 //! ```
 
 use super::assembly::Assembly;
+use super::loads::Solved;
+use super::measures::EffectTime;
 use super::momentum::Motion;
+use super::pushes::Pushes;
 use super::simulation::{Simulation, Work};
 use super::state::{FASTEST, limited};
 use crate::contact::smooth_body::{OF_MESH, SmoothBody, away};
 use crate::contact::{Blocker, ContactSolver, ProximityPair};
+use crate::effects::plan::ActingForce;
 use crate::model::step::{Carrier, FREE, TimeStep};
 use crate::solve::prediction::{self, History};
 use crate::solve::{ContactRow, Prediction, RowKey, Solve};
@@ -61,6 +65,8 @@ impl Simulation {
             effects,
             made,
             time_step,
+            loads,
+            pushes,
             ..
         } = self;
         let Assembly {
@@ -73,6 +79,7 @@ impl Simulation {
             solve,
             smooth_bodies,
             drag,
+            held,
             friction_coefficient,
             cloth_vertices,
             ..
@@ -104,12 +111,7 @@ impl Simulation {
             velocities,
         } = substep;
         forced.clone_from(&state.velocities);
-        for entry in forces {
-            let begin = Clock::now();
-            entry.apply(&step, forced);
-            effects[entry.effect].seconds += begin.elapsed().as_secs_f64();
-        }
-        forced.iter_mut().for_each(|velocity| *velocity = limited(*velocity, FASTEST));
+        apply((forces, pushes), &step, forced, effects);
         let end = |vertex: usize| match step.poses.get(carriers[vertex] as usize) {
             Some([_, pose]) if pose.is_rigid() => pose.apply(carried[vertex]),
             _ => step.start[vertex],
@@ -135,16 +137,7 @@ impl Simulation {
         solve.remind_rows(h);
         prediction::hold_pressed(&solve.rows, &step, x, count);
         let follow = |row: &mut ContactRow, x: &[DVec3]| follow_smooth(row, &step, smooth_bodies, x);
-        for row in solve.rows.iter_mut().filter(|row| row.is_smooth()) {
-            if row.push > 0.0 && row.is_at_bound() {
-                // It slides along the surface, and not off it.
-                let vertex = row.vertices[0] as usize;
-                follow_smooth(row, &step, smooth_bodies, x);
-                let gap = row.gap(x);
-                x[vertex] -= row.normal * gap;
-            }
-            follow_smooth(row, &step, smooth_bodies, x);
-        }
+        begin_smooth(&mut solve.rows, &step, smooth_bodies, x);
         let outcome = solve.run(&step, prediction, x, &follow);
         for entry in &mut solve.terms {
             effects[entry.effect].seconds += std::mem::take(&mut entry.seconds);
@@ -158,20 +151,26 @@ impl Simulation {
                 .filter(|(vertex, _)| *vertex < count)
                 .for_each(|(vertex, _)| is_pressed[vertex] = true);
         }
-        let farthest = FASTEST * h;
-        for (vertex, position) in x
-            .iter_mut()
-            .enumerate()
-            .take(count)
-            .filter(|(vertex, _)| carriers[*vertex] == FREE)
-        {
-            let start = step.start[vertex];
-            *position = start + limited(*position - start, farthest);
-        }
+        limit_moves(&step, &carriers[..count], x);
         prediction::velocities(prediction, &step, x, is_pressed, velocities);
-        for row in &solve.rows {
+        for row in &mut solve.rows {
             row.remove_recovery(h, step.inverse_masses, velocities);
         }
+        loads.measure(
+            &Solved {
+                solve,
+                step: &step,
+                velocities: &state.velocities,
+                x,
+                carriers,
+                smooth_bodies,
+                held,
+                drag,
+                pushes,
+                cloth_vertices: count,
+            },
+            forces,
+        );
         if solve.is_inner() && pieces.may_move(&step) {
             let is_body_near = solve.rows.iter().any(|row| row.push > 0.0 && row.is_with_body);
             let motion = Motion {
@@ -201,7 +200,36 @@ impl Simulation {
         std::mem::swap(&mut state.velocities, velocities);
         std::mem::swap(&mut state.positions, x);
         state.clock += ticks;
+        loads.accept(h);
         Ok(())
+    }
+}
+
+/// Applies forces to velocities, and counts the time of their effects.
+fn apply(
+    (forces, pushes): (&mut [ActingForce], &Pushes),
+    step: &TimeStep<'_>,
+    velocities: &mut [DVec3],
+    effects: &mut [EffectTime],
+) {
+    for entry in forces {
+        let begin = Clock::now();
+        entry.apply(step, velocities);
+        effects[entry.effect].seconds += begin.elapsed().as_secs_f64();
+    }
+    pushes.apply(step, velocities);
+    velocities
+        .iter_mut()
+        .for_each(|velocity| *velocity = limited(*velocity, FASTEST));
+}
+
+/// Shortens the moves of free vertices to those of the largest speed.
+fn limit_moves(step: &TimeStep<'_>, carriers: &[Carrier], x: &mut [DVec3]) {
+    for ((position, &start), _) in { x.iter_mut().zip(step.start) }
+        .zip(carriers)
+        .filter(|(_, carrier)| **carrier == FREE)
+    {
+        *position = start + limited(*position - start, FASTEST * step.h);
     }
 }
 
@@ -334,6 +362,20 @@ fn collect_smooth_rows(
                 ..ContactRow::new(key, [vertex as u32; 4], [1.0, 0.0, 0.0, 0.0], normal, step.start)
             });
         }
+    }
+}
+
+/// Prepares the rows of smooth bodies for a solve that begins at `x`.
+fn begin_smooth(rows: &mut [ContactRow], step: &TimeStep<'_>, smooth_bodies: &[SmoothBody], x: &mut [DVec3]) {
+    for row in rows.iter_mut().filter(|row| row.is_smooth()) {
+        if row.push > 0.0 && row.is_at_bound() {
+            // It slides along the surface, and not off it.
+            let vertex = row.vertices[0] as usize;
+            follow_smooth(row, step, smooth_bodies, x);
+            let gap = row.gap(x);
+            x[vertex] -= row.normal * gap;
+        }
+        follow_smooth(row, step, smooth_bodies, x);
     }
 }
 

@@ -99,6 +99,8 @@ pub(crate) struct ContactRow {
     pub(crate) bound: f64,
     /// The direction in which it slips.
     pub(crate) slips: Option<DVec3>,
+    /// The impulse of the push that is not motion, in N·s: [`remove_recovery`](Self::remove_recovery).
+    pub(crate) removed: f64,
 }
 
 /// The forces of a row: the push, the friction, and the energy.
@@ -132,6 +134,7 @@ impl ContactRow {
             is_active: false,
             bound: 0.0,
             slips: None,
+            removed: 0.0,
         };
         row.start = row.image(x);
         row
@@ -178,7 +181,8 @@ impl ContactRow {
 
     /// Removes from velocities the speed at which the row has taken its sides apart because they started too near: a step of `h`
     /// seconds has moved them, but that is not motion (Guendelman, Bridson and Fedkiw 2003 separate the two in the same way).
-    pub(crate) fn remove_recovery(&self, h: f64, inverse_masses: &[f64], velocities: &mut [DVec3]) {
+    pub(crate) fn remove_recovery(&mut self, h: f64, inverse_masses: &[f64], velocities: &mut [DVec3]) {
+        self.removed = 0.0;
         let asked = self.asked(h);
         if !(self.push > 0.0 && asked > 0.0) {
             return;
@@ -194,10 +198,12 @@ impl ContactRow {
         if !(apart > 0.0 && mobility > 0.0) {
             return;
         }
-        let by = self.normal * (apart.min(asked / h) / mobility);
+        let removed = apart.min(asked / h) / mobility;
+        let by = self.normal * removed;
         for (vertex, weight, inverse_mass) in parts() {
             velocities[vertex] -= by * (weight * inverse_mass);
         }
+        self.removed = removed;
     }
 
     /// Returns whether the row is one of a vertex and a smooth body, whose normal follows the solve.
@@ -280,6 +286,17 @@ impl ContactRow {
             }
         }
         Forces { push, grip, energy }
+    }
+
+    /// Returns the push and the friction on the first side, in N, as the residual at `x` of a step of `h` seconds has
+    /// them; `None` if there is none. The part of the push whose motion was [removed](Self::remove_recovery) does not count.
+    pub(super) fn push_and_grip(&self, h: f64, x: &[DVec3]) -> Option<[DVec3; 2]> {
+        let removed = self.normal * (self.removed / h);
+        if self.is_active {
+            let Forces { push, grip, .. } = self.forces(x, true);
+            return Some([self.normal * push - removed, grip]);
+        }
+        (self.removed > 0.0).then_some([-removed, DVec3::ZERO])
     }
 
     /// Returns the energy at `x`.

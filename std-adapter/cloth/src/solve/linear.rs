@@ -18,7 +18,7 @@
 //! much, the next one has another matrix, and it ends at a [share](LINEAR_SHARE) of that already.
 
 use super::Solve;
-use super::constants::{LINEAR_SHARE, MOST_ITERATIONS, MOST_ROUNDS};
+use super::constants::{LINEAR_SHARE, MOST_ITERATIONS, MOST_ROUNDS, NEGLIGIBLE};
 use super::matrix::dot;
 use super::term::Prediction;
 use super::tolerance::{Outcome, Tolerance};
@@ -41,7 +41,7 @@ pub(super) struct Vectors {
 #[derive(Debug, Default)]
 pub(super) struct Linear {
     pub(super) vectors: Vectors,
-    /// The gradient of terms and of the contacts that take part.
+    /// The gradient of terms and of the contacts that take part; at the end of a solve, that of everything there.
     pub(super) gradient: Vec<DVec3>,
     /// The pushes after the moves.
     pushes: Vec<f64>,
@@ -133,7 +133,7 @@ impl Solve {
         let changes = self.rows.iter().zip(&*pushes);
         let changes = changes.filter(|(row, push)| row.is_active != (**push > 0.0));
         let twice_energy: f64 = changes.map(|(row, push)| push * push / row.stiffness).sum();
-        if !(twice_energy > tolerance.rest()) {
+        if !(twice_energy > NEGLIGIBLE * tolerance.rest()) {
             return false;
         }
         self.matrix.remove_contacts();

@@ -17,6 +17,7 @@
 //! | [`linear`], [`matrix`], [`preconditioner`], [`bands`] | the linear problem of a Newton step |
 //! | [`contact_row`] | contact and friction |
 //! | [`membranes`], [`bending`], [`ropes`], [`stitches`], [`springs`], [`walls`], [`air`] | the terms |
+//! | [`loads`] | the forces on bodies, pins and attachments |
 //! | [`kept`] | what goes on from step to step, for checkpoints |
 //! | [`constants`] | all constants, with their meaning |
 //!
@@ -27,6 +28,7 @@ mod constants;
 mod contact_row;
 mod kept;
 mod linear;
+mod loads;
 mod matrix;
 mod newton;
 mod preconditioner;

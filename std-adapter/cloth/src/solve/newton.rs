@@ -43,7 +43,7 @@ pub(super) struct Work {
     gradient: Vec<DVec3>,
     next_gradient: Vec<DVec3>,
     next: Vec<DVec3>,
-    linear: Linear,
+    pub(super) linear: Linear,
     pieces: Vec<[f64; 3]>,
 }
 

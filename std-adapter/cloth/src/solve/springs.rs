@@ -1,6 +1,7 @@
 //! Springs between vertices and anchors, which carry attachments: ½k|x − a|², with the anchor a where it is at the end of the
 //! step.
 
+use super::loads::Pull;
 use super::matrix::Matrix;
 use super::term::{Prediction, Term};
 use crate::model::energy::{Configuration, StoredEnergy};
@@ -8,11 +9,23 @@ use crate::model::step::{Memory, TimeStep};
 use selvedge_core::glam::{DVec3, Mat3A, Vec3};
 use std::fmt::Debug;
 
+/// A spring that holds a vertex.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Spring {
+    pub(crate) vertex: u32,
+    /// The place of the anchor at the end of the step.
+    pub(crate) anchor: DVec3,
+    /// The stiffness, in N/m.
+    pub(crate) stiffness: f64,
+    /// The group of the attachment, and a vertex of the body that holds it; `None` for something else.
+    pub(crate) group: usize,
+    pub(crate) body: Option<u32>,
+}
+
 /// Springs that an effect holds.
 pub(crate) trait Springs: Debug + Send + Sync + Memory {
-    /// Adds the vertex, the anchor at the end of the step, and the stiffness in N/m of each spring that holds. `x` has the bodies
-    /// where they are then.
-    fn springs(&self, step: &TimeStep<'_>, x: &[DVec3], springs: &mut Vec<(u32, DVec3, f64)>);
+    /// Adds each spring that holds. `x` has the bodies where they are at the end of the step.
+    fn springs(&self, step: &TimeStep<'_>, x: &[DVec3], springs: &mut Vec<Spring>);
 
     /// Returns the stored energy, in J.
     fn energy(&self, positions: &[DVec3]) -> f64;
@@ -22,7 +35,7 @@ pub(crate) trait Springs: Debug + Send + Sync + Memory {
 #[derive(Debug)]
 pub(crate) struct Held<S> {
     effect: S,
-    springs: Vec<(u32, DVec3, f64)>,
+    springs: Vec<Spring>,
 }
 
 impl<S> Held<S> {
@@ -42,7 +55,13 @@ impl<S: Springs> Term for Held<S> {
 
     fn gradient(&mut self, x: &[DVec3], gradient: &mut [DVec3]) -> f64 {
         let mut energy = 0.0;
-        for &(vertex, anchor, stiffness) in &self.springs {
+        for &Spring {
+            vertex,
+            anchor,
+            stiffness,
+            ..
+        } in &self.springs
+        {
             let way = x[vertex as usize] - anchor;
             gradient[vertex as usize] += way * stiffness;
             energy += 0.5 * stiffness * way.length_squared();
@@ -51,13 +70,24 @@ impl<S: Springs> Term for Held<S> {
     }
 
     fn curvature(&mut self, _: &[DVec3], matrix: &mut Matrix) {
-        for &(vertex, _, stiffness) in &self.springs {
-            matrix.add_own(vertex, Mat3A::from_diagonal(Vec3::splat(stiffness as f32)));
+        for spring in &self.springs {
+            matrix.add_own(spring.vertex, Mat3A::from_diagonal(Vec3::splat(spring.stiffness as f32)));
         }
     }
 
     fn energy(&self, now: &Configuration<'_>, own: usize) -> Vec<(usize, StoredEnergy)> {
         vec![(own, StoredEnergy::Elastic(self.effect.energy(now.positions)))]
+    }
+
+    fn visit_pulls(&self, x: &[DVec3], visit: &mut dyn FnMut(Pull)) {
+        for spring in &self.springs {
+            visit(Pull {
+                group: spring.group,
+                body: spring.body,
+                anchor: spring.anchor,
+                force: (x[spring.vertex as usize] - spring.anchor) * spring.stiffness,
+            });
+        }
     }
 
     fn memory(&self) -> Option<&dyn Memory> {

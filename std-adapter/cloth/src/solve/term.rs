@@ -1,5 +1,6 @@
 //! A term of the energy that a step minimises.
 
+use super::loads::Pull;
 use super::matrix::Matrix;
 use crate::model::energy::{Configuration, StoredEnergy};
 use crate::model::step::{Memory, TimeStep};
@@ -99,6 +100,11 @@ pub trait Term: Debug + Send + Sync {
     fn energy(&self, _now: &Configuration<'_>, _own: usize) -> Vec<(usize, StoredEnergy)> {
         Vec::new()
     }
+
+    /// Visits the springs between the cloth and what holds it, at the positions `x` where a solve has ended.
+    #[doc(hidden)]
+    #[expect(private_interfaces, reason = "no effect outside of this crate holds cloth")]
+    fn visit_pulls(&self, _x: &[DVec3], _visit: &mut dyn FnMut(Pull)) {}
 
     /// Sets a new wind, in m/s. Returns false if the term is no wind.
     #[doc(hidden)]

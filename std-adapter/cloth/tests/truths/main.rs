@@ -2,6 +2,7 @@
 //! which the laboratory tests.
 
 mod limits;
+mod loads;
 mod momentum;
 mod rest;
 
