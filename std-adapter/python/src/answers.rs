@@ -3,10 +3,10 @@
 use numpy::{Element, IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::PyModule;
+use pyo3::types::{IntoPyDict, PyDict, PyModule};
 use selvedge::{Contact, ContactGeometry, Intersection, PairKind, Scalar, Topology};
 use selvedge_cloth::effects::Release;
-use selvedge_cloth::{Crossing, EdgeStretch, ProximityPair, TornEdge, Untangled};
+use selvedge_cloth::{ContactCounts, ContactSeconds, Crossing, EdgeStretch, ProximityPair, TornEdge, Untangled};
 
 /// Returns a class of `selvedge/_answers.py`.
 pub(crate) fn class<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
@@ -30,7 +30,7 @@ pub(crate) fn kind_of(number: u8) -> Option<PairKind> {
 }
 
 /// Makes an array of one dimension.
-fn column<'py, T: Element>(py: Python<'py>, values: Vec<T>) -> Bound<'py, PyAny> {
+pub(crate) fn column<'py, T: Element>(py: Python<'py>, values: Vec<T>) -> Bound<'py, PyAny> {
     values.into_pyarray(py).into_any()
 }
 
@@ -203,4 +203,53 @@ pub(crate) fn show_released<'py>(py: Python<'py>, released: &[Release]) -> PyRes
     let class = class(py, "Release")?;
     let show = |release: &Release| class.call1((release.group, release.vertex, release.time));
     released.iter().map(show).collect()
+}
+
+/// Converts the counts of contact; None without one.
+pub(crate) fn show_contact_counts<'py>(py: Python<'py>, counts: Option<&ContactCounts>) -> PyResult<Option<Bound<'py, PyDict>>> {
+    let Some(&counts) = counts else {
+        return Ok(None);
+    };
+    let ContactCounts {
+        candidates,
+        looked_at,
+        pushed,
+        violated,
+        zone_rounds,
+        held,
+        cuts,
+    } = counts;
+    let named = [
+        ("candidates", candidates),
+        ("looked_at", looked_at),
+        ("pushed", pushed),
+        ("violated", violated),
+        ("zone_rounds", zone_rounds),
+        ("held", held),
+        ("cuts", cuts),
+    ];
+    named.into_py_dict(py).map(Some)
+}
+
+/// Converts the times of contact; None without one.
+pub(crate) fn show_contact_seconds<'py>(
+    py: Python<'py>,
+    seconds: Option<&ContactSeconds>,
+) -> PyResult<Option<Bound<'py, PyDict>>> {
+    let Some(&seconds) = seconds else {
+        return Ok(None);
+    };
+    let ContactSeconds {
+        candidates,
+        constraints,
+        certificates,
+        repairs,
+    } = seconds;
+    let named = [
+        ("candidates", candidates),
+        ("constraints", constraints),
+        ("certificates", certificates),
+        ("repairs", repairs),
+    ];
+    named.into_py_dict(py).map(Some)
 }

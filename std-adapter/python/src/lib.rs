@@ -13,6 +13,7 @@ mod driven;
 mod errors;
 mod finder;
 mod intersections;
+mod loads;
 mod meshes;
 mod pairs;
 mod scenes;

@@ -1,16 +1,17 @@
 //! The class `Simulation`. Its state and its calls without the interpreter lock are in `simulated.rs`.
 
-use crate::answers::{class, rows, show_crossings, show_near_pairs, show_released, show_torn_edges, show_untangled};
+use crate::answers::{self, class, rows, show_crossings, show_near_pairs, show_released, show_torn_edges, show_untangled};
 use crate::call::{Length, interruptible};
 use crate::driven::{Body, Cloth, copied, whole_numbers};
 use crate::errors::{self, BlockedError, CheckpointError, InputError};
+use crate::loads;
 use crate::scenes;
 use crate::simulated::{Call, Simulation};
 use numpy::PyArray1;
 use pyo3::prelude::*;
-use pyo3::types::{IntoPyDict, PyBytes, PyDict, PySlice, PyType};
+use pyo3::types::{PyBytes, PyDict, PySlice, PyType};
 use selvedge_cloth::glam::{DQuat, DVec3};
-use selvedge_cloth::{ContactCounts, ContactSeconds, FrameError, Placement, Scene, SceneContext, vertex_normals};
+use selvedge_cloth::{FrameError, Placement, Scene, SceneContext, vertex_normals};
 use std::ops::{ControlFlow, Range};
 use std::path::PathBuf;
 
@@ -246,6 +247,43 @@ impl Simulation {
         set.map_err(|error| errors::of_driving(&error))
     }
 
+    #[doc = crate::stub!("Simulation.add_force")]
+    fn add_force(&self, vertices: &Bound<'_, PyAny>, force: &Bound<'_, PyAny>) -> PyResult<()> {
+        let vertices = whole_numbers(vertices, "vertices", self.known().cloth_vertices)?;
+        loads::add_force(&mut *self.simulation()?, &vertices, force)
+    }
+
+    #[doc = crate::stub!("Simulation.body_load")]
+    #[pyo3(signature = (body, about=[0.0; 3], *, mean=false))]
+    fn body_load<'py>(&self, py: Python<'py>, body: Body, about: [f64; 3], mean: bool) -> PyResult<Bound<'py, PyAny>> {
+        let body = body.index(&self.of_scene.body_names)?;
+        loads::of_body(py, &*self.simulation()?, body, about.into(), mean)
+    }
+
+    #[doc = crate::stub!("Simulation.pin_load")]
+    #[pyo3(signature = (group, about=[0.0; 3], *, mean=false))]
+    fn pin_load<'py>(&self, py: Python<'py>, group: usize, about: [f64; 3], mean: bool) -> PyResult<Bound<'py, PyAny>> {
+        loads::of_pins(py, &*self.simulation()?, group, about.into(), mean)
+    }
+
+    #[doc = crate::stub!("Simulation.attachment_load")]
+    #[pyo3(signature = (group, about=[0.0; 3], *, mean=false))]
+    fn attachment_load<'py>(&self, py: Python<'py>, group: usize, about: [f64; 3], mean: bool) -> PyResult<Bound<'py, PyAny>> {
+        loads::of_attachments(py, &*self.simulation()?, group, about.into(), mean)
+    }
+
+    #[doc = crate::stub!("Simulation.contact_loads")]
+    fn contact_loads<'py>(&self, py: Python<'py>, body: Body) -> PyResult<Bound<'py, PyAny>> {
+        let body = body.index(&self.of_scene.body_names)?;
+        loads::of_contacts(py, &*self.simulation()?, body)
+    }
+
+    #[doc = crate::stub!("Simulation.unbalanced_force")]
+    #[getter]
+    fn unbalanced_force<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        Ok(loads::vector(py, self.simulation()?.unbalanced_force()))
+    }
+
     #[doc = crate::stub!("Simulation.velocities")]
     #[getter]
     fn velocities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
@@ -430,51 +468,13 @@ impl Simulation {
     #[doc = crate::stub!("Simulation.contact_counts")]
     #[getter]
     fn contact_counts<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
-        let simulation = self.simulation()?;
-        let Some(&counts) = simulation.contact_counts() else {
-            return Ok(None);
-        };
-        let ContactCounts {
-            candidates,
-            looked_at,
-            pushed,
-            violated,
-            zone_rounds,
-            held,
-            cuts,
-        } = counts;
-        let named = [
-            ("candidates", candidates),
-            ("looked_at", looked_at),
-            ("pushed", pushed),
-            ("violated", violated),
-            ("zone_rounds", zone_rounds),
-            ("held", held),
-            ("cuts", cuts),
-        ];
-        named.into_py_dict(py).map(Some)
+        answers::show_contact_counts(py, self.simulation()?.contact_counts())
     }
 
     #[doc = crate::stub!("Simulation.contact_seconds")]
     #[getter]
     fn contact_seconds<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
-        let simulation = self.simulation()?;
-        let Some(&seconds) = simulation.contact_seconds() else {
-            return Ok(None);
-        };
-        let ContactSeconds {
-            candidates,
-            constraints,
-            certificates,
-            repairs,
-        } = seconds;
-        let named = [
-            ("candidates", candidates),
-            ("constraints", constraints),
-            ("certificates", certificates),
-            ("repairs", repairs),
-        ];
-        named.into_py_dict(py).map(Some)
+        answers::show_contact_seconds(py, self.simulation()?.contact_seconds())
     }
 
     #[doc = crate::stub!("Simulation.checkpoint")]

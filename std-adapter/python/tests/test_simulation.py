@@ -339,3 +339,68 @@ def test_what_cannot_be_moved_is_told(sleeve):
     for wrong in ([0, 0], "abc", None):
         with pytest.raises((TypeError, ValueError)):
             simulation.set_wind(wrong)
+
+
+RESTING = """
+time_step = 0.004
+[[body]]
+name = "table"
+shape = "ball"
+centre = [0, 0, -1]
+radius = 1
+around = 24
+[cloth]
+shape = "sheet"
+corner = [-0.1, -0.1, 0.0055]
+sides = { first = [0.2, 0, 0], second = [0, 0.2, 0] }
+cells = [6, 6]
+density = 0.15
+[effects.gravity]
+[effects.stretch]
+stiffness = 400
+[effects.friction]
+coefficient = 0.5
+[effects.self_collision]
+thickness = 0.005
+[effects.body_contact]
+thickness = 0.005
+[[effects.pins.group]]
+vertices = [0]
+"""
+
+
+def test_a_body_and_pins_carry_the_weight_of_the_cloth():
+    simulation = Simulation.from_text(RESTING)
+    weight = 0.2 * 0.2 * 0.15 * 9.81
+    assert (simulation.body_load("table").total.force == 0).all()
+    for _ in range(40):
+        simulation.advance(1 / 60)
+    body, pins = simulation.body_load("table", mean=True), simulation.pin_load(0, mean=True)
+    np.testing.assert_allclose(body.total.force + pins.force, [0, 0, -weight], atol=1e-3 * weight)
+    contacts = simulation.contact_loads(0)
+    assert len(contacts) > 10 and contacts.vertices.shape == (len(contacts), 4)
+    about = np.array([0.3, 0.0, 0.1])
+    here = simulation.body_load("table", about)
+    np.testing.assert_allclose(contacts.pushes.sum(axis=0), here.contact.force, atol=1e-12)
+    np.testing.assert_allclose(np.cross(contacts.points - about, contacts.frictions).sum(axis=0), here.friction.torque, atol=1e-12)
+    assert np.linalg.norm(simulation.unbalanced_force) < 1e-3 * weight
+    for wrong in (lambda: simulation.pin_load(1), lambda: simulation.attachment_load(0), lambda: simulation.body_load("chair")):
+        with pytest.raises(errors.InputError):
+            wrong()
+
+
+def test_forces_act_for_one_frame():
+    simulation = Simulation.from_text(RESTING)
+    simulation.add_force([0], [0, 3, 0])
+    simulation.advance(0.01)
+    assert simulation.pin_load(0).force[1] == pytest.approx(3, abs=0.1)
+    simulation.advance(0.01)
+    assert abs(simulation.pin_load(0).force[1]) < 0.1
+    simulation.add_force([1, 2], [[0, 0, 1.0], [0, 0, 2.0]])
+    before = simulation.positions.copy()
+    simulation.advance(0.01)
+    assert (simulation.positions[[1, 2], 2] > before[[1, 2], 2] + 1e-3).all()
+    with pytest.raises(errors.InputError, match="2 forces were given for 1 vertices"):
+        simulation.add_force([1], [[0, 0, 1.0], [0, 0, 2.0]])
+    with pytest.raises(errors.InputError):
+        simulation.add_force([1], [0, 0, float("nan")])

@@ -10,8 +10,10 @@ Times are in [0, 1] of the step. Calls release the interpreter lock. Do not writ
 
 from . import errors, ipc, laboratory
 from ._answers import (
+    BodyLoad,
     CandidatePairs,
     Contact,
+    ContactLoads,
     Contacts,
     ContactTimes,
     Crossings,
@@ -26,6 +28,7 @@ from ._answers import (
     Truncation,
     Untangled,
     Welded,
+    Wrench,
 )
 from ._sewing import seam_rows
 from ._native import ARM_SLEEVE, EFFECTS, Detector, Simulation, __version__, read_mesh, time_of_impact, touches, welded
@@ -33,8 +36,10 @@ from ._native import ARM_SLEEVE, EFFECTS, Detector, Simulation, __version__, rea
 __all__ = [
     "ARM_SLEEVE",
     "EFFECTS",
+    "BodyLoad",
     "CandidatePairs",
     "Contact",
+    "ContactLoads",
     "ContactTimes",
     "Contacts",
     "Crossings",
@@ -51,6 +56,7 @@ __all__ = [
     "Truncation",
     "Untangled",
     "Welded",
+    "Wrench",
     "__version__",
     "errors",
     "ipc",

@@ -241,6 +241,51 @@ class TornEdge(NamedTuple):
     """Its load, in N per metre of its length at rest."""
 
 
+class Wrench(NamedTuple):
+    """A force and its torque about a point."""
+
+    force: NDArray[np.float64]
+    """(3,) the force, in N."""
+    torque: NDArray[np.float64]
+    """(3,) the torque, in N m."""
+
+
+class BodyLoad(NamedTuple):
+    """The load of cloth and ropes on a body."""
+
+    contact: Wrench
+    """The push of contacts, along their normals."""
+    friction: Wrench
+    """The friction of contacts."""
+    pins: Wrench
+    """The pull of pins that follow the body."""
+    attachments: Wrench
+    """The pull of attachments to the body."""
+
+    @property
+    def total(self) -> Wrench:
+        """The sum."""
+        return Wrench(np.sum([part.force for part in self], axis=0), np.sum([part.torque for part in self], axis=0))
+
+
+@dataclass(frozen=True, eq=False)
+class ContactLoads:
+    """The contacts that pushed a body."""
+
+    vertices: NDArray[np.uint32]
+    """(n, 4) the vertices of the cloth and of the body: rows of the simulation's positions. On a ball or a capsule, all four are the vertex
+    of the cloth."""
+    points: NDArray[np.float64]
+    """(n, 3) the points of the cloth at which they act."""
+    pushes: NDArray[np.float64]
+    """(n, 3) the pushes on the body, in N."""
+    frictions: NDArray[np.float64]
+    """(n, 3) the friction on the body, in N."""
+
+    def __len__(self) -> int:
+        return len(self.vertices)
+
+
 class Release(NamedTuple):
     """A vertex that an attachment has released for good."""
 

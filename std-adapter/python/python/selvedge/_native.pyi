@@ -9,8 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._answers import (
+    BodyLoad,
     CandidatePairs,
     Contact,
+    ContactLoads,
     Contacts,
     ContactTimes,
     Crossings,
@@ -23,6 +25,7 @@ from ._answers import (
     Truncation,
     Untangled,
     Welded,
+    Wrench,
 )
 
 __all__ = ["ARM_SLEEVE", "EFFECTS", "Detector", "Simulation", "__version__", "read_mesh", "time_of_impact", "touches", "welded"]
@@ -322,6 +325,37 @@ class Simulation:
         """Sets the velocity, in m/s, with which vertices of cloth start the next step, as if a hand pulled them. ``vertices`` are rows of
         :attr:`positions`, or a mask of bool for all vertices of cloth. Pinned vertices keep theirs."""
 
+    def add_force(self, vertices: ArrayLike, force: ArrayLike) -> None:
+        """Adds a force, in N, on each of these vertices of cloth, for the whole of the next call of :meth:`step` or :meth:`advance`; after
+        it the force is gone. ``force`` is (3,) for all, or (n, 3) with one for each. ``vertices`` are rows of :attr:`positions`, or a mask
+        of bool for all vertices of cloth. Forces on the same vertex add up; those on pinned vertices go to :meth:`pin_load`. With a
+        ``count``, :meth:`step` applies them in its first step alone."""
+
+    def body_load(
+        self, body: str | int, about: Sequence[float] | NDArray[np.floating[Any]] = ..., *, mean: bool = False
+    ) -> BodyLoad:
+        """The load of cloth and ropes on a body at the end of the last step, with torques about the point ``about``; or the mean over the
+        last frame (``mean``): the last :meth:`advance`, or the last step of :meth:`step`. It is zero before the first step and after
+        :meth:`resume`."""
+
+    def pin_load(
+        self, group: int, about: Sequence[float] | NDArray[np.floating[Any]] = ..., *, mean: bool = False
+    ) -> Wrench:
+        """The load on a group of pins, given by its index, as :meth:`body_load`: what moves or holds the pins feels. The weight and the
+        inertia of the pinned vertices are in it. A vertex in several groups counts in each."""
+
+    def attachment_load(
+        self, group: int, about: Sequence[float] | NDArray[np.floating[Any]] = ..., *, mean: bool = False
+    ) -> Wrench:
+        """The load on a group of attachments, given by its index, as :meth:`body_load`."""
+
+    def contact_loads(self, body: str | int) -> ContactLoads:
+        """The contacts that pushed a body in the last part of the last step. A copy."""
+
+    @property
+    def unbalanced_force(self) -> NDArray[np.float64]:
+        """(3,) the force in N that the last solve left in sum: the error of all loads together. A finer ``accuracy`` lowers it, and it
+        vanishes at rest."""
     def set_wind(self, velocity: Sequence[float] | NDArray[np.floating[Any]]) -> None:
         """Sets the velocity of the scene's wind from now on, in m/s."""
 
