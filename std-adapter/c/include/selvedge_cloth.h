@@ -208,6 +208,64 @@ typedef struct selvedge_near_pair {
   double thickness;
 } selvedge_near_pair;
 
+/**
+ * A force and its torque about a point.
+ */
+typedef struct selvedge_wrench {
+  /**
+   * The force, in N.
+   */
+  double force[3];
+  /**
+   * The torque, in N m.
+   */
+  double torque[3];
+} selvedge_wrench;
+
+/**
+ * The load of cloth and ropes on a body. The sum of its parts is the whole load.
+ */
+typedef struct selvedge_body_load {
+  /**
+   * The push of contacts, along their normals.
+   */
+  struct selvedge_wrench contact;
+  /**
+   * The friction of contacts.
+   */
+  struct selvedge_wrench friction;
+  /**
+   * The pull of pins that follow the body.
+   */
+  struct selvedge_wrench pins;
+  /**
+   * The pull of attachments to the body.
+   */
+  struct selvedge_wrench attachments;
+} selvedge_body_load;
+
+/**
+ * The load of one contact on a body.
+ */
+typedef struct selvedge_contact_load {
+  /**
+   * The vertices of the cloth and of the body. On a ball or a capsule, all four are the vertex of the cloth.
+   */
+  uint32_t vertices[4];
+  /**
+   * The point of the cloth at which it acts, in metres.
+   */
+  double point[3];
+  /**
+   * The push on the body, in N.
+   */
+  double push[3];
+  /**
+   * The friction on the body, in N.
+   */
+  double friction[3];
+} selvedge_contact_load;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -485,6 +543,101 @@ selvedge_status selvedge_simulation_move_pins(struct selvedge_simulation *simula
  * Sets the velocity of the scene's wind from now on, in m/s.
  */
 selvedge_status selvedge_simulation_set_wind(struct selvedge_simulation *simulation, double x, double y, double z);
+
+/**
+ * Adds a force on each of these vertices of cloth, in N, for the whole of the next selvedge_simulation_step or
+ * selvedge_simulation_advance. After that call it is gone. Forces on the same vertex add up; those on pinned vertices go to
+ * selvedge_simulation_pin_load.
+ *
+ * The caller promises:
+ * `vertices` points to `count` numbers, `forces` to 3 * `count`.
+ */
+selvedge_status selvedge_simulation_add_forces(struct selvedge_simulation *simulation,
+                                               const uint32_t *vertices,
+                                               const double *forces,
+                                               size_t count);
+
+/**
+ * Returns the load of cloth and ropes on a body at the end of the last step, with torques about a point. It is zero before the
+ * first step, and after selvedge_simulation_resume.
+ *
+ * The caller promises:
+ * `about` points to three numbers, `load` to one entry.
+ */
+selvedge_status selvedge_simulation_body_load(const struct selvedge_simulation *simulation,
+                                              size_t body,
+                                              const double *about,
+                                              struct selvedge_body_load *load);
+
+/**
+ * Returns the mean load on a body in the last selvedge_simulation_step or selvedge_simulation_advance. Times the length of that
+ * call it is the impulse.
+ *
+ * The caller promises:
+ * The conditions are those of selvedge_simulation_body_load.
+ */
+selvedge_status selvedge_simulation_mean_body_load(const struct selvedge_simulation *simulation,
+                                                   size_t body,
+                                                   const double *about,
+                                                   struct selvedge_body_load *load);
+
+/**
+ * Returns the load on a group of pins at the end of the last step: what moves or holds the pins feels. The weight and the inertia
+ * of the pinned vertices are in it. A vertex in several groups counts in each.
+ *
+ * The caller promises:
+ * The conditions are those of selvedge_simulation_body_load.
+ */
+selvedge_status selvedge_simulation_pin_load(const struct selvedge_simulation *simulation,
+                                             size_t group,
+                                             const double *about,
+                                             struct selvedge_wrench *load);
+
+/**
+ * Returns the mean load on a group of pins, as selvedge_simulation_mean_body_load.
+ *
+ * The caller promises:
+ * The conditions are those of selvedge_simulation_body_load.
+ */
+selvedge_status selvedge_simulation_mean_pin_load(const struct selvedge_simulation *simulation,
+                                                  size_t group,
+                                                  const double *about,
+                                                  struct selvedge_wrench *load);
+
+/**
+ * Returns the load on a group of attachments at the end of the last step.
+ *
+ * The caller promises:
+ * The conditions are those of selvedge_simulation_body_load.
+ */
+selvedge_status selvedge_simulation_attachment_load(const struct selvedge_simulation *simulation,
+                                                    size_t group,
+                                                    const double *about,
+                                                    struct selvedge_wrench *load);
+
+/**
+ * Returns the mean load on a group of attachments, as selvedge_simulation_mean_body_load.
+ *
+ * The caller promises:
+ * The conditions are those of selvedge_simulation_body_load.
+ */
+selvedge_status selvedge_simulation_mean_attachment_load(const struct selvedge_simulation *simulation,
+                                                         size_t group,
+                                                         const double *about,
+                                                         struct selvedge_wrench *load);
+
+/**
+ * Returns the contacts that pushed a body in the last part of the last step.
+ *
+ * The list belongs to the simulation. It stays valid until the next call of this function, or until the simulation is freed.
+ *
+ * The caller promises:
+ * `contacts` points to a pointer, `count` to a number.
+ */
+selvedge_status selvedge_simulation_contact_loads(struct selvedge_simulation *simulation,
+                                                  size_t body,
+                                                  const struct selvedge_contact_load **contacts,
+                                                  size_t *count);
 
 /**
  * Returns the state of the simulation as bytes. Motions that were set for the next step and the wind are not included. The call

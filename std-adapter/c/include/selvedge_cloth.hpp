@@ -6,6 +6,8 @@
 #include "selvedge.hpp"
 #include "selvedge_cloth.h"
 
+#include <array>
+
 namespace selvedge {
 
 /// A mesh: x y z of each vertex, three vertices of each triangle, two of each loose edge, and the vertices that are particles.
@@ -176,6 +178,51 @@ class simulation {
   /// Sets the velocity of the scene's wind from now on, in m/s.
   void set_wind(double x, double y, double z) { check(selvedge_simulation_set_wind(get(), x, y, z)); }
 
+  /// Adds a force in N, x y z, on each of these vertices of cloth, for the whole of the next step or frame. Then they are gone.
+  /// It throws SELVEDGE_STATUS_WRONG_LENGTH unless there is one force for each vertex.
+  void add_forces(const std::vector<std::uint32_t> &vertices, triples<double> forces) {
+    if (forces.size() != vertices.size()) throw error(SELVEDGE_STATUS_WRONG_LENGTH, "each vertex needs one force");
+    check(selvedge_simulation_add_forces(get(), vertices.data(), forces.data(), forces.size()));
+  }
+
+  /// Returns the load of cloth and ropes on a body at the end of the last step, with torques about a point.
+  selvedge_body_load body_load(std::size_t body, const std::array<double, 3> &about = {}) const {
+    return load<selvedge_body_load>(selvedge_simulation_body_load, body, about);
+  }
+
+  /// Returns the mean load on a body in the last step or frame.
+  selvedge_body_load mean_body_load(std::size_t body, const std::array<double, 3> &about = {}) const {
+    return load<selvedge_body_load>(selvedge_simulation_mean_body_load, body, about);
+  }
+
+  /// Returns the load on a group of pins at the end of the last step: what moves or holds them feels.
+  selvedge_wrench pin_load(std::size_t group, const std::array<double, 3> &about = {}) const {
+    return load<selvedge_wrench>(selvedge_simulation_pin_load, group, about);
+  }
+
+  /// Returns the mean load on a group of pins in the last step or frame.
+  selvedge_wrench mean_pin_load(std::size_t group, const std::array<double, 3> &about = {}) const {
+    return load<selvedge_wrench>(selvedge_simulation_mean_pin_load, group, about);
+  }
+
+  /// Returns the load on a group of attachments at the end of the last step.
+  selvedge_wrench attachment_load(std::size_t group, const std::array<double, 3> &about = {}) const {
+    return load<selvedge_wrench>(selvedge_simulation_attachment_load, group, about);
+  }
+
+  /// Returns the mean load on a group of attachments in the last step or frame.
+  selvedge_wrench mean_attachment_load(std::size_t group, const std::array<double, 3> &about = {}) const {
+    return load<selvedge_wrench>(selvedge_simulation_mean_attachment_load, group, about);
+  }
+
+  /// Returns the contacts that pushed a body in the last step. The list is valid until the next call.
+  list<selvedge_contact_load> contact_loads(std::size_t body) {
+    const selvedge_contact_load *first = nullptr;
+    std::size_t count = 0;
+    check(selvedge_simulation_contact_loads(get(), body, &first, &count));
+    return {first, count};
+  }
+
   /// Returns the state as bytes. A checkpoint exists every SELVEDGE_CHECKPOINT_STEPS steps.
   std::vector<std::uint8_t> checkpoint() {
     const std::uint8_t *first = nullptr;
@@ -207,6 +254,14 @@ class simulation {
     std::size_t count = 0;
     check(selvedge_simulation_mesh_in_files(get(), &lists, &first, &count));
     return {mesh_lists(lists), {first, first + count}};
+  }
+
+  template <class Load>
+  Load load(selvedge_status (*find)(const selvedge_simulation *, std::size_t, const double *, Load *), std::size_t number,
+            const std::array<double, 3> &about) const {
+    Load load{};
+    check(find(get(), number, about.data(), &load));
+    return load;
   }
 
   template <class Number>

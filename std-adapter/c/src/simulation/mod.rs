@@ -3,6 +3,7 @@
 pub(crate) mod checkpoint;
 pub(crate) mod counts;
 pub(crate) mod lead;
+pub(crate) mod loads;
 pub(crate) mod run;
 pub(crate) mod state;
 #[cfg(test)]
@@ -11,6 +12,7 @@ mod tests;
 use crate::files::ListedMesh;
 use crate::handles::{self, Handled, Living};
 use crate::status::{Failure, Status};
+use loads::ContactLoadRow;
 use run::SimulationHandle;
 use selvedge_cloth::{SceneError, SetupError, Simulation};
 use state::NearPairRow;
@@ -34,6 +36,7 @@ struct OfScene {
 #[derive(Default)]
 struct Answers {
     near_pairs: Vec<NearPairRow>,
+    contact_loads: Vec<ContactLoadRow>,
     checkpoint: Vec<u8>,
     in_files: ListedMesh,
     number_of: Vec<u32>,

@@ -3,6 +3,7 @@
 use super::checkpoint::*;
 use super::counts::*;
 use super::lead::*;
+use super::loads::*;
 use super::on;
 use super::run::*;
 use super::state::*;
@@ -115,9 +116,46 @@ fn lead(handle: *mut SimulationHandle, simulation: &mut Simulation, step: u32) {
     // SAFETY: the array is as long as the count says.
     let status = unsafe { selvedge_simulation_move_pins(handle, 0, pins.as_ptr().cast(), pins.len()) };
     assert_eq!(status, Status::Ok);
+    let (vertices, forces) = ([60, 61], [DVec3::new(0.0, 0.0, 0.001 * t), DVec3::X * 0.002]);
+    simulation.add_forces(&vertices, &forces).unwrap();
+    let numbers = forces.map(|force| force.to_array());
+    // SAFETY: the arrays are as long as the count says.
+    let status = unsafe { selvedge_simulation_add_forces(handle, vertices.as_ptr(), numbers.as_ptr().cast(), 2) };
+    assert_eq!(status, Status::Ok);
     let wind = DVec3::new(0.0, f64::from(step % 7), -1.0);
     simulation.set_wind(wind).unwrap();
     assert_eq!(selvedge_simulation_set_wind(handle, wind.x, wind.y, wind.z), Status::Ok);
+}
+
+/// Checks that both have the same loads.
+fn loads_are_alike(handle: *mut SimulationHandle, simulation: &Simulation) {
+    let about = DVec3::new(0.1, 0.2, 0.3);
+    let point = about.to_array();
+    let mut on_body = [BodyLoadRow::default(); 2];
+    let mut on_pins = [WrenchRow::default(); 2];
+    let (mut contacts, mut count) = (ptr::null(), 0);
+    // SAFETY: there is room for each.
+    unsafe {
+        for status in [
+            selvedge_simulation_body_load(handle, 0, point.as_ptr(), &raw mut on_body[0]),
+            selvedge_simulation_mean_body_load(handle, 0, point.as_ptr(), &raw mut on_body[1]),
+            selvedge_simulation_pin_load(handle, 0, point.as_ptr(), &raw mut on_pins[0]),
+            selvedge_simulation_mean_pin_load(handle, 0, point.as_ptr(), &raw mut on_pins[1]),
+            selvedge_simulation_contact_loads(handle, 0, &raw mut contacts, &raw mut count),
+        ] {
+            assert_eq!(status, Status::Ok);
+        }
+    }
+    let known = [simulation.body_load(0, about), simulation.mean_body_load(0, about)];
+    assert_eq!(on_body, known.map(|load| load.unwrap().into()));
+    let known = [simulation.pin_load(0, about), simulation.mean_pin_load(0, about)];
+    assert_eq!(on_pins, known.map(|load| load.unwrap().into()));
+    let known: Vec<ContactLoadRow> = simulation.contact_loads(0).map(ContactLoadRow::from).collect();
+    assert_eq!(count, known.len());
+    if count > 0 {
+        // SAFETY: this is the list that was shown last.
+        assert_eq!(unsafe { std::slice::from_raw_parts(contacts, count) }, known);
+    }
 }
 
 /// Checks that both have the same state. Returns the number of near pairs.
@@ -141,6 +179,7 @@ fn are_alike(handle: *mut SimulationHandle, simulation: &Simulation) -> usize {
         let status = selvedge_simulation_near_pairs(handle, &raw mut pairs, &raw mut pair_count);
         assert_eq!(status, Status::Ok);
     }
+    loads_are_alike(handle, simulation);
     let known = ProgressRow {
         steps_done: simulation.steps_done(),
         time: simulation.time(),

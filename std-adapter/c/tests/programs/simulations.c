@@ -169,6 +169,32 @@ static void leading(selvedge_simulation *it) {
   }
 }
 
+static void loads(selvedge_simulation *it) {
+  const double here[] = {0, 0, 0};
+  const uint32_t first[] = {0}, beyond[] = {CLOTH_VERTICES};
+  const double none[] = {(double)NAN, 0, 0};
+  EXPECT(NULL_POINTER, selvedge_simulation_add_forces(it, NULL, here, 1));
+  EXPECT(NULL_POINTER, selvedge_simulation_add_forces(it, first, NULL, 1));
+  EXPECT(WRONG_LENGTH, selvedge_simulation_add_forces(it, first, here, SIZE_MAX));
+  EXPECT(NO_SUCH_PART, selvedge_simulation_add_forces(it, beyond, here, 1));
+  EXPECT(BAD_VALUE, selvedge_simulation_add_forces(it, first, none, 1));
+  EXPECT(OK, selvedge_simulation_add_forces(it, NULL, NULL, 0));
+  selvedge_body_load on_body = {0};
+  selvedge_wrench wrench = {0};
+  EXPECT(NULL_POINTER, selvedge_simulation_body_load(it, 0, NULL, &on_body));
+  EXPECT(NULL_POINTER, selvedge_simulation_mean_body_load(it, 0, here, NULL));
+  EXPECT(NO_SUCH_PART, selvedge_simulation_body_load(it, 2, here, &on_body));
+  EXPECT(NO_SUCH_PART, selvedge_simulation_pin_load(it, 2, here, &wrench));
+  SAYS("pins");
+  EXPECT(NO_SUCH_PART, selvedge_simulation_mean_attachment_load(it, 0, here, &wrench));
+  EXPECT(OK, selvedge_simulation_mean_pin_load(it, 0, here, &wrench));
+  const selvedge_contact_load *contacts = NULL;
+  size_t count = 7;
+  EXPECT(NULL_POINTER, selvedge_simulation_contact_loads(it, 0, NULL, &count));
+  EXPECT(NO_SUCH_PART, selvedge_simulation_contact_loads(it, 2, &contacts, &count));
+  HOLDS(count == 7);
+}
+
 static void checkpoints(selvedge_simulation *it) {
   const uint8_t *bytes = NULL;
   size_t count = 7;
@@ -281,6 +307,7 @@ int main(void) {
       if (k == 0 && step > 0) {
         questions(asked, vertices);
         leading(asked);
+        loads(asked);
         checkpoints(asked);
       }
       EXPECT(OK, selvedge_simulation_step(both[k]));

@@ -1,5 +1,6 @@
 // Tests the additions of C++ to simulations.c: exceptions, an owner that can be moved, lists and texts of C++.
 #include "expect.hpp"
+#include <cmath>
 #include <selvedge_cloth.hpp>
 #include <type_traits>
 
@@ -68,6 +69,16 @@ int main() {
   const auto end = told(first);
   holds(__LINE__, near > 0 && first.progress().is_certified && first.progress().steps_done == 100);
   holds(__LINE__, first.placement(0).has_value() && first.placement(0)->origin[2] == 0.01);
+  {
+    double push = 0;
+    for (const auto &contact : first.contact_loads(0)) push += contact.push[2];
+    const auto load = first.body_load(0);
+    holds(__LINE__, push < 0 && std::abs(push - load.contact.force[2]) <= 1e-12 && first.mean_body_load(0).contact.force[2] == load.contact.force[2]);
+    holds(__LINE__, first.pin_load(0, {0, 0.2, 0}).force[2] != 0);
+    expect(__LINE__, SELVEDGE_STATUS_NO_SUCH_PART, [&] { first.attachment_load(0); });
+    expect(__LINE__, SELVEDGE_STATUS_WRONG_LENGTH, [&] { first.add_forces({0, 1}, std::vector<double>(3)); });
+    first.add_forces({0}, std::vector<double>{0, 0, 0});
+  }
   expect(__LINE__, SELVEDGE_STATUS_NO_CHECKPOINT, [&] { first.checkpoint(); });
   expect(__LINE__, SELVEDGE_STATUS_BAD_CHECKPOINT, [&] { first.resume({}); });
   expect(__LINE__, SELVEDGE_STATUS_BAD_VALUE, [&] { first.set_wind(1e9, 0, 0); });
