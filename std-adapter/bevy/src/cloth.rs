@@ -121,7 +121,8 @@ impl ClothSimulation {
         self
     }
 
-    /// Returns the simulation; `None` until it has started, and if it could not start.
+    /// Returns the simulation; `None` until it has started, and if it could not start. Its
+    /// [`mean_body_load`](Simulation::mean_body_load) is the force and the torque of the cloth on a body in the last fixed step.
     #[must_use]
     pub fn simulation(&self) -> Option<&Simulation> {
         match &self.state {
@@ -131,7 +132,8 @@ impl ClothSimulation {
         }
     }
 
-    /// Returns the simulation, to set the wind or to move pins and deforming bodies. The plugin runs the steps.
+    /// Returns the simulation, to set the wind, to [push](Simulation::add_force) vertices in the next fixed step, or to move pins
+    /// and deforming bodies. The plugin runs the steps.
     #[must_use]
     pub fn simulation_mut(&mut self) -> Option<&mut Simulation> {
         match &mut self.state {
