@@ -582,8 +582,8 @@ selvedge_status selvedge_simulation_mean_body_load(const struct selvedge_simulat
                                                    struct selvedge_body_load *load);
 
 /**
- * Returns the load on a group of pins at the end of the last step: what moves or holds the pins feels. The weight and the inertia
- * of the pinned vertices are in it. A vertex in several groups counts in each.
+ * Returns the load on a group of pins at the end of the last step: what moves or holds the pins feels. The weight and the
+ * inertia of the pinned vertices are in it. A vertex in several groups counts in each.
  *
  * The caller promises:
  * The conditions are those of selvedge_simulation_body_load.
