@@ -7,7 +7,7 @@ use crate::scene::{range, scene_of};
 use crate::values::{Exception, Files, Positions, floats, object, take_positions, view, whole_numbers};
 use js_sys::Float64Array;
 use selvedge_cloth::glam::{DQuat, DVec3};
-use selvedge_cloth::{Blocked, DriveError, FrameError, Placement, SetupError, Simulation as Cloth, vertex_normals};
+use selvedge_cloth::{Blocked, DriveError, FrameError, Placement, SetupError, Simulation as Cloth, Wrench, vertex_normals};
 use wasm_bindgen::{JsValue, prelude::wasm_bindgen};
 
 /// A simulation of cloth. Each state is certified free of intersections, with the same bits as in native programs. SI units.
@@ -296,6 +296,45 @@ impl Simulation {
         Ok(self.cloth.set_velocity(&vertices, vector(velocity, "velocity")?)?)
     }
 
+    /// Adds a force, in N, on each of these vertices of cloth, for the whole of the next step or `advance`; after it the force is
+    /// gone. Forces on the same vertex add up. With a count, `step` applies them in its first step alone.
+    #[wasm_bindgen(js_name = addForce)]
+    pub fn add_force(&mut self, vertices: &WholeNumbers, force: &Numbers) -> Result<(), Exception> {
+        let vertices = wholes(vertices, "vertices")?;
+        Ok(self.cloth.add_force(&vertices, vector(force, "force")?)?)
+    }
+
+    /// Returns the load of the cloth on a body, with torques about a point (default: the origin): the mean over the last step or
+    /// `advance`. It is zero before the first step and after `resume`.
+    #[wasm_bindgen(js_name = bodyLoad, unchecked_return_type = "BodyLoad")]
+    pub fn body_load(&self, body: &Text, about: Option<Numbers>) -> Result<JsValue, Exception> {
+        let (body, about) = (self.body(body)?, point(about.as_ref())?);
+        let load = self.cloth.mean_body_load(body, about).unwrap_or_default();
+        let parts = [
+            ("contact", load.contact),
+            ("friction", load.friction),
+            ("pins", load.pins),
+            ("attachments", load.attachments),
+            ("total", load.total()),
+        ];
+        Ok(object(parts.map(|(name, part)| (name, wrench(part)))).into())
+    }
+
+    /// Returns the load on a group of pins, given by its index, as `bodyLoad`. The weight and the inertia of the pinned vertices
+    /// are in it.
+    #[wasm_bindgen(js_name = pinLoad, unchecked_return_type = "Wrench")]
+    pub fn pin_load(&self, group: &Number, about: Option<Numbers>) -> Result<JsValue, Exception> {
+        let (group, about) = (whole(group, "group")? as usize, point(about.as_ref())?);
+        load_of("pins", group, self.cloth.mean_pin_load(group, about))
+    }
+
+    /// Returns the load on a group of attachments, given by its index, as `bodyLoad`.
+    #[wasm_bindgen(js_name = attachmentLoad, unchecked_return_type = "Wrench")]
+    pub fn attachment_load(&self, group: &Number, about: Option<Numbers>) -> Result<JsValue, Exception> {
+        let (group, about) = (whole(group, "group")? as usize, point(about.as_ref())?);
+        load_of("attachments", group, self.cloth.mean_attachment_load(group, about))
+    }
+
     /// Returns the state as bytes after every 200th step; undefined in between.
     #[must_use]
     pub fn checkpoint(&self) -> Option<Vec<u8>> {
@@ -328,6 +367,21 @@ fn numbered(names: &[String], kind: &str, name: &str) -> Result<usize, Exception
         let short = short(name);
         Exception::input(&format!("there is no {kind} '{short}'; the scene has {names:?}"))
     })
+}
+
+/// Returns a point, or the origin without one.
+fn point(about: Option<&Numbers>) -> Result<DVec3, Exception> {
+    about.map_or(Ok(DVec3::ZERO), |about| vector(about, "about"))
+}
+
+fn wrench(wrench: Wrench) -> JsValue {
+    let parts = [("force", wrench.force), ("torque", wrench.torque)];
+    object(parts.map(|(name, part)| (name, floats(&part.to_array())))).into()
+}
+
+fn load_of(what: &str, group: usize, load: Option<Wrench>) -> Result<JsValue, Exception> {
+    let none = || Exception::input(&format!("there is no group {group} of {what}"));
+    load.map(wrench).ok_or_else(none)
 }
 
 impl From<Blocked> for Exception {

@@ -54,6 +54,10 @@ export interface CollisionFilter {
   excluded?: Uint32Array;
 }
 export interface Statistics { candidates: number; filtered: number; contacts: number; seconds: number; }
+/** A force in N and its torque in N m about a point, three numbers each. */
+export interface Wrench { force: Float64Array; torque: Float64Array; }
+/** The load of the cloth on a body. */
+export interface BodyLoad { contact: Wrench; friction: Wrench; pins: Wrench; attachments: Wrench; total: Wrench; }
 export interface PairVerdicts {
   /** k0, 3 k1, 3 k2, k3 of the signed volume, and the certified bound of the error of each. */
   controlValues: Float64Array;

@@ -205,6 +205,23 @@ test("messages are those of Rust and C for the same mistakes", () => {
   for (const [name, call] of Object.entries(mistakes)) assert.throws(call, (error) => error.message === table[name] || assert.fail(`${name}: ${error.message}`));
 });
 
+test("a body carries the cloth, and a force acts for one frame", () => {
+  const cloth = new Simulation(scene("drop.toml"));
+  assert.deepEqual([...cloth.bodyLoad("ball").total.force], [0, 0, 0]);
+  for (let frame = 0; frame < 40; frame++) cloth.advance(1 / 60);
+  const load = cloth.bodyLoad("ball", [0, 0, 1]);
+  const [down, all] = [load.contact.force[2] + load.friction.force[2], load.total.force[2]];
+  assert.ok(down < 0 && Math.abs(down - all) < 1e-12);
+  assert.throws(() => cloth.pinLoad(0), fails("InputError", "no group 0 of pins"));
+  assert.throws(() => cloth.attachmentLoad(0), fails("InputError", "no group 0 of attachments"));
+  assert.throws(() => cloth.bodyLoad("none"), fails("InputError", "no body"));
+  assert.throws(() => cloth.addForce([0], [0, 0, NaN]), fails("InputError", "force"));
+  const before = cloth.positions[2];
+  cloth.addForce([0], [0, 0, 1]);
+  cloth.advance(1 / 60);
+  assert.ok(cloth.positions[2] > before);
+});
+
 test("a driven body that is to jump is refused, and teleports", () => {
   const text = scene("drop.toml").replace('shape = "ball"', 'shape = "ball"\ndriven = true');
   const cloth = new Simulation(text);

@@ -16,9 +16,9 @@ use std::time::{Duration, Instant};
 
 /// Simulates the cloth of a scene file
 ///
-/// Only the effects that the scene names cost time. Writes a report that works offline: the animation, energy and stretch,
-/// candidate pairs over time, and the time of each effect. An interrupted run resumes from its last checkpoint with --resume, to
-/// the same bits.
+/// Only the effects that the scene names cost time. Writes a report that works offline: the animation, energy, stretch and
+/// loads, candidate pairs over time, and the time of each effect. An interrupted run resumes from its last checkpoint with
+/// --resume, to the same bits.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

@@ -10,7 +10,7 @@ fn place() -> Workplace {
 }
 
 #[test]
-fn json_has_energy_and_stretch_at_every_frame_and_the_slowest_step() {
+fn json_has_energy_stretch_and_loads_at_every_frame_and_the_slowest_step() {
     let document = place().json(&["simulate", "sheet.toml", "--json"]);
     let numbers =
         |value: &serde_json::Value| -> Vec<f64> { value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect() };
@@ -41,6 +41,15 @@ fn json_has_energy_and_stretch_at_every_frame_and_the_slowest_step() {
     let most = longest.iter().copied().fold(0.0, f64::max);
     assert_eq!(stretch["most"]["largest"]["value"].as_f64().unwrap(), most);
     assert_eq!(document["edge_stretch_at_end"]["largest"].as_f64().unwrap(), longest[10]);
+    let load = &document["loads"]["on"][0];
+    let newtons = numbers(&load["newtons"]);
+    assert_eq!((&load["on"], newtons.len()), (&"ball".into(), 11));
+    assert_eq!(newtons[0], 0.0, "it has not landed yet");
+    let most = newtons.iter().copied().fold(0.0, f64::max);
+    assert!(
+        most > 0.0 && load["largest"]["value"].as_f64().unwrap() == most,
+        "{newtons:?}"
+    );
     let slowest = &document["slowest_step"];
     assert!((1..=500).contains(&slowest["step"].as_u64().unwrap()));
     assert!(slowest["seconds"].as_f64().unwrap() >= document["seconds"].as_f64().unwrap() / 1000.0);

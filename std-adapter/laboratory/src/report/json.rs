@@ -161,9 +161,9 @@ pub fn effects_one_by_one(costs: &[crate::study::EffectCost]) -> Value {
 
 /// Returns a simulation and its recording, for `selvedge simulate`.
 ///
-/// Energies are in J; gravitational energy counts from the scene's origin. Stretch is relative to the length at rest. Both lists
-/// belong to the times in `seconds`. Vertices have the numbers of the [mesh in files](selvedge_cloth::MeshInFiles), those of
-/// `torn` within their cloth.
+/// Energies are in J; gravitational energy counts from the scene's origin. Stretch is relative to the length at rest. Loads are
+/// forces in N on bodies and groups, each the mean of the last step or frame. All lists belong to the times in `seconds`.
+/// Vertices have the numbers of the [mesh in files](selvedge_cloth::MeshInFiles), those of `torn` within their cloth.
 pub fn simulation(simulation: &selvedge_cloth::Simulation, recording: &Recording) -> Value {
     let seconds = recording.wall_seconds.unwrap_or(f64::NAN);
     let steps = simulation.steps_done();
@@ -212,6 +212,7 @@ pub fn simulation(simulation: &selvedge_cloth::Simulation, recording: &Recording
         "edge_stretch_at_end": {"percentile_99": stretch.percentile_99, "largest": stretch.largest},
         "edge_stretch": edge_stretch(recording),
         "energy": energy(recording),
+        "loads": loads(recording),
         "effects": effects,
         "pairs": pairs.collect::<Vec<_>>(),
         "stages": stages.collect::<Vec<_>>(),
@@ -260,6 +261,19 @@ fn energy(recording: &Recording) -> Value {
     let effects = effects.map(|measure| json!({"effect": measure.name, "joules": measure.values}));
     energy["effects"] = effects.collect();
     energy
+}
+
+fn loads(recording: &Recording) -> Value {
+    let on = recording.measures_of(MeasureKind::Load).map(|measure| {
+        let mean = measure.values.iter().sum::<f64>() / measure.values.len() as f64;
+        json!({
+            "on": measure.name,
+            "newtons": measure.values,
+            "mean": mean,
+            "largest": {"value": measure.largest, "seconds": recording.end_of(measure.largest_step)},
+        })
+    });
+    json!({"seconds": measured_seconds(recording), "on": on.collect::<Vec<_>>()})
 }
 
 /// Returns cost against size, for `selvedge scaling`.

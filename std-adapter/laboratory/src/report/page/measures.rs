@@ -1,4 +1,4 @@
-//! The sections on energy and on the stretch of the cloth, which are measured at frames.
+//! The sections on energy, on the stretch of the cloth and on loads, which are measured at frames.
 
 use super::tables;
 use crate::report::number::{moment, three_figures};
@@ -33,6 +33,7 @@ impl<'a> Shown<'a> {
             MeasureKind::Energy => "energy",
             MeasureKind::EffectEnergy => "effect-energy",
             MeasureKind::Stretch => "stretch",
+            MeasureKind::Load => "load",
         }
     }
 
@@ -40,6 +41,7 @@ impl<'a> Shown<'a> {
         match self.kind {
             MeasureKind::Energy | MeasureKind::EffectEnergy => "J",
             MeasureKind::Stretch => "",
+            MeasureKind::Load => "N",
         }
     }
 
@@ -52,7 +54,7 @@ impl<'a> Shown<'a> {
     }
 }
 
-/// Returns both sections, as far as they have content.
+/// Returns all sections, as far as they have content.
 pub(super) fn sections(recording: &Recording) -> Markup {
     let shown = Shown::all(recording);
     let rows = |kind: MeasureKind| shown.iter().filter(move |one| one.kind == kind).map(Shown::row);
@@ -75,6 +77,14 @@ pub(super) fn sections(recording: &Recording) -> Markup {
                 h2 { "Edge lengths relative to rest" }
                 div.chart data-kind="stretch" {}
                 (stretch(recording))
+            }
+        }
+        @if has(MeasureKind::Load) {
+            section {
+                h2 { "Force of the cloth on what holds it" }
+                div.chart data-kind="load" {}
+                (tables::table(["force, in N", "at the start", "most", "at the end"], rows(MeasureKind::Load)))
+                p.note { "Each value is the mean of the " (recording.about.unit) " before a picture." }
             }
         }
     }

@@ -187,6 +187,7 @@ fn measures_at_frames_have_charts_and_rows_and_weight_counts_from_its_least() {
         ("gravitational", MeasureKind::Energy, [-5.0, -9.0]),
         ("self_collision", MeasureKind::EffectEnergy, [0.0, 3.0]),
         ("longest edge", MeasureKind::Stretch, [1.25, 1.0]),
+        ("ball", MeasureKind::Load, [0.0, 6.0]),
     ];
     recording.measured_steps = vec![0, 1];
     recording.measures = { measures.into_iter() }
@@ -203,10 +204,10 @@ fn measures_at_frames_have_charts_and_rows_and_weight_counts_from_its_least() {
         .into_iter()
         .map(|chart| chart.value().attr("data-kind").unwrap().to_owned());
     let kinds: Vec<String> = kinds.collect();
-    assert_eq!(kinds[..3], ["energy", "effect-energy", "stretch"]);
+    assert_eq!(kinds[..4], ["energy", "effect-energy", "stretch", "load"]);
     assert_eq!(
         numbers(&page, "measured", f32::from_le_bytes),
-        [0.0, 2.0, 4.0, 0.0, 0.0, 3.0, 1.25, 1.0]
+        [0.0, 2.0, 4.0, 0.0, 0.0, 3.0, 1.25, 1.0, 0.0, 6.0]
     );
     let header: Value = serde_json::from_str(&text(&page, "script#recording")).unwrap();
     assert_eq!(header["measures"][1]["kind"], "energy");
@@ -214,4 +215,5 @@ fn measures_at_frames_have_charts_and_rows_and_weight_counts_from_its_least() {
     let rows: Vec<String> = all(&page, "tbody tr").iter().map(|row| row.text().collect()).collect();
     assert!(rows.contains(&"gravitational440".to_owned()), "{rows:?}");
     assert!(rows.contains(&"longest edge11.250 s".to_owned()), "{rows:?}");
+    assert!(rows.contains(&"ball066".to_owned()), "{rows:?}");
 }

@@ -259,6 +259,9 @@ pub enum MeasureKind {
     EffectEnergy,
     /// The lengths of edges relative to those at rest.
     Stretch,
+    /// The force of the cloth on a body or on a group of pins or attachments, in N: the mean of the last step, or of the last
+    /// frame in a scene by frames.
+    Load,
 }
 
 /// The 99th percentile of edge lengths relative to those at rest.

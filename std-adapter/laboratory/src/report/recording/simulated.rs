@@ -6,7 +6,7 @@ use super::{EDGES_99, GRAVITATIONAL, LONGEST_EDGE};
 use crate::report::{label, printed};
 use crate::study::EffectCost;
 use selvedge::Mesh;
-use selvedge_cloth::{Scene, Simulation, TangledStart};
+use selvedge_cloth::{Scene, Simulation, TangledStart, Wrench};
 use selvedge_core::glam::DVec3;
 
 /// The description of a scene for a recording. It is taken before a [`Simulation`] consumes the scene.
@@ -64,13 +64,14 @@ impl Subject {
     }
 }
 
-/// A [`Recorder`] of a simulation. Its series are effects, and contacts if there are any; its measures are energy and stretch.
+/// A [`Recorder`] of a simulation. Its series are effects, and contacts if there are any; its measures are energy, stretch and
+/// loads.
 ///
 /// Tearing adds vertices to cloth; all frames have those of the end.
 #[derive(Clone, Debug)]
 pub struct SimulationRecorder {
     recorder: Recorder,
-    measured: Vec<&'static str>,
+    measured: Vec<(String, MeasureKind)>,
     /// The number of copied vertices of each cloth.
     copied: Vec<usize>,
     /// The geometry of the cloths, if any has loose edges.
@@ -92,10 +93,11 @@ impl SimulationRecorder {
         let series: Vec<_> = counters.iter().map(|&(name, kind, _)| (name, kind)).collect();
         let Subject { about, parts, shown } = subject;
         let recorder = Recorder::new(about, parts, &series, &readings(simulation, 0.0));
-        let measures: Vec<_> = measures(simulation).iter().map(|&(name, kind, _)| (name, kind)).collect();
+        let measured: Vec<_> = measures(simulation).into_iter().map(|(name, kind, _)| (name, kind)).collect();
+        let measures: Vec<_> = measured.iter().map(|(name, kind)| (&**name, *kind)).collect();
         let mut recorder = Self {
             recorder: recorder.with_measures(&measures),
-            measured: measures.iter().map(|(name, _)| *name).collect(),
+            measured,
             copied: vec![0; simulation.cloth_names().len()],
             shown,
             positions: Vec::new(),
@@ -133,7 +135,7 @@ impl SimulationRecorder {
         }
     }
 
-    /// Offers the state as a frame, and measures its energy and the stretch of the cloth.
+    /// Offers the state as a frame, and measures its energy, the stretch of the cloth, and loads.
     ///
     /// # Errors
     /// Returns an error if a coordinate is not finite as an `f32`.
@@ -154,9 +156,9 @@ impl SimulationRecorder {
         self.recorder.frame(step, positions)?;
         let now = measures(simulation);
         // A balloon that has burst holds no pressure and no energy.
-        let value = |wanted: &&str| {
+        let value = |(wanted, of): &(String, MeasureKind)| {
             now.iter()
-                .find(|(name, ..)| name == wanted)
+                .find(|(name, kind, _)| name == wanted && kind == of)
                 .map_or(0.0, |(_, _, value)| *value)
         };
         let values: Vec<f64> = self.measured.iter().map(value).collect();
@@ -185,12 +187,14 @@ impl SimulationRecorder {
         self.recorder.remark(sentence);
     }
 
-    /// Ends the recording. `seconds` is the wall-clock time of the steps.
+    /// Ends the recording, without the loads of what the cloth never loads. `seconds` is the wall-clock time of the steps.
     pub fn finish(self, seconds: f64) -> Recording {
         let mut recording = self.recorder.finish(Some(seconds));
         let lost = lost(&recording);
         let kinds = recording.measures_of(MeasureKind::Energy).count();
         recording.measures.insert(kinds, lost);
+        let measures = &mut recording.measures;
+        measures.retain(|measure| measure.kind != MeasureKind::Load || measure.largest > 0.0);
         recording
     }
 }
@@ -241,7 +245,7 @@ fn readings(simulation: &Simulation, seconds: f64) -> Vec<f64> {
 }
 
 /// Returns all measures of a state; kinds of energy come first.
-fn measures(simulation: &Simulation) -> Vec<(&'static str, MeasureKind, f64)> {
+fn measures(simulation: &Simulation) -> Vec<(String, MeasureKind, f64)> {
     let energy = simulation.energy();
     let kinds = [
         ("kinetic", Some(energy.kinetic)),
@@ -258,7 +262,26 @@ fn measures(simulation: &Simulation) -> Vec<(&'static str, MeasureKind, f64)> {
         (EDGES_99, MeasureKind::Stretch, stretch.percentile_99),
         (LONGEST_EDGE, MeasureKind::Stretch, stretch.largest),
     ];
-    kinds.chain(effects).chain(stretch).collect()
+    let named = kinds.chain(effects).chain(stretch);
+    named
+        .map(|(name, kind, value)| (name.to_owned(), kind, value))
+        .chain(loads(simulation))
+        .collect()
+}
+
+/// Returns the force on each body and on each group of pins and attachments.
+fn loads(simulation: &Simulation) -> Vec<(String, MeasureKind, f64)> {
+    let about = DVec3::ZERO;
+    let bodies = simulation.body_names().iter().enumerate();
+    let bodies = bodies.filter_map(|(body, name)| Some((name.clone(), simulation.mean_body_load(body, about)?.total())));
+    let groups = |what: &'static str, load: fn(&Simulation, usize, DVec3) -> Option<Wrench>| {
+        (0..).map_while(move |group| Some((format!("{what}, group {group}"), load(simulation, group, about)?)))
+    };
+    bodies
+        .chain(groups("pins", Simulation::mean_pin_load))
+        .chain(groups("attachments", Simulation::mean_attachment_load))
+        .map(|(name, load)| (name, MeasureKind::Load, load.force.length()))
+        .collect()
 }
 
 /// Returns the energy drop since the start. It is below zero if moving bodies and wind have added more than was lost.

@@ -19,11 +19,12 @@ struct Line {
     points: Vec<[f64; 2]>,
 }
 
-/// Returns charts of energy and stretch, if one of the two has them.
+/// Returns charts of energy, stretch and loads, if one of the two has them.
 pub(super) fn sections(both: [&Recording; 2], names: &[String; 2]) -> Markup {
     let charts = [
         ("Energy, in J", MeasureKind::Energy),
         ("Edge lengths relative to rest", MeasureKind::Stretch),
+        ("Force of the cloth on what holds it, in N", MeasureKind::Load),
     ];
     html! {
         @for (title, kind) in charts {

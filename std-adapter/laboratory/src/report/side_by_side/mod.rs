@@ -1,7 +1,7 @@
 //! Compares two simulations on one page, which needs no scripts.
 //!
 //! The page has pictures of both at the same times from the same place, and the differences of their scenes. Numbers have ratios;
-//! charts show energy and stretch.
+//! charts show energy, stretch and loads.
 
 mod chart;
 mod rows;

@@ -1,6 +1,6 @@
 use super::table;
 use crate::report::number::{counted, moment, ordinal, signed_time, three_figures, time};
-use crate::report::recording::{EDGES_99, LONGEST_EDGE, MeasureKind, Recording};
+use crate::report::recording::{EDGES_99, LONGEST_EDGE, Measure, MeasureKind, Recording};
 use crate::report::start_sentences;
 use crate::study::EffectCost;
 use selvedge_cloth::Simulation;
@@ -53,13 +53,13 @@ pub fn simulation(simulation: &Simulation, recording: &Recording) -> String {
         text += "\n";
         text += &table(["pairs and events", "a step"], rows.map(mean));
     }
-    let energies = recording.measures_of(MeasureKind::Energy).map(|measure| {
-        let ends = [measure.values.first(), measure.values.last()];
-        let [first, last] = ends.map(|end| end.copied().map_or_else(String::new, three_figures));
-        [measure.name.clone(), first, three_figures(measure.largest), last]
-    });
-    text += "\n";
-    text += &table(["energy, in J", "at the start", "most", "at the end"], energies);
+    for (title, kind) in [("energy, in J", MeasureKind::Energy), ("force on, in N", MeasureKind::Load)] {
+        if recording.measures_of(kind).next().is_some() {
+            let rows = recording.measures_of(kind).map(row);
+            text += "\n";
+            text += &table([title, "at the start", "most", "at the end"], rows);
+        }
+    }
     for sentence in start_sentences(simulation) {
         text += &format!("\n{sentence}\n");
     }
@@ -112,4 +112,11 @@ fn at_worst(recording: &Recording) -> String {
         text += &format!("the slowest {unit}, the {place}, took {}\n", time(steps.largest));
     }
     text
+}
+
+/// Returns the name of a measure, and its values at the start, at most and at the end.
+fn row(measure: &Measure) -> [String; 4] {
+    let ends = [measure.values.first(), measure.values.last()];
+    let [first, last] = ends.map(|end| end.copied().map_or_else(String::new, three_figures));
+    [measure.name.clone(), first, three_figures(measure.largest), last]
 }

@@ -25,6 +25,7 @@ const CHARTS = {
   energy: { caption: "energy, in J", shape: linear, height: 230 },
   "effect-energy": { caption: "energy stored by effects, in J", shape: linear, height: 190 },
   stretch: { caption: "length relative to rest", shape: linear, height: 150 },
+  load: { caption: "force on bodies, pins and attachments, in N", shape: linear, height: 190 },
 };
 const MARGIN = { left: 58, right: 14, top: 12, bottom: 26 };
 const NAMESPACE = "http://www.w3.org/2000/svg";
