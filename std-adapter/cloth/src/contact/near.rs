@@ -50,6 +50,8 @@ pub(super) struct Rules<'a> {
     pub(super) error: GapError<f64>,
     /// True for vertices that seams hold.
     pub(super) sewn: &'a [bool],
+    /// The vertices that seams hold together, in both orders.
+    pub(super) joints: &'a [[u32; 2]],
     /// The normal cones of surfaces.
     pub(super) cones: &'a Cones,
     /// The number of the cloth's vertices; bodies' vertices come after them.
@@ -59,15 +61,33 @@ pub(super) struct Rules<'a> {
 impl Rules<'_> {
     /// Returns whether both sides of a pair have a vertex that a seam holds.
     fn are_sewn(&self, pair: &Candidate) -> bool {
-        let of_first = match pair.kind {
-            PairKind::VertexFace => 1,
-            PairKind::EdgeEdge => 2,
-        };
-        let (first, second) = pair.vertices.split_at(of_first);
-        [first, second]
+        sides(pair)
             .into_iter()
             .all(|side| side.iter().any(|&vertex| self.sewn[vertex as usize]))
     }
+
+    /// Returns whether a seam holds a vertex of one side and one of the other side together.
+    fn are_joined(&self, pair: &Candidate) -> bool {
+        let [first, second] = sides(pair);
+        self.are_sewn(pair)
+            && first
+                .iter()
+                .any(|&one| second.iter().any(|&other| self.joints.binary_search(&[one, other]).is_ok()))
+    }
+}
+
+/// The share of the thickness of neighbours at which a pair aims whose sides a seam joins. Such a pair turns about the seam,
+/// which holds its ends at the thickness. Its direction leads anywhere, and at the whole thickness the two press on each other.
+/// Law of the bag: one of irregular triangles trembles by 0.29 m/s at 4 ms with the whole thickness, and by 0.11 with half.
+const OF_JOINED: f64 = 0.5;
+
+/// The vertices of both sides of a pair.
+fn sides(pair: &Candidate) -> [&[u32]; 2] {
+    let of_first = match pair.kind {
+        PairKind::VertexFace => 1,
+        PairKind::EdgeEdge => 2,
+    };
+    pair.vertices.split_at(of_first).into()
 }
 
 /// The distance, in thicknesses, beyond which a pair needs no row at the first guess. A solve moves vertices away from there.
@@ -175,12 +195,8 @@ fn near_on_way(pair: &mut Candidate, rules: Rules<'_>, way: [&[DVec3]; 2], closi
 /// where they cross. Where an end of an edge is closest, its vertex and the other edge's face push.
 fn is_of_surface(pair: &Candidate, closest: &ClosestPoints, rules: Rules<'_>, positions: &[DVec3]) -> bool {
     let Rules { cones, .. } = rules;
-    let of_first = match pair.kind {
-        PairKind::VertexFace => 1,
-        PairKind::EdgeEdge => 2,
-    };
-    let (first, second) = pair.vertices.split_at(of_first);
-    let (of_first, of_second) = closest.weights.split_at(of_first);
+    let [first, second] = sides(pair);
+    let (of_first, of_second) = closest.weights.split_at(first.len());
     if pair.kind == PairKind::EdgeEdge && !pair.data.is_with_body() {
         return [(first, of_first), (second, of_second)]
             .into_iter()
@@ -203,6 +219,9 @@ fn thickness_of(pair: &Candidate, rules: Rules<'_>) -> Option<f64> {
     let [one, .., other] = pair.vertices;
     if pair.data.is_with_body() {
         return Some(thickness);
+    }
+    if rules.are_joined(pair) {
+        return Some(OF_JOINED * asked.of_neighbours());
     }
     if rules.are_sewn(pair) {
         return Some(asked.of_neighbours());

@@ -35,6 +35,8 @@ pub(crate) struct ContactSolver {
     cloth_vertices: u32,
     /// True for vertices that seams hold.
     sewn: Vec<bool>,
+    /// The vertices that seams hold together, in both orders.
+    joints: Vec<[u32; 2]>,
     pub(super) moved: Vec<bool>,
     /// The candidates to test after vertices have moved; the field exists to use its memory again.
     pub(super) places: Vec<usize>,
@@ -64,6 +66,7 @@ impl ContactSolver {
             cones: Cones::new(&topology),
             cloth_vertices: cloth_vertices as u32,
             sewn: vec![false; rest.len()],
+            joints: Vec::new(),
             candidates: candidates(&mut settings, topology, rest, carriers, cloth_vertices, time_step),
             settings,
             carriers: carriers.to_vec(),
@@ -81,9 +84,14 @@ impl ContactSolver {
         }
     }
 
-    /// Names vertices that seams hold.
-    pub(crate) fn sew(&mut self, vertices: impl Iterator<Item = u32>) {
-        vertices.for_each(|vertex| self.sewn[vertex as usize] = true);
+    /// Names vertices that seams hold together.
+    pub(crate) fn sew(&mut self, joints: impl Iterator<Item = [u32; 2]>) {
+        for [one, other] in joints {
+            self.sewn[one as usize] = true;
+            self.sewn[other as usize] = true;
+            self.joints.extend([[one, other], [other, one]]);
+        }
+        self.joints.sort_unstable();
     }
 
     /// Discards the data of the steps before; the next step is expected to lead from `start` to `end` in `h` seconds.
@@ -151,6 +159,7 @@ impl ContactSolver {
             rest: &self.rest,
             error: self.error,
             sewn: &self.sewn,
+            joints: &self.joints,
             cones: &self.cones,
             cloth_vertices: self.cloth_vertices,
         };

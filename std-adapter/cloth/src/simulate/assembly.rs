@@ -120,7 +120,7 @@ impl Assembly {
         });
         let mut contact = contact.transpose()?;
         if let Some(contact) = &mut contact {
-            contact.sew(terms.iter().flat_map(|entry| entry.action.joints()).flatten());
+            contact.sew(terms.iter().flat_map(|entry| entry.action.joints()));
         }
         let joints: Vec<[u32; 2]> = terms.iter().flat_map(|entry| entry.action.joints()).collect();
         let edges = edges(&triangles[..cloth_triangles])
