@@ -51,40 +51,25 @@ pub(crate) fn of_body<'py>(
     ))
 }
 
+type GroupLoad = fn(&Simulation, usize, DVec3) -> Option<Wrench>;
+
+/// A kind of groups, with its loads at the end of the last step and in the mean of the last call.
+pub(crate) struct Groups(&'static str, GroupLoad, GroupLoad);
+
+pub(crate) const PINS: Groups = Groups("pins", Simulation::pin_load, Simulation::mean_pin_load);
+pub(crate) const ATTACHMENTS: Groups = Groups("attachments", Simulation::attachment_load, Simulation::mean_attachment_load);
+
 /// Returns the load on a group, or the error that there is none.
-fn of_group<'py>(py: Python<'py>, what: &str, group: usize, load: Option<Wrench>) -> PyResult<Bound<'py, PyAny>> {
+pub(crate) fn of_group<'py>(
+    py: Python<'py>,
+    simulation: &Simulation,
+    Groups(what, now, in_mean): Groups,
+    (group, about): (usize, DVec3),
+    mean: bool,
+) -> PyResult<Bound<'py, PyAny>> {
+    let load = if mean { in_mean } else { now }(simulation, group, about);
     let no_group = || InputError::new_err(format!("the scene has no group {group} of {what}"));
     wrench(py, load.ok_or_else(no_group)?)
-}
-
-pub(crate) fn of_pins<'py>(
-    py: Python<'py>,
-    simulation: &Simulation,
-    group: usize,
-    about: DVec3,
-    mean: bool,
-) -> PyResult<Bound<'py, PyAny>> {
-    let load = if mean {
-        simulation.mean_pin_load(group, about)
-    } else {
-        simulation.pin_load(group, about)
-    };
-    of_group(py, "pins", group, load)
-}
-
-pub(crate) fn of_attachments<'py>(
-    py: Python<'py>,
-    simulation: &Simulation,
-    group: usize,
-    about: DVec3,
-    mean: bool,
-) -> PyResult<Bound<'py, PyAny>> {
-    let load = if mean {
-        simulation.mean_attachment_load(group, about)
-    } else {
-        simulation.attachment_load(group, about)
-    };
-    of_group(py, "attachments", group, load)
 }
 
 pub(crate) fn of_contacts<'py>(py: Python<'py>, simulation: &Simulation, body: usize) -> PyResult<Bound<'py, PyAny>> {

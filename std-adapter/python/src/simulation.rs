@@ -263,13 +263,13 @@ impl Simulation {
     #[doc = crate::stub!("Simulation.pin_load")]
     #[pyo3(signature = (group, about=[0.0; 3], *, mean=false))]
     fn pin_load<'py>(&self, py: Python<'py>, group: usize, about: [f64; 3], mean: bool) -> PyResult<Bound<'py, PyAny>> {
-        loads::of_pins(py, &*self.simulation()?, group, about.into(), mean)
+        loads::of_group(py, &*self.simulation()?, loads::PINS, (group, about.into()), mean)
     }
 
     #[doc = crate::stub!("Simulation.attachment_load")]
     #[pyo3(signature = (group, about=[0.0; 3], *, mean=false))]
     fn attachment_load<'py>(&self, py: Python<'py>, group: usize, about: [f64; 3], mean: bool) -> PyResult<Bound<'py, PyAny>> {
-        loads::of_attachments(py, &*self.simulation()?, group, about.into(), mean)
+        loads::of_group(py, &*self.simulation()?, loads::ATTACHMENTS, (group, about.into()), mean)
     }
 
     #[doc = crate::stub!("Simulation.contact_loads")]

@@ -3,6 +3,7 @@
 // It never traps. fuzz/campaign.sh runs it as the target `npm`, and node.test.mjs runs some thousand calls.
 
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 
@@ -11,32 +12,7 @@ const EXCEPTIONS = new Set([
 ]);
 
 /** A small scene with all that can be driven. */
-const SCENE = `
-time_step = 0.002
-duration = 1
-[[body]]
-name = 'ball'
-shape = 'ball'
-centre = [0.05, 0.05, -0.06]
-radius = 0.05
-around = 6
-driven = true
-[cloth]
-shape = 'sheet'
-sides = { first = [0.1, 0, 0], second = [0, 0.1, 0] }
-cells = [2, 2]
-density = 0.15
-[effects.gravity]
-[effects.stretch]
-stiffness = 500
-[effects.wind]
-velocity = [0, 0, 0]
-[effects.body_contact]
-thickness = 0.005
-[[effects.pins.group]]
-part = 'left'
-driven = true
-`;
+const SCENE = readFileSync(new URL("../../c/tests/messages/scene.toml", import.meta.url), "utf8");
 
 const TRIANGLES = [0, 1, 2, 3, 4, 5];
 const START = [-5, -5, 0, 5, -5, 0, 0, 5, 0, 0, 0, 1, 1, 0, 1.1, 0, 1, 1.2];

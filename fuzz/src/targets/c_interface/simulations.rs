@@ -6,36 +6,19 @@ use selvedge_c::interface::*;
 use std::ffi::CStr;
 use std::ptr;
 
-const SCENE: &CStr = c"
-time_step = 0.002
-duration = 1
-[[body]]
-name = 'ball'
-shape = 'ball'
-centre = [0.05, 0.05, -0.06]
-radius = 0.05
-around = 6
-driven = true
-[cloth]
-shape = 'sheet'
-sides = { first = [0.1, 0, 0], second = [0, 0.1, 0] }
-cells = [2, 2]
-density = 0.15
-[effects.gravity]
-[effects.stretch]
-stiffness = 500
-[effects.wind]
-velocity = [0, 0, 0]
-[effects.self_collision]
-thickness = 0.005
-[effects.body_contact]
-thickness = 0.005
-[[effects.pins.group]]
-part = 'left'
-driven = true
-";
+/// The scene of the tests of messages, with self-collision.
+const SCENE: &CStr = {
+    let text = concat!(
+        include_str!("../../../../std-adapter/c/tests/messages/scene.toml"),
+        "\n[effects.self_collision]\nthickness = 0.005\n\0"
+    );
+    match CStr::from_bytes_with_nul(text.as_bytes()) {
+        Ok(text) => text,
+        Err(_) => panic!("a zero in the scene"),
+    }
+};
 /// The room for the vertices and triangles of the scene, each with three numbers.
-const LARGE: usize = 64;
+const LARGE: usize = 128;
 
 /// A simulation, and the room of its caller.
 pub(super) struct Simulations {

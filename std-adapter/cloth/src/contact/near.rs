@@ -48,8 +48,6 @@ pub(super) struct Rules<'a> {
     pub(super) rest: &'a [DVec3],
     /// The error of gaps between positions of this step.
     pub(super) error: GapError<f64>,
-    /// True for vertices that seams hold.
-    pub(super) sewn: &'a [bool],
     /// The vertices that seams hold together, in both orders.
     pub(super) joints: &'a [[u32; 2]],
     /// The normal cones of surfaces.
@@ -63,16 +61,21 @@ impl Rules<'_> {
     fn are_sewn(&self, pair: &Candidate) -> bool {
         sides(pair)
             .into_iter()
-            .all(|side| side.iter().any(|&vertex| self.sewn[vertex as usize]))
+            .all(|side| side.iter().any(|&vertex| !self.joined_to(vertex).is_empty()))
     }
 
     /// Returns whether a seam holds a vertex of one side and one of the other side together.
     fn are_joined(&self, pair: &Candidate) -> bool {
         let [first, second] = sides(pair);
-        self.are_sewn(pair)
-            && first
-                .iter()
-                .any(|&one| second.iter().any(|&other| self.joints.binary_search(&[one, other]).is_ok()))
+        let mut joints = first.iter().flat_map(|&vertex| self.joined_to(vertex));
+        joints.any(|[_, other]| second.contains(other))
+    }
+
+    /// Returns the joints of a vertex.
+    fn joined_to(&self, vertex: u32) -> &[[u32; 2]] {
+        let from = self.joints.partition_point(|[one, _]| *one < vertex);
+        let count = self.joints[from..].partition_point(|[one, _]| *one == vertex);
+        &self.joints[from..from + count]
     }
 }
 

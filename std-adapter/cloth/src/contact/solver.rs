@@ -33,8 +33,6 @@ pub(crate) struct ContactSolver {
     /// The normal cones of surfaces.
     cones: Cones,
     cloth_vertices: u32,
-    /// True for vertices that seams hold.
-    sewn: Vec<bool>,
     /// The vertices that seams hold together, in both orders.
     joints: Vec<[u32; 2]>,
     pub(super) moved: Vec<bool>,
@@ -65,7 +63,6 @@ impl ContactSolver {
         Self {
             cones: Cones::new(&topology),
             cloth_vertices: cloth_vertices as u32,
-            sewn: vec![false; rest.len()],
             joints: Vec::new(),
             candidates: candidates(&mut settings, topology, rest, carriers, cloth_vertices, time_step),
             settings,
@@ -86,11 +83,8 @@ impl ContactSolver {
 
     /// Names vertices that seams hold together.
     pub(crate) fn sew(&mut self, joints: impl Iterator<Item = [u32; 2]>) {
-        for [one, other] in joints {
-            self.sewn[one as usize] = true;
-            self.sewn[other as usize] = true;
-            self.joints.extend([[one, other], [other, one]]);
-        }
+        self.joints
+            .extend(joints.flat_map(|[one, other]| [[one, other], [other, one]]));
         self.joints.sort_unstable();
     }
 
@@ -158,7 +152,6 @@ impl ContactSolver {
             exempt: &self.exempt,
             rest: &self.rest,
             error: self.error,
-            sewn: &self.sewn,
             joints: &self.joints,
             cones: &self.cones,
             cloth_vertices: self.cloth_vertices,

@@ -41,7 +41,8 @@ impl<'a> TimeStep<'a> {
 ///
 /// A failed step is repeated in parts, so a force must depend on its arguments alone.
 pub trait Force: Debug + Send + Sync {
-    /// Adds to the velocities of all vertices, in m/s. Those of kinematic vertices are ignored.
+    /// Adds to the velocities of all vertices, in m/s. Those of kinematic vertices are ignored. It may be called several times
+    /// for a step, also with the masses of pinned vertices, for the loads on pins. So the result must depend on `step` alone.
     fn apply(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3]);
 
     /// Returns the stored energy, or `None` without any. It is called on request, never in a step.

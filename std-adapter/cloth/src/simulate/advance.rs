@@ -130,7 +130,7 @@ impl Simulation {
             }
             result
         });
-        self.pushes.0.clear();
+        self.added_forces.0.clear();
         let clock = self.state.clock;
         let has_arrived = matches!(result, Ok(BodyClock::Went));
         for driven in self.made.motions.iter_mut().filter_map(Kinematic::driven_mut) {

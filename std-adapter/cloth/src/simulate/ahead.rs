@@ -1,12 +1,13 @@
-//! What is about to happen in a frame: how fast its bodies and pins become.
+//! The speed of bodies and pins in the frame that begins.
 
 use super::assembly::Assembly;
 use super::state::State;
 use crate::model::step::{Carrier, FREE};
+use crate::world::put_kinematic;
 use selvedge_core::glam::DVec3;
 
 /// The number of places at which bodies and pins are looked at on their way through a frame. A motion that begins or ends within
-/// a frame of a film is seen, and one that does not turn round is followed.
+/// a frame is seen, and one that does not turn round is followed: tests of frames.
 const PLACES: u32 = 4;
 
 /// Buffers of the look ahead.
@@ -34,13 +35,7 @@ impl Ahead {
         for place in 1..=PLACES {
             let clock = state.clock + between * f64::from(place);
             to.clone_from(&state.positions);
-            for (vertex, &carrier) in carriers.iter().enumerate().filter(|(_, carrier)| **carrier != FREE) {
-                let pose = motions[carrier as usize].pose(clock);
-                if pose.is_rigid() {
-                    to[vertex] = pose.apply(carried[vertex]);
-                }
-            }
-            motions.iter_mut().for_each(|motion| motion.put(clock, to));
+            put_kinematic(motions, carriers, carried, clock, to);
             for (vertex, speed) in speeds.iter_mut().enumerate().filter(|(vertex, _)| carriers[*vertex] != FREE) {
                 *speed = speed.max(((to[vertex] - from[vertex]) / between - mean).length());
             }

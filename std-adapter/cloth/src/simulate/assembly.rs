@@ -1,7 +1,7 @@
 //! The data that a simulation derives from a scene's meshes and effects: at the start, and again after cloth has torn.
 
 use super::errors::SetupError;
-use super::loads::Held;
+use super::loads::Supports;
 use super::momentum::Pieces;
 use crate::contact::ContactSolver;
 use crate::contact::smooth_body::SmoothBody;
@@ -35,8 +35,7 @@ pub(super) struct Assembly {
     pub(super) motions: Vec<Kinematic>,
     /// The carrier of each group of pins.
     pub(super) pins: Vec<Carrier>,
-    /// What holds cloth.
-    pub(super) held: Held,
+    pub(super) supports: Supports,
     pub(super) forces: Vec<ActingForce>,
     pub(super) contact: Option<ContactSolver>,
     pub(super) tearable: Vec<Tearable>,
@@ -143,7 +142,7 @@ impl Assembly {
             carriers,
             motions,
             pins,
-            held: Held::new(pinned, attachment_groups, &scene.cloths),
+            supports: Supports::new(pinned, attachment_groups, &scene.cloths),
             forces,
             tearable,
             solve,

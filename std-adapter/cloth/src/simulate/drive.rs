@@ -1,4 +1,4 @@
-//! What the caller sets from step to step: motions of bodies and pins, the wind, and forces on vertices.
+//! The caller moves bodies and pins, changes the wind, and pushes vertices, from step to step.
 
 use super::assembly::Assembly;
 use super::errors::Blocked;
@@ -166,9 +166,9 @@ impl Simulation {
     /// Returns an error if a vertex is not of cloth, or a component of the force is not finite or above 1 MN. Then no force is
     /// added.
     pub fn add_force(&mut self, vertices: &[u32], force: DVec3) -> Result<(), DriveError> {
-        self.check_pushed(vertices)?;
+        self.check_of_cloth(vertices)?;
         STRONGEST.check_vector(force)?;
-        self.pushes.0.extend(vertices.iter().map(|&vertex| (vertex, force)));
+        self.added_forces.0.extend(vertices.iter().map(|&vertex| (vertex, force)));
         Ok(())
     }
 
@@ -181,15 +181,15 @@ impl Simulation {
         if expected != found {
             return Err(DriveError::ForceCount { expected, found });
         }
-        self.check_pushed(vertices)?;
+        self.check_of_cloth(vertices)?;
         forces.iter().try_for_each(|&force| STRONGEST.check_vector(force))?;
-        self.pushes
+        self.added_forces
             .0
             .extend(vertices.iter().zip(forces).map(|(&vertex, &force)| (vertex, force)));
         Ok(())
     }
 
-    fn check_pushed(&self, vertices: &[u32]) -> Result<(), DriveError> {
+    fn check_of_cloth(&self, vertices: &[u32]) -> Result<(), DriveError> {
         let cloth = self.made.cloth_vertices;
         match vertices.iter().find(|&&vertex| vertex as usize >= cloth) {
             Some(&vertex) => Err(DriveError::NoVertex { vertex, vertices: cloth }),
@@ -242,7 +242,7 @@ impl Simulation {
                 format!("the group {} of pins", group.unwrap_or_default())
             }
         };
-        self.pushes.0.clear();
+        self.added_forces.0.clear();
         for driven in self.made.motions.iter_mut().filter_map(Kinematic::driven_mut) {
             driven.stand(driven.placement);
         }

@@ -9,7 +9,7 @@
 //! **Accuracy.** The sum of all loads is the change of the cloth's momentum without that by gravity, up to the force that the
 //! solve left ([`Accuracy`](crate::Accuracy)), and what the certificate took from the motion. At rest both vanish.
 
-use super::pushes::Pushes;
+use super::added_forces::AddedForces;
 use crate::contact::smooth_body::SmoothBody;
 use crate::effects::plan::ActingForce;
 use crate::model::step::{Carrier, TimeStep};
@@ -109,9 +109,9 @@ pub struct ContactLoad {
     pub friction: DVec3,
 }
 
-/// What holds cloth besides contact.
+/// The pins and attachments that hold the cloth.
 #[derive(Debug)]
-pub(super) struct Held {
+pub(super) struct Supports {
     /// The vertices of each group of pins.
     groups: Vec<Vec<u32>>,
     attachment_groups: usize,
@@ -119,7 +119,7 @@ pub(super) struct Held {
     pinned: Vec<(usize, f64)>,
 }
 
-impl Held {
+impl Supports {
     pub(super) fn new(groups: Vec<Vec<u32>>, attachment_groups: usize, cloths: &[Cloth]) -> Self {
         let mut pinned = groups.concat();
         pinned.sort_unstable();
@@ -138,7 +138,7 @@ impl Held {
     }
 }
 
-/// What a solve has found, before anything moves its positions.
+/// A solve that has ended. Its positions have not been moved since.
 pub(super) struct Solved<'a> {
     pub(super) solve: &'a Solve,
     pub(super) step: &'a TimeStep<'a>,
@@ -147,9 +147,9 @@ pub(super) struct Solved<'a> {
     pub(super) x: &'a [DVec3],
     pub(super) carriers: &'a [Carrier],
     pub(super) smooth_bodies: &'a [SmoothBody],
-    pub(super) held: &'a Held,
+    pub(super) supports: &'a Supports,
     pub(super) drag: &'a [f64],
-    pub(super) pushes: &'a Pushes,
+    pub(super) added_forces: &'a AddedForces,
     pub(super) cloth_vertices: usize,
 }
 
@@ -196,11 +196,11 @@ pub(super) struct Loads {
 }
 
 impl Loads {
-    pub(super) fn new(held: &Held, bodies: usize) -> Self {
+    pub(super) fn new(supports: &Supports, bodies: usize) -> Self {
         let none = Sums {
             bodies: vec![BodyLoad::default(); bodies],
-            pins: vec![Wrench::default(); held.groups.len()],
-            attachments: vec![Wrench::default(); held.attachment_groups],
+            pins: vec![Wrench::default(); supports.groups.len()],
+            attachments: vec![Wrench::default(); supports.attachment_groups],
         };
         Self {
             now: none.clone(),
@@ -274,17 +274,17 @@ impl Loads {
             velocities,
             x,
             carriers,
-            held,
+            supports,
             drag,
-            pushes,
+            added_forces,
             ..
         } = *solved;
-        if held.pinned.is_empty() {
+        if supports.pinned.is_empty() {
             return;
         }
         self.inverse_masses.clear();
         self.inverse_masses.extend_from_slice(step.inverse_masses);
-        for &(vertex, mass) in &held.pinned {
+        for &(vertex, mass) in &supports.pinned {
             self.inverse_masses[vertex] = mass.recip();
         }
         let unpinned = TimeStep {
@@ -294,7 +294,7 @@ impl Loads {
         self.forced.clear();
         self.forced.extend_from_slice(velocities);
         forces.iter_mut().for_each(|force| force.apply(&unpinned, &mut self.forced));
-        pushes.apply(&unpinned, &mut self.forced);
+        added_forces.apply(&unpinned, &mut self.forced);
         let load = |vertex: usize| {
             let mass = unpinned.inverse_masses[vertex].recip();
             let velocity = (x[vertex] - step.start[vertex]) / step.h;
@@ -302,10 +302,10 @@ impl Loads {
             let inertial = ((self.forced[vertex] - velocity) / step.h - slowed) * mass;
             Wrench::at(x[vertex], solve.force_on_pinned(vertex) + inertial)
         };
-        for (sum, group) in self.next.pins.iter_mut().zip(&held.groups) {
+        for (sum, group) in self.next.pins.iter_mut().zip(&supports.groups) {
             group.iter().for_each(|&vertex| sum.add(load(vertex as usize), 1.0));
         }
-        for &(vertex, _) in &held.pinned {
+        for &(vertex, _) in &supports.pinned {
             let carrier = carriers[vertex] as usize;
             if let Some(body) = self.next.bodies.get_mut(carrier) {
                 body.pins.add(load(vertex), 1.0);

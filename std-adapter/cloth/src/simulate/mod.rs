@@ -7,6 +7,7 @@
 //! **All numbers stay finite, whatever the scene**: nothing divides by a number that may be zero, and no vertex moves
 //! faster than [`FASTEST`].
 
+mod added_forces;
 mod advance;
 mod ahead;
 mod assembly;
@@ -19,7 +20,6 @@ mod growth;
 mod loads;
 mod measures;
 mod momentum;
-mod pushes;
 mod read_loads;
 mod resume;
 mod set_up;

@@ -93,7 +93,7 @@ impl Simulation {
         self.made.solve.keep(kept, &mut self.work.substep.history);
         self.state = checkpoint.state;
         self.loads.forget();
-        self.pushes.0.clear();
+        self.added_forces.0.clear();
         self.waiting = None;
         self.is_fresh = true;
         Ok(())

@@ -1,10 +1,10 @@
 //! Makes a simulation from a scene.
 
+use super::added_forces::AddedForces;
 use super::assembly::Assembly;
 use super::errors::SetupError;
 use super::loads::Loads;
 use super::measures::EffectTime;
-use super::pushes::Pushes;
 use super::simulation::{Simulation, Work};
 use super::state::State;
 use super::tangled::{Tangled, UntanglingProgress};
@@ -86,8 +86,8 @@ impl Simulation {
             threads,
             state,
             work: Work::default(),
-            loads: Loads::new(&made.held, bodies.len()),
-            pushes: Pushes::default(),
+            loads: Loads::new(&made.supports, bodies.len()),
+            added_forces: AddedForces::default(),
             carried,
             untangled: None,
             waiting: None,

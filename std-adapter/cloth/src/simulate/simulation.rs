@@ -1,10 +1,10 @@
 //! A simulation, and the results that a caller can read between two steps.
 
+use super::added_forces::AddedForces;
 use super::ahead::Ahead;
 use super::assembly::Assembly;
 use super::loads::Loads;
 use super::measures::{EdgeStretch, EffectTime};
-use super::pushes::Pushes;
 use super::state::State;
 use super::substep::SubstepWork;
 use super::tangled::Untangled;
@@ -71,7 +71,7 @@ pub struct Simulation {
     pub(super) state: State,
     pub(super) work: Work,
     pub(super) loads: Loads,
-    pub(super) pushes: Pushes,
+    pub(super) added_forces: AddedForces,
     pub(super) untangled: Option<Untangled>,
     /// The motion for which bodies and pins wait.
     pub(super) waiting: Option<Waiting>,

@@ -4,11 +4,11 @@
 //! begin ─▶ predict ─▶ rows ─▶ solve ─▶ momentum ─▶ certify ─▶ remember
 //! ```
 
+use super::added_forces::AddedForces;
 use super::assembly::Assembly;
 use super::loads::Solved;
 use super::measures::EffectTime;
 use super::momentum::Motion;
-use super::pushes::Pushes;
 use super::simulation::{Simulation, Work};
 use super::state::{FASTEST, limited};
 use crate::contact::smooth_body::{OF_MESH, SmoothBody, away};
@@ -17,7 +17,7 @@ use crate::effects::plan::ActingForce;
 use crate::model::step::{Carrier, FREE, TimeStep};
 use crate::solve::prediction::{self, History};
 use crate::solve::{ContactRow, Prediction, RowKey, Solve};
-use crate::world::Kinematic;
+use crate::world::put_kinematic;
 use selvedge::PairKind;
 use selvedge::clock::Clock;
 use selvedge_core::glam::DVec3;
@@ -29,8 +29,8 @@ const REACH: f64 = 1.5;
 /// all shipped scenes.
 const OVER_LIMIT: f64 = 1.02;
 
-/// Whether a step may end with edges over their limit because the certificate has held vertices back. Two shorter steps find the
-/// contacts in time.
+/// What happens to a step whose edges are over their limit because the certificate has held vertices back. Two shorter steps find
+/// the contacts in time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Overstretched {
     Refused,
@@ -66,7 +66,7 @@ impl Simulation {
             made,
             time_step,
             loads,
-            pushes,
+            added_forces,
             ..
         } = self;
         let Assembly {
@@ -79,7 +79,7 @@ impl Simulation {
             solve,
             smooth_bodies,
             drag,
-            held,
+            supports,
             friction_coefficient,
             cloth_vertices,
             ..
@@ -111,16 +111,10 @@ impl Simulation {
             velocities,
         } = substep;
         forced.clone_from(&state.velocities);
-        apply((forces, pushes), &step, forced, effects);
-        let end = |vertex: usize| match step.poses.get(carriers[vertex] as usize) {
-            Some([_, pose]) if pose.is_rigid() => pose.apply(carried[vertex]),
-            _ => step.start[vertex],
-        };
+        apply_forces((forces, added_forces), &step, forced, effects);
         ends.clear();
-        ends.extend((0..step.start.len()).map(end));
-        motions
-            .iter_mut()
-            .for_each(|motion: &mut Kinematic| motion.put(clock + ticks, ends));
+        ends.extend_from_slice(step.start);
+        put_kinematic(motions, carriers, carried, clock + ticks, ends);
 
         let both = [&state.velocities[..], &forced[..]];
         let order = (&drag[..], solve.accuracy.is_of_second_order());
@@ -164,9 +158,9 @@ impl Simulation {
                 x,
                 carriers,
                 smooth_bodies,
-                held,
+                supports,
                 drag,
-                pushes,
+                added_forces,
                 cloth_vertices: count,
             },
             forces,
@@ -206,8 +200,8 @@ impl Simulation {
 }
 
 /// Applies forces to velocities, and counts the time of their effects.
-fn apply(
-    (forces, pushes): (&mut [ActingForce], &Pushes),
+fn apply_forces(
+    (forces, added_forces): (&mut [ActingForce], &AddedForces),
     step: &TimeStep<'_>,
     velocities: &mut [DVec3],
     effects: &mut [EffectTime],
@@ -217,7 +211,7 @@ fn apply(
         entry.apply(step, velocities);
         effects[entry.effect].seconds += begin.elapsed().as_secs_f64();
     }
-    pushes.apply(step, velocities);
+    added_forces.apply(step, velocities);
     velocities
         .iter_mut()
         .for_each(|velocity| *velocity = limited(*velocity, FASTEST));
@@ -244,7 +238,6 @@ fn certify(
 ) -> Result<(), Blocker> {
     wanted.clone_from(x);
     contact.certify(step, x)?;
-    contact.counts.pushed += solve.rows.iter().filter(|row| row.push > 0.0).count() as u64;
     for (vertex, is_moved) in is_moved.iter_mut().enumerate() {
         *is_moved = wanted[vertex] != x[vertex];
         if *is_moved {
@@ -256,7 +249,11 @@ fn certify(
         && is_moved.contains(&true)
         && over(x) > OVER_LIMIT.max(over(wanted))
         && over(step.start) <= OVER_LIMIT;
-    if is_refused { Err(refusal(step)) } else { Ok(()) }
+    if is_refused {
+        return Err(refusal(step));
+    }
+    contact.counts.pushed += solve.rows.iter().filter(|row| row.push > 0.0).count() as u64;
+    Ok(())
 }
 
 /// The blocker of a step whose energy is not finite, or that is made in parts instead.

@@ -171,7 +171,7 @@ impl Simulation {
         if let (Some(new), Some(old)) = (&mut self.made.contact, &before.contact) {
             new.take_over(old, from);
         }
-        self.pushes.renumber(from);
+        self.added_forces.renumber(from);
         self.carried = gathered(&self.carried, from);
         self.state.positions = gathered(&self.state.positions, from);
         self.state.velocities = gathered(&self.state.velocities, from);

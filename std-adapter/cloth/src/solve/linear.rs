@@ -24,7 +24,7 @@ use super::term::Prediction;
 use super::tolerance::{Outcome, Tolerance};
 use selvedge_core::glam::{DVec3, Vec3A};
 
-/// The least number of last iterations that must mend little.
+/// The least number of last iterations that must mend little. A single one may mend little by chance.
 const FEWEST: usize = 2;
 
 /// The vectors of conjugate gradients; their memory is used again.
@@ -45,8 +45,9 @@ pub(super) struct Linear {
     pub(super) gradient: Vec<DVec3>,
     /// The pushes after the moves.
     pushes: Vec<f64>,
-    /// What each iteration has mended, and all Newton steps before.
+    /// What each iteration has mended.
     drops: Vec<f64>,
+    /// What all Newton steps before have mended.
     before: f64,
 }
 

@@ -6,11 +6,10 @@
 //!                      └─▶ end
 //! ```
 //!
-//! **The end.** Newton's method ends when the
-//! remaining force is about what the linear problem left, and the multipliers change little. What remains must also move little,
-//! in the norm of the masses, beside the way from the first guess. A rope that swings is longer at the first guess, by the
-//! square of its turn. That stretch has so much energy that the energy alone would let the swing go on for ever: law of the
-//! hanging chain.
+//! **The end.** Newton's method ends when the remaining force is about what the linear problem left, and the multipliers change
+//! little. What remains must also move little, in the norm of the masses, beside the way from the first guess. A rope that swings
+//! is longer at the first guess, by the square of its turn. That stretch has so much energy that the energy alone would let the
+//! swing go on for ever: law of the hanging chain.
 //!
 //! **Not finished** after the most Newton steps is not a failure. Multipliers go on in the next step, and the certificate guards
 //! the state. A cloth that buckles goes down from a saddle of the energy, which takes many steps, and none of them is wrong.
@@ -36,6 +35,7 @@ const ENOUGH: f64 = 0.7;
 const LEAST_SHARE: f64 = 0.02;
 /// The bisections of the line search, which then knows a share to a four-thousandth.
 const BISECTIONS: usize = 12;
+
 /// Buffers of a solve; their memory is used again.
 #[derive(Debug, Default)]
 pub(super) struct Work {
@@ -89,7 +89,7 @@ impl Solve {
                 }
             }
             let goal = (newton == 0).then_some(&prediction.goal[..]);
-            self.rows.iter_mut().for_each(|row| row.choose_at(x, goal));
+            self.rows.iter_mut().for_each(|row| row.choose(x, goal));
             self.find_residual(prediction, x, &work.gradient, &mut work.linear);
             if newton > 0 {
                 let Vectors { residual, image, .. } = &mut work.linear.vectors;
@@ -254,13 +254,6 @@ impl Work {
             by_mass(&mut self.linear.vectors.image.iter().map(|image| image.as_dvec3())),
             by_mass(&mut x.iter().zip(&self.guess).map(|(x, guess)| *x - *guess)),
         ]
-    }
-}
-
-impl ContactRow {
-    /// Chooses, with a goal for the cloth's vertices alone.
-    fn choose_at(&mut self, x: &[DVec3], goal: Option<&[DVec3]>) {
-        self.choose(x, goal);
     }
 }
 

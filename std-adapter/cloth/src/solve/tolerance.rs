@@ -1,4 +1,4 @@
-//! What a solve may leave, and how it ended.
+//! The error that a solve may leave, and how the solve has ended.
 
 use super::constants::{Accuracy, QUIET, STILL};
 use super::term::Prediction;

@@ -7,6 +7,7 @@ use super::animation::Animation;
 use super::keyframes::KeyframeMotion;
 use super::motion::{BodyMotion, Pose};
 use super::placement::Placement;
+use crate::model::step::Carrier;
 use selvedge_core::glam::DVec3;
 
 #[derive(Debug)]
@@ -118,6 +119,32 @@ impl Kinematic {
             Self::Driven(driven) => Some(driven),
         }
     }
+}
+
+/// Writes where bodies and pins are at a time of the clock. `carried` has the vertices of rigid motions as they carry them; other
+/// vertices stay.
+pub(crate) fn put_kinematic(
+    motions: &mut [Kinematic],
+    carriers: &[Carrier],
+    carried: &[DVec3],
+    clock: f64,
+    positions: &mut [DVec3],
+) {
+    // The vertices of a body follow each other.
+    let mut first = 0;
+    for own in carriers.chunk_by(|one, other| one == other) {
+        let range = first..first + own.len();
+        first = range.end;
+        let Some(pose) = motions.get(own[0] as usize).map(|motion| motion.pose(clock)) else {
+            continue;
+        };
+        if pose.is_rigid() {
+            for (position, &point) in positions[range.clone()].iter_mut().zip(&carried[range]) {
+                *position = pose.apply(point);
+            }
+        }
+    }
+    motions.iter_mut().for_each(|motion| motion.put(clock, positions));
 }
 
 impl Animated {

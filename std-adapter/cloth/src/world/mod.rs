@@ -29,7 +29,7 @@ pub use motion::BodyMotion;
 pub use placement::Placement;
 
 pub(crate) use animation::FASTEST_VERTEX;
-pub(crate) use driven::{Driven, Kinematic};
+pub(crate) use driven::{Driven, Kinematic, put_kinematic};
 pub(crate) use file_mesh::FileNumbering;
 pub use file_mesh::MeshInFiles;
 pub(crate) use keyframes::{KEY_TIME, check_key_time};

@@ -5,9 +5,9 @@ use selvedge_core::glam::DVec3;
 
 /// The forces of the next run: vertices of cloth, each with a force in N. A vertex may occur several times.
 #[derive(Debug, Default)]
-pub(super) struct Pushes(pub(super) Vec<(u32, DVec3)>);
+pub(super) struct AddedForces(pub(super) Vec<(u32, DVec3)>);
 
-impl Pushes {
+impl AddedForces {
     /// Adds to velocities what the forces change in a step.
     pub(super) fn apply(&self, step: &TimeStep<'_>, velocities: &mut [DVec3]) {
         for &(vertex, force) in &self.0 {
@@ -30,9 +30,9 @@ mod tests {
 
     #[test]
     fn forces_follow_their_vertices_when_a_tear_changes_their_numbers() {
-        let mut pushes = Pushes(vec![(1, DVec3::X), (2, DVec3::Y)]);
+        let mut forces = AddedForces(vec![(1, DVec3::X), (2, DVec3::Y)]);
         // Vertex 1 has a copy, which comes after it.
-        pushes.renumber(&[0, 1, 1, 2]);
-        assert_eq!(pushes.0, [(1, DVec3::X), (3, DVec3::Y)]);
+        forces.renumber(&[0, 1, 1, 2]);
+        assert_eq!(forces.0, [(1, DVec3::X), (3, DVec3::Y)]);
     }
 }
