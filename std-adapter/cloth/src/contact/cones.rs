@@ -15,6 +15,11 @@
 //!
 //! Cones are those of surfaces at the start of the step, so that bodies may change their shape.
 //!
+//! **A contact at rest goes on.** Taut cloth on a mesh lies along some of its faces, so that ways from the edges beside them are
+//! at the border of their cones. There a contact would come and go from step to step, and the cloth would tremble: an
+//! irregular bag around two balls by 14 cm/s (law of the bag). So a contact that pushed in the last step pushes on, along the
+//! cone's direction [next to its way](Cones::turn_into): that is the normal of a face beside it, and not oblique.
+//!
 //! **Cloth against cloth.** Oblique pushes make layers that lie on each other slide and tremble. But a fold lies beside itself,
 //! and cones on both sides would drop the pairs that keep it open, since the way along the cloth leads through the fold. So the
 //! test looks at the face of a vertex-face pair alone, which keeps all pairs whose foot is inside the face. It leaves out edges
@@ -91,6 +96,28 @@ impl Cones {
 
     /// Returns whether a direction is in the normal cone at the point with these weights of these vertices.
     pub(super) fn contain(&self, vertices: &[u32], weights: &[f64], positions: &[DVec3], direction: DVec3) -> bool {
+        self.all_ways(vertices, weights, positions, |way| {
+            direction.dot(way) <= TOLERANCE * length(way)
+        })
+    }
+
+    /// Returns the direction of the normal cone into which this one turns if each way along the surface takes its part of it
+    /// away; `None` if that is not in the cone, or the surface is flat there.
+    pub(super) fn turn_into(&self, vertices: &[u32], weights: &[f64], positions: &[DVec3], direction: DVec3) -> Option<DVec3> {
+        let mut turned = direction;
+        self.all_ways(vertices, weights, positions, |way| {
+            turned -= way * (turned.dot(way).max(0.0) / way.length_squared());
+            true
+        });
+        let turned = turned.normalize_or_zero();
+        let is_flat = self.all_ways(vertices, weights, positions, |way| {
+            turned.dot(way) >= -TOLERANCE * length(way)
+        });
+        (!is_flat && self.contain(vertices, weights, positions, turned)).then_some(turned)
+    }
+
+    /// Returns whether something is true of all ways along the surface from the point with these weights of these vertices.
+    fn all_ways(&self, vertices: &[u32], weights: &[f64], positions: &[DVec3], mut is_true: impl FnMut(DVec3) -> bool) -> bool {
         let mut on = [NONE; 3];
         let mut count = 0;
         for (&vertex, &weight) in vertices.iter().zip(weights) {
@@ -100,9 +127,8 @@ impl Cones {
             }
         }
         let at = |vertex: u32| positions[vertex as usize];
-        let leads_away = |way: DVec3| direction.dot(way) <= TOLERANCE * length(way);
         match on[..count] {
-            [vertex] => self.of(vertex).iter().all(|spoke| leads_away(at(spoke.to) - at(vertex))),
+            [vertex] => self.of(vertex).iter().all(|spoke| is_true(at(spoke.to) - at(vertex))),
             [from, to] => {
                 let edge = at(to) - at(from);
                 let squared = edge.length_squared();
@@ -110,7 +136,7 @@ impl Cones {
                 let mut opposite = beside.flat_map(|spoke| spoke.opposite).filter(|&vertex| vertex != NONE);
                 opposite.all(|vertex| {
                     let way = at(vertex) - at(from);
-                    leads_away(way - edge * (way.dot(edge) / squared))
+                    is_true(way - edge * (way.dot(edge) / squared))
                 })
             }
             _ => true,
@@ -147,6 +173,26 @@ mod tests {
         assert!(contains(&convex, DVec3::new(0.0, -0.5, 1.0))[1], "beyond the end of the edge");
         let concave = ridge(DVec3::new(-1.0, 0.5, 1.0), DVec3::new(1.0, 0.5, 1.0));
         assert!(!contains(&concave, DVec3::Z)[0]);
+    }
+
+    #[test]
+    fn a_direction_turns_into_a_cone_and_stays_there_and_a_flat_or_concave_edge_has_none() {
+        let turn = |(cones, positions): &(Cones, Vec<DVec3>), direction: DVec3| {
+            cones.turn_into(&[0, 1, 2], &[0.5, 0.5, 0.0], positions, direction.normalize())
+        };
+        let convex = ridge(DVec3::new(-1.0, 0.5, -1.0), DVec3::new(1.0, 0.5, -1.0));
+        let normal = DVec3::new(1.0, 0.0, 1.0).normalize();
+        let turned = turn(&convex, DVec3::new(1.2, 0.0, 1.0)).unwrap();
+        assert!(
+            turned.distance(normal) < 1e-12,
+            "the normal of the face that is nearer: {turned}"
+        );
+        let within = DVec3::new(0.5, 0.0, 1.0).normalize();
+        assert!(turn(&convex, within).unwrap().distance(within) < 1e-12);
+        let flat = ridge(DVec3::new(-1.0, 0.5, 0.0), DVec3::new(1.0, 0.5, 0.0));
+        assert_eq!(turn(&flat, DVec3::new(0.1, 0.0, 1.0)), None);
+        let concave = ridge(DVec3::new(-1.0, 0.5, 1.0), DVec3::new(1.0, 0.5, 1.0));
+        assert_eq!(turn(&concave, DVec3::Z), None);
     }
 
     #[test]

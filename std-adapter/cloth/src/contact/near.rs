@@ -6,11 +6,12 @@
 //! or the mesh would lock, and [less](super::neighbours). A tangled pair has no such distance at rest, and the distance of
 //! the two sides of a tear is zero. They come apart to at least the thickness of neighbours.
 //!
-//! Contacts with a body are those with its [surface](super::cones).
+//! Contacts with a body are those with its [surface](super::cones). The step says which of the others go on.
 //!
 //! **Only necessary work.** The step computes the closest points of a pair only if the direction that the pair stores does not
 //! keep it at its thickness.
 
+use super::PairKey;
 use super::candidate::{Aim, Candidate};
 use super::cones::Cones;
 use super::exempt::Exempt;
@@ -71,6 +72,12 @@ impl Rules<'_> {
         joints.any(|[_, other]| second.contains(other))
     }
 
+    /// Returns whether the first side of a pair is a body's.
+    fn is_body_first(&self, pair: &Candidate) -> bool {
+        let [_, second] = sides(pair);
+        pair.data.is_with_body() && second[0] < self.cloth_vertices
+    }
+
     /// Returns the joints of a vertex.
     fn joined_to(&self, vertex: u32) -> &[[u32; 2]] {
         let from = self.joints.partition_point(|[one, _]| *one < vertex);
@@ -101,6 +108,10 @@ fn reach(aim: f64) -> f64 {
     aim * (1.0 + MARGIN)
 }
 
+/// Whether a pair of a body that is no more one of its surface goes on as a contact, by its vertices and its distance in
+/// thicknesses.
+pub(crate) type GoesOn<'a> = &'a dyn Fn(PairKey, [u32; 4], f64) -> bool;
+
 /// Visits the pairs that may be nearer than their thickness at the end of a step: those that the direction which they store does
 /// not keep apart at the first guess, with room to spare, and where everything but contact leads.
 pub(super) fn visit_near(
@@ -108,6 +119,7 @@ pub(super) fn visit_near(
     rules: Rules<'_>,
     step: &TimeStep<'_>,
     [guess, goal]: [&[DVec3]; 2],
+    goes_on: GoesOn<'_>,
     visit: &mut dyn FnMut(&Candidate, ProximityPair, f64),
 ) {
     for pair in pairs {
@@ -133,7 +145,7 @@ pub(super) fn visit_near(
         if gap > wide.max(aim + closing) + 0.25 * closing {
             continue;
         }
-        if let Some((near, distance)) = near_on_way(pair, rules, [step.start, guess], closing) {
+        if let Some((near, distance)) = near_on_way(pair, rules, [step.start, guess], closing, goes_on) {
             visit(pair, near, distance);
         }
     }
@@ -164,11 +176,17 @@ fn first_near(pair: &Candidate, [start, guess]: [&[DVec3]; 2], closing: f64, at_
 }
 
 /// Returns the pair with its distance at the start of the step, if it is a contact on the way to the first guess.
-fn near_on_way(pair: &mut Candidate, rules: Rules<'_>, way: [&[DVec3]; 2], closing: f64) -> Option<(ProximityPair, f64)> {
+fn near_on_way(
+    pair: &mut Candidate,
+    rules: Rules<'_>,
+    way: [&[DVec3]; 2],
+    closing: f64,
+    goes_on: GoesOn<'_>,
+) -> Option<(ProximityPair, f64)> {
     let [start, _] = way;
     let mut closest = pair.closest(start);
     pair.refresh(closest.direction, start, rules.error);
-    let (distance, aim) = (closest.distance(), pair.data.aim.length());
+    let (mut distance, aim) = (closest.distance(), pair.data.aim.length());
     if distance > reach(aim).max(aim + closing) || closest.direction == DVec3::ZERO {
         return None;
     }
@@ -181,13 +199,18 @@ fn near_on_way(pair: &mut Candidate, rules: Rules<'_>, way: [&[DVec3]; 2], closi
     if !pair.data.aim.is_own() {
         pair.data.aim = Aim::own(thickness_of(pair, rules)?);
     }
+    let mut normal = closest.direction;
     if !is_of_surface(pair, &closest, rules, start) {
-        return None;
+        if !(pair.data.is_with_body() && goes_on(pair.key(), pair.vertices, distance / aim)) {
+            return None;
+        }
+        normal = turned_to_surface(pair, &closest, rules, start)?;
+        distance *= normal.dot(closest.direction);
     }
     let near = ProximityPair {
         vertices: pair.vertices,
         weights: closest.weights,
-        normal: closest.direction,
+        normal,
         thickness: pair.data.aim.length(),
     };
     Some((near, distance))
@@ -205,10 +228,22 @@ fn is_of_surface(pair: &Candidate, closest: &ClosestPoints, rules: Rules<'_>, po
             .into_iter()
             .all(|(edge, weights)| Cones::are_all(weights) || !cones.is_beside_a_face(edge));
     }
-    if pair.data.is_with_body() && second[0] < rules.cloth_vertices {
+    if rules.is_body_first(pair) {
         cones.contain(first, of_first, positions, -closest.direction)
     } else {
         cones.contain(second, of_second, positions, closest.direction)
+    }
+}
+
+/// Returns the direction of a pair with a body, turned into the cone of the body's side; `None` if it has none.
+fn turned_to_surface(pair: &Candidate, closest: &ClosestPoints, rules: Rules<'_>, positions: &[DVec3]) -> Option<DVec3> {
+    let Rules { cones, .. } = rules;
+    let [first, second] = sides(pair);
+    let (of_first, of_second) = closest.weights.split_at(first.len());
+    if rules.is_body_first(pair) {
+        Some(-cones.turn_into(first, of_first, positions, -closest.direction)?)
+    } else {
+        cones.turn_into(second, of_second, positions, closest.direction)
     }
 }
 

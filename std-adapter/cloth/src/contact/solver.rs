@@ -6,7 +6,7 @@ use super::cones::Cones;
 use super::crossing::{Crossing, PairKey};
 use super::exempt::{Exempt, Tangle};
 use super::impact_zones::ImpactZones;
-use super::near::{ProximityPair, Rules, visit_near};
+use super::near::{GoesOn, ProximityPair, Rules, visit_near};
 use super::relaxation::Relaxation;
 use super::report::{ContactCounts, ContactSeconds};
 use super::settings::ContactSettings;
@@ -123,11 +123,12 @@ impl ContactSolver {
 
     /// Finds the candidates of a step, and visits those that may be nearer than their thickness at its end, each with its
     /// distance at the start: `guess` has the positions at which the solve begins, and `goal` those to which everything but
-    /// contact leads.
+    /// contact leads. `goes_on` says whether a pair of a body goes on that is no more one of its surface.
     pub(crate) fn visit_near(
         &mut self,
         step: &TimeStep<'_>,
         [guess, goal]: [&[DVec3]; 2],
+        goes_on: GoesOn<'_>,
         visit: &mut dyn FnMut(PairKey, bool, ProximityPair, f64),
     ) {
         let begin = Clock::now();
@@ -138,7 +139,7 @@ impl ContactSolver {
         self.error = gap_error(&self.candidates, [step.start, guess]).larger(gap_error(&self.candidates, [goal, goal]));
         if self.pushes {
             let (pairs, rules) = self.parts();
-            visit_near(pairs, rules, step, [guess, goal], &mut |pair, near, distance| {
+            visit_near(pairs, rules, step, [guess, goal], goes_on, &mut |pair, near, distance| {
                 visit(pair.key(), pair.data.is_with_body(), near, distance);
             });
         }

@@ -275,8 +275,7 @@ fn collect_rows(
     [guess, goal]: [&[DVec3]; 2],
     friction: f64,
 ) {
-    let rows = &mut solve.rows;
-    rows.clear();
+    let (rows, was_at_rest) = solve.begin_rows();
     collect_smooth_rows(rows, smooth_bodies, step, [guess, goal], friction);
     let Some(contact) = contact else { return };
     // Bodies' vertices come after the cloths'.
@@ -286,7 +285,11 @@ fn collect_rows(
         let own = smooth_bodies.iter().map(|body| body.carrier);
         { own }.any(|own| own == carrier as usize && step.poses[own][1].is_rigid())
     };
-    contact.visit_near(step, [guess, goal], &mut |key, is_with_body, near, distance| {
+    let goes_on = |key, vertices, thicknesses: f64| {
+        let aim = if is_smooth(vertices) { OF_MESH } else { 1.0 };
+        was_at_rest(key, thicknesses / aim)
+    };
+    contact.visit_near(step, [guess, goal], &goes_on, &mut |key, is_with_body, near, distance| {
         let ProximityPair {
             vertices,
             weights,

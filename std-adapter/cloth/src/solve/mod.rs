@@ -53,6 +53,7 @@ pub(crate) use newton::NotFinite;
 pub use term::{Prediction, Renewed, Term};
 pub(crate) use tolerance::Outcome;
 
+use crate::contact::PairKey;
 use crate::effects::plan::Entry;
 use crate::model::step::TimeStep;
 use constants::{GIVE, STIFFER_THAN_BODIES, STIFFER_THAN_CLOTH};
@@ -116,6 +117,15 @@ impl Solve {
             pushes: FxHashMap::default(),
             work: newton::Work::default(),
         }
+    }
+
+    /// Removes all rows, and returns their place with a test whether a pair was a contact at rest in the last step, by its
+    /// distance in thicknesses: it pushed, and is pressed by no more than a load may press it.
+    pub(crate) fn begin_rows(&mut self) -> (&mut Vec<ContactRow>, impl Fn(PairKey, f64) -> bool + '_) {
+        let Self { rows, pushes, .. } = self;
+        rows.clear();
+        let was_at_rest = |key, thicknesses| thicknesses >= 1.0 - GIVE && pushes.contains_key(&RowKey::Pair(key));
+        (rows, was_at_rest)
     }
 
     /// Gives the rows the forces that they had in the last step, and chooses where they are at rest in one of `h` seconds.

@@ -75,7 +75,7 @@ impl Solve {
             entry.timed(|action| action.begin(step, prediction, x));
         }
         let mut energy = gradient(&mut self.terms, prediction, x, &mut work.gradient);
-        self.begin_rows(prediction, x, &mut energy, &mut work.gradient);
+        self.weigh_rows(prediction, x, &mut energy, &mut work.gradient);
         let (mut error, mut was_short, mut linear_rest) = (f64::INFINITY, false, f64::INFINITY);
         let mut result = Ok(());
         for newton in 0..=MOST_NEWTON_STEPS {
@@ -131,7 +131,7 @@ impl Solve {
     }
 
     /// Fills the matrix, and chooses the stiffness of multipliers.
-    fn begin_rows(&mut self, prediction: &Prediction, x: &[DVec3], energy: &mut f64, slope: &mut Vec<DVec3>) {
+    fn weigh_rows(&mut self, prediction: &Prediction, x: &[DVec3], energy: &mut f64, slope: &mut Vec<DVec3>) {
         self.assemble(prediction, x);
         let mut has_changed = false;
         for entry in &mut self.terms {
