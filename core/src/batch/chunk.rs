@@ -201,9 +201,9 @@ mod vectors {
         [x, y, z, w]
     }
 
+    /// Implements [`Chunk`] for a vector of `$width` numbers. `$load` loads a part, and the macro `$columns` transposes parts.
     macro_rules! vector {
-        ($vector:ident, $scalar:ident, $width:literal, $part:ident,
-            |$token:ident, $rows:ident, $number:ident| $load:expr, |$row:ident| $columns:expr) => {
+        ($vector:ident, $scalar:ident, $width:literal, $part:ident, $load:ident, $columns:ident) => {
             impl<V: Simd> Chunk for $vector<V> {
                 type Token = V;
                 type Part = $part<V>;
@@ -228,25 +228,33 @@ mod vectors {
                 }
 
                 #[inline(always)]
-                fn part($token: V, $rows: [&VertexRow<$scalar>; 2], $number: usize) -> $part<V> {
-                    $load
+                fn part(simd: V, rows: [&VertexRow<$scalar>; 2], part: usize) -> $part<V> {
+                    $load(simd, rows, part)
                 }
 
                 #[inline(always)]
-                fn columns($token: V, $row: impl Fn([usize; 2], usize) -> Option<$part<V>>) -> Option<[Vector<Self>; 2]> {
-                    let _ = $token;
-                    $columns
+                fn columns(simd: V, row: impl Fn([usize; 2], usize) -> Option<$part<V>>) -> Option<[Vector<Self>; 2]> {
+                    let _ = simd;
+                    $columns!(simd, row)
                 }
             }
         };
     }
 
-    /// One of the parts of a row, all of which have the same width.
+    /// Defines a function that returns one part of the first row, whose `$parts` parts all have the same width.
     macro_rules! part_of_one {
-        ($part:ident, $parts:literal, $simd:ident, $rows:ident, $number:ident) => {
-            $part::load_array_ref($simd, &$rows[0].0.as_chunks().0[$number % $parts])
+        ($name:ident, $part:ident, $scalar:ident, $parts:literal) => {
+            #[inline(always)]
+            fn $name<V: Simd>(simd: V, [row, _]: [&VertexRow<$scalar>; 2], part: usize) -> $part<V> {
+                $part::load_array_ref(simd, &row.0.as_chunks().0[part % $parts])
+            }
         };
     }
+
+    part_of_one!(quarter_of_doubles, f64x2, f64, 4);
+    part_of_one!(half_of_doubles, f64x4, f64, 2);
+    part_of_one!(half_of_floats, f32x4, f32, 2);
+    part_of_one!(whole_of_doubles, f64x8, f64, 1);
 
     /// Returns one half of both rows.
     #[inline(always)]
@@ -280,7 +288,7 @@ mod vectors {
     }
 
     macro_rules! two_wide {
-        ($row:ident) => {{
+        ($simd:ident, $row:ident) => {{
             let [x, y] = two([$row([0, 0], 0)?, $row([1, 1], 0)?]);
             let [z, _] = two([$row([0, 0], 1)?, $row([1, 1], 1)?]);
             let [u, v] = two([$row([0, 0], 2)?, $row([1, 1], 2)?]);
@@ -290,7 +298,7 @@ mod vectors {
     }
 
     macro_rules! four_wide {
-        ($row:ident) => {{
+        ($simd:ident, $row:ident) => {{
             let [x, y, z, _] = four([$row([0, 0], 0)?, $row([1, 1], 0)?, $row([2, 2], 0)?, $row([3, 3], 0)?]);
             let [u, v, w, _] = four([$row([0, 0], 1)?, $row([1, 1], 1)?, $row([2, 2], 1)?, $row([3, 3], 1)?]);
             Some([Vector::new(x, y, z), Vector::new(u, v, w)])
@@ -298,7 +306,7 @@ mod vectors {
     }
 
     macro_rules! eight_wide {
-        ($row:ident) => {{
+        ($simd:ident, $row:ident) => {{
             let [a, b, c, d] = [$row([0, 0], 0)?, $row([1, 1], 0)?, $row([2, 2], 0)?, $row([3, 3], 0)?];
             let [e, f, g, h] = [$row([4, 4], 0)?, $row([5, 5], 0)?, $row([6, 6], 0)?, $row([7, 7], 0)?];
             let [x, y, z, _, u, v, w, _] = eight([a, b, c, d, e, f, g, h]);
@@ -306,9 +314,14 @@ mod vectors {
         }};
     }
 
+    #[inline(always)]
+    fn combined<V: Simd>(low: Vector<f32x8<V>>, high: Vector<f32x8<V>>) -> Vector<f32x16<V>> {
+        Vector::new(low.x.combine(high.x), low.y.combine(high.y), low.z.combine(high.z))
+    }
+
     /// A register holds a half of the rows of pairs k and k + 4, from `first` on, and after transposition a column of eight
     /// pairs.
-    macro_rules! two_by_four_wide {
+    macro_rules! eight_from {
         ($row:ident, $first:literal) => {{
             macro_rules! two {
                 ($lane:literal, $half:literal) => {
@@ -317,8 +330,14 @@ mod vectors {
             }
             let [x, y, z, _] = four_by_halves([two!(0, 0), two!(1, 0), two!(2, 0), two!(3, 0)]);
             let [u, v, w, _] = four_by_halves([two!(0, 1), two!(1, 1), two!(2, 1), two!(3, 1)]);
-            [[x, y, z], [u, v, w]]
+            [Vector::new(x, y, z), Vector::new(u, v, w)]
         }};
+    }
+
+    macro_rules! two_by_four_wide {
+        ($simd:ident, $row:ident) => {
+            Some(eight_from!($row, 0))
+        };
     }
 
     /// A register holds the rows of pairs k and k + 8, and after transposition two columns of eight pairs.
@@ -337,8 +356,8 @@ mod vectors {
             let ((z, _), (z_8, _)) = (z.split(), z_8.split());
             let ((w, _), (w_8, _)) = (w.split(), w_8.split());
             Some([
-                Vector::new(x.combine(x_8), y.combine(y_8), z.combine(z_8)),
-                Vector::new(u.combine(u_8), v.combine(v_8), w.combine(w_8)),
+                combined(Vector::new(x, y, z), Vector::new(x_8, y_8, z_8)),
+                combined(Vector::new(u, v, w), Vector::new(u_8, v_8, w_8)),
             ])
         }};
     }
@@ -348,58 +367,16 @@ mod vectors {
             if has_registers_of_sixteen($simd) {
                 sixteen_wide!($row)
             } else {
-                let [[x, y, z], [u, v, w]] = two_by_four_wide!($row, 0);
-                let [[x_8, y_8, z_8], [u_8, v_8, w_8]] = two_by_four_wide!($row, 8);
-                Some([
-                    Vector::new(x.combine(x_8), y.combine(y_8), z.combine(z_8)),
-                    Vector::new(u.combine(u_8), v.combine(v_8), w.combine(w_8)),
-                ])
+                let ([start, end], [start_8, end_8]) = (eight_from!($row, 0), eight_from!($row, 8));
+                Some([combined(start, start_8), combined(end, end_8)])
             }
         }};
     }
 
-    vector!(
-        f64x2,
-        f64,
-        2,
-        f64x2,
-        |simd, rows, part| part_of_one!(f64x2, 4, simd, rows, part),
-        |row| two_wide!(row)
-    );
-    vector!(
-        f64x4,
-        f64,
-        4,
-        f64x4,
-        |simd, rows, part| part_of_one!(f64x4, 2, simd, rows, part),
-        |row| four_wide!(row)
-    );
-    vector!(
-        f32x4,
-        f32,
-        4,
-        f32x4,
-        |simd, rows, part| part_of_one!(f32x4, 2, simd, rows, part),
-        |row| four_wide!(row)
-    );
-    vector!(
-        f64x8,
-        f64,
-        8,
-        f64x8,
-        |simd, rows, part| part_of_one!(f64x8, 1, simd, rows, part),
-        |row| eight_wide!(row)
-    );
-    vector!(f32x8, f32, 8, f32x8, |simd, rows, part| two_halves(simd, rows, part), |row| {
-        let [[x, y, z], [u, v, w]] = two_by_four_wide!(row, 0);
-        Some([Vector::new(x, y, z), Vector::new(u, v, w)])
-    });
-    vector!(
-        f32x16,
-        f32,
-        16,
-        f32x8,
-        |simd, rows, part| row_or_two_halves(simd, rows, part),
-        |row| two_by_eight_wide!(simd, row)
-    );
+    vector!(f64x2, f64, 2, f64x2, quarter_of_doubles, two_wide);
+    vector!(f64x4, f64, 4, f64x4, half_of_doubles, four_wide);
+    vector!(f32x4, f32, 4, f32x4, half_of_floats, four_wide);
+    vector!(f64x8, f64, 8, f64x8, whole_of_doubles, eight_wide);
+    vector!(f32x8, f32, 8, f32x8, two_halves, two_by_four_wide);
+    vector!(f32x16, f32, 16, f32x8, row_or_two_halves, two_by_eight_wide);
 }

@@ -3,7 +3,8 @@
 import os
 import sys
 import tempfile
-import traceback
+
+from ending import end_after
 
 folder = tempfile.mkdtemp()
 os.environ["BLENDER_USER_RESOURCES"] = folder
@@ -32,12 +33,4 @@ def install(path):
     print(f"installed and ran in Blender {bpy.app.version_string}")
 
 
-status = 1
-try:
-    install(os.path.abspath(sys.argv[1]))
-    status = 0
-except BaseException:
-    traceback.print_exc()
-sys.stdout.flush()
-sys.stderr.flush()
-os._exit(status)
+end_after(lambda: install(os.path.abspath(sys.argv[1])))

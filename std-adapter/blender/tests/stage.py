@@ -5,11 +5,11 @@ import math
 import os
 import sys
 import tempfile
-import traceback
 from pathlib import Path
 
 import bpy
 import numpy as np
+from ending import end_after
 
 # The installed extension has another name than the folder.
 PACKAGE = os.environ.get("SELVEDGE_BLENDER", "selvedge_blender")
@@ -22,22 +22,18 @@ point_cache = importlib.import_module(PACKAGE + ".point_cache")
 
 def main(test):
     """Runs a test and ends the process at once."""
-    status = 1
-    try:
-        bpy.ops.wm.read_factory_settings(use_empty=True)
-        if not hasattr(bpy.types.Scene, "selvedge"):
-            addon.register()
-        scene = bpy.context.scene
-        scene.frame_end = 20
-        with tempfile.TemporaryDirectory() as folder:
-            scene.selvedge.folder = folder
-            test(scene)
-        status = 0
-    except BaseException:
-        traceback.print_exc()
-    sys.stdout.flush()
-    sys.stderr.flush()
-    os._exit(status)
+    end_after(lambda: in_empty_scene(test))
+
+
+def in_empty_scene(test):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    if not hasattr(bpy.types.Scene, "selvedge"):
+        addon.register()
+    scene = bpy.context.scene
+    scene.frame_end = 20
+    with tempfile.TemporaryDirectory() as folder:
+        scene.selvedge.folder = folder
+        test(scene)
 
 
 def run(operator, **values):
