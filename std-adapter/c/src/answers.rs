@@ -38,20 +38,20 @@ pub enum Boxes {
 /// The numbers of a vertex and a face, of two edges, or of two vertices (the ends of an edge).
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Pair {
+pub struct PairRow {
     /// The vertex, or the first edge.
     pub first: u32,
     /// The face, or the second edge.
     pub second: u32,
 }
 
-impl From<[u32; 2]> for Pair {
+impl From<[u32; 2]> for PairRow {
     fn from([first, second]: [u32; 2]) -> Self {
         Self { first, second }
     }
 }
 
-impl OutList<Pair> {
+impl OutList<PairRow> {
     pub(crate) fn set_pairs(self, pairs: &[[u32; 2]]) {
         // Two numbers have the same layout as fields and as an array.
         self.set_parts(pairs.as_ptr().cast(), pairs.len());
@@ -68,7 +68,7 @@ pub struct ContactRow {
     pub kind: u32,
     /// The vertex and the face, or the two edges. Faces have the numbers of the triangles, edges those of
     /// selvedge_detector_edges.
-    pub pair: Pair,
+    pub pair: PairRow,
     /// The vertex and the face's three, or the ends of the first edge and of the second.
     pub vertices: [u32; 4],
 }
@@ -111,7 +111,7 @@ pub struct GeometryRow {
     /// A selvedge_kind.
     pub kind: u32,
     /// The vertex and the face, or the two edges.
-    pub pair: Pair,
+    pub pair: PairRow,
     /// The vertex and the face's three, or the ends of the first edge and of the second.
     pub vertices: [u32; 4],
     /// True if there is a normal. There is none if the two cannot be shown to have been apart: they touch at the start of the
@@ -197,7 +197,7 @@ pub struct IntersectionRow {
     /// A selvedge_intersection_kind.
     pub kind: u32,
     /// The edge and the face, the vertex and the face, or the two edges.
-    pub pair: Pair,
+    pub pair: PairRow,
 }
 
 impl From<&Intersection> for IntersectionRow {
@@ -222,7 +222,7 @@ pub(crate) struct CandidatePairs {
 
 /// The lists to which C holds pointers.
 #[derive(Default)]
-pub(crate) struct Answers {
+pub(crate) struct DetectorAnswers {
     pub(crate) contacts: Vec<ContactRow>,
     pub(crate) candidates: CandidatePairs,
     /// New candidates, kept apart so that a cancelled search keeps the list that C reads.
@@ -235,7 +235,7 @@ pub(crate) struct Answers {
     pub(crate) near: Vec<GeometryRow>,
 }
 
-impl Answers {
+impl DetectorAnswers {
     pub(crate) fn show_contacts<S: Scalar>(&mut self, contacts: &[Contact<S>], topology: &Topology) -> &[ContactRow] {
         self.contacts.clear();
         let rows = contacts.iter().map(|contact| ContactRow::new(contact, topology));

@@ -1,6 +1,6 @@
 //! Detectors for either format.
 
-use crate::answers::Answers;
+use crate::answers::DetectorAnswers;
 use crate::guard::guarded;
 use crate::handles::{self, Handled, Living};
 use crate::input::{Out, Plain, unknown, view};
@@ -26,12 +26,12 @@ pub enum ScalarFormat {
 }
 
 /// A detector for one format of positions, with a buffer for its contacts.
-pub(crate) struct Finder<S: Scalar> {
+pub(crate) struct DetectorFinder<S: Scalar> {
     pub(crate) detector: CollisionDetector<S>,
     pub(crate) contacts: Vec<Contact<S>>,
 }
 
-impl<S: Scalar> Finder<S> {
+impl<S: Scalar> DetectorFinder<S> {
     fn new(topology: Topology) -> Self {
         Self {
             detector: CollisionDetector::new(topology),
@@ -85,11 +85,11 @@ impl Format for f64 {
 
 pub(crate) struct Detector {
     pub(crate) finder: AnyFinder<Self>,
-    pub(crate) answers: Answers,
+    pub(crate) answers: DetectorAnswers,
 }
 
 impl OfFormat for Detector {
-    type Finder<S: Format> = Finder<S>;
+    type Finder<S: Format> = DetectorFinder<S>;
 }
 
 impl Detector {
@@ -141,13 +141,13 @@ pub unsafe extern "C" fn selvedge_detector_new(
         // SAFETY: the caller's promise.
         let topology = unsafe { topology(vertex_count, triangles, triangle_count) }?;
         let finder = match scalar {
-            number if number == ScalarFormat::F32 as u32 => AnyFinder::F32(Finder::new(topology)),
-            number if number == ScalarFormat::F64 as u32 => AnyFinder::F64(Finder::new(topology)),
+            number if number == ScalarFormat::F32 as u32 => AnyFinder::F32(DetectorFinder::new(topology)),
+            number if number == ScalarFormat::F64 as u32 => AnyFinder::F64(DetectorFinder::new(topology)),
             number => return Err(unknown("selvedge_scalar", number)),
         };
         out.set(handles::keep(Detector {
             finder,
-            answers: Answers::default(),
+            answers: DetectorAnswers::default(),
         })?);
         Ok(())
     })

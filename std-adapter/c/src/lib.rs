@@ -48,7 +48,7 @@ mod world;
 /// the compiler checks its calls.
 #[doc(hidden)]
 pub mod interface {
-    pub use crate::answers::{Boxes, ContactRow, GeometryRow, IntersectionRow, Pair, TruncationRow};
+    pub use crate::answers::{Boxes, ContactRow, GeometryRow, IntersectionRow, PairRow, TruncationRow};
     pub use crate::detector::*;
     #[cfg(feature = "cloth")]
     pub use crate::files::*;
@@ -58,6 +58,8 @@ pub mod interface {
     pub use crate::simulation::{checkpoint::*, counts::*, lead::*, run::*, state::*};
     pub use crate::status::*;
     pub use crate::weld::*;
-    pub use crate::world::steps::{Deforming, Pose, Rigid, WorldContactRow, WorldGeometryRow, selvedge_world_contact_geometries};
+    pub use crate::world::steps::{
+        Deforming, PoseRow, Rigid, WorldContactRow, WorldGeometryRow, selvedge_world_contact_geometries,
+    };
     pub use crate::world::{double::*, single::*, *};
 }

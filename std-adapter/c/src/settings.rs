@@ -1,6 +1,6 @@
 //! The settings of a detector, and the edges of its mesh.
 
-use crate::answers::Pair;
+use crate::answers::PairRow;
 use crate::detector::{Detector, Handle, on, with_either};
 use crate::handles;
 use crate::input::{Out, OutList, view};
@@ -122,7 +122,7 @@ pub unsafe extern "C" fn selvedge_detector_set_collision_filter(
     groups: *const GroupsRow,
     patches: *const u32,
     vertex_count: usize,
-    excluded: *const Pair,
+    excluded: *const PairRow,
     excluded_count: usize,
 ) -> Status {
     on(detector, |it| {
@@ -206,7 +206,11 @@ pub unsafe extern "C" fn selvedge_detector_threads(detector: *const Handle, coun
 /// # Safety
 /// `edges` points to a pointer, `count` to a number.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn selvedge_detector_edges(detector: *const Handle, edges: *mut *const Pair, count: *mut usize) -> Status {
+pub unsafe extern "C" fn selvedge_detector_edges(
+    detector: *const Handle,
+    edges: *mut *const PairRow,
+    count: *mut usize,
+) -> Status {
     on(detector, |it| {
         // SAFETY: the caller's promise.
         let out = unsafe { OutList::new("edges", edges, count) }?;

@@ -43,8 +43,8 @@ pub(super) fn triangles(caller: &mut Caller<'_>) -> [u32; 3 * ROOM] {
     numbers
 }
 
-fn pairs(caller: &mut Caller<'_>) -> [Pair; ROOM] {
-    [(); ROOM].map(|()| Pair {
+fn pairs(caller: &mut Caller<'_>) -> [PairRow; ROOM] {
+    [(); ROOM].map(|()| PairRow {
         first: caller.whole(),
         second: caller.whole(),
     })
@@ -199,7 +199,7 @@ impl Detectors {
                 selvedge_detector_edges(handle, places.0, places.1)
             }
         });
-        edges.map(|(start, count)| rows::<Pair>(start, count));
+        edges.map(|(start, count)| rows::<PairRow>(start, count));
     }
 
     fn ask_contacts(&mut self, caller: &mut Caller<'_>) {
@@ -338,7 +338,7 @@ pub(super) fn contact(caller: &mut Caller<'_>) -> ContactRow {
     ContactRow {
         time: caller.number(),
         kind: caller.whole() % 3,
-        pair: Pair {
+        pair: PairRow {
             first: caller.whole(),
             second: caller.whole(),
         },

@@ -45,9 +45,9 @@ fn numbers(caller: &mut Caller<'_>) -> [f64; 3 * LARGE] {
     numbers
 }
 
-fn pose(caller: &mut Caller<'_>) -> [Pose; 1] {
+fn pose(caller: &mut Caller<'_>) -> [PoseRow; 1] {
     let scale = caller.one_of(&[1.0, 1e-3, 1e-3, 1e3]);
-    [Pose {
+    [PoseRow {
         rotation: match caller.byte() {
             0..128 => [0.0, 0.0, 0.0, 1.0],
             _ => [(); 4].map(|()| caller.number()),

@@ -6,12 +6,12 @@ use selvedge_c::interface::*;
 use std::ptr;
 
 /// The largest number of meshes in a world. Steps of more take time and show nothing new.
-const MESHES: usize = 6;
+const MOST_MESHES: usize = 6;
 
 /// A world, and the meshes that it has had.
 pub(super) struct Worlds {
     handle: *mut WorldHandle,
-    meshes: Vec<Mesh>,
+    meshes: Vec<MeshNumber>,
 }
 
 impl Default for Worlds {
@@ -23,7 +23,7 @@ impl Default for Worlds {
     }
 }
 
-fn pose(caller: &mut Caller<'_>) -> Pose {
+fn pose(caller: &mut Caller<'_>) -> PoseRow {
     let rotation = match caller.byte() {
         0..200 => [0.0, 0.0, 0.0, 1.0],
         _ => [(); 4].map(|()| caller.number()),
@@ -32,7 +32,7 @@ fn pose(caller: &mut Caller<'_>) -> Pose {
         0..128 => [0.0, 0.0, 0.0],
         _ => [(); 3].map(|()| caller.number()),
     };
-    Pose { rotation, origin }
+    PoseRow { rotation, origin }
 }
 
 impl Worlds {
@@ -86,7 +86,7 @@ impl Worlds {
     }
 
     fn insert(&mut self, caller: &mut Caller<'_>) {
-        if self.meshes.len() >= MESHES {
+        if self.meshes.len() >= MOST_MESHES {
             return;
         }
         let handle = caller.handle(&[self.handle]);
@@ -109,7 +109,7 @@ impl Worlds {
     }
 
     /// Returns the number of a mesh that may be there.
-    fn mesh(&self, caller: &mut Caller<'_>) -> Mesh {
+    fn mesh(&self, caller: &mut Caller<'_>) -> MeshNumber {
         match caller.byte() {
             250.. => caller.one_of(&[0, 1, u64::MAX, 1 << 32]),
             tag if self.meshes.is_empty() => tag.into(),
@@ -141,7 +141,7 @@ impl Worlds {
                         selvedge_world_edges(handle, mesh, to, count)
                     }
                 });
-                edges.map(|(start, count)| rows::<Pair>(start, count));
+                edges.map(|(start, count)| rows::<PairRow>(start, count));
             }
         }
     }

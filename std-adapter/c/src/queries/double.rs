@@ -1,12 +1,12 @@
-//! Thin functions over `generic.rs`. A C program calls these with positions in double.
+//! The queries for positions in double.
 
-use super::generic::{
-    StateQuery, StepQuery, answer_free, answer_has_intersections, find_candidates, find_contact_geometries, find_contacts,
-    find_contacts_of, find_earliest, find_intersections, find_near, truncate,
-};
-use crate::answers::{ContactRow, GeometryRow, IntersectionRow, Pair, TruncationRow};
+use super::on_frames;
+use crate::answers::{Boxes, CandidatePairs, ContactRow, GeometryRow, IntersectionRow, PairRow, TruncationRow};
 use crate::detector::Handle;
+use crate::input::{Out, OutFrame, OutList, unknown, view};
+use crate::settings::length;
 use crate::status::Status;
+use selvedge::CandidateBoxes;
 use std::ffi::c_double;
 
 /// Finds all contacts of the step from `start` to `end`. The list stays valid until the next search for contacts with this
@@ -23,9 +23,16 @@ pub unsafe extern "C" fn selvedge_detector_contacts_f64(
     contacts: *mut *const ContactRow,
     count: *mut usize,
 ) -> Status {
-    let query = StepQuery::new(detector, start, end, vertex_count);
+    let frames = [("start", start), ("end", end)];
     // SAFETY: the caller's promises.
-    unsafe { find_contacts(query, contacts, count) }
+    unsafe {
+        on_frames(detector, frames, vertex_count, |finder, answers, [start, end]| {
+            let out = OutList::new("contacts", contacts, count)?;
+            finder.detector.contacts(start, end, &mut finder.contacts)?;
+            out.set(answers.show_contacts(&finder.contacts, finder.detector.topology()));
+            Ok(())
+        })
+    }
 }
 
 /// Finds the contacts among the given pairs, in their order. The pairs may be this detector's own candidates. The list stays
@@ -40,17 +47,26 @@ pub unsafe extern "C" fn selvedge_detector_contacts_of_f64(
     start: *const f64,
     end: *const f64,
     vertex_count: usize,
-    vertex_face: *const Pair,
+    vertex_face: *const PairRow,
     vertex_face_count: usize,
-    edge_edge: *const Pair,
+    edge_edge: *const PairRow,
     edge_edge_count: usize,
     contacts: *mut *const ContactRow,
     count: *mut usize,
 ) -> Status {
-    let query = StepQuery::new(detector, start, end, vertex_count);
-    let pairs = ((vertex_face, vertex_face_count), (edge_edge, edge_edge_count));
-    // SAFETY: the caller's promises.
-    unsafe { find_contacts_of(query, pairs.0, pairs.1, contacts, count) }
+    let frames = [("start", start), ("end", end)];
+    // SAFETY: the caller's promises. The pairs may be this detector's candidates; they are not written to here.
+    unsafe {
+        on_frames(detector, frames, vertex_count, |finder, answers, [start, end]| {
+            let out = OutList::new("contacts", contacts, count)?;
+            let vertex_face = view("vertex_face", vertex_face.cast::<u32>(), vertex_face_count)?;
+            let edge_edge = view("edge_edge", edge_edge.cast::<u32>(), edge_edge_count)?;
+            let found = &mut finder.contacts;
+            finder.detector.contacts_of(start, end, vertex_face, edge_edge, found)?;
+            out.set(answers.show_contacts(&finder.contacts, finder.detector.topology()));
+            Ok(())
+        })
+    }
 }
 
 /// Finds the earliest contact of the step. If several have the same time, it is the one with the smallest numbers.
@@ -69,9 +85,19 @@ pub unsafe extern "C" fn selvedge_detector_earliest_f64(
     found: *mut bool,
     contact: *mut ContactRow,
 ) -> Status {
-    let query = StepQuery::new(detector, start, end, vertex_count);
+    let frames = [("start", start), ("end", end)];
     // SAFETY: the caller's promises.
-    unsafe { find_earliest(query, found, contact) }
+    unsafe {
+        on_frames(detector, frames, vertex_count, |finder, _, [start, end]| {
+            let (found, out) = (Out::new("found", found)?, Out::new("contact", contact)?);
+            let earliest = finder.detector.earliest(start, end)?;
+            found.set(earliest.is_some());
+            if let Some(earliest) = earliest {
+                out.set(ContactRow::new(&earliest, finder.detector.topology()));
+            }
+            Ok(())
+        })
+    }
 }
 
 /// Decides whether the step is certainly free of contact. The search ends at the first contact.
@@ -86,9 +112,15 @@ pub unsafe extern "C" fn selvedge_detector_is_free_f64(
     vertex_count: usize,
     is_free: *mut bool,
 ) -> Status {
-    let query = StepQuery::new(detector, start, end, vertex_count);
+    let frames = [("start", start), ("end", end)];
     // SAFETY: the caller's promises.
-    unsafe { answer_free(query, is_free) }
+    unsafe {
+        on_frames(detector, frames, vertex_count, |finder, _, [start, end]| {
+            let out = Out::new("is_free", is_free)?;
+            out.set(finder.detector.is_free(start, end)?);
+            Ok(())
+        })
+    }
 }
 
 /// Finds the pairs that bounding boxes keep. All other pairs certainly stay farther apart than the separation throughout the
@@ -104,14 +136,30 @@ pub unsafe extern "C" fn selvedge_detector_candidates_f64(
     end: *const f64,
     vertex_count: usize,
     boxes: u32,
-    vertex_face: *mut *const Pair,
+    vertex_face: *mut *const PairRow,
     vertex_face_count: *mut usize,
-    edge_edge: *mut *const Pair,
+    edge_edge: *mut *const PairRow,
     edge_edge_count: *mut usize,
 ) -> Status {
-    let query = StepQuery::new(detector, start, end, vertex_count);
+    let frames = [("start", start), ("end", end)];
     // SAFETY: the caller's promises.
-    unsafe { find_candidates(query, boxes, (vertex_face, vertex_face_count), (edge_edge, edge_edge_count)) }
+    unsafe {
+        on_frames(detector, frames, vertex_count, |finder, answers, [start, end]| {
+            let vf = OutList::new("vertex_face", vertex_face, vertex_face_count)?;
+            let ee = OutList::new("edge_edge", edge_edge, edge_edge_count)?;
+            let boxes = match boxes {
+                number if number == Boxes::Moving as u32 => CandidateBoxes::Moving,
+                number if number == Boxes::Swept as u32 => CandidateBoxes::Swept,
+                number => return Err(unknown("selvedge_boxes", number)),
+            };
+            let CandidatePairs { vertex_face, edge_edge } = &mut answers.found_candidates;
+            finder.detector.candidates(start, end, boxes, vertex_face, edge_edge)?;
+            let shown = answers.show_candidates();
+            vf.set_pairs(&shown.vertex_face);
+            ee.set_pairs(&shown.edge_edge);
+            Ok(())
+        })
+    }
 }
 
 /// Finds all intersections of the mesh at rest, exactly. They are edges and faces that meet, touching included, and primitives of
@@ -130,9 +178,16 @@ pub unsafe extern "C" fn selvedge_detector_intersections_f64(
     intersections: *mut *const IntersectionRow,
     count: *mut usize,
 ) -> Status {
-    let query = StateQuery::new(detector, positions, vertex_count);
+    let frames = [("positions", positions)];
     // SAFETY: the caller's promises.
-    unsafe { find_intersections(query, intersections, count) }
+    unsafe {
+        on_frames(detector, frames, vertex_count, |finder, answers, [positions]| {
+            let out = OutList::new("intersections", intersections, count)?;
+            finder.detector.intersections(positions, &mut answers.found_at_rest)?;
+            out.set(answers.show_intersections());
+            Ok(())
+        })
+    }
 }
 
 /// Decides whether the mesh at rest intersects itself. The search ends at the first intersection.
@@ -146,9 +201,15 @@ pub unsafe extern "C" fn selvedge_detector_has_intersections_f64(
     vertex_count: usize,
     has_any: *mut bool,
 ) -> Status {
-    let query = StateQuery::new(detector, positions, vertex_count);
+    let frames = [("positions", positions)];
     // SAFETY: the caller's promises.
-    unsafe { answer_has_intersections(query, has_any) }
+    unsafe {
+        on_frames(detector, frames, vertex_count, |finder, _, [positions]| {
+            let out = Out::new("has_any", has_any)?;
+            out.set(finder.detector.has_intersections(positions)?);
+            Ok(())
+        })
+    }
 }
 
 /// Computes the geometry of each contact at its time: the closest points, their weights, a normal along which the two sides were
@@ -172,9 +233,23 @@ pub unsafe extern "C" fn selvedge_detector_contact_geometries_f64(
     geometries: *mut *const GeometryRow,
     count: *mut usize,
 ) -> Status {
-    let query = StepQuery::new(detector, start, end, vertex_count);
-    // SAFETY: the caller's promises.
-    unsafe { find_contact_geometries(query, (contacts, contact_count), geometries, count) }
+    let frames = [("start", start), ("end", end)];
+    // SAFETY: the caller's promises. The contacts may be this detector's own; they are not written to here.
+    unsafe {
+        on_frames(detector, frames, vertex_count, |finder, answers, [start, end]| {
+            let out = OutList::new("geometries", geometries, count)?;
+            let rows = view::<_, 1>("contacts", contacts, contact_count)?;
+            let given = &mut finder.contacts;
+            given.clear();
+            for [row] in rows {
+                given.push(row.contact()?);
+            }
+            let found = &mut answers.found_geometries;
+            finder.detector.contact_geometries(start, end, given, found)?;
+            out.set(answers.show_contact_geometries());
+            Ok(())
+        })
+    }
 }
 
 /// Finds all pairs within `distance` of each other in a mesh at rest, with their closest points. None is missed; a pair that is a
@@ -196,9 +271,18 @@ pub unsafe extern "C" fn selvedge_detector_near_f64(
     geometries: *mut *const GeometryRow,
     count: *mut usize,
 ) -> Status {
-    let query = StateQuery::new(detector, positions, vertex_count);
+    let frames = [("positions", positions)];
     // SAFETY: the caller's promises.
-    unsafe { find_near(query, distance, geometries, count) }
+    unsafe {
+        on_frames(detector, frames, vertex_count, |finder, answers, [positions]| {
+            let out = OutList::new("geometries", geometries, count)?;
+            finder
+                .detector
+                .near(positions, length(distance)?, &mut answers.found_geometries)?;
+            out.set(answers.show_near());
+            Ok(())
+        })
+    }
 }
 
 /// Moves each vertex from `start` towards `wanted` as far as its neighbourhood allows, and writes the positions to `end`. The
@@ -218,7 +302,21 @@ pub unsafe extern "C" fn selvedge_detector_truncate_f64(
     end: *mut f64,
     truncation: *mut TruncationRow,
 ) -> Status {
-    let query = StepQuery::between(detector, [("start", start), ("wanted", wanted)], vertex_count);
+    let (mut out, mut positions) = (None, Vec::new());
+    let frames = [("start", start), ("wanted", wanted)];
     // SAFETY: the caller's promises.
-    unsafe { truncate(query, end, truncation) }
+    let status = unsafe {
+        on_frames(detector, frames, vertex_count, |finder, _, [start, wanted]| {
+            let (end, truncation) = (OutFrame::new("end", end, vertex_count)?, Out::new("truncation", truncation)?);
+            let found = finder.detector.truncate(start, wanted, &mut positions)?;
+            out = Some((end, truncation, found.into()));
+            Ok(())
+        })
+    };
+    // The answer is written last, since `end` may be one of the frames.
+    if let Some((end, truncation, found)) = out {
+        end.set(&positions);
+        truncation.set(found);
+    }
+    status
 }

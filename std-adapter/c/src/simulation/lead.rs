@@ -5,7 +5,7 @@ use super::run::SimulationHandle;
 use super::state::check_count;
 use crate::input::{Out, view};
 use crate::status::{Failure, Status};
-use crate::world::steps::Pose;
+use crate::world::steps::PoseRow;
 use selvedge_cloth::glam::{DQuat, DVec3};
 use selvedge_cloth::{DriveError, Placement, Simulation, TeleportError};
 
@@ -39,7 +39,7 @@ impl From<TeleportError> for Failure {
 ///
 /// # Safety
 /// `placement` points to one entry.
-unsafe fn placement_at(name: &str, placement: *const Pose) -> Result<Placement, Failure> {
+unsafe fn placement_at(name: &str, placement: *const PoseRow) -> Result<Placement, Failure> {
     // SAFETY: the caller's promise.
     let given = unsafe { view::<f64, 7>(name, placement.cast(), 1) }?;
     let [x, y, z, w, a, b, c] = given[0];
@@ -56,7 +56,7 @@ unsafe fn placement_at(name: &str, placement: *const Pose) -> Result<Placement, 
 pub unsafe extern "C" fn selvedge_simulation_place_body(
     simulation: *mut SimulationHandle,
     body: usize,
-    placement: *const Pose,
+    placement: *const PoseRow,
 ) -> Status {
     on(simulation, |it| {
         // SAFETY: the caller's promise.
@@ -83,7 +83,7 @@ pub unsafe extern "C" fn selvedge_simulation_teleport(
     body_count: usize,
     cloths: *const usize,
     cloth_count: usize,
-    by: *const Pose,
+    by: *const PoseRow,
 ) -> Status {
     on(simulation, |it| {
         let most = it.simulation.body_names().len().max(it.simulation.cloth_names().len());
@@ -115,7 +115,7 @@ pub unsafe extern "C" fn selvedge_simulation_placement(
     simulation: *const SimulationHandle,
     body: usize,
     is_known: *mut bool,
-    placement: *mut Pose,
+    placement: *mut PoseRow,
 ) -> Status {
     on(simulation, |it| {
         // SAFETY: the caller's promises.
@@ -127,7 +127,7 @@ pub unsafe extern "C" fn selvedge_simulation_placement(
         let found = it.simulation.placement(body);
         is_known.set(found.is_some());
         if let Some(Placement { rotation, translation }) = found {
-            out.set(Pose {
+            out.set(PoseRow {
                 rotation: rotation.to_array(),
                 origin: translation.to_array(),
             });

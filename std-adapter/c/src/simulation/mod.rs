@@ -22,7 +22,7 @@ pub(crate) struct HandledSimulation {
     simulation: Simulation,
     of_scene: OfScene,
     has_threads: bool,
-    answers: Answers,
+    answers: SimulationAnswers,
 }
 
 /// Facts of the scene that the simulation does not store.
@@ -34,7 +34,7 @@ struct OfScene {
 
 /// The lists to which C holds pointers.
 #[derive(Default)]
-struct Answers {
+struct SimulationAnswers {
     near_pairs: Vec<NearPairRow>,
     contact_loads: Vec<ContactLoadRow>,
     checkpoint: Vec<u8>,

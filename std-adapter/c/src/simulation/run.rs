@@ -1,6 +1,6 @@
 //! Creates, steps and frees simulations.
 
-use super::{Answers, HandledSimulation, OfScene, on};
+use super::{HandledSimulation, OfScene, SimulationAnswers, on};
 use crate::guard::guarded;
 use crate::handles;
 use crate::input::{Out, text};
@@ -26,7 +26,7 @@ fn keep(scene: Scene, threads: usize, out: Out<*mut SimulationHandle>) -> Result
         simulation: Simulation::new(scene, threads)?,
         of_scene,
         has_threads: threads != 1,
-        answers: Answers::default(),
+        answers: SimulationAnswers::default(),
     })?);
     Ok(())
 }

@@ -8,7 +8,7 @@ use super::on;
 use super::run::*;
 use super::state::*;
 use crate::status::{Status, selvedge_last_error};
-use crate::world::steps::Pose;
+use crate::world::steps::PoseRow;
 use selvedge_cloth::glam::DVec3;
 use selvedge_cloth::{Placement, Scene, Simulation, vertex_normals};
 use std::ffi::{CStr, CString};
@@ -103,7 +103,7 @@ fn lead(handle: *mut SimulationHandle, simulation: &mut Simulation, step: u32) {
         DVec3::new(0.0, 0.0, 0.0002 * t),
     );
     simulation.place_body(0, placement).unwrap();
-    let pose = Pose {
+    let pose = PoseRow {
         rotation: placement.rotation.to_array(),
         origin: placement.translation.to_array(),
     };
@@ -273,7 +273,7 @@ fn a_teleport_is_that_of_rust_and_a_jump_is_refused() {
         assert_eq!(selvedge_simulation_step(handle), Status::Ok);
     }
     let by = Placement::new(selvedge_cloth::glam::DQuat::from_rotation_x(0.5), DVec3::new(20.0, 0.0, 1.0));
-    let pose = Pose {
+    let pose = PoseRow {
         rotation: by.rotation.to_array(),
         origin: by.translation.to_array(),
     };
@@ -291,7 +291,7 @@ fn a_teleport_is_that_of_rust_and_a_jump_is_refused() {
     assert_eq!(selvedge_simulation_step(handle), Status::Ok);
     are_alike(handle, &simulation);
     // Twenty metres in a step of 2 ms are too fast.
-    let far = Pose {
+    let far = PoseRow {
         origin: [0.0; 3],
         ..pose
     };

@@ -2,7 +2,7 @@
 //! `UPDATE_MESSAGES=1` writes it.
 
 use super::last_error;
-use crate::answers::{ContactRow, Pair};
+use crate::answers::{ContactRow, PairRow};
 use crate::detector::{Handle, ScalarFormat, selvedge_detector_free, selvedge_detector_new};
 use crate::files::selvedge_file_new;
 use crate::queries::double::*;
@@ -12,7 +12,7 @@ use crate::simulation::counts::*;
 use crate::simulation::lead::*;
 use crate::simulation::run::*;
 use crate::status::Status;
-use crate::world::steps::Pose;
+use crate::world::steps::PoseRow;
 use selvedge::core::elementary::Limits;
 use selvedge::{CollisionDetector, CollisionFilter, Criterion, Topology};
 use selvedge_cloth::files::mesh;
@@ -138,7 +138,7 @@ fn steps(messages: &mut Messages) {
         // SAFETY: a count that is wrong is refused before a byte is read.
         unsafe { selvedge_detector_set_moving(c, [1; 5].as_ptr(), 5) }
     });
-    let filter = |patches: &[u32], excluded: &[Pair]| {
+    let filter = |patches: &[u32], excluded: &[PairRow]| {
         let patches_at = if patches.is_empty() { ptr::null() } else { patches.as_ptr() };
         let (at, count) = (excluded.as_ptr(), excluded.len());
         // SAFETY: the lists are as long as they say; a count that is wrong is refused before an entry is read.
@@ -152,7 +152,7 @@ fn steps(messages: &mut Messages) {
     messages.of(
         "an excluded vertex that the mesh does not have",
         rust.set_collision_filter(pair),
-        || filter(&[], &[Pair { first: 0, second: 6 }]),
+        || filter(&[], &[PairRow { first: 0, second: 6 }]),
     );
     rust.set_memory_limit(Some(10));
     assert_eq!(selvedge_detector_set_memory_limit(c, 10), Status::Ok);
@@ -202,8 +202,8 @@ fn scenes(messages: &mut Messages) {
     }
 }
 
-fn pose(placement: Placement) -> Pose {
-    Pose {
+fn pose(placement: Placement) -> PoseRow {
+    PoseRow {
         rotation: placement.rotation.to_array(),
         origin: placement.translation.to_array(),
     }

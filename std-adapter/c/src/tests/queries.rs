@@ -1,7 +1,7 @@
 //! Every query and setting, from C and from Rust.
 
 use super::*;
-use crate::answers::{Boxes, ContactRow, IntersectionRow, Pair, TruncationRow};
+use crate::answers::{Boxes, ContactRow, IntersectionRow, PairRow, TruncationRow};
 use crate::detector::{Handle, selvedge_detector_free};
 use crate::settings::*;
 use crate::status::Status;
@@ -134,7 +134,7 @@ fn ask_both(handle: *mut Handle, detector: &mut CollisionDetector<S>) -> usize {
                     unsafe { (*to, *rows) = (shown, shown_count) };
                     Status::Ok
                 });
-                same(&pairs, known.iter().map(|&pair| Pair::from(pair)));
+                same(&pairs, known.iter().map(|&pair| PairRow::from(pair)));
             }
 
             // The detector's own lists are passed back.
@@ -156,7 +156,7 @@ fn every_question_in_every_setting() {
     let topology = Topology::new(sheet::frame(0).len(), sheet::triangles()).unwrap();
     // SAFETY: the list is written to.
     let edges = list(|start, count| unsafe { selvedge_detector_edges(handle, start, count) });
-    same(&edges, topology.edges().iter().map(|&edge| Pair::from(edge)));
+    same(&edges, topology.edges().iter().map(|&edge| PairRow::from(edge)));
 
     let mut detector = CollisionDetector::<S>::new(topology);
     let at_first = ask_both(handle, &mut detector);
@@ -239,7 +239,7 @@ fn filters_exclude_what_they_do_in_rust() {
         .filter(|&other| other != vertex)
         .map(|other| [other, vertex])
         .collect();
-    let pairs: Vec<Pair> = excluded.iter().map(|&pair| pair.into()).collect();
+    let pairs: Vec<PairRow> = excluded.iter().map(|&pair| pair.into()).collect();
 
     let mut totals = Vec::new();
     for (has_groups, has_patches, has_pairs) in [

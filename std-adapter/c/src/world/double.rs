@@ -1,10 +1,10 @@
-//! Thin functions over `steps.rs` and the world itself. A C program calls these with positions in double; `build.rs` makes those
-//! for float from this file.
+//! The functions for positions in double. `build.rs` makes those for float from this file.
 
+use crate::input::{Out, OutList};
 use crate::settings::GroupsRow;
 use crate::status::Status;
-use crate::world::steps::{Deforming, Query, Rigid, WorldContactRow, answer_free, find_contacts, find_earliest};
-use crate::world::{Inserted, Mesh, WorldHandle};
+use crate::world::steps::{Deforming, Query, Rigid, WorldContactRow};
+use crate::world::{Inserted, MeshNumber, WorldHandle};
 
 /// Inserts a mesh that rests at these positions. `*mesh` receives its number.
 ///
@@ -22,7 +22,7 @@ pub unsafe extern "C" fn selvedge_world_insert_f64(
     triangle_count: usize,
     positions: *const f64,
     groups: *const GroupsRow,
-    mesh: *mut Mesh,
+    mesh: *mut MeshNumber,
 ) -> Status {
     let inserted = Inserted {
         vertex_count,
@@ -56,7 +56,20 @@ pub unsafe extern "C" fn selvedge_world_contacts_f64(
 ) -> Status {
     let query = Query::new(world, (deforming, deforming_count), (rigid, rigid_count));
     // SAFETY: the caller's promises.
-    unsafe { find_contacts(query, contacts, count) }
+    unsafe {
+        query.run(|finder, answers, motions| {
+            let out = OutList::new("contacts", contacts, count)?;
+            finder.world.contacts(motions, &mut finder.contacts)?;
+            answers.contacts.clear();
+            let rows = finder
+                .contacts
+                .iter()
+                .map(|contact| WorldContactRow::new(contact, &finder.world));
+            answers.contacts.extend(rows);
+            out.set(&answers.contacts);
+            Ok(())
+        })
+    }
 }
 
 /// Finds the earliest contact of such a step. The step is free of contact before its time.
@@ -77,7 +90,17 @@ pub unsafe extern "C" fn selvedge_world_earliest_f64(
 ) -> Status {
     let query = Query::new(world, (deforming, deforming_count), (rigid, rigid_count));
     // SAFETY: the caller's promises.
-    unsafe { find_earliest(query, found, contact) }
+    unsafe {
+        query.run(|finder, _, motions| {
+            let (found, out) = (Out::new("found", found)?, Out::new("contact", contact)?);
+            let earliest = finder.world.earliest(motions)?;
+            found.set(earliest.is_some());
+            if let Some(earliest) = earliest {
+                out.set(WorldContactRow::new(&earliest, &finder.world));
+            }
+            Ok(())
+        })
+    }
 }
 
 /// Decides whether such a step is certainly free of contact.
@@ -95,5 +118,11 @@ pub unsafe extern "C" fn selvedge_world_is_free_f64(
 ) -> Status {
     let query = Query::new(world, (deforming, deforming_count), (rigid, rigid_count));
     // SAFETY: the caller's promises.
-    unsafe { answer_free(query, is_free) }
+    unsafe {
+        query.run(|finder, _, motions| {
+            let out = Out::new("is_free", is_free)?;
+            out.set(finder.world.is_free(motions)?);
+            Ok(())
+        })
+    }
 }

@@ -10,7 +10,7 @@ pub mod steps;
 #[cfg(test)]
 mod tests;
 
-use crate::answers::Pair;
+use crate::answers::PairRow;
 use crate::detector::{AnyFinder, Format, OfFormat, ScalarFormat, topology, with_either};
 use crate::guard::guarded;
 use crate::handles::{self, Handled, Living};
@@ -32,15 +32,15 @@ pub struct WorldHandle {
 }
 
 /// The number of a mesh of a world, never 0. No other mesh of the world ever receives the same number.
-pub type Mesh = u64;
+pub type MeshNumber = u64;
 
 /// A world for one format of positions, with a buffer for its contacts.
-pub(crate) struct Finder<S: Scalar> {
+pub(crate) struct WorldFinder<S: Scalar> {
     world: World<[S; 3]>,
     contacts: Vec<WorldContact<S>>,
 }
 
-impl<S: Scalar> Finder<S> {
+impl<S: Scalar> WorldFinder<S> {
     fn new() -> Self {
         Self {
             world: World::new(),
@@ -51,16 +51,16 @@ impl<S: Scalar> Finder<S> {
 
 pub(crate) struct HandledWorld {
     finder: AnyFinder<Self>,
-    answers: Answers,
+    answers: WorldAnswers,
 }
 
 impl OfFormat for HandledWorld {
-    type Finder<S: Format> = Finder<S>;
+    type Finder<S: Format> = WorldFinder<S>;
 }
 
 /// The lists to which C holds pointers.
 #[derive(Default)]
-struct Answers {
+struct WorldAnswers {
     contacts: Vec<WorldContactRow>,
     /// The geometries of contacts, before C sees them.
     found_geometries: Vec<WorldContactGeometry>,
@@ -88,7 +88,7 @@ fn on(handle: *const WorldHandle, action: impl FnOnce(&mut HandledWorld) -> Resu
 
 fn on_format<S: Format>(
     handle: *const WorldHandle,
-    action: impl FnOnce(&mut Finder<S>, &mut Answers) -> Result<(), Failure>,
+    action: impl FnOnce(&mut WorldFinder<S>, &mut WorldAnswers) -> Result<(), Failure>,
 ) -> Status {
     on(handle, |it| {
         let Some(finder) = S::of(&mut it.finder) else {
@@ -99,7 +99,7 @@ fn on_format<S: Format>(
     })
 }
 
-fn mesh(bits: Mesh) -> Result<MeshHandle, Failure> {
+fn mesh(bits: MeshNumber) -> Result<MeshHandle, Failure> {
     let none = || Failure::new(Status::NoSuchMesh, format!("{bits} is not the number of a mesh"));
     MeshHandle::from_bits(bits).ok_or_else(none)
 }
@@ -117,13 +117,13 @@ pub unsafe extern "C" fn selvedge_world_new(scalar: u32, world: *mut *mut WorldH
         // SAFETY: the caller's promise.
         let out = unsafe { Out::new("where the world goes", world) }?;
         let finder = match scalar {
-            number if number == ScalarFormat::F32 as u32 => AnyFinder::F32(Finder::new()),
-            number if number == ScalarFormat::F64 as u32 => AnyFinder::F64(Finder::new()),
+            number if number == ScalarFormat::F32 as u32 => AnyFinder::F32(WorldFinder::new()),
+            number if number == ScalarFormat::F64 as u32 => AnyFinder::F64(WorldFinder::new()),
             number => return Err(unknown("selvedge_scalar", number)),
         };
         out.set(handles::keep(HandledWorld {
             finder,
-            answers: Answers::default(),
+            answers: WorldAnswers::default(),
         })?);
         Ok(())
     })
@@ -204,7 +204,7 @@ struct Inserted<S> {
     triangles: (*const u32, usize),
     positions: *const S,
     groups: *const GroupsRow,
-    mesh: *mut Mesh,
+    mesh: *mut MeshNumber,
 }
 
 impl<S: Format> Inserted<S> {
@@ -248,7 +248,7 @@ unsafe fn groups_at(groups: *const GroupsRow) -> Result<Groups, Failure> {
 
 /// Removes a mesh. Its number is never used again.
 #[unsafe(no_mangle)]
-pub extern "C" fn selvedge_world_remove(world: *mut WorldHandle, mesh: Mesh) -> Status {
+pub extern "C" fn selvedge_world_remove(world: *mut WorldHandle, mesh: MeshNumber) -> Status {
     on(world, |it| {
         let mesh = self::mesh(mesh)?;
         Ok(with_either!(&mut it.finder, finder => finder.world.remove(mesh))?)
@@ -260,7 +260,11 @@ pub extern "C" fn selvedge_world_remove(world: *mut WorldHandle, mesh: Mesh) -> 
 /// # Safety
 /// `groups` points to one entry unless it is NULL.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn selvedge_world_set_groups(world: *mut WorldHandle, mesh: Mesh, groups: *const GroupsRow) -> Status {
+pub unsafe extern "C" fn selvedge_world_set_groups(
+    world: *mut WorldHandle,
+    mesh: MeshNumber,
+    groups: *const GroupsRow,
+) -> Status {
     on(world, |it| {
         // SAFETY: the caller's promise.
         let groups = unsafe { groups_at(groups) }?;
@@ -278,8 +282,8 @@ pub unsafe extern "C" fn selvedge_world_set_groups(world: *mut WorldHandle, mesh
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn selvedge_world_edges(
     world: *const WorldHandle,
-    mesh: Mesh,
-    edges: *mut *const Pair,
+    mesh: MeshNumber,
+    edges: *mut *const PairRow,
     count: *mut usize,
 ) -> Status {
     on(world, |it| {

@@ -1,8 +1,8 @@
 //! The queries about a step of a world, generic over the format of the positions.
 
-use super::{Answers, Finder, Format, HandledWorld, Mesh, WorldHandle, mesh, on, on_format, with_either};
+use super::{Format, HandledWorld, MeshNumber, WorldAnswers, WorldFinder, WorldHandle, mesh, on, on_format, with_either};
 use crate::answers::{ContactRow, GeometryRow, Kind};
-use crate::input::{Out, OutList, Plain, view};
+use crate::input::{OutList, Plain, view};
 use crate::status::{Failure, Status};
 use selvedge::core::narrowing::rounded_down;
 use selvedge::glam::{DQuat, DVec3};
@@ -14,7 +14,7 @@ use selvedge::{Frame, MeshHandle, MeshMotion, Scalar, StepError, World, WorldCon
 #[derive(Clone, Copy, Debug)]
 pub struct Deforming<S> {
     /// The mesh.
-    pub mesh: Mesh,
+    pub mesh: MeshNumber,
     /// The positions at the start: 3 * `vertex_count` numbers.
     pub start: *const S,
     /// The positions at the end.
@@ -26,7 +26,7 @@ pub struct Deforming<S> {
 /// The place of a body: the rotation and the translation of the shape that it was inserted with.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-pub struct Pose {
+pub struct PoseRow {
     /// A quaternion, x y z w, of any length except zero.
     pub rotation: [f64; 4],
     /// The position of the shape's origin.
@@ -42,11 +42,11 @@ pub struct Pose {
 #[derive(Clone, Copy, Debug)]
 pub struct Rigid {
     /// The mesh.
-    pub mesh: Mesh,
+    pub mesh: MeshNumber,
     /// The pose at the start.
-    pub start: Pose,
+    pub start: PoseRow,
     /// The pose at the end.
-    pub end: Pose,
+    pub end: PoseRow,
 }
 
 // Any bits are valid numbers and pointers.
@@ -59,13 +59,13 @@ impl Plain for WorldContactRow {}
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WorldContactRow {
     /// The meshes of the vertex and of the face, or of the two edges. They are equal if a mesh meets itself.
-    pub meshes: [Mesh; 2],
+    pub meshes: [MeshNumber; 2],
     /// The time and the primitives. Primitives and vertices have the numbers of their own meshes.
     pub contact: ContactRow,
 }
 
 impl WorldContactRow {
-    fn new<S: Scalar>(contact: &WorldContact<S>, world: &World<[S; 3]>) -> Self {
+    pub(super) fn new<S: Scalar>(contact: &WorldContact<S>, world: &World<[S; 3]>) -> Self {
         Self {
             meshes: contact.meshes.map(MeshHandle::to_bits),
             contact: ContactRow {
@@ -95,7 +95,7 @@ impl WorldContactRow {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WorldGeometryRow {
     /// The meshes, as in the contact.
-    pub meshes: [Mesh; 2],
+    pub meshes: [MeshNumber; 2],
     /// The geometry. Primitives and vertices have the numbers of their own meshes.
     pub geometry: GeometryRow,
 }
@@ -135,9 +135,9 @@ impl<S: Format> Query<S> {
     ///
     /// # Safety
     /// The conditions are those of selvedge_world_contacts_f64.
-    unsafe fn run(
+    pub(super) unsafe fn run(
         self,
-        search: impl FnOnce(&mut Finder<S>, &mut Answers, &[(MeshHandle, MeshMotion<'_, [S; 3]>)]) -> Result<(), Failure>,
+        search: impl FnOnce(&mut WorldFinder<S>, &mut WorldAnswers, &[(MeshHandle, MeshMotion<'_, [S; 3]>)]) -> Result<(), Failure>,
     ) -> Status {
         on_format::<S>(self.world, |finder, answers| {
             // SAFETY: the caller's promises.
@@ -176,57 +176,9 @@ impl<S: Format> Query<S> {
     }
 }
 
-pub(super) unsafe fn find_contacts<S: Format>(
-    query: Query<S>,
-    contacts: *mut *const WorldContactRow,
-    count: *mut usize,
-) -> Status {
-    // SAFETY: the caller's promises.
-    unsafe {
-        query.run(|finder, answers, motions| {
-            let out = OutList::new("contacts", contacts, count)?;
-            finder.world.contacts(motions, &mut finder.contacts)?;
-            answers.contacts.clear();
-            let rows = finder
-                .contacts
-                .iter()
-                .map(|contact| WorldContactRow::new(contact, &finder.world));
-            answers.contacts.extend(rows);
-            out.set(&answers.contacts);
-            Ok(())
-        })
-    }
-}
-
-pub(super) unsafe fn find_earliest<S: Format>(query: Query<S>, found: *mut bool, contact: *mut WorldContactRow) -> Status {
-    // SAFETY: the caller's promises.
-    unsafe {
-        query.run(|finder, _, motions| {
-            let (found, out) = (Out::new("found", found)?, Out::new("contact", contact)?);
-            let earliest = finder.world.earliest(motions)?;
-            found.set(earliest.is_some());
-            if let Some(earliest) = earliest {
-                out.set(WorldContactRow::new(&earliest, &finder.world));
-            }
-            Ok(())
-        })
-    }
-}
-
-pub(super) unsafe fn answer_free<S: Format>(query: Query<S>, is_free: *mut bool) -> Status {
-    // SAFETY: the caller's promises.
-    unsafe {
-        query.run(|finder, _, motions| {
-            let out = Out::new("is_free", is_free)?;
-            out.set(finder.world.is_free(motions)?);
-            Ok(())
-        })
-    }
-}
-
 unsafe fn find_geometries<S: Format>(
-    finder: &Finder<S>,
-    answers: &mut Answers,
+    finder: &WorldFinder<S>,
+    answers: &mut WorldAnswers,
     contacts: (*const WorldContactRow, usize),
 ) -> Result<(), Failure> {
     // SAFETY: the caller's promises. The contacts may be this world's own; they are not written to here.

@@ -1,7 +1,7 @@
 //! A story in C and in Rust: both must have the same results.
 
 use super::*;
-use crate::answers::Pair;
+use crate::answers::PairRow;
 use crate::settings::GroupsRow;
 use crate::status::Status;
 use crate::tests::{contact_row, geometry_row, last_error, list, same, sheet};
@@ -26,8 +26,8 @@ fn geometry(found: &WorldContactGeometry) -> WorldGeometryRow {
     }
 }
 
-fn pose((rotation, origin): (DQuat, DVec3)) -> Pose {
-    Pose {
+fn pose((rotation, origin): (DQuat, DVec3)) -> PoseRow {
+    PoseRow {
         rotation: rotation.to_array(),
         origin: origin.to_array(),
     }
@@ -72,7 +72,7 @@ impl Twin {
         assert_eq!((status, from_c), (Status::Ok, made.to_bits()), "{}", last_error());
         // SAFETY: the list is written to.
         let edges = list(|start, count| unsafe { selvedge_world_edges(self.handle, from_c, start, count) });
-        same(&edges, self.world.topology(made).unwrap().edges().iter().map(|&edge| Pair::from(edge)));
+        same(&edges, self.world.topology(made).unwrap().edges().iter().map(|&edge| PairRow::from(edge)));
         made
     }
 
