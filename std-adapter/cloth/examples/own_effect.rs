@@ -25,6 +25,8 @@ struct Magnet {
     until: f64,
 }
 
+selvedge_cloth::identify!(Magnet { at, strength, until });
+
 impl Effect for Magnet {
     fn name(&self) -> &'static str {
         "magnet"
@@ -67,6 +69,8 @@ struct Ceiling {
     /// The force on a vertex for each metre that it is above the ceiling, in N/m.
     stiffness: f64,
 }
+
+selvedge_cloth::identify!(Ceiling { height, stiffness });
 
 impl Effect for Ceiling {
     fn name(&self) -> &'static str {

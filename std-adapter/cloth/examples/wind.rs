@@ -13,6 +13,8 @@ use std::error::Error;
 #[derive(Debug)]
 struct NearGround;
 
+selvedge_cloth::identify!(NearGround {});
+
 impl Air for NearGround {
     fn velocity(&self, at: DVec3, _time: f64) -> DVec3 {
         DVec3::X * (3.0 * (1.0 + at.z).max(0.0))

@@ -9,7 +9,7 @@
 //!                                                              │ each step
 //!                           forces ▸ prediction ▸ constraints ▸ contacts ▸ friction ▸ certified pass ▸ velocities
 //!
-//! input ▸ world ▸ model ▸ contact ▸ effects ▸ scene ▸ display, simulate      each folder imports only from those before it
+//! identity, input ▸ world ▸ model ▸ contact ▸ effects ▸ scene ▸ display, simulate      each folder imports only from those before it
 //! ```
 //!
 //! | item | meaning |
@@ -39,6 +39,7 @@
 mod contact;
 mod display;
 pub mod effects;
+mod identity;
 mod input;
 mod model;
 mod scene;
@@ -49,6 +50,7 @@ mod world;
 pub use contact::{ContactCounts, ContactSeconds, Crossing, ProximityPair};
 pub use display::{Tubes, vertex_normals};
 pub use effects::effect_names;
+pub use identity::{Identify, Identity};
 pub use input::{NamedMesh, SceneContext, SceneError, ValueError};
 pub use model::energy::{Energy, StoredEnergy};
 pub use model::tearing::TornEdge;

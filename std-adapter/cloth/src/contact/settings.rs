@@ -27,6 +27,8 @@ pub struct Thickness {
     pub separation: f64,
 }
 
+crate::identify!(Thickness { thickness, separation });
+
 /// The position of the largest thickness of neighbours between the separation (0) and the thickness (1). On a sleeve of 134,000
 /// triangles three quarters of the pairs within reach are neighbours farther apart than their own thickness.
 const NEIGHBOURS: f64 = 0.2;

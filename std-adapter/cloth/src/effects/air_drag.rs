@@ -20,6 +20,8 @@ pub struct AirDrag {
     pub rate: f64,
 }
 
+crate::identify!(AirDrag { rate });
+
 impl Effect for AirDrag {
     fn name(&self) -> &'static str {
         "air_drag"

@@ -87,6 +87,14 @@ impl AttachmentGroup {
     }
 }
 
+crate::identify!(Attachments { groups });
+crate::identify!(AttachmentGroup {
+    vertices,
+    motion,
+    limit,
+    give
+});
+
 impl Effect for Attachments {
     fn name(&self) -> &'static str {
         "attachments"

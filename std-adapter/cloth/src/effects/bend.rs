@@ -49,6 +49,11 @@ impl Bend {
     }
 }
 
+crate::identify!(Bend {
+    stiffness,
+    weft_stiffness
+});
+
 impl Effect for Bend {
     fn name(&self) -> &'static str {
         "bend"

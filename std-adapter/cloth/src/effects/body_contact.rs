@@ -19,6 +19,8 @@ pub(super) const REGISTRATION: Registration = Registration::new(&["thickness", "
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyContact(pub Thickness);
 
+crate::identify!(BodyContact { 0 });
+
 impl Effect for BodyContact {
     fn name(&self) -> &'static str {
         "body_contact"

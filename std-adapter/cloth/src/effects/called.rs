@@ -7,6 +7,7 @@ use super::registration::{Effect, Scope};
 use super::registry::{rank, registration_of};
 use super::{Bend, Shear, Stretch};
 use crate::effects::plan::{Fabric, Plan};
+use crate::identity::{Identify, Identity};
 use crate::input::ValueError;
 use crate::world::{Cloth, Material, SceneParts};
 use std::sync::Arc;
@@ -42,6 +43,15 @@ impl Effects {
 
     fn names(&self) -> impl Iterator<Item = &'static str> {
         self.0.iter().map(|effect| effect.name())
+    }
+}
+
+impl Identify for Effects {
+    fn identify(&self, identity: &mut Identity) {
+        for effect in &self.0 {
+            effect.name().identify(identity);
+            effect.identify(identity);
+        }
     }
 }
 

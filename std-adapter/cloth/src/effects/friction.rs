@@ -20,6 +20,8 @@ pub struct Friction {
     pub coefficient: f64,
 }
 
+crate::identify!(Friction { coefficient });
+
 impl Effect for Friction {
     fn name(&self) -> &'static str {
         "friction"

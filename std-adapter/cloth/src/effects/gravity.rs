@@ -41,6 +41,8 @@ impl Gravity {
     }
 }
 
+crate::identify!(Gravity { acceleration });
+
 impl Effect for Gravity {
     fn name(&self) -> &'static str {
         "gravity"

@@ -82,6 +82,9 @@ impl Inflation {
     }
 }
 
+crate::identify!(Inflation { keyframes });
+crate::identify!(PressureKey { time, pressure });
+
 impl Effect for Inflation {
     fn name(&self) -> &'static str {
         "inflation"

@@ -98,6 +98,9 @@ impl PinGroup {
     }
 }
 
+crate::identify!(Pins { groups });
+crate::identify!(PinGroup { vertices, motion });
+
 impl Effect for Pins {
     fn name(&self) -> &'static str {
         "pins"

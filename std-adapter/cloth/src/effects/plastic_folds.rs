@@ -38,6 +38,8 @@ impl PlasticFolds {
     }
 }
 
+crate::identify!(PlasticFolds { yield_curvature, creep });
+
 impl Effect for PlasticFolds {
     fn name(&self) -> &'static str {
         "plastic_folds"

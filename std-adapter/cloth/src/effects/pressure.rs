@@ -36,6 +36,8 @@ impl InternalPressure {
     }
 }
 
+crate::identify!(InternalPressure { volume, modulus });
+
 impl Effect for InternalPressure {
     fn name(&self) -> &'static str {
         "internal_pressure"

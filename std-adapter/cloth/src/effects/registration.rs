@@ -1,14 +1,14 @@
 //! The interface of an effect: how its table is read, and what it registers.
 
+use crate::Identify;
 use crate::effects::plan::{Fabric, Plan};
 use crate::input::{SceneError, Table, ValueError};
 use crate::world::{Cloth, SceneParts};
 use std::fmt::Debug;
 
-/// An effect on cloth: one of [`effects`](crate::effects), or your own.
-///
-/// `Debug` must show every setting, since checkpoints use it to distinguish scenes.
-pub trait Effect: Debug + Send + Sync {
+/// An effect on cloth: one of [`effects`](crate::effects), or your own. [`identify!`](crate::identify) tells checkpoints its
+/// settings.
+pub trait Effect: Debug + Identify + Send + Sync {
     /// Returns the name in scene files and reports.
     fn name(&self) -> &'static str;
 

@@ -48,6 +48,9 @@ impl RopeBend {
     }
 }
 
+crate::identify!(RopeBend { stiffness, rest });
+crate::identify!(enum RopeShape { 0 => Straight, 1 => AsBuilt });
+
 impl Effect for RopeBend {
     fn name(&self) -> &'static str {
         "rope_bend"

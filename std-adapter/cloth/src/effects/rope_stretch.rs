@@ -34,6 +34,8 @@ impl RopeStretch {
     }
 }
 
+crate::identify!(RopeStretch { stiffness });
+
 impl Effect for RopeStretch {
     fn name(&self) -> &'static str {
         "rope_stretch"

@@ -174,6 +174,14 @@ fn read_seam(table: &Table<'_>, world: &SceneParts<'_>) -> Result<Seam, SceneErr
     Ok(seam)
 }
 
+crate::identify!(Seams { seams });
+crate::identify!(Seam {
+    first,
+    second,
+    gap,
+    closing
+});
+
 impl Effect for Seams {
     fn name(&self) -> &'static str {
         "seams"

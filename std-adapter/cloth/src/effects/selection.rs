@@ -22,6 +22,8 @@ pub enum PinMotion {
     Own(BodyMotion),
 }
 
+crate::identify!(enum PinMotion { 0 => Body(body), 1 => Own(motion) });
+
 /// Returns the key that selects the vertices.
 fn way(table: &Table<'_>) -> &'static str {
     WAYS.into_iter().rev().find(|way| table.has(way)).unwrap_or(WAYS[0])

@@ -19,6 +19,8 @@ pub(super) const REGISTRATION: Registration = Registration::new(&["thickness", "
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SelfCollision(pub Thickness);
 
+crate::identify!(SelfCollision { 0 });
+
 impl Effect for SelfCollision {
     fn name(&self) -> &'static str {
         "self_collision"

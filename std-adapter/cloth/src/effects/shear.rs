@@ -31,6 +31,8 @@ impl Shear {
     }
 }
 
+crate::identify!(Shear { stiffness });
+
 impl Effect for Shear {
     fn name(&self) -> &'static str {
         "shear"

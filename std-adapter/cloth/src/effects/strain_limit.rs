@@ -29,6 +29,8 @@ impl StrainLimit {
     }
 }
 
+crate::identify!(StrainLimit { limit });
+
 impl Effect for StrainLimit {
     fn name(&self) -> &'static str {
         "strain_limit"

@@ -45,6 +45,11 @@ impl Stretch {
     }
 }
 
+crate::identify!(Stretch {
+    stiffness,
+    weft_stiffness
+});
+
 impl Effect for Stretch {
     fn name(&self) -> &'static str {
         "stretch"

@@ -129,6 +129,9 @@ impl Perforation {
     }
 }
 
+crate::identify!(Tearing { strength, perforations });
+crate::identify!(Perforation { vertices, strength });
+
 impl Effect for Tearing {
     fn name(&self) -> &'static str {
         "tearing"

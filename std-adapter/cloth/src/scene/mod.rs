@@ -29,12 +29,12 @@ mod file;
 mod read_cloth;
 
 use crate::effects::{Called, Effect, Effects};
+use crate::identity::{Identify, Identity};
 use crate::input::{AREA_DENSITY, FREQUENCY, Field, LARGEST_TIME, LINEAR_DENSITY, TIME, ValueError, suggestion};
 use crate::solve::Accuracy;
 use crate::world::{Body, Cloth, SceneParts};
 use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
-use selvedge_files::bytes::Fingerprint;
 use selvedge_files::excerpt::excerpt;
 use std::ops::Range;
 
@@ -62,6 +62,9 @@ pub enum TangledStart {
     /// [`Simulation::untangled`](crate::Simulation::untangled).
     Untangle,
 }
+
+crate::identify!(enum OnBlocked { 0 => Stop, 1 => Hold, 2 => Yield });
+crate::identify!(enum TangledStart { 0 => Refuse, 1 => Tolerate, 2 => Untangle });
 
 /// A scene: cloths, bodies and effects, read from a file or made in code.
 ///
@@ -408,55 +411,23 @@ impl Scene {
     /// Returns a number that distinguishes this scene's checkpoints from those of other scenes. It depends on the text and on all
     /// parts.
     pub(crate) fn fingerprint(&self) -> u64 {
-        // Numbers are written so that they read back.
-        let mut fingerprint = Fingerprint::default();
-        let mut take = |bytes: &[u8]| fingerprint.take(bytes);
-        take(self.text.as_bytes());
-        take(
-            format!(
-                "{:?}",
-                (
-                    self.time_of_run(),
-                    self.time_step,
-                    self.on_blocked,
-                    self.tangled_start,
-                    self.accuracy,
-                    &self.effects
-                )
-            )
-            .as_bytes(),
-        );
-        let called = self.called();
-        for (cloth, effects) in self.cloths.iter().zip(called.own()) {
-            let Cloth {
-                name,
-                density,
-                velocity,
-                warp,
-                linear_density,
-                topology,
-                ..
-            } = cloth;
-            take(format!("{:?}", (name, density, velocity, warp, effects)).as_bytes());
-            if topology.loose_edges().len() > 0 {
-                take(format!("{:?}", (linear_density, topology.loose_edges().collect::<Vec<_>>())).as_bytes());
-            }
+        let mut identity = Identity::default();
+        let settings: [&dyn Identify; 7] = [
+            &self.text,
+            &self.time_of_run(),
+            &self.time_step,
+            &self.on_blocked,
+            &self.tangled_start,
+            &self.accuracy,
+            &self.effects,
+        ];
+        settings.iter().for_each(|setting| setting.identify(&mut identity));
+        for (cloth, effects) in self.cloths.iter().zip(self.called().own()) {
+            cloth.identify(&mut identity);
+            effects.identify(&mut identity);
         }
-        for body in &self.bodies {
-            take(format!("{:?}", (&body.name, &body.motion)).as_bytes());
-        }
-        let cloths = self.cloths.iter().map(|cloth| &cloth.mesh);
-        let meshes = cloths.chain(self.bodies.iter().map(|body| &body.mesh));
-        for mesh in meshes {
-            let coordinates = mesh.positions.iter().flat_map(|position| position.to_array());
-            coordinates.for_each(|x| take(&x.to_le_bytes()));
-            mesh.triangles.iter().flatten().for_each(|vertex| take(&vertex.to_le_bytes()));
-        }
-        let starts = self.cloths.iter().flat_map(Cloth::own_start).flatten();
-        starts
-            .flat_map(|position| position.to_array())
-            .for_each(|x| take(&x.to_le_bytes()));
-        fingerprint.value()
+        self.bodies.iter().for_each(|body| body.identify(&mut identity));
+        identity.value()
     }
 }
 

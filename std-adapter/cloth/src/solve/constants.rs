@@ -15,6 +15,8 @@ pub enum Accuracy {
     Exact,
 }
 
+crate::identify!(enum Accuracy { 0 => Game, 1 => Film, 2 => Exact });
+
 impl Accuracy {
     /// All accuracies, from the fastest to the most accurate.
     pub const ALL: [Self; 3] = [Self::Game, Self::Film, Self::Exact];

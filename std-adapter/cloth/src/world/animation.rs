@@ -5,6 +5,7 @@
 //! advances by at most a time step, and may wait. No vertex may be faster than [`FASTEST_VERTEX`]: a cut in the animation, or a
 //! unit other than metres, is an error.
 
+use crate::identity::{Identify, Identity};
 use crate::input::{FREQUENCY, Field, LARGEST_COORDINATE, LARGEST_TIME, TIME, ValueError};
 use selvedge_core::glam::DVec3;
 use selvedge_files::animation::Figure;
@@ -242,6 +243,14 @@ impl Animation {
             return Err(ValueError::new("animation", message));
         }
         Ok(())
+    }
+}
+
+impl Identify for Animation {
+    fn identify(&self, identity: &mut Identity) {
+        self.span().identify(identity);
+        self.source.vertices.identify(identity);
+        self.source.fingerprint.identify(identity);
     }
 }
 

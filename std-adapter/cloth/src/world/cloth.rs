@@ -4,6 +4,7 @@ use super::file_mesh::FileMesh;
 use super::runs::{Run, runs};
 use super::sleeve::{RefinementError, ring_sizes, sleeve};
 use super::{Material, shapes};
+use crate::identity::{Identify, Identity};
 use crate::input::{
     AREA_DENSITY, Count, Field, LARGEST_COORDINATE, LENGTH, LINEAR_DENSITY, RATIO, SPEED, ValueError, suggestion,
 };
@@ -47,6 +48,23 @@ pub struct Cloth {
     pub(crate) file: Option<FileMesh>,
     /// Named groups of vertices.
     parts: Vec<(&'static str, Vec<u32>)>,
+}
+
+impl Identify for Cloth {
+    fn identify(&self, identity: &mut Identity) {
+        let loose_edges: Vec<_> = self.topology.loose_edges().collect();
+        let parts: [&dyn Identify; 8] = [
+            &self.name,
+            &self.density,
+            &self.linear_density,
+            &self.velocity,
+            &self.warp,
+            &self.mesh,
+            &loose_edges,
+            &self.start,
+        ];
+        parts.iter().for_each(|part| part.identify(identity));
+    }
 }
 
 pub(crate) const NAME: &str = "cloth";

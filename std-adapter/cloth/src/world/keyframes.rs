@@ -7,7 +7,6 @@ use crate::input::{
     ANGLE, ANGULAR_SPEED, Field, LARGEST_COORDINATE, LARGEST_TIME, LENGTH, RATIO, SceneError, TIME, Table, ValueError,
 };
 use selvedge_core::glam::DVec3;
-use std::fmt;
 
 /// The motion from one keyframe to the next.
 ///
@@ -50,7 +49,7 @@ const INTERPOLATIONS: [(&str, Interpolation); 3] = [
 /// let table = KeyframeMotion::new(DVec3::ZERO, DVec3::Z, vec![])?.spinning(3.0);
 /// # Ok::<(), selvedge_cloth::ValueError>(())
 /// ```
-#[derive(Clone, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct KeyframeMotion {
     pivot: DVec3,
     axis: DVec3,
@@ -60,21 +59,19 @@ pub struct KeyframeMotion {
     rate: f64,
 }
 
-/// Shows what a motion has. Fingerprints of scenes contain this text, so bodies at rest look as they always did.
-impl fmt::Debug for KeyframeMotion {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut debug = f.debug_struct("KeyframeMotion");
-        debug.field("pivot", &self.pivot).field("axis", &self.axis);
-        debug.field("keyframes", &self.keyframes);
-        if !self.keyframes.is_empty() {
-            debug.field("interpolation", &self.interpolation);
-        }
-        if self.rate != 0.0 {
-            debug.field("rate", &self.rate);
-        }
-        debug.finish()
-    }
-}
+crate::identify!(enum Interpolation { 0 => Linear, 1 => Smooth, 2 => Spline });
+crate::identify!(KeyframeMotion {
+    pivot,
+    axis,
+    keyframes,
+    interpolation,
+    rate
+});
+crate::identify!(Keyframe {
+    time,
+    angle,
+    translation
+});
 
 /// The shortest time between keyframes, in seconds: far above the resolution of the clock.
 const CLOSEST_KEYS: f64 = 1e-6;

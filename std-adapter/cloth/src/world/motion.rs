@@ -19,6 +19,8 @@ pub enum BodyMotion {
     Driven(Placement),
 }
 
+crate::identify!(enum BodyMotion { 0 => Keyframes(motion), 1 => Animated(animation), 2 => Driven(placement) });
+
 impl BodyMotion {
     /// Checks the motion of points, given at rest.
     ///

@@ -23,6 +23,8 @@ pub struct Placement {
     pub translation: DVec3,
 }
 
+crate::identify!(Placement { rotation, translation });
+
 impl Placement {
     /// Returns a placement with a rotation, then a translation in metres.
     #[must_use]

@@ -5,7 +5,6 @@ use super::shapes;
 use crate::input::ValueError;
 use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
-use std::slice;
 
 impl Cloth {
     /// Returns the cloth, to start at other positions than those at rest: a garment that is made in one pose and worn in another.
@@ -51,10 +50,5 @@ impl Cloth {
     #[must_use]
     pub fn start(&self) -> &[DVec3] {
         self.start.as_deref().unwrap_or(&self.mesh.positions)
-    }
-
-    /// Returns the positions at the start if they are not those at rest; at most one entry.
-    pub(crate) fn own_start(&self) -> slice::Iter<'_, Vec<DVec3>> {
-        self.start.as_slice().iter()
     }
 }

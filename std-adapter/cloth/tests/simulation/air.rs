@@ -95,6 +95,8 @@ fn a_closed_cloth_is_not_pushed_as_a_whole_and_an_open_one_along_its_normals() {
 #[derive(Debug)]
 pub(crate) struct Even(pub(crate) DVec3);
 
+selvedge_cloth::identify!(Even { 0 });
+
 impl Air for Even {
     fn velocity(&self, _: DVec3, _: f64) -> DVec3 {
         self.0
@@ -117,6 +119,8 @@ fn a_field_that_is_the_same_everywhere_is_wind_to_the_last_bit() {
 
 #[derive(Debug)]
 struct Gust;
+
+selvedge_cloth::identify!(Gust {});
 
 impl Air for Gust {
     fn velocity(&self, at: DVec3, time: f64) -> DVec3 {

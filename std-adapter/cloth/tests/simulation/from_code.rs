@@ -332,6 +332,8 @@ struct Balloon {
     ceiling: f64,
 }
 
+selvedge_cloth::identify!(Balloon { ceiling });
+
 impl Effect for Balloon {
     fn name(&self) -> &'static str {
         "balloon"

@@ -6,6 +6,8 @@ use crate::common::*;
 #[derive(Clone, Copy, Debug)]
 struct Hand;
 
+selvedge_cloth::identify!(Hand {});
+
 impl Effect for Hand {
     fn name(&self) -> &'static str {
         "hand"

@@ -13,6 +13,8 @@ fn length(points: &[DVec3]) -> f64 {
 #[derive(Clone, Copy, Debug)]
 struct Weight(f64);
 
+selvedge_cloth::identify!(Weight { 0 });
+
 impl selvedge_cloth::effects::Effect for Weight {
     fn name(&self) -> &'static str {
         "weight"

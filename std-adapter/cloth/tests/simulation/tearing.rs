@@ -110,6 +110,8 @@ struct Apart;
 
 const ACCELERATION: f64 = 2000.0;
 
+selvedge_cloth::identify!(Apart {});
+
 impl Effect for Apart {
     fn name(&self) -> &'static str {
         "apart"

@@ -23,6 +23,8 @@ fn wavy(corner: DVec3) -> Mesh {
 #[derive(Debug)]
 struct Spin(DVec3);
 
+selvedge_cloth::identify!(Spin { 0 });
+
 impl Effect for Spin {
     fn name(&self) -> &'static str {
         "spin"

@@ -127,6 +127,8 @@ pub(super) const CAPSTAN: Law = Law {
 #[derive(Clone, Copy, Debug)]
 struct Load(usize);
 
+selvedge_cloth::identify!(Load { 0 });
+
 impl Effect for Load {
     fn name(&self) -> &'static str {
         "load"

@@ -11,6 +11,7 @@
 //! Both are quoted from works that use them. The slope of 0.094 is on page 44 of the first; other measurements give 0.086 to
 //! 0.096. The profile of the second is quoted as ∝ r/(R² + r²), which is the one above.
 
+use crate::Identify;
 use crate::input::{Field, LARGEST_COORDINATE, LENGTH, RATIO, SPEED, SceneError, Table, ValueError};
 use libm::exp2;
 use selvedge_core::glam::DVec3;
@@ -24,9 +25,8 @@ const TURNING: Field = Field::new("speed", SPEED, -1e3, 1e3);
 
 /// Moving air. Its velocity, in m/s, depends on a place in metres and a time in seconds.
 ///
-/// The velocity must depend on the arguments alone, since failed steps are repeated and triangles call it in any order. `Debug`
-/// must show all that it depends on, since checkpoints use it to distinguish scenes.
-pub trait Air: Debug + Send + Sync {
+/// The velocity must depend on the arguments alone, since failed steps are repeated and triangles call it in any order.
+pub trait Air: Debug + Identify + Send + Sync {
     /// Returns the velocity in m/s. A velocity that is not finite counts as zero.
     fn velocity(&self, at: DVec3, time: f64) -> DVec3;
 
@@ -130,6 +130,10 @@ impl Vortex {
         turning * (2.0 * self.speed / self.radius / (1.0 + squared))
     }
 }
+
+crate::identify!(enum AirSource { 0 => Fan(fan), 1 => Vortex(vortex) });
+crate::identify!(Fan { at, velocity, radius });
+crate::identify!(Vortex { at, axis, speed, radius });
 
 impl Air for Vec<AirSource> {
     fn velocity(&self, at: DVec3, _: f64) -> DVec3 {

@@ -82,6 +82,15 @@ impl Wind {
     }
 }
 
+crate::identify!(Wind {
+    velocity,
+    air_density,
+    drag,
+    rope_diameter,
+    gust,
+    gust_frequency
+});
+
 impl Effect for Wind {
     fn name(&self) -> &'static str {
         "wind"

@@ -41,10 +41,12 @@ pub(in crate::effects) const REGISTRATION: Registration =
 /// ```
 /// use selvedge_cloth::effects::{Air, WindField};
 /// use selvedge_cloth::glam::DVec3;
+/// use selvedge_cloth::identify;
 ///
 /// /// Faster with height and time.
 /// #[derive(Debug)]
 /// struct Rising;
+/// identify!(Rising {});
 ///
 /// impl Air for Rising {
 ///     fn velocity(&self, at: DVec3, time: f64) -> DVec3 {
@@ -93,6 +95,13 @@ impl WindField {
         }
     }
 }
+
+crate::identify!(WindField {
+    air,
+    air_density,
+    drag,
+    rope_diameter
+});
 
 impl Effect for WindField {
     fn name(&self) -> &'static str {
