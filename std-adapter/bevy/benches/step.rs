@@ -9,7 +9,7 @@ use bevy_mesh::{Mesh, Mesh3d, VertexAttributeValues};
 use bevy_transform::components::Transform;
 use selvedge_bevy::selvedge::glam::{DQuat, DVec3};
 use selvedge_bevy::selvedge::{MeshMotion, Topology, World};
-use selvedge_bevy::{BodyContact, CollisionBody, Groups, SelvedgePlugin};
+use selvedge_bevy::{CollisionBody, CollisionContact, Groups, SelvedgePlugin};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -76,7 +76,7 @@ fn main() {
                     transform.translation.z = height(step + 1);
                 }
             }
-            app.world_mut().resource_mut::<Messages<BodyContact>>().clear();
+            app.world_mut().resource_mut::<Messages<CollisionContact>>().clear();
             let begin = Instant::now();
             app.world_mut().run_schedule(FixedPostUpdate);
             plugin.push(begin.elapsed());
@@ -84,7 +84,7 @@ fn main() {
             let begin = Instant::now();
             world.contacts(&motions, &mut found).expect("a step");
             detector.push(begin.elapsed());
-            assert_eq!(app.world().resource::<Messages<BodyContact>>().len(), found.len());
+            assert_eq!(app.world().resource::<Messages<CollisionContact>>().len(), found.len());
         }
         plugin.sort_unstable();
         detector.sort_unstable();

@@ -3,7 +3,7 @@
 use crate::error::tell;
 use crate::place::{Place, Places};
 use crate::seen::write;
-use crate::shape::{MeshError, Shape, positions_of, triangles_of};
+use crate::shape::{RenderMeshError, Shape, positions_of, triangles_of};
 use crate::{SelvedgeError, SelvedgeProblem};
 use bevy_asset::{Assets, RenderAssetUsages};
 use bevy_ecs::component::Component;
@@ -227,7 +227,7 @@ pub fn cloth_of_mesh(mesh: &Mesh, warp: DVec3, density: f64) -> Result<Cloth, Cl
 ///
 /// # Errors
 /// Returns an error if the mesh does not consist of triangles with positions.
-pub fn body_of_mesh(name: &str, mesh: &Mesh) -> Result<Body, MeshError> {
+pub fn body_of_mesh(name: &str, mesh: &Mesh) -> Result<Body, RenderMeshError> {
     Ok(Body::from_mesh(name, joined(mesh)?))
 }
 
@@ -236,13 +236,13 @@ pub fn body_of_mesh(name: &str, mesh: &Mesh) -> Result<Body, MeshError> {
 pub enum ClothMeshError {
     /// The mesh cannot be read.
     #[error("the mesh cannot be cloth: {0}")]
-    Mesh(#[from] MeshError),
+    Mesh(#[from] RenderMeshError),
     /// The cloth is invalid, for example because of triangles without area.
     #[error(transparent)]
     Value(#[from] ValueError),
 }
 
-fn joined(mesh: &Mesh) -> Result<selvedge::Mesh, MeshError> {
+fn joined(mesh: &Mesh) -> Result<selvedge::Mesh, RenderMeshError> {
     let shape = Shape::of(mesh)?;
     let positions = positions_of(mesh)?
         .iter()
@@ -415,6 +415,6 @@ fn tear(mesh: &mut Mesh, simulation: &Simulation) -> Result<Vec<u32>, SelvedgeEr
             cloth: simulation.cloth_vertices(),
         });
     }
-    mesh.try_duplicate_vertices().map_err(|_| MeshError::OnlyRendered)?;
+    mesh.try_duplicate_vertices().map_err(|_| RenderMeshError::OnlyRendered)?;
     Ok(triangles.as_flattened().to_vec())
 }

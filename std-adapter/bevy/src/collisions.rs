@@ -3,7 +3,7 @@
 use crate::error::tell;
 use crate::place::{Place, Places};
 use crate::shape::{Shape, positions_of, triangles_of};
-use crate::{CollisionBody, CollisionGroups, CollisionMesh, MeshError, SelvedgeError, SelvedgeProblem};
+use crate::{CollisionBody, CollisionGroups, CollisionMesh, RenderMeshError, SelvedgeError, SelvedgeProblem};
 use bevy_asset::{AssetEvent, AssetId, Assets};
 use bevy_ecs::change_detection::DetectChanges;
 use bevy_ecs::entity::Entity;
@@ -47,7 +47,7 @@ impl Default for CollisionSettings {
 ///
 /// One touch often gives several contacts: one for each vertex–face or edge–edge pair that meets.
 #[derive(Message, Clone, Copy, Debug, PartialEq)]
-pub struct BodyContact {
+pub struct CollisionContact {
     /// The kind of pair: vertex–face or edge–edge.
     pub kind: PairKind,
     /// The bodies of the vertex and of the face, or of the two edges. They may have been despawned since.
@@ -72,7 +72,7 @@ pub(crate) struct Collisions {
     entities: HashMap<MeshHandle, Entity>,
     /// The last reports about bodies that do not take part or lag behind.
     problems: BTreeMap<Entity, SelvedgeError>,
-    refused: HashMap<AssetId<Mesh>, MeshError>,
+    refused: HashMap<AssetId<Mesh>, RenderMeshError>,
     shapes: HashMap<AssetId<Mesh>, Weak<Shape>>,
     found: Vec<WorldContact<f64>>,
     geometries: Vec<WorldContactGeometry>,
@@ -125,7 +125,7 @@ pub(crate) fn find_contacts(
     mut changes: MessageReader<'_, '_, AssetEvent<Mesh>>,
     wanted: Query<'_, '_, Wanted<'static>>,
     places: Places<'_, '_>,
-    (mut contacts, mut problems): (MessageWriter<'_, BodyContact>, MessageWriter<'_, SelvedgeProblem>),
+    (mut contacts, mut problems): (MessageWriter<'_, CollisionContact>, MessageWriter<'_, SelvedgeProblem>),
 ) {
     let collisions = &mut *collisions;
     if settings.is_changed() {
@@ -267,7 +267,7 @@ impl Collisions {
     }
 
     /// Returns the shape of a mesh, which all its bodies share.
-    fn shape(&mut self, id: AssetId<Mesh>, mesh: &Mesh) -> Result<Arc<Shape>, MeshError> {
+    fn shape(&mut self, id: AssetId<Mesh>, mesh: &Mesh) -> Result<Arc<Shape>, RenderMeshError> {
         if let Some(error) = self.refused.get(&id) {
             return Err(error.clone());
         }
@@ -388,7 +388,7 @@ impl Collisions {
         }
     }
 
-    fn contacts(&self) -> impl Iterator<Item = BodyContact> {
+    fn contacts(&self) -> impl Iterator<Item = CollisionContact> {
         self.found.iter().zip(&self.geometries).filter_map(|(contact, found)| {
             let [first, second] = contact.meshes.map(|mesh| self.entities.get(&mesh));
             let entities = [*first?, *second?];
@@ -401,7 +401,7 @@ impl Collisions {
             let [a, b, c, d] = found.vertices;
             // For a vertex and a face, the second point belongs to the other side.
             let second = bodies[usize::from(contact.kind == PairKind::VertexFace)];
-            Some(BodyContact {
+            Some(CollisionContact {
                 kind: contact.kind,
                 entities,
                 vertices: [
@@ -418,7 +418,7 @@ impl Collisions {
 }
 
 impl Body {
-    fn rigid_path(&self, place: Place, mesh: &Mesh) -> Result<Option<BodyPath>, MeshError> {
+    fn rigid_path(&self, place: Place, mesh: &Mesh) -> Result<Option<BodyPath>, RenderMeshError> {
         if place == self.place && !self.is_new {
             return Ok(None);
         }

@@ -1,6 +1,6 @@
 //! Problems, as messages.
 
-use crate::MeshError;
+use crate::RenderMeshError;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::message::{Message, MessageWriter};
 use selvedge::WorldError;
@@ -21,7 +21,7 @@ pub struct SelvedgeProblem {
 pub enum SelvedgeError {
     /// The mesh of a body cannot collide, or that of a cloth cannot be written. It is read again when the asset changes.
     #[error("its mesh cannot be used: {0}")]
-    Mesh(#[from] MeshError),
+    Mesh(#[from] RenderMeshError),
     /// A body or one of its ancestors has no `Transform`. Until that changes, it does not take part or stays where it is.
     #[error("it cannot be placed: entity {entity} has no Transform; give it one")]
     NoTransform {

@@ -1,10 +1,10 @@
 //! Contacts of moving meshes in Bevy as messages, without a missed contact, and cloth whose bodies follow entities.
 //!
-//! **Start with [`SelvedgePlugin`]**: entities with a [`CollisionBody`] and a mesh take part, and each [`BodyContact`] is a
+//! **Start with [`SelvedgePlugin`]**: entities with a [`CollisionBody`] and a mesh take part, and each [`CollisionContact`] is a
 //! message. A [`ClothSimulation`] moves the mesh of its entity. The readme explains the schedule.
 //!
 //! ```text
-//! Transforms, meshes ──▶ place, shape ──▶ collisions: bodies of a World ──▶ BodyContact
+//! Transforms, meshes ──▶ place, shape ──▶ collisions: bodies of a World ──▶ CollisionContact
 //!                                     └─▶ cloth: bodies of a Simulation ──▶ meshes; ropes as tubes
 //! ```
 
@@ -19,14 +19,14 @@ mod shape;
 
 pub use body::{CollisionBody, CollisionGroups, CollisionMesh};
 pub use cloth::{ClothMeshError, ClothSimulation, body_of_mesh, cloth_of_mesh, mesh_of, mesh_of_cloths};
-pub use collisions::{BodyContact, CollisionSettings};
+pub use collisions::{CollisionContact, CollisionSettings};
 pub use error::{SelvedgeError, SelvedgeProblem};
 pub use ropes::RopesOf;
 pub use selvedge;
 pub use selvedge::core::elementary::Limits;
 pub use selvedge::{Criterion, Geometry, Groups, PairKind, Threads};
 pub use selvedge_cloth;
-pub use shape::MeshError;
+pub use shape::RenderMeshError;
 
 use bevy_app::{App, FixedPostUpdate, Plugin};
 use bevy_asset::{AssetEvent, Assets};
@@ -56,7 +56,7 @@ impl Plugin for SelvedgePlugin {
             .add_message::<AssetEvent<Mesh>>()
             .init_resource::<CollisionSettings>()
             .init_resource::<collisions::Collisions>()
-            .add_message::<BodyContact>()
+            .add_message::<CollisionContact>()
             .add_message::<SelvedgeProblem>()
             .init_resource::<Time<Fixed>>()
             .configure_sets(FixedPostUpdate, (SelvedgeSystems::Cloth, SelvedgeSystems::Contacts).chain())

@@ -9,7 +9,7 @@ use std::sync::Arc;
 /// The reason why a `Mesh` cannot collide.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum MeshError {
+pub enum RenderMeshError {
     /// The mesh is not a triangle list.
     #[error("its primitive topology is {found:?}: make it a TriangleList")]
     NotTriangles {
@@ -43,23 +43,23 @@ pub enum MeshError {
 }
 
 /// Returns the positions of a mesh, if they can collide.
-pub(crate) fn positions_of(mesh: &Mesh) -> Result<&[[f32; 3]], MeshError> {
+pub(crate) fn positions_of(mesh: &Mesh) -> Result<&[[f32; 3]], RenderMeshError> {
     let positions = match mesh.try_attribute(Mesh::ATTRIBUTE_POSITION) {
         Ok(VertexAttributeValues::Float32x3(positions)) => positions,
-        Ok(_) => return Err(MeshError::PositionFormat),
-        Err(MeshAccessError::ExtractedToRenderWorld) => return Err(MeshError::OnlyRendered),
-        Err(MeshAccessError::NotFound) => return Err(MeshError::NoPositions),
+        Ok(_) => return Err(RenderMeshError::PositionFormat),
+        Err(MeshAccessError::ExtractedToRenderWorld) => return Err(RenderMeshError::OnlyRendered),
+        Err(MeshAccessError::NotFound) => return Err(RenderMeshError::NoPositions),
     };
     match positions.iter().position(|position| !position.iter().all(|x| x.is_finite())) {
-        Some(vertex) => Err(MeshError::NotFinite { vertex }),
+        Some(vertex) => Err(RenderMeshError::NotFinite { vertex }),
         None => Ok(positions),
     }
 }
 
-pub(crate) fn triangles_of(mesh: &Mesh) -> Result<Vec<[u32; 3]>, MeshError> {
+pub(crate) fn triangles_of(mesh: &Mesh) -> Result<Vec<[u32; 3]>, RenderMeshError> {
     if mesh.primitive_topology() != PrimitiveTopology::TriangleList {
         let found = mesh.primitive_topology();
-        return Err(MeshError::NotTriangles { found });
+        return Err(RenderMeshError::NotTriangles { found });
     }
     let corners: Vec<u32> = match mesh.try_indices_option() {
         Ok(Some(Indices::U16(indices))) => indices.iter().map(|&index| u32::from(index)).collect(),
@@ -69,13 +69,13 @@ pub(crate) fn triangles_of(mesh: &Mesh) -> Result<Vec<[u32; 3]>, MeshError> {
             // A topology refuses so many vertices.
             (0..u32::try_from(count).unwrap_or(u32::MAX)).collect()
         }
-        Err(MeshAccessError::ExtractedToRenderWorld) => return Err(MeshError::OnlyRendered),
+        Err(MeshAccessError::ExtractedToRenderWorld) => return Err(RenderMeshError::OnlyRendered),
     };
     let (triangles, left_over) = corners.as_chunks::<3>();
     if left_over.is_empty() {
         Ok(triangles.to_vec())
     } else {
-        Err(MeshError::Corners { count: corners.len() })
+        Err(RenderMeshError::Corners { count: corners.len() })
     }
 }
 
@@ -92,7 +92,7 @@ pub(crate) struct Shape {
 }
 
 impl Shape {
-    pub(crate) fn of(mesh: &Mesh) -> Result<Self, MeshError> {
+    pub(crate) fn of(mesh: &Mesh) -> Result<Self, RenderMeshError> {
         let triangles = triangles_of(mesh)?;
         let positions = positions_of(mesh)?;
         // Adding zero turns −0 into +0.
@@ -103,7 +103,7 @@ impl Shape {
     }
 
     /// Joins vertices with the same key.
-    pub(crate) fn new<K: Hash + Eq>(triangles: Vec<[u32; 3]>, keys: impl Iterator<Item = K>) -> Result<Self, MeshError> {
+    pub(crate) fn new<K: Hash + Eq>(triangles: Vec<[u32; 3]>, keys: impl Iterator<Item = K>) -> Result<Self, RenderMeshError> {
         let mut vertices = Vec::new();
         let mut points_by_key = HashMap::new();
         let mut points: Vec<u32> = Vec::new();
@@ -116,13 +116,13 @@ impl Shape {
         let vertex_count = points.len();
         let point_of = |(triangle, vertex): (usize, u32)| {
             let point = points.get(vertex as usize).copied();
-            point.ok_or(MeshError::Topology(TopologyError::VertexOutOfRange {
+            point.ok_or(RenderMeshError::Topology(TopologyError::VertexOutOfRange {
                 triangle,
                 vertex,
                 vertex_count,
             }))
         };
-        let named: Result<Vec<[u32; 3]>, MeshError> = triangles
+        let named: Result<Vec<[u32; 3]>, RenderMeshError> = triangles
             .iter()
             .enumerate()
             .map(|(triangle, corners)| {
@@ -130,7 +130,7 @@ impl Shape {
                 Ok([a?, b?, c?])
             })
             .collect();
-        let topology = Topology::new(vertices.len(), named?).map_err(MeshError::Topology)?;
+        let topology = Topology::new(vertices.len(), named?).map_err(RenderMeshError::Topology)?;
         Ok(Self {
             triangles,
             points,

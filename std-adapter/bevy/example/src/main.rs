@@ -7,7 +7,7 @@ mod figure;
 use bevy::prelude::*;
 use bevy::render::view::window::screenshot::{Screenshot, save_to_disk};
 use figure::{DURATION, Figure, Keyframes};
-use selvedge_bevy::{BodyContact, ClothSimulation, CollisionBody, CollisionGroups, Groups, SelvedgePlugin};
+use selvedge_bevy::{CollisionContact, ClothSimulation, CollisionBody, CollisionGroups, Groups, SelvedgePlugin};
 use std::path::PathBuf;
 
 /// The times of the pictures in seconds.
@@ -107,7 +107,7 @@ fn follow(torso: Query<&GlobalTransform, With<Keyframes>>, mut camera: Single<&m
 
 /// Lights up the ball when a contact message names it.
 fn ring(
-    mut contacts: MessageReader<BodyContact>,
+    mut contacts: MessageReader<CollisionContact>,
     mut lamps: Query<&mut MeshMaterial3d<StandardMaterial>, With<Lamp>>,
     mut materials: ResMut<Assets<StandardMaterial>>,
     mut lit: Local<Option<Handle<StandardMaterial>>>,

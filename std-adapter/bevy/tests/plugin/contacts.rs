@@ -9,7 +9,7 @@ use bevy_mesh::{Mesh, Mesh3d};
 use bevy_transform::components::Transform;
 use selvedge_bevy::selvedge::glam::{DQuat, DVec3};
 use selvedge_bevy::selvedge::{CollisionDetector, MeshMotion, Topology, World};
-use selvedge_bevy::{BodyContact, CollisionBody, CollisionSettings, Groups, PairKind, Threads};
+use selvedge_bevy::{CollisionBody, CollisionContact, CollisionSettings, Groups, PairKind, Threads};
 use std::sync::Arc;
 
 /// A kind, vertices and a time, for bodies that a test knows by the order of their vertices.
@@ -24,7 +24,7 @@ fn transform(app: &mut App, entity: Entity, change: impl FnOnce(&mut Transform))
 }
 
 /// Returns sorted contacts, with vertices numbered through all bodies.
-fn found(contacts: &[BodyContact], bodies: &[(Entity, u32)]) -> Vec<Found> {
+fn found(contacts: &[CollisionContact], bodies: &[(Entity, u32)]) -> Vec<Found> {
     let first = |entity: Entity| bodies.iter().find(|body| body.0 == entity).unwrap().1;
     let mut found: Vec<Found> = contacts
         .iter()

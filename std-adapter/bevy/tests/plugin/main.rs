@@ -17,18 +17,18 @@ use bevy_ecs::system::ResMut;
 use bevy_mesh::{Indices, Mesh, MeshPlugin, PrimitiveTopology};
 use bevy_time::{TimePlugin, TimeUpdateStrategy};
 use bevy_transform::TransformPlugin;
-use selvedge_bevy::{BodyContact, SelvedgePlugin, SelvedgeProblem};
+use selvedge_bevy::{CollisionContact, SelvedgePlugin, SelvedgeProblem};
 
 /// The messages since the last reading.
 #[derive(Resource, Default)]
 struct Told {
-    contacts: Vec<BodyContact>,
+    contacts: Vec<CollisionContact>,
     problems: Vec<SelvedgeProblem>,
 }
 
 fn listen(
     mut told: ResMut<'_, Told>,
-    mut contacts: MessageReader<'_, '_, BodyContact>,
+    mut contacts: MessageReader<'_, '_, CollisionContact>,
     mut problems: MessageReader<'_, '_, SelvedgeProblem>,
 ) {
     told.contacts.extend(contacts.read());

@@ -8,7 +8,7 @@ use bevy_ecs::hierarchy::ChildOf;
 use bevy_mesh::{Indices, Mesh, Mesh3d, PrimitiveTopology};
 use bevy_transform::components::Transform;
 use selvedge_bevy::selvedge::{StepError, TopologyError, WorldError};
-use selvedge_bevy::{CollisionBody, CollisionSettings, Criterion, Limits, MeshError, SelvedgeError, SelvedgeProblem};
+use selvedge_bevy::{CollisionBody, CollisionSettings, Criterion, Limits, RenderMeshError, SelvedgeError, SelvedgeProblem};
 
 fn problem(entity: Entity, error: SelvedgeError) -> SelvedgeProblem {
     SelvedgeProblem {
@@ -41,7 +41,7 @@ fn a_mesh_without_positions_is_told_once_and_the_others_go_on_and_it_may_be_mend
     let empty = app.world_mut().spawn((Mesh3d(handle.clone()), CollisionBody::Fixed)).id();
     assert_eq!(
         step(&mut app).problems,
-        [problem(empty, SelvedgeError::Mesh(MeshError::NoPositions))]
+        [problem(empty, SelvedgeError::Mesh(RenderMeshError::NoPositions))]
     );
     for _ in 0..3 {
         turn_over(&mut app, mover);
@@ -77,29 +77,29 @@ fn every_mesh_that_cannot_collide_says_why() {
     let cases = [
         (
             with_topology(PrimitiveTopology::LineList),
-            MeshError::NotTriangles {
+            RenderMeshError::NotTriangles {
                 found: PrimitiveTopology::LineList,
             },
         ),
         (
             with_topology(PrimitiveTopology::TriangleStrip),
-            MeshError::NotTriangles {
+            RenderMeshError::NotTriangles {
                 found: PrimitiveTopology::TriangleStrip,
             },
         ),
-        (compressed, MeshError::PositionFormat),
-        (on_the_card, MeshError::OnlyRendered),
-        (mesh(broken, &triangles), MeshError::NotFinite { vertex: 4 }),
-        (indices(vec![0, 1, 2, 3]), MeshError::Corners { count: 4 }),
+        (compressed, RenderMeshError::PositionFormat),
+        (on_the_card, RenderMeshError::OnlyRendered),
+        (mesh(broken, &triangles), RenderMeshError::NotFinite { vertex: 4 }),
+        (indices(vec![0, 1, 2, 3]), RenderMeshError::Corners { count: 4 }),
         (
             indices(vec![0, 1, 9]),
-            MeshError::Topology(TopologyError::VertexOutOfRange {
+            RenderMeshError::Topology(TopologyError::VertexOutOfRange {
                 triangle: 0,
                 vertex: 9,
                 vertex_count: 9,
             }),
         ),
-        (indices(vec![]), MeshError::Topology(TopologyError::NoTriangles)),
+        (indices(vec![]), RenderMeshError::Topology(TopologyError::NoTriangles)),
     ];
     for body in [CollisionBody::Fixed, CollisionBody::Rigid, CollisionBody::Deforming] {
         for (mesh, error) in &cases {
