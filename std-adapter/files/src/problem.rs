@@ -213,13 +213,13 @@ pub enum AnimationProblem {
         /// The requested name.
         name: String,
         /// The names of the file.
-        choices: Choices,
+        choices: NamesInFile,
     },
     /// Several nodes with a mesh have this name.
     #[error("{} nodes of this name have a mesh; name one by its path: {choices}", choices.0.len())]
     SeveralNodes {
         /// The paths of these nodes.
-        choices: Choices,
+        choices: NamesInFile,
     },
     /// The file requires an extension without which its shapes or motion are not known.
     #[error("it requires the extension '{name}', which is not read; {remedy}")]
@@ -235,21 +235,21 @@ pub enum AnimationProblem {
         /// The requested name.
         name: String,
         /// The names of the file.
-        choices: Choices,
+        choices: NamesInFile,
     },
     /// There are several animations, and none was chosen.
     #[error("there are {} animations; choose one with `animation`: {choices}", choices.0.len())]
     SeveralAnimations {
         /// The names of the file.
-        choices: Choices,
+        choices: NamesInFile,
     },
 }
 
 /// The names to choose from, in the order of the file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Choices(pub Vec<String>);
+pub struct NamesInFile(pub Vec<String>);
 
-impl fmt::Display for Choices {
+impl fmt::Display for NamesInFile {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (index, name) in self.0.iter().enumerate() {
             let comma = if index == 0 { "" } else { ", " };

@@ -1,6 +1,6 @@
 //! A mesh that a skeleton, morph targets or its own node move.
 
-use super::track::{Interpolation, Property, Track};
+use super::track::{AnimatedProperty, Interpolation, Track};
 use crate::bytes::Fingerprint;
 use crate::mesh::LeftOut;
 use selvedge::Mesh;
@@ -187,7 +187,7 @@ impl Shape {
         let mut values = Vec::new();
         for track in &self.tracks {
             track.sample(time, &mut values);
-            if track.property == Property::Weights {
+            if track.property == AnimatedProperty::Weights {
                 weights[track.node].copy_from_slice(&values);
             } else if let Local::Parts {
                 translation,
@@ -196,8 +196,8 @@ impl Shape {
             } = &mut locals[track.node]
             {
                 match track.property {
-                    Property::Translation => *translation = DVec3::from_slice(&values),
-                    Property::Rotation => *rotation = DQuat::from_slice(&values),
+                    AnimatedProperty::Translation => *translation = DVec3::from_slice(&values),
+                    AnimatedProperty::Rotation => *rotation = DQuat::from_slice(&values),
                     _ => *scale = DVec3::from_slice(&values),
                 }
             }

@@ -27,7 +27,7 @@ mod tests;
 )]
 mod track;
 
-pub use crate::problem::{AnimationProblem, Choices};
+pub use crate::problem::{AnimationProblem, NamesInFile};
 pub use error::AnimationError;
 pub use figure::Figure;
 

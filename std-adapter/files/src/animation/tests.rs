@@ -1,7 +1,7 @@
 //! Tests of the reader of figures.
 
 use super::figure::{Local, Node, Part, Shape, Skin};
-use super::track::{Interpolation, Property, Track};
+use super::track::{AnimatedProperty, Interpolation, Track};
 use super::*;
 use base64::Engine;
 use proptest::prelude::*;
@@ -391,7 +391,7 @@ fn turning(interpolation: Interpolation, values: Vec<f64>) -> Figure {
         }],
         tracks: vec![Track {
             node: 0,
-            property: Property::Rotation,
+            property: AnimatedProperty::Rotation,
             interpolation,
             times: vec![0.0, 1.0],
             values,

@@ -5,7 +5,7 @@ use selvedge_core::glam::DQuat;
 
 /// A property that a track changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Property {
+pub(super) enum AnimatedProperty {
     Translation,
     /// A quaternion: x, y, z, w.
     Rotation,
@@ -30,7 +30,7 @@ pub(super) enum Interpolation {
 pub(super) struct Track {
     /// The node, or the part of the figure whose weights change.
     pub(super) node: usize,
-    pub(super) property: Property,
+    pub(super) property: AnimatedProperty,
     pub(super) interpolation: Interpolation,
     /// The times of the keys in seconds, one or more, ascending.
     pub(super) times: Vec<f64>,
@@ -56,7 +56,7 @@ impl Track {
                 self.between(before, share, length, values);
             }
         }
-        if self.property == Property::Rotation {
+        if self.property == AnimatedProperty::Rotation {
             // Numbers of files are rounded, and a cubic may go through zero.
             let rotation = DQuat::from_slice(values);
             let length = rotation.length();
@@ -92,7 +92,7 @@ impl Track {
                 (0..self.width)
                     .map(|k| weights[0] * from[k] + weights[1] * leaving[k] + to_weight * to[k] + arriving_weight * arriving[k]),
             );
-        } else if self.property == Property::Rotation {
+        } else if self.property == AnimatedProperty::Rotation {
             values.extend(arc(DQuat::from_slice(from), DQuat::from_slice(to), share).to_array());
         } else {
             values.extend(from.iter().zip(to).map(|(from, to)| from + share * (to - from)));

@@ -192,14 +192,6 @@ pub fn write_with_loose_edges(path: &Path, mesh: &Mesh, loose_edges: &[[u32; 2]]
     }
 }
 
-/// Writes `mesh` to `path` like [`write()`], but in the given format; the extension is ignored.
-///
-/// # Errors
-/// Returns the errors of [`write()`], except those about the extension.
-pub fn write_as(path: &Path, mesh: &Mesh, format: FileFormat) -> Result<(), MeshError> {
-    write_checked(path, mesh, &[], format)
-}
-
 fn write_checked(path: &Path, mesh: &Mesh, loose_edges: &[[u32; 2]], format: FileFormat) -> Result<(), MeshError> {
     check(mesh, loose_edges)
         .and_then(|()| save(path, mesh, loose_edges, format).map_err(FileProblem::Write))

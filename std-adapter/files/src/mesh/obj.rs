@@ -18,7 +18,7 @@ use std::io::{self, Write};
 
 pub(super) fn parse(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Parsed, FileProblem> {
     let mut lines = Lines::new(without_byte_order_mark(bytes)?);
-    let mut reader = Reader::new(*options);
+    let mut reader = ObjReader::new(*options);
     let mut joined = Vec::new();
     while let Some(line) = lines.next() {
         let (number, mut line) = (lines.number, statement(line));
@@ -102,7 +102,7 @@ fn hidden_statement<'a>(mut words: impl Iterator<Item = &'a [u8]> + Clone) -> Op
     None
 }
 
-struct Reader<'a> {
+struct ObjReader<'a> {
     options: ReadOptions<'a>,
     parsed: Parsed,
     /// The number of all faces of the file so far, requested or not.
@@ -110,12 +110,12 @@ struct Reader<'a> {
     corners: Vec<u32>,
     /// References to later vertices: line, owner and number of vertices that must exist, in ascending order of that number.
     forward: Vec<(usize, Owner, i64)>,
-    groups: Groups,
+    groups: WantedGroups,
 }
 
 /// The groups and objects of a file, if only one of them is read.
 #[derive(Default)]
-struct Groups {
+struct WantedGroups {
     object_is_wanted: bool,
     group_is_wanted: bool,
     was_found: bool,
@@ -140,7 +140,7 @@ impl Owner {
     }
 }
 
-impl<'a> Reader<'a> {
+impl<'a> ObjReader<'a> {
     fn new(options: ReadOptions<'a>) -> Self {
         Self {
             options,
@@ -148,7 +148,7 @@ impl<'a> Reader<'a> {
             face: 0,
             corners: Vec::new(),
             forward: Vec::new(),
-            groups: Groups::default(),
+            groups: WantedGroups::default(),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::{File, label, short};
 use crate::animation::Choice;
-use crate::problem::{AnimationProblem, Choices};
+use crate::problem::{AnimationProblem, NamesInFile};
 
 impl<'a> File<'a> {
     /// Returns the nodes with a mesh that have a name or a path, or all nodes with a mesh in the scene.
@@ -12,7 +12,8 @@ impl<'a> File<'a> {
             return Err(AnimationProblem::NoMesh);
         }
         let paths = self.paths();
-        let choices = |nodes: &[gltf::Node<'_>], by: &dyn Fn(&gltf::Node<'_>) -> String| Choices(nodes.iter().map(by).collect());
+        let choices =
+            |nodes: &[gltf::Node<'_>], by: &dyn Fn(&gltf::Node<'_>) -> String| NamesInFile(nodes.iter().map(by).collect());
         let Some(name) = name else {
             let shown = self.shown();
             if with_mesh.iter().any(|node| shown[node.index()]) {
@@ -83,7 +84,7 @@ impl<'a> File<'a> {
             None => format!("animation {}", animation.index()),
         };
         let mut all: Vec<_> = self.document.animations().collect();
-        let choices = Choices(all.iter().map(label).collect());
+        let choices = NamesInFile(all.iter().map(label).collect());
         if choice.at_rest || all.is_empty() && choice.animation.is_none() {
             return Ok(None);
         }

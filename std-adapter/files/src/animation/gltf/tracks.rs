@@ -1,7 +1,7 @@
 //! The channels of an animation.
 
 use super::{File, label, short, wrong};
-use crate::animation::track::{Interpolation, Property, Track};
+use crate::animation::track::{AnimatedProperty, Interpolation, Track};
 use crate::problem::AnimationProblem;
 use gltf::accessor::Dimensions;
 use gltf::scene::Transform;
@@ -51,13 +51,13 @@ impl<'a> File<'a> {
             let part = parts.iter().position(|&(own, targets)| own == node.index() && targets > 0);
             let target_count = part.map_or(0, |part| parts[part].1);
             let (property, dimensions, width) = match target.property() {
-                gltf::animation::Property::Translation => (Property::Translation, Dimensions::Vec3, 3),
-                gltf::animation::Property::Rotation => (Property::Rotation, Dimensions::Vec4, 4),
-                gltf::animation::Property::Scale => (Property::Scale, Dimensions::Vec3, 3),
-                gltf::animation::Property::MorphTargetWeights => (Property::Weights, Dimensions::Scalar, target_count),
+                gltf::animation::Property::Translation => (AnimatedProperty::Translation, Dimensions::Vec3, 3),
+                gltf::animation::Property::Rotation => (AnimatedProperty::Rotation, Dimensions::Vec4, 4),
+                gltf::animation::Property::Scale => (AnimatedProperty::Scale, Dimensions::Vec3, 3),
+                gltf::animation::Property::MorphTargetWeights => (AnimatedProperty::Weights, Dimensions::Scalar, target_count),
             };
             let place = match property {
-                Property::Weights => part,
+                AnimatedProperty::Weights => part,
                 _ => places[node.index()],
             };
             let Some(place) = place else { continue };
@@ -65,7 +65,7 @@ impl<'a> File<'a> {
                 "channel {index} of the animation ({property:?} of '{}')",
                 short(&label(&node))
             );
-            if matches!(node.transform(), Transform::Matrix { .. }) && property != Property::Weights {
+            if matches!(node.transform(), Transform::Matrix { .. }) && property != AnimatedProperty::Weights {
                 return Err(wrong(
                     &what,
                     "moves a node that has a `matrix`; it must have `translation`, `rotation`, `scale`",
@@ -81,10 +81,10 @@ impl<'a> File<'a> {
                 gltf::animation::Interpolation::Linear => (Interpolation::Linear, 1),
                 gltf::animation::Interpolation::CubicSpline => (Interpolation::Cubic, 3),
             };
-            let each = if property == Property::Weights { width } else { 1 };
+            let each = if property == AnimatedProperty::Weights { width } else { 1 };
             let count = times.len().saturating_mul(of_key).saturating_mul(each);
             let mut values = self.numbers(&sampler.output(), dimensions, Some(count), &format!("{what}, values"))?;
-            if property == Property::Rotation && interpolation != Interpolation::Cubic {
+            if property == AnimatedProperty::Rotation && interpolation != Interpolation::Cubic {
                 for (key, value) in values.chunks_exact_mut(4).enumerate() {
                     let rotation = DQuat::from_slice(value);
                     if rotation.length_squared() <= 0.0 {

@@ -5,7 +5,7 @@ use super::super::format::PlyEncoding;
 use super::super::notes::{FilePart, LeftOut};
 use super::super::parsed::Parsed;
 use super::super::text::{Lines, fields, integer, is_space, number, quoted, trim};
-use super::header::{Element, Kind, Number, Property, Role};
+use super::header::{Element, Kind, Number, PlyProperty, Role};
 use super::{COORDINATES, element_problem};
 use crate::problem::FileProblem;
 
@@ -202,7 +202,7 @@ fn line_problem(element: &Element, index: usize, line: usize, text: &[u8]) -> Fi
         .properties
         .iter()
         .take_while(|property| matches!(property.kind, Kind::Scalar(_)));
-    for (Property { role, .. }, field) in scalars.zip(fields(text)) {
+    for (PlyProperty { role, .. }, field) in scalars.zip(fields(text)) {
         let Role::Coordinate(axis) = *role else { continue };
         match number(field) {
             Some(value) if !value.is_finite() => {

@@ -14,11 +14,11 @@ pub(super) struct Header {
 pub(super) struct Element {
     pub(super) name: String,
     pub(super) count: usize,
-    pub(super) properties: Vec<Property>,
+    pub(super) properties: Vec<PlyProperty>,
 }
 
 #[derive(Debug, PartialEq)]
-pub(super) struct Property {
+pub(super) struct PlyProperty {
     pub(super) name: String,
     pub(super) kind: Kind,
     pub(super) role: Role,
@@ -181,7 +181,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Header, PlyEncoding, Lines<'_>), Fil
                 if role != Role::Unused && element.has(role) {
                     return Err(twice(line, text));
                 }
-                element.properties.push(Property { name, kind, role });
+                element.properties.push(PlyProperty { name, kind, role });
             }
             [b"end_header"] => {
                 let encoding =

@@ -33,7 +33,7 @@ pub(super) fn parse(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Parsed, F
     let (header, encoding, lines) = header::read(bytes)?;
     let mut body = Body::new(encoding, lines, bytes);
     let vertex_count = header.vertex_count(options)?;
-    let mut reader = Reader {
+    let mut reader = PlyReader {
         vertex_count,
         parsed: Parsed::default(),
         face: 0,
@@ -65,14 +65,14 @@ pub(super) fn parse(bytes: &[u8], options: &ReadOptions<'_>) -> Result<Parsed, F
     Ok(parsed)
 }
 
-struct Reader {
+struct PlyReader {
     vertex_count: usize,
     parsed: Parsed,
     face: usize,
     corners: Vec<u32>,
 }
 
-impl Reader {
+impl PlyReader {
     fn vertex(&mut self, vertex: usize, row: &Row, line: Option<usize>) -> Result<(), FileProblem> {
         let position = DVec3::from_array(row.coordinates);
         check_finite(vertex, position, line)?;
