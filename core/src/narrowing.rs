@@ -11,7 +11,7 @@ use crate::scalar::Scalar;
 /// Returns the same limits in `f64`. A subnormal separation becomes the smallest normal number, as in all tests.
 #[inline]
 #[must_use]
-pub fn widened<S: Scalar>(limits: &Limits<S>) -> Limits<f64> {
+pub fn limits_in_f64<S: Scalar>(limits: &Limits<S>) -> Limits<f64> {
     Limits {
         tolerance: limits.tolerance.to_f64(),
         separation: limits.separation.raised_to_normal().to_f64(),

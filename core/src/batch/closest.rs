@@ -26,7 +26,7 @@ use glam::DVec3;
 /// ```
 pub fn closest_points(level: Level, kind: PairKind, pairs: &[[DVec3; 4]], closest: &mut [ClosestPoints]) {
     for (pairs, closest) in pairs.chunks(LANES).zip(closest.chunks_mut(LANES)) {
-        let mut sixteen = Sixteen([[[0.0; LANES]; 3]; 4]);
+        let mut sixteen = SixteenPoints([[[0.0; LANES]; 3]; 4]);
         for (lane, pair) in pairs.iter().enumerate() {
             for (rows, point) in sixteen.0.iter_mut().zip(pair) {
                 for (row, coordinate) in rows.iter_mut().zip(point.to_array()) {
@@ -52,7 +52,7 @@ pub fn closest_points(level: Level, kind: PairKind, pairs: &[[DVec3; 4]], closes
 }
 
 /// The coordinates of sixteen pairs' four points.
-struct Sixteen([[[f64; LANES]; 3]; 4]);
+struct SixteenPoints([[[f64; LANES]; 3]; 4]);
 
 /// The closest points of sixteen pairs.
 struct Offsets {
@@ -61,12 +61,12 @@ struct Offsets {
     direction: [[f64; LANES]; 3],
 }
 
-fn found(level: Level, kind: PairKind, pairs: &Sixteen) -> Offsets {
+fn found(level: Level, kind: PairKind, pairs: &SixteenPoints) -> Offsets {
     of_kind!(kind, P => vectorized!(level, [f64x8, f64x4, f64x2, f64], all::<P>(pairs)))
 }
 
 #[inline(always)]
-fn all<P: PairShape, L: Chunk<Scalar = f64>>(token: L::Token, Sixteen(pairs): &Sixteen) -> Offsets {
+fn all<P: PairShape, L: Chunk<Scalar = f64>>(token: L::Token, SixteenPoints(pairs): &SixteenPoints) -> Offsets {
     let mut offsets = Offsets {
         weights: [[0.0; LANES]; 4],
         offset: [[0.0; LANES]; 3],

@@ -60,7 +60,7 @@ pub fn in_lanes<L: Loop>(level: Level, work: L) -> L::Output {
                         #[inline(always)]
                         || {
                             super::frame::align();
-                            work.run(Vectors(token))
+                            work.run(VectorComparisons(token))
                         },
                     );
                 }
@@ -117,10 +117,10 @@ impl Compares for OneByOne {
 /// Comparisons with the vectors of a token.
 #[cfg(not(unoptimised))]
 #[derive(Clone, Copy)]
-struct Vectors<V>(V);
+struct VectorComparisons<V>(V);
 
 #[cfg(not(unoptimised))]
-impl<V: Simd> Compares for Vectors<V> {
+impl<V: Simd> Compares for VectorComparisons<V> {
     #[inline(always)]
     fn near(self, block: &MovingBlock, other: &MovingBox<f32>, among: Mask) -> Mask {
         let ([a, b, c, d, e, f], [g, h, i, j, k, l]) = block.rows();

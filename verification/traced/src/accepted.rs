@@ -27,7 +27,7 @@ pub fn list() -> String {
 pub fn check(prover: Prover) -> Result<(), String> {
     let path = path();
     let list = fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
-    compare(prover, &lines(prover), &list)
+    compare(prover, &digest_lines(prover), &list)
 }
 
 /// Checks lines against a list, for [`check`].
@@ -69,7 +69,7 @@ fn folder(prover: Prover) -> String {
     format!("{}/", prover.name())
 }
 
-fn lines(prover: Prover) -> Vec<String> {
+fn digest_lines(prover: Prover) -> Vec<String> {
     let terms = prover.texts().into_iter().flat_map(|text| match prover {
         Prover::Gappa => vec![text],
         Prover::Coq => definitions(text),

@@ -6,7 +6,7 @@
 use crate::Text;
 use crate::gappa::tetrahedron;
 use crate::narrowed;
-use crate::symbols::{Mask, MaskStep, Step, Trace, Traced, if_any, trace};
+use crate::symbols::{MaskStep, Step, Trace, Traced, TracedMask, if_any, trace};
 use selvedge_core::kernels::advance::corners::Corners;
 use selvedge_core::kernels::advance::directions::{are_apart_curving, are_apart_turning};
 use selvedge_core::kernels::advance::volume::SignedVolume;
@@ -364,7 +364,7 @@ impl<'a> Terms<'a> {
         format!("{name} {a} {b}")
     }
 
-    fn mask(&mut self, mask: Mask) -> String {
+    fn mask(&mut self, mask: TracedMask) -> String {
         if let Some(name) = self.masks.get(&mask.index) {
             return name.clone();
         }

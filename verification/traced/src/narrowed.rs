@@ -4,7 +4,7 @@
 //! encodings, proves these right for all numbers, and computes the same results as core for these.
 
 use selvedge_core::elementary::Limits;
-use selvedge_core::narrowing::{rounded_down, rounded_up, widened};
+use selvedge_core::narrowing::{limits_in_f64, rounded_down, rounded_up};
 use std::fmt::Write;
 
 const HEAD: &str = "\
@@ -41,7 +41,7 @@ pub(crate) fn text() -> String {
         .flat_map(|field| fractions.map(|fraction| field << 23 | fraction));
     let rows = singles.chain([f32::INFINITY, f32::NAN].map(f32::to_bits)).map(|bits| {
         let length = f32::from_bits(bits);
-        let Limits { tolerance, separation } = widened(&Limits {
+        let Limits { tolerance, separation } = limits_in_f64(&Limits {
             tolerance: length,
             separation: length,
         });

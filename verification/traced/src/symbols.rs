@@ -59,19 +59,19 @@ pub enum Step {
     /// The smaller of two, exactly.
     Smaller(Traced, Traced),
     /// The first of two where the mask is true, else the second; exactly.
-    Selected(Mask, Traced, Traced),
+    Selected(TracedMask, Traced, Traced),
 }
 
 /// A truth value that knows how it was computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Mask {
+pub struct TracedMask {
     /// An index of [`Trace::masks`].
     pub index: usize,
     /// The value if all comparisons are false.
     truth: bool,
 }
 
-/// The origin of a [`Mask`].
+/// The origin of a [`TracedMask`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MaskStep {
     /// True.
@@ -79,13 +79,13 @@ pub enum MaskStep {
     /// True if the first is greater than the second.
     Greater(Traced, Traced),
     /// True if both are.
-    And(Mask, Mask),
+    And(TracedMask, TracedMask),
     /// True if at least one is.
-    Or(Mask, Mask),
+    Or(TracedMask, TracedMask),
     /// True if exactly one is.
-    Xor(Mask, Mask),
+    Xor(TracedMask, TracedMask),
     /// The other truth value.
-    Not(Mask),
+    Not(TracedMask),
 }
 
 #[derive(Clone, Debug, Default)]
@@ -139,7 +139,7 @@ pub fn if_any<T>(part: impl FnOnce() -> T) -> T {
     result
 }
 
-impl Mask {
+impl TracedMask {
     /// The mask that is always true.
     pub fn always() -> Self {
         Self::record(MaskStep::Always)
@@ -162,28 +162,28 @@ impl Mask {
     }
 }
 
-impl BitAnd for Mask {
+impl BitAnd for TracedMask {
     type Output = Self;
     fn bitand(self, other: Self) -> Self {
         Self::record(MaskStep::And(self, other))
     }
 }
 
-impl BitOr for Mask {
+impl BitOr for TracedMask {
     type Output = Self;
     fn bitor(self, other: Self) -> Self {
         Self::record(MaskStep::Or(self, other))
     }
 }
 
-impl BitXor for Mask {
+impl BitXor for TracedMask {
     type Output = Self;
     fn bitxor(self, other: Self) -> Self {
         Self::record(MaskStep::Xor(self, other))
     }
 }
 
-impl Not for Mask {
+impl Not for TracedMask {
     type Output = Self;
     fn not(self) -> Self {
         Self::record(MaskStep::Not(self))
@@ -258,11 +258,11 @@ impl Rounding for Traced {
 
 impl Lanes for Traced {
     type Scalar = Self;
-    type Mask = Mask;
+    type Mask = TracedMask;
     fn splat(self, value: Self) -> Self {
         value
     }
-    fn any(mask: Mask) -> bool {
+    fn any(mask: TracedMask) -> bool {
         mask.truth || ARENA.with_borrow(|arena| arena.any_is_true)
     }
     fn sqrt(self) -> Self {
@@ -277,14 +277,14 @@ impl Lanes for Traced {
     fn smaller(self, other: Self) -> Self {
         Self::record(Step::Smaller(self, other))
     }
-    fn greater(self, other: Self) -> Mask {
+    fn greater(self, other: Self) -> TracedMask {
         ARENA.with_borrow_mut(|arena| arena.comparisons.push([self, other]));
-        Mask::record(MaskStep::Greater(self, other))
+        TracedMask::record(MaskStep::Greater(self, other))
     }
-    fn at_most(self, other: Self) -> Mask {
+    fn at_most(self, other: Self) -> TracedMask {
         !self.greater(other)
     }
-    fn select(mask: Mask, if_true: Self, if_false: Self) -> Self {
+    fn select(mask: TracedMask, if_true: Self, if_false: Self) -> Self {
         Self::record(Step::Selected(mask, if_true, if_false))
     }
 }

@@ -10,7 +10,7 @@ use selvedge_core::kernels::lanes::Rounding;
 use selvedge_core::kernels::points::PairPoints;
 use selvedge_core::kernels::vector::Vector;
 use selvedge_traced::gappa::tetrahedron;
-use selvedge_traced::symbols::{Mask, Paths, Trace, Traced, trace};
+use selvedge_traced::symbols::{Paths, Trace, Traced, TracedMask, trace};
 use selvedge_traced::{Prover, accepted};
 use std::collections::BTreeMap;
 use std::fs;
@@ -253,7 +253,7 @@ fn roundings_of_a_direction_are_as_many_as_the_script_says() {
         let corners = edge_edge_corners();
         let direction = corners.direction(vector("w"));
         let positions = corners.at(Traced::input("t"));
-        let _ = corners.apart_along(&direction, &positions, Mask::always());
+        let _ = corners.apart_along(&direction, &positions, TracedMask::always());
         direction.bar
     });
     constant.begin_with_differences();

@@ -4,7 +4,7 @@ use crate::engine::{Question, Wanted};
 use crate::step::{StepError, check_length};
 use selvedge_core::Scalar;
 use selvedge_core::elementary::Limits;
-use selvedge_core::narrowing::widened;
+use selvedge_core::narrowing::limits_in_f64;
 
 /// Defines what counts as a contact. Lengths are in the unit of the positions.
 ///
@@ -80,7 +80,7 @@ impl CandidateBoxes {
 impl<S: Scalar> Criterion<S> {
     pub(super) fn question(&self, wanted: Wanted) -> Question {
         Question {
-            limits: widened(&self.limits()),
+            limits: limits_in_f64(&self.limits()),
             wanted,
             keeps_filtered: false,
             is_exact: matches!(self, Self::Touching { .. }),

@@ -7,7 +7,7 @@ use crate::parallel;
 use crate::step::{Contact, Frame, StepError, check_length, check_pair, exactly};
 use selvedge_core::PairKind;
 use selvedge_core::elementary::Limits;
-use selvedge_core::narrowing::widened;
+use selvedge_core::narrowing::limits_in_f64;
 use selvedge_core::separation::closest::ClosestPoints;
 use selvedge_core::separation::gap::{GapError, distance_from_below};
 use selvedge_core::separation::geometry::{Geometry, geometry};
@@ -125,7 +125,7 @@ impl<S: Scalar> CollisionDetector<S> {
             separation: distance,
             ..Criterion::default().limits()
         };
-        let distance = widened(&limits).separation;
+        let distance = limits_in_f64(&limits).separation;
         let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
         self.engine
             .candidates(&self.workers, &step, distance, false, [&mut vertex_face, &mut edge_edge]);

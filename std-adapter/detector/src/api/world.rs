@@ -12,7 +12,7 @@ use crate::parallel::{ThreadError, Threads};
 use crate::step::{Cancellation, Frame, Groups, Motions, Step, StepError, check_frame, exactly, rounded};
 use selvedge_core::Position;
 use selvedge_core::glam::{DQuat, DVec3};
-use selvedge_core::narrowing::widened;
+use selvedge_core::narrowing::limits_in_f64;
 use std::sync::Arc;
 
 /// The motion of a mesh in a step.
@@ -177,7 +177,7 @@ impl<P: Position> World<P> {
             return Err(WorldError::TooLarge { vertices, most });
         }
         let shape = positions.iter().map(|&position| exactly(position)).collect();
-        let separation = widened(&self.criterion.limits()).separation;
+        let separation = limits_in_f64(&self.criterion.limits()).separation;
         let mesh = self.workers.run(|| WorldMesh::new(topology, shape, groups, separation));
         let handle = self.stage.meshes.insert(mesh);
         let handle = handle.ok_or(WorldError::TooLarge { vertices, most })?;

@@ -51,7 +51,7 @@ mod statistics;
 mod traversal;
 mod tree;
 
-pub(crate) use hierarchies::{Fit, Hierarchies, mapping_within};
+pub(crate) use hierarchies::{BoxFit, Hierarchies, mapping_within};
 pub use moving::MovingBroadPhase;
 pub use neighbours::Neighbours;
 pub(crate) use over_meshes::MeshHierarchy;

@@ -1,6 +1,6 @@
 //! The broad phase of a mesh: its hierarchies, and their candidates.
 
-use super::hierarchies::{Fit, Hierarchies};
+use super::hierarchies::{BoxFit, Hierarchies};
 use super::neighbours::Neighbours;
 use super::pairing::Pairing;
 use super::pairs::Sink;
@@ -22,7 +22,7 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub struct MovingBroadPhase {
     pub(crate) hierarchies: Hierarchies,
-    fit: Fit,
+    fit: BoxFit,
     /// The tasks of VF and EE pairs.
     tasks: [Vec<BlockPair>; 2],
     stack: Vec<BlockPair>,
@@ -43,7 +43,7 @@ impl MovingBroadPhase {
     pub fn new(topology: impl Into<Arc<Topology>>) -> Self {
         Self {
             hierarchies: Hierarchies::new(topology.into()),
-            fit: Fit::default(),
+            fit: BoxFit::default(),
             tasks: [Vec::new(), Vec::new()],
             stack: Vec::new(),
             collectors: Vec::new(),
@@ -123,7 +123,7 @@ impl MovingBroadPhase {
         Ok(())
     }
 
-    pub(crate) fn fit_boxes(&mut self, motions: &dyn Motions, fit: &Fit) {
+    pub(crate) fn fit_boxes(&mut self, motions: &dyn Motions, fit: &BoxFit) {
         self.hierarchies.fit_boxes(motions, fit);
     }
 

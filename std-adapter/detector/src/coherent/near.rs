@@ -106,12 +106,6 @@ impl<I: Interest> NearPairs<I> {
         self.horizon.parts.largest(positions)
     }
 
-    /// Returns whether listed pairs may have a vertex: whether it is of no far part.
-    #[must_use]
-    pub fn may_have(&self, vertex: u32) -> bool {
-        self.horizon.parts.is_near(vertex)
-    }
-
     pub(super) fn set_filter(&mut self, filter: Option<Arc<CollisionFilter>>) {
         self.search.set_filter(filter);
     }

@@ -91,12 +91,6 @@ impl<D: Copy> NearPair<D> {
         self.separating.gap()
     }
 
-    /// Returns whether no direction has been found yet. The pair is then [kept](Self::is_kept_at) at no distance.
-    #[inline(always)]
-    pub fn remembers_nothing(&self) -> bool {
-        self.separating == SeparatingDirection::NONE
-    }
-
     /// Forgets the gap, because the pair has moved without a test.
     pub const fn forget_gap(&mut self) {
         self.separating = self.separating.without_gap();

@@ -6,7 +6,7 @@ use super::numbering::Numbering;
 use super::pair_engine::{own_space, shares, spaces_for_threads};
 use super::question::{Bound, Question, Wanted};
 use super::rest::{Part, RestSearch};
-use crate::broad_phase::{Fit, Hierarchies, Rows};
+use crate::broad_phase::{BoxFit, Hierarchies, Rows};
 use crate::mesh::Hinges;
 use crate::parallel::{self, Workers};
 use crate::step::{Intersection, Motions};
@@ -39,7 +39,7 @@ impl MeshEngine {
         found.clear();
         self.pairs.stop.begin();
         let hierarchies = &mut self.broad_phase.hierarchies;
-        hierarchies.fit_boxes(motions, &Fit::default());
+        hierarchies.fit_boxes(motions, &BoxFit::default());
         let hierarchies = &*hierarchies;
         set_rows(&mut self.rows, hierarchies);
         let hinges = self.hinges.get_or_insert_with(|| Hinges::new(hierarchies.topology()));

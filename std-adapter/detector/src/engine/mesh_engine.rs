@@ -7,7 +7,7 @@ use super::question::Question;
 use super::rest::RestTasks;
 use super::source::Source;
 use super::statistics::StepStatistics;
-use crate::broad_phase::{Fit, MovingBroadPhase, Rows};
+use crate::broad_phase::{BoxFit, MovingBroadPhase, Rows};
 use crate::buffer::reserve_headroom;
 use crate::clock::Clock;
 use crate::coherent::{ENORMOUS, Followed, NearStatistics};
@@ -121,10 +121,10 @@ impl MeshEngine {
     }
 
     fn fit(&mut self, until: f64, motions: &dyn Motions, question: &Question) {
-        let fit = Fit {
+        let fit = BoxFit {
             separation: question.limits.separation,
             until,
-            ..Fit::default()
+            ..BoxFit::default()
         };
         self.broad_phase.hierarchies.fit_boxes(motions, &fit);
         self.broad_phase.hierarchies.narrow();
@@ -218,10 +218,10 @@ impl MeshEngine {
             stop.stores(pairs * size_of::<[u32; 2]>());
             stop.continues(pairs)
         };
-        let fit = Fit {
+        let fit = BoxFit {
             separation,
             is_swept,
-            ..Fit::default()
+            ..BoxFit::default()
         };
         let broad_phase = &mut self.broad_phase;
         threads.run(|| {

@@ -55,7 +55,7 @@ use crate::PairKind;
 use crate::motion::PrimitivePair;
 use crate::scalar::Scalar;
 use core::cmp::Ordering;
-use moment::{Crossing, End, Moment, Root, sign_before_end};
+use moment::{Crossing, End, ExactTime, Root, sign_before_end};
 
 /// Returns whether the closed vertex and face, or the two closed edges, share a point at some time in [0, 1].
 ///
@@ -212,7 +212,7 @@ impl<'a> Polygon<'a> {
     }
 
     /// Returns whether the hull of the corners contains the origin, at a time when the corners are coplanar with it.
-    fn contains_origin(&self, moment: &dyn Moment, space: &mut Space<'_>) -> bool {
+    fn contains_origin(&self, moment: &dyn ExactTime, space: &mut Space<'_>) -> bool {
         for projection in self.projections() {
             let (mut turns_left, mut turns_right) = (false, false);
             for neighbours in projection {

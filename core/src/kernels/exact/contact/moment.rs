@@ -40,7 +40,7 @@ use crate::exact::integer::{Space, Whole, Words};
 use core::cmp::Ordering;
 
 /// A time at which signs can be computed.
-pub(super) trait Moment {
+pub(super) trait ExactTime {
     /// Compares the polynomial with zero at this time.
     fn sign(&self, polynomial: &[Words<'_>], space: &mut Space<'_>) -> Ordering;
 
@@ -85,7 +85,7 @@ impl End {
     }
 }
 
-impl Moment for End {
+impl ExactTime for End {
     fn sign(&self, polynomial: &[Words<'_>], _: &mut Space<'_>) -> Ordering {
         let value = match self {
             Self::Start => polynomial.first(),
@@ -158,7 +158,7 @@ fn discriminant_sign([a, b, c]: [Words<'_>; 3], space: &mut Space<'_>) -> Orderi
     Words::sign(space.minus(squared, quadrupled))
 }
 
-impl Moment for Root<'_> {
+impl ExactTime for Root<'_> {
     fn sign(&self, polynomial: &[Words<'_>], space: &mut Space<'_>) -> Ordering {
         // This is common if corners move in a plane along an axis. Rounded numbers cannot show that a number is zero.
         if polynomial.iter().all(|coefficient| coefficient.is_zero()) {
@@ -282,7 +282,7 @@ impl<'a> Crossing<'a> {
     }
 }
 
-impl Moment for Crossing<'_> {
+impl ExactTime for Crossing<'_> {
     /// Returns the sign of a polynomial of degree at most two: its sign before the end, unless a root is in between.
     fn sign(&self, polynomial: &[Words<'_>], space: &mut Space<'_>) -> Ordering {
         let mut space = space.scratch();

@@ -4,13 +4,13 @@ use super::super::degradation::Degradation;
 use super::super::hubs::Hubs;
 use super::super::neighbours::Neighbours;
 use super::numbers::{EdgeEnds, NOWHERE};
-use super::{Fit, Hierarchies, State};
+use super::{BoxFit, Hierarchies, State};
 use crate::step::{CollisionFilter, Members, Motions};
 use std::sync::Arc;
 
 impl Hierarchies {
     pub(super) fn build(&mut self, motions: &dyn Motions) {
-        let middles = Fit::default().mapping(motions, &self.extent);
+        let middles = BoxFit::default().mapping(motions, &self.extent);
         let middle = |vertex: u32| {
             let motion = motions.motion(vertex as usize);
             let moving = middles.vertex(motion.start.into(), motion.end.into());

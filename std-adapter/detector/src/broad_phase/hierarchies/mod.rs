@@ -29,7 +29,7 @@ pub(super) const PRICES: Prices = Prices { build: 0.65, item: 16.0 };
 
 /// The quantities that boxes hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Fit {
+pub(crate) struct BoxFit {
     /// The distance beyond which a pair is no candidate; finite and not negative.
     pub(crate) separation: f64,
     /// The distance beyond which neighbours are no candidates, if it is smaller.
@@ -40,7 +40,7 @@ pub(crate) struct Fit {
     pub(crate) is_swept: bool,
 }
 
-impl Default for Fit {
+impl Default for BoxFit {
     fn default() -> Self {
         Self {
             separation: 0.0,
@@ -51,7 +51,7 @@ impl Default for Fit {
     }
 }
 
-impl Fit {
+impl BoxFit {
     fn mapping(&self, motions: &dyn Motions, extent: &Aabb<f64>) -> Mapping {
         motions.mapping(extent, self.separation, self.until, self.is_swept)
     }
@@ -101,7 +101,7 @@ pub(crate) struct Hierarchies {
     state: State,
     resting: Option<Mapping>,
     /// The contents of the boxes.
-    fit: Fit,
+    fit: BoxFit,
     extent: Aabb<f64>,
     degradation: Degradation,
     statistics: MovingStatistics,
@@ -125,7 +125,7 @@ impl Hierarchies {
             scope: Scope::Moving,
             state: State::Empty,
             resting: None,
-            fit: Fit::default(),
+            fit: BoxFit::default(),
             extent: Aabb::empty(),
             degradation: Degradation::default(),
             statistics: MovingStatistics::default(),

@@ -1,6 +1,6 @@
 //! Gives the hierarchies the boxes of a step.
 
-use super::{Fit, Hierarchies, Scope, State};
+use super::{BoxFit, Hierarchies, Scope, State};
 use crate::parallel;
 use crate::step::Motions;
 use selvedge_core::batch::VertexRow;
@@ -9,7 +9,7 @@ use selvedge_core::boxes::{Aabb, moving::MovingBox};
 
 impl Hierarchies {
     /// Takes the positions of a step. It builds the hierarchies first if there are none, or if that pays.
-    pub(crate) fn fit_boxes(&mut self, motions: &dyn Motions, fit: &Fit) {
+    pub(crate) fn fit_boxes(&mut self, motions: &dyn Motions, fit: &BoxFit) {
         let is_whole = self.scope != Scope::Narrowed;
         let builds = self.state == State::Empty || is_whole && self.are_degraded();
         // The rounding of boxes follows from the extent.
@@ -59,9 +59,9 @@ const VERTICES: usize = 1024;
 
 /// Returns the mapping of boxes that hold all points within `separation`, as in the first step of a detector.
 pub(crate) fn mapping_within(motions: &dyn Motions, separation: f64) -> Mapping {
-    let fit = Fit {
+    let fit = BoxFit {
         separation,
-        ..Fit::default()
+        ..BoxFit::default()
     };
     fit.mapping(motions, &extent(motions))
 }

@@ -1,6 +1,6 @@
 //! A mesh of a world, and how it moves in a step.
 
-use crate::broad_phase::{Fit, Hierarchies};
+use crate::broad_phase::{BoxFit, Hierarchies};
 use crate::mesh::Topology;
 use crate::parallel;
 use crate::step::{Groups, Motions};
@@ -84,9 +84,9 @@ impl WorldMesh {
             Moves::Turning(_, deviation) => separation_of_pieces(separation, 2.0 * deviation),
             _ => separation,
         };
-        let fit = Fit {
+        let fit = BoxFit {
             separation,
-            ..Fit::default()
+            ..BoxFit::default()
         };
         self.hierarchies.fit_boxes(&AboutOrigin(motions), &fit);
         self.hierarchies.narrow();
