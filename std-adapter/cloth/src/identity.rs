@@ -5,8 +5,7 @@ use selvedge_core::glam::{DQuat, DVec3};
 use selvedge_files::bytes::Fingerprint;
 use std::sync::Arc;
 
-/// A digest of all that a scene depends on. It is the same for the same scene, in every version of this crate and of those that
-/// it uses.
+/// A digest of all that a scene depends on. It does not depend on the versions of the crates that this one uses.
 #[derive(Default)]
 pub struct Identity(Fingerprint);
 
