@@ -16,7 +16,11 @@ pub fn path() -> PathBuf {
 
 /// Returns the list for the current code: a line for each term, with its digest first.
 pub fn list() -> String {
-    Prover::ALL.into_iter().flat_map(lines).map(|line| line + "\n").collect()
+    Prover::ALL
+        .into_iter()
+        .flat_map(digest_lines)
+        .map(|line| line + "\n")
+        .collect()
 }
 
 /// Checks that the current code gives the provers the accepted texts.
