@@ -10,7 +10,7 @@ use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
 use selvedge::simd::best_level;
 use selvedge_files::mesh::read_step;
-use selvedge_verification::campaign::{Claim, Findings, Run, Scenes};
+use selvedge_verification::campaign::{CampaignFindings, Run, Scenes, TestedClaim};
 use selvedge_verification::generator::BendingTube;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -75,20 +75,20 @@ fn scenes(meshes: &[PathBuf]) -> Result<Scenes, Failure> {
     Ok(scenes)
 }
 
-fn sum(files: &[PathBuf]) -> Result<Findings, Failure> {
-    let mut sum: Option<Findings> = None;
+fn sum(files: &[PathBuf]) -> Result<CampaignFindings, Failure> {
+    let mut sum: Option<CampaignFindings> = None;
     for file in files {
         let wrong = |why: &dyn std::fmt::Display| format!("{}: {why}", file.display());
         let text = std::fs::read_to_string(file).map_err(|error| wrong(&error))?;
-        let found: Findings = serde_json::from_str(&text).map_err(|error| wrong(&error))?;
-        sum.get_or_insert_with(|| Findings::nothing(&found.claims))
+        let found: CampaignFindings = serde_json::from_str(&text).map_err(|error| wrong(&error))?;
+        sum.get_or_insert_with(|| CampaignFindings::nothing(&found.claims))
             .add(found)
             .map_err(|claims| wrong(&format!("counts of other claims, {claims:?}")))?;
     }
     sum.ok_or_else(|| "no file to add".into())
 }
 
-fn run(options: &Options) -> Result<Findings, Failure> {
+fn run(options: &Options) -> Result<CampaignFindings, Failure> {
     let scenes = scenes(&options.mesh)?;
     let seed = options
         .seed
@@ -98,7 +98,7 @@ fn run(options: &Options) -> Result<Findings, Failure> {
         chunks: options.pairs.div_ceil(PAIRS_PER_CHUNK),
         pairs_per_chunk: PAIRS_PER_CHUNK,
         scenes: &scenes,
-        claims: &Claim::CERTIFIED,
+        claims: &TestedClaim::CERTIFIED,
         level: best_level(),
     };
     let (vertex_face, edge_edge) = (scenes.vertex_face.len(), scenes.edge_edge.len());

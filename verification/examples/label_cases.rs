@@ -2,7 +2,7 @@
 //!
 //! Numbers of the output are decimals that identify their `f64`.
 
-use selvedge_verification::conformance::{Case, Question};
+use selvedge_verification::conformance::{Case, CaseQuestion};
 use selvedge_verification::oracle::{collides, triangles_intersect, within};
 use serde_json::{Value, json};
 use std::io::{BufRead, Write};
@@ -48,8 +48,8 @@ fn label(case: &Case) -> Value {
 /// Returns whether triangles meet at the start that are not parts of one moving mesh.
 fn meet_at_start(case: &Case, start: &[[f64; 3]]) -> bool {
     let split = match case.question {
-        Question::Triangles | Question::MovingTriangle => 1,
-        Question::Meshes => case.split,
+        CaseQuestion::Triangles | CaseQuestion::MovingTriangle => 1,
+        CaseQuestion::Meshes => case.split,
         _ => return false,
     };
     let triangles: Vec<_> = case

@@ -24,7 +24,7 @@ impl TryFrom<String> for Hexadecimal {
 
 #[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq)]
 #[serde(rename_all = "kebab-case")]
-pub enum Question {
+pub enum CaseQuestion {
     VertexFace,
     EdgeEdge,
     Triangles,
@@ -39,7 +39,7 @@ pub enum Question {
 #[derive(Debug, Deserialize)]
 pub struct Case {
     pub id: String,
-    pub question: Question,
+    pub question: CaseQuestion,
     /// `f32` or `f64`, the smallest format that holds all numbers.
     pub format: String,
     start: Vec<[Hexadecimal; 3]>,
@@ -98,7 +98,7 @@ impl Case {
     /// Returns the triangles. For two triangles, the second has the vertices 3 to 5.
     pub fn triangles(&self) -> Vec<[u32; 3]> {
         match self.question {
-            Question::Triangles | Question::MovingTriangle => vec![[0, 1, 2], [3, 4, 5]],
+            CaseQuestion::Triangles | CaseQuestion::MovingTriangle => vec![[0, 1, 2], [3, 4, 5]],
             _ => self.faces.clone(),
         }
     }
@@ -107,11 +107,11 @@ impl Case {
     pub fn pairs(&self) -> Vec<(PairKind, [u32; 4])> {
         let triangles = self.triangles();
         let (split, vertices) = match self.question {
-            Question::VertexFace => return vec![(PairKind::VertexFace, [0, 1, 2, 3])],
-            Question::EdgeEdge => return vec![(PairKind::EdgeEdge, [0, 1, 2, 3])],
-            Question::Meshes => (self.split, self.start.len()),
-            Question::Triangles | Question::MovingTriangle => (1, 6),
-            Question::MovingMesh => (0, self.start.len()),
+            CaseQuestion::VertexFace => return vec![(PairKind::VertexFace, [0, 1, 2, 3])],
+            CaseQuestion::EdgeEdge => return vec![(PairKind::EdgeEdge, [0, 1, 2, 3])],
+            CaseQuestion::Meshes => (self.split, self.start.len()),
+            CaseQuestion::Triangles | CaseQuestion::MovingTriangle => (1, 6),
+            CaseQuestion::MovingMesh => (0, self.start.len()),
         };
         let is_first = |vertex: u32| triangles[..split].iter().any(|triangle| triangle.contains(&vertex));
         let are_apart = |one: u32, other: u32| one != other && (split == 0 || is_first(one) != is_first(other));

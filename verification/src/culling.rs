@@ -6,7 +6,7 @@ use selvedge_core::{Verdict, filter};
 
 /// A culling test. None of them culls a pair that touches, rounding included.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CullingTest {
+pub enum CertifiedTest {
     SweptBoxes,
     /// Axis-aligned boxes that the two primitives sweep, merged from those of single points.
     StoredSweptBoxes,
@@ -18,7 +18,7 @@ pub enum CullingTest {
     CertifiedNonCoplanarity,
 }
 
-impl CullingTest {
+impl CertifiedTest {
     pub const ALL: [Self; 5] = [
         Self::SweptBoxes,
         Self::StoredSweptBoxes,
@@ -29,20 +29,20 @@ impl CullingTest {
 }
 
 /// Returns all certified tests, none of which may cull a pair that touches.
-pub fn certified() -> impl Iterator<Item = CullingTest> {
-    CullingTest::ALL.into_iter()
+pub fn certified() -> impl Iterator<Item = CertifiedTest> {
+    CertifiedTest::ALL.into_iter()
 }
 
-pub fn verdict<S: Format>(test: CullingTest, case: &PairCase<S>) -> Verdict {
+pub fn verdict<S: Format>(test: CertifiedTest, case: &PairCase<S>) -> Verdict {
     let pair = &case.pair();
     match test {
-        CullingTest::SweptBoxes => swept_boxes(pair),
-        CullingTest::SegmentBox => segment::primitive_boxes(pair),
-        CullingTest::StoredSweptBoxes => {
+        CertifiedTest::SweptBoxes => swept_boxes(pair),
+        CertifiedTest::SegmentBox => segment::primitive_boxes(pair),
+        CertifiedTest::StoredSweptBoxes => {
             let [first, second] = pair.sets().map(Aabb::swept);
             Verdict::culled_if(!first.overlaps(&second))
         }
-        CullingTest::RelativeBoxes => relative::three_axes(pair),
-        CullingTest::CertifiedNonCoplanarity => filter::certified::non_coplanarity(pair),
+        CertifiedTest::RelativeBoxes => relative::three_axes(pair),
+        CertifiedTest::CertifiedNonCoplanarity => filter::certified::non_coplanarity(pair),
     }
 }

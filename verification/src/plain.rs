@@ -6,21 +6,21 @@
 use crate::generator::{Format, PairCase};
 use selvedge_core::PairKind;
 
-type Vector<S> = [S; 3];
+type Point<S> = [S; 3];
 
-fn minus<S: Format>(a: Vector<S>, b: Vector<S>) -> Vector<S> {
+fn minus<S: Format>(a: Point<S>, b: Point<S>) -> Point<S> {
     std::array::from_fn(|axis| a[axis] - b[axis])
 }
 
-fn plus<S: Format>(a: Vector<S>, b: Vector<S>) -> Vector<S> {
+fn plus<S: Format>(a: Point<S>, b: Point<S>) -> Point<S> {
     std::array::from_fn(|axis| a[axis] + b[axis])
 }
 
-fn dot<S: Format>(a: Vector<S>, b: Vector<S>) -> S {
+fn dot<S: Format>(a: Point<S>, b: Point<S>) -> S {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-fn cross<S: Format>([a, b, c]: Vector<S>, [x, y, z]: Vector<S>) -> Vector<S> {
+fn cross<S: Format>([a, b, c]: Point<S>, [x, y, z]: Point<S>) -> Point<S> {
     [b * z - c * y, c * x - a * z, a * y - b * x]
 }
 

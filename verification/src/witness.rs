@@ -12,9 +12,9 @@ use selvedge_core::elementary::Impact;
 use selvedge_core::elementary::advance::{Proof, Witness};
 use selvedge_core::{PairKind, PrimitivePair, Scalar};
 
-type Vector = [Rational; 3];
+type RationalVector = [Rational; 3];
 /// A corner at two times.
-type Corner = [Vector; 2];
+type Corner = [RationalVector; 2];
 
 /// How often a part is halved to find the sign of its volume.
 const HALVINGS: u32 = 80;
@@ -32,12 +32,12 @@ pub struct Claim {
     pub separation: f64,
     pub until: f64,
     /// The proof: consecutive parts of the step.
-    pub parts: Vec<Part>,
+    pub parts: Vec<ExactPart>,
 }
 
 /// A part of the step, from the end of the part before.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Part {
+pub struct ExactPart {
     pub until: f64,
     /// The directions of its proof: none for the volume, one that is held, two of one that turns, three of one that curves.
     pub directions: Vec<[f64; 3]>,
@@ -47,7 +47,7 @@ impl Claim {
     /// The claim of an answer to which core added `witness`.
     pub fn new<S: Scalar>(pair: &PrimitivePair<S>, separation: S, impact: Impact<S>, witness: &Witness<S>) -> Self {
         let vector = |w: [S; 3]| w.map(S::to_f64);
-        let parts = witness.parts().iter().map(|part| Part {
+        let parts = witness.parts().iter().map(|part| ExactPart {
             until: part.until.to_f64(),
             directions: match part.proof {
                 Proof::Volume => Vec::new(),
@@ -93,7 +93,7 @@ impl Claim {
             let holds = match part.directions.as_slice() {
                 [] => keeps_its_sign(&moved, &separation, HALVINGS),
                 directions => {
-                    let directions: Option<Vec<Vector>> = directions.iter().map(|&w| exact(w)).collect();
+                    let directions: Option<Vec<RationalVector>> = directions.iter().map(|&w| exact(w)).collect();
                     keeps_apart(&directions?, &moved, &separation)
                 }
             };
@@ -106,17 +106,17 @@ impl Claim {
     }
 }
 
-fn exact(vector: [f64; 3]) -> Option<Vector> {
+fn exact(vector: [f64; 3]) -> Option<RationalVector> {
     let [x, y, z] = vector.map(Rational::from_f64);
     Some([x?, y?, z?])
 }
 
-fn at([start, end]: &Corner, time: &Rational) -> Vector {
+fn at([start, end]: &Corner, time: &Rational) -> RationalVector {
     std::array::from_fn(|k| Rational::from(&end[k] - &start[k]) * time + &start[k])
 }
 
 /// Returns a number that is no less than s·|w|, by less than a 2⁶⁴th.
-fn length_times(separation: &Rational, w: &Vector) -> Rational {
+fn length_times(separation: &Rational, w: &RationalVector) -> Rational {
     if separation.is_zero() {
         return Rational::new();
     }
@@ -130,7 +130,7 @@ fn length_times(separation: &Rational, w: &Vector) -> Rational {
 ///
 /// The direction has the control points w₀ … w_d with their binomial factors: the middle one of three counts twice. The
 /// coefficients, times factors of their own, are w_k·e₀ + w_{k−1}·e₁.
-fn keeps_apart(directions: &[Vector], corners: &[Corner], separation: &Rational) -> bool {
+fn keeps_apart(directions: &[RationalVector], corners: &[Corner], separation: &Rational) -> bool {
     let bars: Vec<Rational> = directions.iter().map(|w| length_times(separation, w)).collect();
     corners.iter().all(|[start, end]| {
         (0..=directions.len()).all(|k| {
@@ -161,7 +161,7 @@ fn keeps_its_sign(corners: &[Corner], separation: &Rational, halvings: u32) -> b
     let ([u0, u1], [v0, v1]) = (side(b), side(c));
     let (first, second) = (cross(&u0, &v1), cross(&u1, &v0));
     // The normal's times 1, 2, 1.
-    let middle: Vector = std::array::from_fn(|k| Rational::from(&first[k] + &second[k]));
+    let middle: RationalVector = std::array::from_fn(|k| Rational::from(&first[k] + &second[k]));
     let [before, middle, after] = [cross(&u0, &v0), middle, cross(&u1, &v1)].map(|normal| length_times(separation, &normal));
     let bars = [before.clone(), Rational::from(&before + &middle), middle + &after, after];
     let is_positive = volumes[0] > 0;
@@ -173,8 +173,8 @@ fn keeps_its_sign(corners: &[Corner], separation: &Rational, halvings: u32) -> b
         return true;
     }
     let half = Rational::from((1, 2));
-    let middle: Vec<Vector> = corners.iter().map(|corner| at(corner, &half)).collect();
-    let part = |ends: fn(&Corner, &Vector) -> Corner| {
+    let middle: Vec<RationalVector> = corners.iter().map(|corner| at(corner, &half)).collect();
+    let part = |ends: fn(&Corner, &RationalVector) -> Corner| {
         corners
             .iter()
             .zip(&middle)

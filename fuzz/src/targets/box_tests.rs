@@ -1,7 +1,7 @@
 use super::pair::{self, Numbers};
 use selvedge::core::boxes::{Aabb, segment::misses};
 use selvedge::core::{Motion, Verdict};
-use selvedge_verification::culling::{self, CullingTest};
+use selvedge_verification::culling::{self, CertifiedTest};
 use selvedge_verification::generator::{Format, PairCase};
 use selvedge_verification::oracle::{collides, rational, segment_meets_box};
 
@@ -19,7 +19,7 @@ pub fn box_tests(data: &[u8]) {
 }
 
 fn check<S: Format>(case: &PairCase<S>) {
-    use CullingTest::{RelativeBoxes, SegmentBox, StoredSweptBoxes, SweptBoxes};
+    use CertifiedTest::{RelativeBoxes, SegmentBox, StoredSweptBoxes, SweptBoxes};
     let culls = |test| culling::verdict(test, case).is_culled();
 
     if !case.is_finite() {

@@ -135,11 +135,11 @@ pub fn read_from(mut source: impl Read, path: &Path, kind: PairKind) -> Result<Q
         path: path.to_owned(),
         inexact: 0,
     };
-    let mut rows: Vec<(usize, Row)> = Vec::with_capacity(ROWS);
+    let mut rows: Vec<(usize, QueryPoint)> = Vec::with_capacity(ROWS);
     let mut columns = None;
     let lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty());
     for (line, text) in lines {
-        let row = Row::parse(text, &mut columns).map_err(|error| at(&format_args!(", line {line}{error}")))?;
+        let row = QueryPoint::parse(text, &mut columns).map_err(|error| at(&format_args!(", line {line}{error}")))?;
         file.inexact += row.inexact;
         if let Some((first, _)) = rows.first().filter(|(_, first)| first.truth != row.truth) {
             let reason = format!("the truth differs from that on line {first}, where the query starts; the 8 rows must agree");
@@ -170,13 +170,13 @@ pub fn read_from(mut source: impl Read, path: &Path, kind: PairKind) -> Result<Q
 }
 
 /// One point of a query.
-struct Row {
+struct QueryPoint {
     point: DVec3,
     inexact: usize,
     truth: Option<bool>,
 }
 
-impl Row {
+impl QueryPoint {
     /// Reads a row, which must have as many columns as the first. Errors begin with the place in the row.
     fn parse(text: &str, columns: &mut Option<usize>) -> Result<Self, String> {
         let fields: Vec<&str> = text.split(',').map(str::trim).collect();

@@ -2,7 +2,7 @@
 
 use super::judge::Judge;
 use super::pairs::{Maker, random};
-use super::{Claim, ClaimCounts, Run, Source};
+use super::{CaseSource, ClaimCounts, Run, TestedClaim};
 use crate::generator::{Format, PairCase};
 use crate::plain;
 use selvedge_core::PairKind;
@@ -16,8 +16,8 @@ pub(super) const fn format(chunk: u64) -> usize {
     (chunk % 2) as usize
 }
 
-pub(super) const fn source(chunk: u64) -> Source {
-    Source::ALL[(chunk / 2 % 3) as usize]
+pub(super) const fn source(chunk: u64) -> CaseSource {
+    CaseSource::ALL[(chunk / 2 % 3) as usize]
 }
 
 const fn kind(chunk: u64) -> PairKind {
@@ -60,7 +60,7 @@ fn counts_in<S: Format>(run: &Run<'_>, chunk: u64) -> Vec<ClaimCounts> {
             let mut judge = Judge::new(case, pair);
             for ((claim, masks), count) in run.claims.iter().zip(&masks).zip(&mut counts) {
                 let is_claimed = match claim {
-                    Claim::TimeOfImpact => {
+                    TestedClaim::TimeOfImpact => {
                         let limits = if index % 2 == 0 {
                             Limits::default()
                         } else {
@@ -68,7 +68,7 @@ fn counts_in<S: Format>(run: &Run<'_>, chunk: u64) -> Vec<ClaimCounts> {
                         };
                         time_of_impact(pair, &limits) == Impact::Never
                     }
-                    Claim::Plain => plain::culls(case),
+                    TestedClaim::Plain => plain::culls(case),
                     _ => masks[index / LANES] >> (index % LANES) & 1 != 0,
                 };
                 if is_claimed {

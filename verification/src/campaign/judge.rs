@@ -1,6 +1,6 @@
 //! Judges claims by exact signs, an axis, integers, and the oracle.
 
-use super::{Claim, ClaimCounts, SAMPLE};
+use super::{ClaimCounts, SAMPLE, TestedClaim};
 use crate::generator::{Format, PairCase};
 use crate::oracle;
 use selvedge_core::PrimitivePair;
@@ -35,7 +35,7 @@ impl<'a, S: Format> Judge<'a, S> {
     }
 
     /// Counts the claim and decides whether it is right.
-    pub(super) fn judge(&mut self, claim: Claim, count: &mut ClaimCounts, chunk: u64) {
+    pub(super) fn judge(&mut self, claim: TestedClaim, count: &mut ClaimCounts, chunk: u64) {
         count.claims += 1;
         let by = if claim.is_of_the_volume() {
             if self.has_one_sign() { By::Signs } else { By::Nothing }
@@ -54,7 +54,7 @@ impl<'a, S: Format> Judge<'a, S> {
         count.by_oracle += 1;
         let question = self.case.question();
         let is_wrong = if claim.is_of_the_volume() {
-            oracle::coplanar(&question.start, &question.end)
+            oracle::are_ever_coplanar(&question.start, &question.end)
         } else {
             oracle::collides(&question).is_some()
         };

@@ -1,9 +1,9 @@
 //! A billion pairs: exact arithmetic checks every cull of the certified filters and box tests, and every "never" of the time of
 //! impact.
 //!
-//! A pair takes about a microsecond: tests run in batches, and pairs come from three cheap [`Source`]s. A run consists of chunks.
-//! Each has random numbers of its own, so the findings depend on the seed alone, not on threads. Runs with other seeds share no
-//! pairs: a campaign on many machines is one seed for each, and [`Findings::add`] sums what they count.
+//! A pair takes about a microsecond: tests run in batches, and pairs come from three cheap [`CaseSource`]s. A run consists of
+//! chunks. Each has random numbers of its own, so the findings depend on the seed alone, not on threads. Runs with other seeds
+//! share no pairs: a campaign on many machines is one seed for each, and [`CampaignFindings::add`] sums what they count.
 //!
 //! # Verdicts
 //! A cull by the volume's signs is right if the exact control values
@@ -16,7 +16,7 @@ mod chunk;
 mod judge;
 mod pairs;
 
-pub use pairs::{Points, Scenes, Source, sample};
+pub use pairs::{CaseSource, Points, Scenes, sample};
 
 use selvedge_core::batch::{Level, Test};
 use selvedge_core::filter::Tier;
@@ -30,7 +30,7 @@ pub const SAMPLE: u64 = 20_000;
 
 /// A test that claims something about a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Claim {
+pub enum TestedClaim {
     /// [`Tier::Permanent`] claims that the points are never coplanar, as the tiers below do.
     Filter,
     /// [`Tier::Widened`].
@@ -48,7 +48,7 @@ pub enum Claim {
     Plain,
 }
 
-impl Claim {
+impl TestedClaim {
     pub const CERTIFIED: [Self; 6] = [
         Self::Filter,
         Self::Widened,
@@ -109,18 +109,18 @@ impl ClaimCounts {
 
 /// The findings of a run, by claim.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Findings {
+pub struct CampaignFindings {
     /// The number of pairs.
     pub pairs: u64,
-    pub claims: Vec<Claim>,
+    pub claims: Vec<TestedClaim>,
     /// Counts by format, source and claim.
     pub counts: [[Vec<ClaimCounts>; 3]; 2],
 }
 
-impl Findings {
+impl CampaignFindings {
     /// Makes the findings of no pairs.
     #[must_use]
-    pub fn nothing(claims: &[Claim]) -> Self {
+    pub fn nothing(claims: &[TestedClaim]) -> Self {
         let none = || vec![ClaimCounts::default(); claims.len()];
         let of_format = || [none(), none(), none()];
         Self {
@@ -134,7 +134,7 @@ impl Findings {
     ///
     /// # Errors
     /// Returns the claims of the other run if they differ.
-    pub fn add(&mut self, other: Self) -> Result<(), Vec<Claim>> {
+    pub fn add(&mut self, other: Self) -> Result<(), Vec<TestedClaim>> {
         if other.claims != self.claims {
             return Err(other.claims);
         }
@@ -152,7 +152,7 @@ impl Findings {
     }
 }
 
-impl fmt::Display for Findings {
+impl fmt::Display for CampaignFindings {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
             f,
@@ -161,7 +161,7 @@ impl fmt::Display for Findings {
         )?;
         let mut examples = Vec::new();
         for (by_source, scalar) in self.counts.iter().zip(["f32", "f64"]) {
-            for (counts, source) in by_source.iter().zip(Source::ALL) {
+            for (counts, source) in by_source.iter().zip(CaseSource::ALL) {
                 for (count, claim) in counts.iter().zip(&self.claims) {
                     writeln!(
                         f,
@@ -193,7 +193,7 @@ pub struct Run<'a> {
     pub chunks: u64,
     pub pairs_per_chunk: u64,
     pub scenes: &'a Scenes,
-    pub claims: &'a [Claim],
+    pub claims: &'a [TestedClaim],
     pub level: Level,
 }
 
@@ -202,9 +202,9 @@ impl Run<'_> {
     ///
     /// # Panics
     /// Panics if a thread panics.
-    pub fn findings(&self, threads: usize, after_chunk: impl Fn(&Findings) + Sync) -> Findings {
+    pub fn findings(&self, threads: usize, after_chunk: impl Fn(&CampaignFindings) + Sync) -> CampaignFindings {
         let next = AtomicU64::new(0);
-        let found = Mutex::new(Findings::nothing(self.claims));
+        let found = Mutex::new(CampaignFindings::nothing(self.claims));
         std::thread::scope(|scope| {
             for _ in 0..threads {
                 scope.spawn(|| {

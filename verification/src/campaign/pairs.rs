@@ -8,7 +8,7 @@ use selvedge_core::PairKind;
 use selvedge_core::glam::DVec3;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Source {
+pub enum CaseSource {
     /// Random coordinates; half of the pairs are nearly coplanar.
     Random,
     /// Pairs of the tests' [generator](crate::generator), each in many variants that differ by a few units in the last place.
@@ -17,7 +17,7 @@ pub enum Source {
     Scene,
 }
 
-impl Source {
+impl CaseSource {
     pub(super) const ALL: [Self; 3] = [Self::Random, Self::Adversarial, Self::Scene];
 }
 
@@ -59,14 +59,14 @@ impl Scenes {
 
 /// Makes the pairs of a chunk.
 pub(super) struct Maker<'a> {
-    source: Source,
+    source: CaseSource,
     kind: PairKind,
     of_scene: &'a [Points],
     random: Random,
 }
 
 impl<'a> Maker<'a> {
-    pub(super) fn new(source: Source, kind: PairKind, scenes: &'a Scenes, random: Random) -> Self {
+    pub(super) fn new(source: CaseSource, kind: PairKind, scenes: &'a Scenes, random: Random) -> Self {
         let of_scene = match kind {
             PairKind::VertexFace => &scenes.vertex_face,
             PairKind::EdgeEdge => &scenes.edge_edge,
@@ -86,12 +86,12 @@ impl<'a> Maker<'a> {
         let mut variants = 0;
         for _ in 0..count {
             let case = match self.source {
-                Source::Scene if !self.of_scene.is_empty() => {
+                CaseSource::Scene if !self.of_scene.is_empty() => {
                     let points = self.of_scene[random.below(self.of_scene.len() as u64) as usize];
                     let points = points.map(|ends| ends.map(|x| x.map(S::from_f64)));
                     of_motion(PairCase::new(kind, points), random)
                 }
-                Source::Adversarial => {
+                CaseSource::Adversarial => {
                     if variants == 0 {
                         base = PairCase::choose(kind, &mut Choices::new(&random.bytes::<{ Choices::ENOUGH }>()));
                         variants = if is_wide(&base) { 1 } else { 32 };
@@ -99,16 +99,16 @@ impl<'a> Maker<'a> {
                     variants -= 1;
                     nudged(base, 1 + random.below(3), random)
                 }
-                Source::Random | Source::Scene => at_random(kind, random),
+                CaseSource::Random | CaseSource::Scene => at_random(kind, random),
             };
             cases.push(case.map(S::made_finite));
         }
     }
 }
 
-/// Returns the first `count` pairs of `source`, which are the same on every machine. [`Source::Scene`] has no pairs here, and
+/// Returns the first `count` pairs of `source`, which are the same on every machine. [`CaseSource::Scene`] has no pairs here, and
 /// random ones are returned.
-pub fn sample<S: Format>(source: Source, kind: PairKind, seed: u64, count: usize) -> Vec<PairCase<S>> {
+pub fn sample<S: Format>(source: CaseSource, kind: PairKind, seed: u64, count: usize) -> Vec<PairCase<S>> {
     let (scenes, mut cases) = (Scenes::default(), Vec::new());
     Maker::new(source, kind, &scenes, self::random(seed, 0)).make(count, &mut cases);
     cases

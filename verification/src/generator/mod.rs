@@ -4,7 +4,7 @@
 //! proptest strategies), and the fuzzer's in a fuzz target ([`PairCase::from_bytes`]). Cases are biased to inputs that break
 //! floating-point geometry. Examples are equal, nearly equal, collinear and coplanar points, and equal coordinates. Others are
 //! huge, tiny and subnormal numbers, neighbours in the last place, and shapes far from the origin that hardly move. Some pairs
-//! exactly touch or are exactly coplanar at a chosen time, 0 and 1 included ([`Moment`]).
+//! exactly touch or are exactly coplanar at a chosen time, 0 and 1 included ([`MeetingPair`]).
 //!
 //! A failing case is simplified number by number, and printed as Rust that makes it.
 
@@ -23,7 +23,7 @@ pub use crate::oracle::{points_of_first, side_of};
 pub use case::PairCase;
 pub use choices::Choices;
 pub use mesh::{MeshCase, MeshPair, all_pairs, with_kinds};
-pub use moment::{Meeting, Moment};
+pub use moment::{Meeting, MeetingPair};
 pub use numbers::Format;
 pub(crate) use numbers::power_of_two;
 pub use screw::{Screw, vector};
@@ -49,13 +49,13 @@ pub fn extraordinary_pairs<S: Format>() -> impl Strategy<Value = PairCase<S>> + 
 }
 
 /// Generates pairs of either kind that touch at a known time.
-pub fn touching_pairs<S: Format>() -> impl Strategy<Value = Moment<S>> + Clone {
-    from_choices(|choices| Moment::choose(any_kind(choices), Meeting::Touching, choices))
+pub fn touching_pairs<S: Format>() -> impl Strategy<Value = MeetingPair<S>> + Clone {
+    from_choices(|choices| MeetingPair::choose(any_kind(choices), Meeting::Touching, choices))
 }
 
 /// Generates pairs of either kind that are coplanar at a known time.
-pub fn coplanar_pairs<S: Format>() -> impl Strategy<Value = Moment<S>> + Clone {
-    from_choices(|choices| Moment::choose(any_kind(choices), Meeting::Coplanar, choices))
+pub fn coplanar_pairs<S: Format>() -> impl Strategy<Value = MeetingPair<S>> + Clone {
+    from_choices(|choices| MeetingPair::choose(any_kind(choices), Meeting::Coplanar, choices))
 }
 
 /// Generates pairs of either kind that slide: points of one set travel closely beside a corner, a side or the face of the other.

@@ -20,7 +20,7 @@ pub enum Meeting {
 /// Four points that pass through `target` at the time `numerator / 2^bits`. All numbers are integers, so start and end are
 /// integers, too. Scaled by a power of two, they are exact numbers of the format.
 #[derive(Clone, PartialEq)]
-pub struct Moment<S> {
+pub struct MeetingPair<S> {
     pub kind: PairKind,
     numerator: i64,
     bits: u32,
@@ -31,7 +31,7 @@ pub struct Moment<S> {
     format: PhantomData<S>,
 }
 
-impl<S: Format> Moment<S> {
+impl<S: Format> MeetingPair<S> {
     pub fn choose(kind: PairKind, meeting: Meeting, choices: &mut Choices<'_>) -> Self {
         // A target has 4 bits more than `reach`, and a velocity no more than a target. The time adds 3 bits, and the sum 1.
         let reach = S::PRECISION - 10;
@@ -154,7 +154,7 @@ fn velocity(reach: u32, choices: &mut Choices<'_>) -> [[i64; 3]; 4] {
     }
 }
 
-impl<S: Format> Simplify for Moment<S> {
+impl<S: Format> Simplify for MeetingPair<S> {
     /// Displacements, offset, scale and time do not change the meeting, and neither does dropping an axis.
     fn attempts(&self) -> usize {
         35
@@ -185,7 +185,7 @@ impl<S: Format> Simplify for Moment<S> {
     }
 }
 
-impl<S> Moment<S> {
+impl<S> MeetingPair<S> {
     fn complexity(&self) -> u64 {
         let size = |x: i64| u64::from(64 - x.unsigned_abs().leading_zeros());
         let positions = [self.target, self.velocity];
@@ -194,7 +194,7 @@ impl<S> Moment<S> {
     }
 }
 
-impl<S: Format> fmt::Debug for Moment<S> {
+impl<S: Format> fmt::Debug for MeetingPair<S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "at {}: {:?}", self.time(), self.pair())
     }

@@ -2,7 +2,7 @@
 
 use super::numbers::{binary_exponent, exponent, extraordinary, finite, fraction};
 use super::strategy::Simplify;
-use super::{Choices, Format, Meeting, Moment, PairCase};
+use super::{Choices, Format, Meeting, MeetingPair, PairCase};
 use selvedge_core::PairKind;
 
 impl<S: Format> PairCase<S> {
@@ -20,8 +20,8 @@ impl<S: Format> PairCase<S> {
     pub fn choose(kind: PairKind, choices: &mut Choices<'_>) -> Self {
         let mut case = match choices.below(12) {
             0 => grid(kind, choices),
-            1 | 2 => Moment::choose(kind, Meeting::Touching, choices).pair(),
-            3 | 4 => Moment::choose(kind, Meeting::Coplanar, choices).pair(),
+            1 | 2 => MeetingPair::choose(kind, Meeting::Touching, choices).pair(),
+            3 | 4 => MeetingPair::choose(kind, Meeting::Coplanar, choices).pair(),
             5 => coplanar_throughout(kind, choices),
             6 => graze(kind, choices),
             7 => gathering(kind, choices),

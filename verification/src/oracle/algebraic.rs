@@ -12,11 +12,11 @@ use std::cmp::Ordering;
 pub struct AlgebraicTime {
     /// A square-free polynomial that has this root.
     polynomial: Polynomial,
-    place: Place,
+    place: RootPlace,
 }
 
 #[derive(Clone, Debug)]
-enum Place {
+enum RootPlace {
     Exact(Rational),
     /// The only root in the closed interval `[index, index + 1] / 2^bits`, and not at an end of it.
     Isolated {
@@ -43,7 +43,7 @@ impl AlgebraicTime {
         let coefficients = vec![Integer::from(-time.numer()), time.denom().clone()];
         Self {
             polynomial: Polynomial::new(coefficients),
-            place: Place::Exact(time),
+            place: RootPlace::Exact(time),
         }
     }
 
@@ -74,8 +74,8 @@ impl AlgebraicTime {
     /// it is rational.
     pub fn as_rational(&self) -> Option<&Rational> {
         match &self.place {
-            Place::Exact(value) => Some(value),
-            Place::Isolated { .. } => None,
+            RootPlace::Exact(value) => Some(value),
+            RootPlace::Isolated { .. } => None,
         }
     }
 
@@ -83,8 +83,8 @@ impl AlgebraicTime {
     /// itself if it is known to be rational.
     pub fn interval(&self) -> [Rational; 2] {
         match &self.place {
-            Place::Exact(value) => [value.clone(), value.clone()],
-            Place::Isolated { index, bits, .. } => {
+            RootPlace::Exact(value) => [value.clone(), value.clone()],
+            RootPlace::Isolated { index, bits, .. } => {
                 [index.clone(), Integer::from(index + 1)].map(|end| Rational::from(end) >> *bits)
             }
         }
@@ -100,8 +100,8 @@ impl AlgebraicTime {
     /// Returns the largest n such that the interval is no wider than `2^-n`.
     fn bits(&self) -> u32 {
         match self.place {
-            Place::Exact(_) => u32::MAX,
-            Place::Isolated { bits, .. } => bits,
+            RootPlace::Exact(_) => u32::MAX,
+            RootPlace::Isolated { bits, .. } => bits,
         }
     }
 
@@ -110,7 +110,7 @@ impl AlgebraicTime {
     /// This is quadratic interval refinement (J. Abbott 2006): the secant shows which of `2^pace` parts of the interval should
     /// hold the root. If that part holds it, the next step uses twice the pace.
     fn narrow(&mut self) {
-        let Place::Isolated {
+        let RootPlace::Isolated {
             index,
             bits,
             sign_at_low,
@@ -129,7 +129,7 @@ impl AlgebraicTime {
         let ends = [index.clone(), Integer::from(&*index + 1)];
         let signs = ends.each_ref().map(|end| self.polynomial.sign_at_dyadic(end, *bits));
         if let Some(found) = signs.iter().position(|sign| sign.is_eq()) {
-            self.place = Place::Exact(Rational::from(ends[found].clone()) >> *bits);
+            self.place = RootPlace::Exact(Rational::from(ends[found].clone()) >> *bits);
         } else if signs[0] == *sign_at_low && signs[1] != *sign_at_low {
             *pace *= 2;
         } else {
@@ -142,7 +142,7 @@ impl AlgebraicTime {
     }
 
     fn halve(&mut self) {
-        if let Place::Isolated {
+        if let RootPlace::Isolated {
             index,
             bits,
             sign_at_low,
@@ -154,7 +154,7 @@ impl AlgebraicTime {
             let middle = Integer::from(&*index + 1);
             let sign = self.polynomial.sign_at_dyadic(&middle, *bits);
             if sign.is_eq() {
-                self.place = Place::Exact(Rational::from(middle) >> *bits);
+                self.place = RootPlace::Exact(Rational::from(middle) >> *bits);
             } else if sign == *sign_at_low {
                 *index = middle;
             }
@@ -163,8 +163,8 @@ impl AlgebraicTime {
 
     pub fn cmp_rational(&self, other: &Rational) -> Ordering {
         match &self.place {
-            Place::Exact(value) => value.cmp(other),
-            Place::Isolated { sign_at_low, .. } => {
+            RootPlace::Exact(value) => value.cmp(other),
+            RootPlace::Isolated { sign_at_low, .. } => {
                 let [low, high] = self.interval();
                 if *other <= low {
                     Ordering::Greater
@@ -216,12 +216,12 @@ impl AlgebraicTime {
         let lead = self.polynomial.coefficients().last().map(|c| Integer::from(c.abs_ref()));
         let lead = lead.expect("not the zero polynomial");
         self.refine(lead.significant_bits() + 1);
-        if let Place::Isolated { index, bits, .. } = &self.place {
+        if let RootPlace::Isolated { index, bits, .. } = &self.place {
             // The interval is shorter than 1 / lead, so it can hold no other candidate.
             let candidate = ((Integer::from(&lead * index) >> *bits) + 1, lead);
             let candidate = Rational::from(candidate);
             if self.cmp_rational(&candidate).is_eq() {
-                self.place = Place::Exact(candidate);
+                self.place = RootPlace::Exact(candidate);
             }
         }
         self
@@ -234,8 +234,8 @@ impl Signs<Polynomial> for AlgebraicTime {
         let mut is_not_zero = false;
         loop {
             let (index, bits, pace) = match &self.place {
-                Place::Exact(time) => return value.sign_at(time),
-                Place::Isolated { index, bits, pace, .. } => (index, *bits, *pace),
+                RootPlace::Exact(time) => return value.sign_at(time),
+                RootPlace::Isolated { index, bits, pace, .. } => (index, *bits, *pace),
             };
             if let Some(sign) = value.sign_on_cell(index, bits) {
                 return sign;
@@ -247,7 +247,7 @@ impl Signs<Polynomial> for AlgebraicTime {
                 let sign_at_low = common.sign_at_dyadic(index, bits);
                 if sign_at_low != common.sign_at_dyadic(&Integer::from(index + 1), bits) {
                     // The common factor describes the root as well, and is simpler.
-                    self.place = Place::Isolated {
+                    self.place = RootPlace::Isolated {
                         index: index.clone(),
                         bits,
                         sign_at_low,
@@ -338,7 +338,7 @@ impl Isolation {
         }
         let polynomial = self.0.polynomial();
         if count == 1 && low.sign.is_ne() && high.sign.is_ne() {
-            let place = Place::Isolated {
+            let place = RootPlace::Isolated {
                 index,
                 bits,
                 sign_at_low: low.sign,
@@ -358,7 +358,7 @@ impl Isolation {
             let time = Rational::from(right.clone()) >> (bits + 1);
             roots.push(AlgebraicTime {
                 polynomial: polynomial.clone(),
-                place: Place::Exact(time),
+                place: RootPlace::Exact(time),
             });
         }
         self.inside(right, bits + 1, &middle, high, roots);

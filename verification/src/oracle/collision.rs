@@ -13,7 +13,7 @@ use rug::{Integer, Rational};
 ///
 /// # Panics
 /// Panics if a coordinate is NaN or infinite.
-pub fn coplanar(start: &[[f64; 3]; 4], end: &[[f64; 3]; 4]) -> bool {
+pub fn are_ever_coplanar(start: &[[f64; 3]; 4], end: &[[f64; 3]; 4]) -> bool {
     let [a, b, c, d] = Motion::new(start, end).trajectories();
     let volume = volume(&a, &b, &c, &d);
     if volume.is_zero() {

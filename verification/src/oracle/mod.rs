@@ -6,7 +6,7 @@
 //!
 //! | question | function |
 //! |---|---|
-//! | are four moving points coplanar at some time in \[0, 1\]? | [`coplanar`] |
+//! | are four moving points coplanar at some time in \[0, 1\]? | [`are_ever_coplanar`] |
 //! | does a primitive pair collide, and when first? | [`collides`] |
 //! | does it come within a distance, and when first? | [`within`], [`first_within`] |
 //! | is it within a distance at some time, or where it rests? | [`within_at`], [`within_at_rest`] |
@@ -37,7 +37,7 @@ mod signs;
 pub(crate) mod volume;
 
 pub use algebraic::AlgebraicTime;
-pub use collision::{collides, coplanar, touches_at};
+pub use collision::{are_ever_coplanar, collides, touches_at};
 pub use mesh::{mesh_intersections, mesh_self_intersections, triangles_intersect};
 pub use motion::{Pair, PairKind, points_of_first, side_of};
 pub use polynomial::Polynomial;

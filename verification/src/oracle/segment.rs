@@ -1,11 +1,10 @@
 //! A segment and a box.
 
+use super::geometry::Point;
 use rug::Rational;
 
-type Point = [Rational; 3];
-
 /// Returns whether the closed segment meets the closed box, by the part of the segment within each slab, in exact arithmetic.
-pub fn segment_meets_box(ends: &[Point; 2], [lower, upper]: &[Point; 2]) -> bool {
+pub fn segment_meets_box(ends: &[Point<Rational>; 2], [lower, upper]: &[Point<Rational>; 2]) -> bool {
     let (mut enter, mut leave) = (Rational::from(0), Rational::from(1));
     for axis in 0..3 {
         let start = &ends[0][axis];

@@ -1,11 +1,10 @@
 //! The signed volume's control values in rational arithmetic.
 
+use super::geometry::Point;
 use crate::generator::{Format, PairCase};
 use rug::Rational;
 use selvedge_core::{PairKind, Scalar};
 use std::cmp::Ordering::{self, Greater, Less};
-
-type Point = [Rational; 3];
 
 /// Converts a finite number exactly.
 ///
@@ -15,16 +14,16 @@ pub fn rational<S: Scalar>(x: S) -> Rational {
     Rational::from_f64(x.to_f64()).expect("finite")
 }
 
-pub(crate) fn minus(a: &Point, b: &Point) -> Point {
+pub(crate) fn minus(a: &Point<Rational>, b: &Point<Rational>) -> Point<Rational> {
     std::array::from_fn(|axis| Rational::from(&a[axis] - &b[axis]))
 }
 
-pub(crate) fn cross(a: &Point, b: &Point) -> Point {
+pub(crate) fn cross(a: &Point<Rational>, b: &Point<Rational>) -> Point<Rational> {
     let minor = |i: usize, j: usize| Rational::from(&a[i] * &b[j]) - Rational::from(&a[j] * &b[i]);
     [minor(1, 2), minor(2, 0), minor(0, 1)]
 }
 
-pub(crate) fn dot(a: &Point, b: &Point) -> Rational {
+pub(crate) fn dot(a: &Point<Rational>, b: &Point<Rational>) -> Rational {
     a.iter().zip(b).map(|(x, y)| Rational::from(x * y)).sum()
 }
 
@@ -39,7 +38,7 @@ pub struct InRationals {
 impl InRationals {
     pub fn new<S: Format>(pair: &PairCase<S>) -> Self {
         let points = pair.points.map(|ends| ends.map(|x| x.map(rational)));
-        let at = |numerator: i32, denominator: i32| -> [Point; 4] {
+        let at = |numerator: i32, denominator: i32| -> [Point<Rational>; 4] {
             let t = Rational::from((numerator, denominator));
             std::array::from_fn(|point| {
                 std::array::from_fn(|axis| {
@@ -48,12 +47,12 @@ impl InRationals {
                 })
             })
         };
-        let volume = |[a, b, c, d]: [Point; 4]| match pair.kind {
+        let volume = |[a, b, c, d]: [Point<Rational>; 4]| match pair.kind {
             PairKind::VertexFace => dot(&minus(&a, &b), &cross(&minus(&c, &b), &minus(&d, &b))),
             // The points a, b, c, p are k, u, v, l.
             PairKind::EdgeEdge => dot(&minus(&d, &c), &cross(&minus(&a, &c), &minus(&b, &c))),
         };
-        let normal = |[a, b, c, d]: [Point; 4]| match pair.kind {
+        let normal = |[a, b, c, d]: [Point<Rational>; 4]| match pair.kind {
             PairKind::VertexFace => cross(&minus(&c, &b), &minus(&d, &b)),
             PairKind::EdgeEdge => cross(&minus(&b, &a), &minus(&d, &c)),
         };
@@ -70,7 +69,9 @@ impl InRationals {
         // The middle normal is n(½) = (n₀ + h + n₁)/4.
         let four = Rational::from(4);
         let h = minus(&minus(&middle.map(|x| x * &four), &n0), &n1);
-        let plus = |a: &Point, b: &Point| -> Point { std::array::from_fn(|axis| Rational::from(&a[axis] + &b[axis])) };
+        let plus = |a: &Point<Rational>, b: &Point<Rational>| -> Point<Rational> {
+            std::array::from_fn(|axis| Rational::from(&a[axis] + &b[axis]))
+        };
         let normals = [n0.clone(), plus(&n0, &h), plus(&h, &n1), n1];
         Self {
             values: [v0, inner_1, inner_2, v3],

@@ -1,6 +1,6 @@
 //! Reads files of witnesses: see `docs/witnesses.md`.
 
-use super::{Claim, Part};
+use super::{Claim, ExactPart};
 use selvedge_core::PairKind;
 use std::io::{ErrorKind, Read};
 
@@ -107,7 +107,7 @@ impl<R: Read> WitnessFile<R> {
             }
             let until = number(bytes)?;
             let directions = (0..directions).map(|_| vector(bytes)).collect::<Result<_, _>>()?;
-            parts.push(Part { until, directions });
+            parts.push(ExactPart { until, directions });
         }
         let mut points = [[[0.0; 3]; 2]; 4];
         for (point, vertex) in points.iter_mut().zip(vertices) {

@@ -7,10 +7,10 @@ use selvedge_core::batch::{
 use selvedge_core::glam::Vec3A;
 use selvedge_core::separation::clearance::Clearance;
 
-const TESTS: [(Test, CullingTest); 3] = [
-    (Test::SweptBoxes, CullingTest::SweptBoxes),
-    (Test::SegmentBox, CullingTest::SegmentBox),
-    (Test::RelativeBoxes, CullingTest::RelativeBoxes),
+const TESTS: [(Test, CertifiedTest); 3] = [
+    (Test::SweptBoxes, CertifiedTest::SweptBoxes),
+    (Test::SegmentBox, CertifiedTest::SegmentBox),
+    (Test::RelativeBoxes, CertifiedTest::RelativeBoxes),
 ];
 
 const KINDS: [PairKind; 2] = [PairKind::VertexFace, PairKind::EdgeEdge];

@@ -59,7 +59,7 @@ pub(crate) fn nothing_culls<S: Format>(pair: &PairCase<S>, touches: bool) -> Tes
 /// is possible.
 fn at_the_limits<S: Format>(meeting: Meeting, choices: &mut Choices<'_>) -> PairCase<S> {
     let kind = choices.pick(&[PairKind::VertexFace, PairKind::EdgeEdge]);
-    let pair = Moment::<S>::choose(kind, meeting, choices).pair();
+    let pair = MeetingPair::<S>::choose(kind, meeting, choices).pair();
     let largest = pair.coordinates().map(|x| x.to_f64().abs()).fold(0.0, f64::max);
     if largest == 0.0 {
         return pair;

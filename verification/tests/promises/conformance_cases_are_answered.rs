@@ -6,10 +6,10 @@ use crate::support::prelude::*;
 use crate::support::sweeps::side_by_side;
 use selvedge_core::elementary::advance::time_of_impact;
 use selvedge_core::elementary::{ContactVerdict, contact};
-use selvedge_verification::conformance::{Case, Question};
+use selvedge_verification::conformance::{Case, CaseQuestion};
 
 /// The cases of a question that a format holds exactly.
-fn cases<S: Format>(question: Question) -> Vec<Case> {
+fn cases<S: Format>(question: CaseQuestion) -> Vec<Case> {
     let mut cases = Case::read_all().expect("the suite's files");
     cases.retain(|case| case.question == question && (S::PRECISION == 53 || case.format == "f32"));
     assert!(cases.len() > 500, "only {} cases", cases.len());
@@ -75,7 +75,7 @@ fn earliest<S: Format>(impacts: &[Impact<S>]) -> Option<S> {
     times.min_by(|a, b| a.partial_cmp(b).expect("times are numbers"))
 }
 
-fn pairs_are_answered<S: Format>(question: Question, kind: PairKind) {
+fn pairs_are_answered<S: Format>(question: CaseQuestion, kind: PairKind) {
     let cases = cases::<S>(question);
     let all: Vec<_> = cases.iter().map(|case| pairs::<S>(case)[0]).collect();
     for (case, pair) in cases.iter().zip(&all) {
@@ -98,15 +98,15 @@ fn pairs_are_answered<S: Format>(question: Question, kind: PairKind) {
 #[test]
 fn pairs_alone_and_side_by_side() {
     for (question, kind) in [
-        (Question::VertexFace, PairKind::VertexFace),
-        (Question::EdgeEdge, PairKind::EdgeEdge),
+        (CaseQuestion::VertexFace, PairKind::VertexFace),
+        (CaseQuestion::EdgeEdge, PairKind::EdgeEdge),
     ] {
         pairs_are_answered::<f64>(question, kind);
         pairs_are_answered::<f32>(question, kind);
     }
 }
 
-fn detector_answers<S: Format>(question: Question)
+fn detector_answers<S: Format>(question: CaseQuestion)
 where
     [S; 3]: Position<Scalar = S>,
 {
@@ -117,11 +117,11 @@ where
         let mut detector = CollisionDetector::new(topology);
         let mut intersects = || detector.has_intersections(&start).expect("finite positions");
         match case.question {
-            Question::Triangles | Question::Meshes => {
+            CaseQuestion::Triangles | CaseQuestion::Meshes => {
                 assert_eq!(Some(intersects()), case.touches, "{id}");
                 continue;
             }
-            Question::MovingTriangle if intersects() => {
+            CaseQuestion::MovingTriangle if intersects() => {
                 let first = case.first.expect("a contact");
                 assert_eq!(Rational::from_f64(first[1].0), Some(Rational::new()), "{id}");
                 continue;
@@ -143,10 +143,10 @@ where
 #[test]
 fn triangles_and_meshes_by_a_detector() {
     for question in [
-        Question::Triangles,
-        Question::Meshes,
-        Question::MovingTriangle,
-        Question::MovingMesh,
+        CaseQuestion::Triangles,
+        CaseQuestion::Meshes,
+        CaseQuestion::MovingTriangle,
+        CaseQuestion::MovingMesh,
     ] {
         detector_answers::<f64>(question);
         detector_answers::<f32>(question);
@@ -156,7 +156,7 @@ fn triangles_and_meshes_by_a_detector() {
 /// One pair alone gives the batch's earliest time or an earlier one, so the two are compared where a mesh has many pairs.
 #[test]
 fn meshes_pair_by_pair() {
-    for case in cases::<f64>(Question::MovingMesh) {
+    for case in cases::<f64>(CaseQuestion::MovingMesh) {
         let impacts: Vec<_> = pairs::<f64>(&case)
             .iter()
             .map(|pair| time_of_impact(&pair.pair(), &Limits::default()))

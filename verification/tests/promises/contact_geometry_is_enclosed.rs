@@ -80,7 +80,7 @@ fn a_pair_that_was_apart_before_it_touches_has_a_normal() {
     use selvedge_core::elementary::advance::time_of_impact;
     use selvedge_core::elementary::{Impact, Limits};
     let found = Cell::new([0; 2]);
-    check(1500, touching_pairs::<f64>(), |moment: &Moment<f64>| {
+    check(1500, touching_pairs::<f64>(), |moment: &MeetingPair<f64>| {
         let case = &moment.pair();
         if !is_in_range(case) {
             return Ok(());

@@ -85,13 +85,13 @@ fn verdicts_are_the_oracles_on_pairs_in_a_cube() {
     }
 }
 
-fn pairs_that_touch_by_construction_do<S: Format>(moment: &Moment<S>) -> TestCaseResult {
+fn pairs_that_touch_by_construction_do<S: Format>(moment: &MeetingPair<S>) -> TestCaseResult {
     both_say(&moment.pair(), true)
 }
 
 formats!(pairs_that_touch_by_construction_do(15_000, touching_pairs()));
 
-fn verdicts_are_the_oracles_for_coplanar_pairs<S: Format>(moment: &Moment<S>) -> TestCaseResult {
+fn verdicts_are_the_oracles_for_coplanar_pairs<S: Format>(moment: &MeetingPair<S>) -> TestCaseResult {
     agree_with_the_oracle(&moment.pair())
 }
 

@@ -97,7 +97,7 @@ fn control_values_and_their_bounds() {
 
 fn of_boxes<S: Format>(case: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest) {
     let mut bits = u64::from(swept_boxes(pair).is_culled());
-    for test in CullingTest::ALL {
+    for test in CertifiedTest::ALL {
         bits = bits << 1 | u64::from(culling::verdict(test, case).is_culled());
     }
     let motions = case.motions();

@@ -7,7 +7,7 @@
 use crate::certified_in_every_floating_point_environment::nothing_culls;
 use crate::support::prelude::*;
 use selvedge_verification::altered::{Factors, Kernel};
-use selvedge_verification::culling::CullingTest::{CertifiedNonCoplanarity, SegmentBox};
+use selvedge_verification::culling::CertifiedTest::{CertifiedNonCoplanarity, SegmentBox};
 use selvedge_verification::oracle::segment_meets_box;
 use selvedge_verification::plain;
 

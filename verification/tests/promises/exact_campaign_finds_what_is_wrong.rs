@@ -2,7 +2,7 @@
 //! do not depend on threads, and those of several runs add up.
 
 use crate::support::prelude::*;
-use selvedge_verification::campaign::{Claim, ClaimCounts, Findings, Run, Scenes};
+use selvedge_verification::campaign::{CampaignFindings, ClaimCounts, Run, Scenes, TestedClaim};
 
 /// Makes a vertex that falls through a face, and two edges that cross.
 fn scenes() -> Scenes {
@@ -16,7 +16,7 @@ fn scenes() -> Scenes {
     }
 }
 
-fn findings(seed: u64, claims: &[Claim], pairs: u64, threads: usize) -> Findings {
+fn findings(seed: u64, claims: &[TestedClaim], pairs: u64, threads: usize) -> CampaignFindings {
     let run = Run {
         seed,
         chunks: pairs.div_ceil(2048),
@@ -28,16 +28,16 @@ fn findings(seed: u64, claims: &[Claim], pairs: u64, threads: usize) -> Findings
     run.findings(threads, |_| {})
 }
 
-fn sum(found: &Findings, what: fn(&ClaimCounts) -> u64) -> u64 {
+fn sum(found: &CampaignFindings, what: fn(&ClaimCounts) -> u64) -> u64 {
     found.counts.iter().flatten().flatten().map(what).sum()
 }
 
 #[test]
 fn no_certified_claim_is_wrong_and_each_kind_of_proof_is_needed() {
-    let found = findings(3, &Claim::CERTIFIED, 100_000, 2);
+    let found = findings(3, &TestedClaim::CERTIFIED, 100_000, 2);
     assert_eq!(found.wrong(), 0, "{found}");
     for by_source in &found.counts {
-        for claim in 0..Claim::CERTIFIED.len() {
+        for claim in 0..TestedClaim::CERTIFIED.len() {
             let of_claim = by_source.iter().map(|counts| &counts[claim]);
             assert!(of_claim.clone().map(|count| count.claims).sum::<u64>() > 1000, "{found}");
             assert!(of_claim.map(|count| count.by_oracle).sum::<u64>() > 1, "{found}");
@@ -51,23 +51,26 @@ fn no_certified_claim_is_wrong_and_each_kind_of_proof_is_needed() {
 
 #[test]
 fn false_culls_of_the_plain_filter_are_found_and_shown() {
-    let found = findings(3, &[Claim::Plain], 25_000, 2);
+    let found = findings(3, &[TestedClaim::Plain], 25_000, 2);
     assert!(found.wrong() > 10, "{found}");
     assert!(found.to_string().contains("Plain, f32, is wrong of\n"), "{found}");
 }
 
 #[test]
 fn findings_depend_on_the_seed_alone_and_add_up() {
-    let [one, other] = [3, 4].map(|seed| findings(seed, &Claim::CERTIFIED, 25_000, 1));
-    assert_eq!(findings(3, &Claim::CERTIFIED, 25_000, 2), one);
+    let [one, other] = [3, 4].map(|seed| findings(seed, &TestedClaim::CERTIFIED, 25_000, 1));
+    assert_eq!(findings(3, &TestedClaim::CERTIFIED, 25_000, 2), one);
     assert_ne!(one, other);
     // Counts of several machines travel as JSON.
-    let mut both: Findings = serde_json::from_str(&serde_json::to_string(&one).expect("JSON")).expect("JSON");
+    let mut both: CampaignFindings = serde_json::from_str(&serde_json::to_string(&one).expect("JSON")).expect("JSON");
     both.add(other.clone()).expect("the same claims");
     assert_eq!(both.pairs, one.pairs + other.pairs);
     let counts: [fn(&ClaimCounts) -> u64; 3] = [|count| count.claims, |count| count.by_signs, |count| count.by_oracle];
     for count in counts {
         assert_eq!(sum(&both, count), sum(&one, count) + sum(&other, count));
     }
-    assert_eq!(both.add(findings(3, &[Claim::Plain], 2048, 1)), Err(vec![Claim::Plain]));
+    assert_eq!(
+        both.add(findings(3, &[TestedClaim::Plain], 2048, 1)),
+        Err(vec![TestedClaim::Plain])
+    );
 }

@@ -70,7 +70,7 @@ fn signs_that_rounding_cannot_change_are_the_exact_ones<S: Format>(pair: &PairCa
         prop_assert!(known[i].is_none_or(|sign| sign == signs[i]), "{:?}", known);
     }
     let all_known = [[Some(Greater); 4], [Some(Less); 4]].contains(&known);
-    let certified = verdict(CullingTest::CertifiedNonCoplanarity, pair);
+    let certified = verdict(CertifiedTest::CertifiedNonCoplanarity, pair);
     prop_assert!(!all_known || certified.is_culled());
     Ok(())
 }

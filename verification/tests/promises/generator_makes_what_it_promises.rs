@@ -1,20 +1,20 @@
 //! The generator of the tests' inputs is exact as promised, and varied.
 
 use crate::support::prelude::*;
-use selvedge_verification::culling::CullingTest::CertifiedNonCoplanarity;
+use selvedge_verification::culling::CertifiedTest::CertifiedNonCoplanarity;
 use selvedge_verification::oracle::touches_at;
 use selvedge_verification::random::Random;
 
-fn touches_when_it_says<S: Format>(moment: &Moment<S>) -> TestCaseResult {
+fn touches_when_it_says<S: Format>(moment: &MeetingPair<S>) -> TestCaseResult {
     prop_assert!(touches_at(&moment.pair().question(), &moment.time()));
     Ok(())
 }
 
 formats!(a_touching_pair_touches_at_its_time is touches_when_it_says(4000, touching_pairs()));
 
-fn is_coplanar<S: Format>(moment: &Moment<S>) -> TestCaseResult {
+fn is_coplanar<S: Format>(moment: &MeetingPair<S>) -> TestCaseResult {
     let pair = moment.pair().question();
-    prop_assert!(coplanar(&pair.start, &pair.end));
+    prop_assert!(are_ever_coplanar(&pair.start, &pair.end));
     Ok(())
 }
 
@@ -105,7 +105,7 @@ fn shrinking_ends_in_a_pair_of_small_numbers() {
 
 #[test]
 fn shrinking_a_meeting_keeps_it() {
-    let strategy = from_choices(|choices| Moment::<f32>::choose(PairKind::VertexFace, Meeting::Touching, choices));
+    let strategy = from_choices(|choices| MeetingPair::<f32>::choose(PairKind::VertexFace, Meeting::Touching, choices));
     check(300, strategy, |moment| {
         for attempt in 0..moment.attempts() {
             if let Some(simpler) = moment.simpler(attempt) {

@@ -71,7 +71,7 @@ proptest! {
 
     #[test]
     fn coplanar_is_what_the_extremes_say([start, end] in ends()) {
-        prop_assert_eq!(coplanar(&to_f64(&start), &to_f64(&end)), by_extremes(&start, &end));
+        prop_assert_eq!(are_ever_coplanar(&to_f64(&start), &to_f64(&end)), by_extremes(&start, &end));
     }
 }
 
@@ -79,7 +79,7 @@ proptest! {
 fn apex_moves([from, to]: [f64; 2]) -> bool {
     let face = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     let with_apex = |z| [face[0], face[1], face[2], [0.25, 0.25, z]];
-    coplanar(&with_apex(from), &with_apex(to))
+    are_ever_coplanar(&with_apex(from), &with_apex(to))
 }
 
 #[test]
@@ -96,11 +96,11 @@ fn touching_the_plane_at_an_end_or_in_a_step_at_rest_is_coplanar() {
 fn multiple_roots_are_found_and_none_once_they_are_parted() {
     // Three edges with the volume (1 − 2t)² + gap².
     let double = |x: f64, gap: f64| [[0.0; 3], [x, -gap, 0.0], [gap, x, 0.0], [0.0, 0.0, 1.0]];
-    assert!(coplanar(&double(1.0, 0.0), &double(-1.0, 0.0)));
-    assert!(!coplanar(&double(1.0, 1e-300), &double(-1.0, 1e-300)));
+    assert!(are_ever_coplanar(&double(1.0, 0.0), &double(-1.0, 0.0)));
+    assert!(!are_ever_coplanar(&double(1.0, 1e-300), &double(-1.0, 1e-300)));
     let triple = |x: f64| [[0.0; 3], [x, 0.0, 0.0], [0.0, x, 0.0], [0.0, 0.0, x]];
-    assert!(coplanar(&triple(1.0), &triple(-1.0)));
-    assert!(!coplanar(&triple(1.0), &triple(5e-324)));
+    assert!(are_ever_coplanar(&triple(1.0), &triple(-1.0)));
+    assert!(!are_ever_coplanar(&triple(1.0), &triple(5e-324)));
 }
 
 #[test]
@@ -108,5 +108,5 @@ fn multiple_roots_are_found_and_none_once_they_are_parted() {
 fn infinite_coordinates_are_refused() {
     let mut start = [[0.0; 3]; 4];
     start[2][1] = f64::INFINITY;
-    let _ = coplanar(&start, &start);
+    let _ = are_ever_coplanar(&start, &start);
 }

@@ -4,7 +4,7 @@ use crate::support::geometry::Truth;
 use crate::support::prelude::*;
 use rug::Float;
 use selvedge_core::paths::{Arc, Moment, Path, Piece, Polyline, RigidMotion, geometry, time_of_impact};
-use selvedge_verification::oracle::arcs::{Place, Pose, distance, float, minus, place, plus, times};
+use selvedge_verification::oracle::arcs::{FloatPoint, Pose, distance, float, minus, place, plus, times};
 use selvedge_verification::oracle::within_at_rest;
 use std::f64::consts::{PI, TAU};
 
@@ -57,7 +57,7 @@ fn a_point_of_a_body_that_turns_is_where_it_is_said_to_be_and_as_fast() {
     });
 }
 
-fn is_near(moment: &Moment, (position, velocity): &(Place, Place)) -> TestCaseResult {
+fn is_near(moment: &Moment, (position, velocity): &(FloatPoint, FloatPoint)) -> TestCaseResult {
     let off = distance(&place(moment.position), position);
     prop_assert!(off <= float(moment.position_error), "{} of {}", off, moment.position_error);
     let off = distance(&place(moment.velocity), velocity);
@@ -102,7 +102,7 @@ fn a_point_on_straight_pieces_is_where_it_is_said_to_be_and_as_fast() {
 }
 
 /// Checks the deviation of a point from the straight motion, at times in between.
-fn deviates(piece: &Piece, [from, to]: [f64; 2], at: impl Fn(f64) -> Place) -> TestCaseResult {
+fn deviates(piece: &Piece, [from, to]: [f64; 2], at: impl Fn(f64) -> FloatPoint) -> TestCaseResult {
     for share in [0.0, 0.1, 0.5, 0.77, 1.0] {
         let time = from + (to - from) * share;
         if time > to {
@@ -234,8 +234,8 @@ fn geometry_is_kept(case: &Turning, environment: Environment, count: &Cell<[usiz
                 let of_side = starts.iter().zip(&moments).filter(|((own, _), _)| *own == side);
                 of_side.map(|(_, moment)| error(moment)).fold(0.0, f64::max)
             };
-            let exact = |place: Place| place.map(|x| x.to_rational().expect("a finite number"));
-            let all = |time: f64, of: fn(&Pose, DVec3) -> Place| {
+            let exact = |place: FloatPoint| place.map(|x| x.to_rational().expect("a finite number"));
+            let all = |time: f64, of: fn(&Pose, DVec3) -> FloatPoint| {
                 let poses = case.turns.each_ref().map(|turn| Pose::at_time(turn, time));
                 [0, 1, 2, 3].map(|k| exact(of(&poses[starts[k].0], starts[k].1)))
             };
@@ -348,7 +348,7 @@ fn comes_near_on_arcs(kind: PairKind, case: &Turning, contacts: &Cell<usize>) ->
     contacts.set(contacts.get() + 1);
     let is_near_at = |time: f64, bound: f64| {
         let poses = case.turns.each_ref().map(|turn| Pose::at_time(turn, time));
-        let exact = |place: Place| place.map(|x| x.to_rational().expect("a finite number"));
+        let exact = |place: FloatPoint| place.map(|x| x.to_rational().expect("a finite number"));
         within_at_rest(kind, &[0, 1, 2, 3].map(|k| exact(poses[side(k)].at(case.points[k]))), bound)
     };
     let rounding = 1e-12;

@@ -85,7 +85,7 @@ fn is_kept_apart<S: Format>(pair: &PairCase<S>, directions: &[S::Vector], separa
 }
 
 /// The clearance holds for any direction.
-fn nothing_keeps_apart_what_touches<S: Format>(moment: &Moment<S>) -> TestCaseResult {
+fn nothing_keeps_apart_what_touches<S: Format>(moment: &MeetingPair<S>) -> TestCaseResult {
     let pair = &moment.pair();
     let directions = directions(pair);
     for environment in Environment::all() {

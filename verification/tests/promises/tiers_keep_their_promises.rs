@@ -4,7 +4,7 @@
 use crate::support::distance::distance;
 use crate::support::prelude::*;
 use crate::support::rationals::separations;
-use selvedge_verification::culling::CullingTest::CertifiedNonCoplanarity;
+use selvedge_verification::culling::CertifiedTest::CertifiedNonCoplanarity;
 use selvedge_verification::oracle::InRationals;
 
 fn filter_culls<S: Format>(filter: Filter<S>, pair: &PairCase<S>) -> bool {
@@ -25,7 +25,7 @@ fn nothing_culls_what_it_must_not<S: Format>(pair: &PairCase<S>) -> TestCaseResu
     let culling: Vec<_> = Tier::ALL.into_iter().filter(|&tier| culls(tier, pair)).collect();
     if !culling.is_empty() {
         let question = pair.question();
-        let coplanar = coplanar(&question.start, &question.end);
+        let coplanar = are_ever_coplanar(&question.start, &question.end);
         prop_assert!(!coplanar, "coplanar, culled by {culling:?}");
     }
     Ok(())
@@ -48,7 +48,7 @@ fn nothing_certified_culls_what_is_not_finite<S: Format>(pair: &PairCase<S>) -> 
 
 formats!(nothing_certified_culls_what_is_not_finite(40_000, extraordinary_pairs()));
 
-fn nothing_certified_culls_what_is_built_to_meet<S: Format>(moment: &Moment<S>) -> TestCaseResult {
+fn nothing_certified_culls_what_is_built_to_meet<S: Format>(moment: &MeetingPair<S>) -> TestCaseResult {
     let pair = moment.pair();
     for tier in Tier::ALL {
         prop_assert!(!culls(tier, &pair), "{tier:?}");
@@ -188,7 +188,7 @@ fn certified_culls<S: Format>(pair: &PairCase<S>) -> bool {
 }
 
 /// Each point may be the base of the volume, and each axis may come first: every arrangement rounds differently.
-fn never_culls_a_coplanar_pair_in_any_arrangement<S: Format>(moment: &Moment<S>) -> TestCaseResult {
+fn never_culls_a_coplanar_pair_in_any_arrangement<S: Format>(moment: &MeetingPair<S>) -> TestCaseResult {
     let pair = moment.pair();
     let four = (0..256_usize).map(|code| [code & 3, code >> 2 & 3, code >> 4 & 3, code >> 6]);
     for order in four.filter(|order| order.iter().fold(0, |seen, point| seen | 1 << point) == 0b1111) {

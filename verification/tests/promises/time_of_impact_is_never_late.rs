@@ -172,7 +172,7 @@ formats!(is_never_later_than_the_exact_time is is_not_late(12_000, questions()))
 formats!(is_never_later_than_the_exact_time_in_sweeps is is_not_late_in_sweeps(6_000, questions()));
 
 /// The time of contact is known without the oracle.
-fn finds_what_touches<S: Format>(moment: &Moment<S>) -> TestCaseResult {
+fn finds_what_touches<S: Format>(moment: &MeetingPair<S>) -> TestCaseResult {
     let pair = moment.pair();
     let time = moment.time();
     for tolerance in [S::ZERO, size(&pair) * S::exact(1, -20)] {
@@ -186,7 +186,7 @@ fn finds_what_touches<S: Format>(moment: &Moment<S>) -> TestCaseResult {
 formats!(finds_every_pair_that_touches is finds_what_touches(80_000, touching_pairs()));
 
 /// The time holds in every environment of a thread.
-fn finds_what_touches_in_every_environment<S: Format>(moment: &Moment<S>) -> TestCaseResult {
+fn finds_what_touches_in_every_environment<S: Format>(moment: &MeetingPair<S>) -> TestCaseResult {
     let pair = moment.pair();
     let time = moment.time();
     for tolerance in [S::ZERO, size(&pair) * S::exact(1, -20)] {
@@ -250,7 +250,7 @@ fn a_subnormal_separation_counts_where_subnormal_numbers_are_taken_for_zero() {
 }
 
 /// The pair is coplanar at some time, which is often a contact or a near miss.
-fn is_not_late_when_coplanar<S: Format>(moment: &Moment<S>) -> TestCaseResult {
+fn is_not_late_when_coplanar<S: Format>(moment: &MeetingPair<S>) -> TestCaseResult {
     let pair = moment.pair();
     is_not_late(&Question {
         tolerance: size(&pair) * S::exact(1, -20),

@@ -5,7 +5,7 @@ use super::output::{self, OutputFiles};
 use super::progress::Progress;
 use selvedge_laboratory::report::{accuracy_svg, elementary_svg, json, tables};
 use selvedge_laboratory::study::elementary::{ElementaryAccuracy, measure_elementary_accuracy};
-use selvedge_laboratory::study::{Accuracy as FilterAccuracy, AccuracyOptions, Frames, TwoFrames, measure_accuracy};
+use selvedge_laboratory::study::{AccuracyOptions, FilterAccuracy, Frames, TwoFrames, measure_accuracy};
 use serde_json::{Map, Value};
 use std::path::PathBuf;
 use std::time::Duration;

@@ -104,7 +104,7 @@ impl Check {
         }
         let coloured = self.coloured_files()?;
         let mut files = OutputFiles::default();
-        let found = self.look(&coloured, &mut files)?;
+        let found = self.check_meshes(&coloured, &mut files)?;
         if let (Some(path), Some(format)) = (&self.list, format) {
             files.add(path.clone(), |out| match format {
                 ListFormat::Csv => intersections_csv(&found, out),
@@ -123,7 +123,7 @@ impl Check {
     }
 
     /// Checks one mesh after the other.
-    fn look(&self, coloured: &[PathBuf], files: &mut OutputFiles) -> Result<Vec<MeshCheck>, Failure> {
+    fn check_meshes(&self, coloured: &[PathBuf], files: &mut OutputFiles) -> Result<Vec<MeshCheck>, Failure> {
         let progress = Progress::steps("checking", self.meshes.len() as u64);
         let mut before: Option<(Arc<Topology>, CollisionDetector<f64>)> = None;
         let mut found = Vec::with_capacity(self.meshes.len());

@@ -9,7 +9,7 @@ use clap::CommandFactory;
 use clap::error::ErrorKind;
 use selvedge_cloth::{Scene, Simulation};
 use selvedge_laboratory::methods::Preset;
-use selvedge_laboratory::report::{comparison_csv, comparison_html, figure_3, json, tables};
+use selvedge_laboratory::report::{comparison_html, figure_3, json, tables};
 use selvedge_laboratory::scene::ArmScene;
 use selvedge_laboratory::study::{self, ArmFrames, Comparison, Frames, SimulatedSteps, TwoFrames, busiest_step, step_candidates};
 use std::path::{Path, PathBuf};
@@ -28,7 +28,7 @@ pub(super) struct Run {
 
 /// Resolution of the arm scene, in time and in space.
 #[derive(Debug, clap::Args)]
-struct Arm {
+struct ArmOptions {
     /// Bend the arm in this many steps; with a scene file, compare on this many evenly spread steps
     #[arg(long, value_name = "N", default_value_t = ArmScene::STEPS as u32, value_parser = clap::value_parser!(u32).range(1..))]
     steps: u32,
@@ -37,7 +37,7 @@ struct Arm {
     refinement: u32,
 }
 
-impl Arm {
+impl ArmOptions {
     fn frames(&self) -> Result<ArmFrames, Failure> {
         Ok(ArmFrames::new(self.refinement, self.steps as usize)?)
     }
@@ -53,7 +53,7 @@ Examples:
   selvedge compare
   selvedge compare std-adapter/cloth/scenes/twist.toml --steps 100
   selvedge compare --pipelines lv_2014,selvedge --refinement 100 --threads 0
-  selvedge compare frame-92.ply frame-93.ply --csv table.csv")]
+  selvedge compare frame-92.ply frame-93.ply --json")]
 pub(crate) struct Compare {
     /// The mesh at the start of the step, or a scene file. The default is the arm scene
     #[arg(conflicts_with = "refinement")]
@@ -65,13 +65,10 @@ pub(crate) struct Compare {
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = preset_parser())]
     pipelines: Vec<Preset>,
     #[command(flatten)]
-    arm: Arm,
+    arm: ArmOptions,
     #[command(flatten)]
     run: Run,
-    /// Write the table to this file
-    #[arg(long, value_name = "FILE")]
-    csv: Option<PathBuf>,
-    /// Write the comparison (CSV, HTML) and a picture of candidates (PNG) to this folder
+    /// Write the comparison (HTML) and a picture of candidates (PNG) to this folder
     #[arg(long, value_name = "DIR")]
     output: Option<PathBuf>,
 }
@@ -110,17 +107,11 @@ impl Compare {
     }
 
     fn run_on(&self, frames: &dyn Frames) -> Result<(), Failure> {
-        if let Some(path) = &self.csv {
-            OutputFiles::check(path)?;
-        }
         if let Some(folder) = &self.output {
             OutputFiles::check_folder(folder)?;
         }
         let comparison = self.run.compare(frames, &self.presets())?;
         let mut files = OutputFiles::default();
-        if let Some(path) = &self.csv {
-            files.add(path.clone(), |out| comparison_csv(&comparison, out))?;
-        }
         if let Some(folder) = &self.output {
             add_report(&mut files, folder, frames, &comparison)?;
         }
@@ -167,8 +158,8 @@ fn read_frames(start: &Path, end: &Path) -> Result<TwoFrames, Failure> {
     })
 }
 
-/// Adds the files of a report: the table as CSV and as a page, and the paper's Figure 3. The figure shows the step in which
-/// our method leaves the most candidates.
+/// Adds the files of a report: the table as a page, and the paper's Figure 3. The figure shows the step in which our method
+/// leaves the most candidates.
 pub(super) fn add_report(
     files: &mut OutputFiles,
     folder: &Path,
@@ -176,7 +167,6 @@ pub(super) fn add_report(
     comparison: &Comparison,
 ) -> Result<(), Failure> {
     let _progress = Progress::spinner("drawing");
-    files.add(folder.join("comparison.csv"), |out| comparison_csv(comparison, out))?;
     files.add_bytes(folder.join("comparison.html"), comparison_html(comparison).as_bytes())?;
 
     let threads = comparison.threads;

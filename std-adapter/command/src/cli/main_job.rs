@@ -22,7 +22,7 @@ pub(crate) struct MainJob {
     steps: u32,
     #[command(flatten)]
     run: Run,
-    /// Write the report (HTML), the comparison (CSV, HTML) and a picture of candidates (PNG) to this folder
+    /// Write the report (HTML), the comparison (HTML) and a picture of candidates (PNG) to this folder
     #[arg(long, value_name = "DIR", default_value = "selvedge-out")]
     output: PathBuf,
 }

@@ -120,7 +120,7 @@ pub(super) fn effect_costs(
     effects_one_by_one(read, steps, threads, &mut |share| progress.set(share))
 }
 
-struct Run {
+struct SimulationRun {
     /// The number of steps in the scene.
     steps: u64,
     simulation: Simulation,
@@ -192,7 +192,7 @@ impl Simulate {
         path: &Path,
         begin: impl FnOnce(&mut Simulation, &mut SimulationRecorder) -> Result<f64, Failure>,
         mut after: impl FnMut(&Simulation, &SimulationRecorder, Option<u64>, f64) -> Result<(), Failure>,
-    ) -> Result<Run, Failure> {
+    ) -> Result<SimulationRun, Failure> {
         let scene = Scene::read(path)?;
         let path = path.display();
         let (steps, steps_per_frame) = (scene.steps(), scene.steps_per_frame());
@@ -225,7 +225,7 @@ impl Simulate {
             recorder.frame(&simulation)?;
             recorder.remark(failure.to_string());
         }
-        Ok(Run {
+        Ok(SimulationRun {
             steps,
             recording: recorder.finish(seconds),
             simulation,
@@ -259,7 +259,7 @@ impl Simulate {
             }
             Ok(())
         };
-        let Run {
+        let SimulationRun {
             steps,
             simulation,
             mut recording,

@@ -1,7 +1,7 @@
 //! `selvedge cull`.
 
 use crate::support::{Workplace, moved_by};
-use selvedge_laboratory::methods::{Preset, Source};
+use selvedge_laboratory::methods::{PairSource, Preset};
 
 const CULL: [&str; 3] = ["cull", "start.obj", "end.obj"];
 
@@ -21,7 +21,7 @@ fn stages_are_those_of_the_preset() {
             .map(|stage| stage["stage"].as_str().unwrap().to_owned())
             .collect();
         let mut expected = vec!["broad-phase".to_owned()];
-        if preset.stages().source != Source::MovingBoxes {
+        if preset.stages().source != PairSource::MovingBoxes {
             expected.push("distribution".to_owned());
         }
         expected.extend(preset.stages().tests.iter().map(|test| test.stage().to_string()));

@@ -64,7 +64,7 @@ impl PointsTest for NineDirections {
                         ])
                     }};
                 }
-                keep_order::<L>(ranges!(points.start), ranges!(points.end))
+                are_in_order::<L>(ranges!(points.start), ranges!(points.end))
             }};
         }
         let axes = along!(p => p.x) | along!(p => p.y) | along!(p => p.z);
@@ -77,7 +77,7 @@ impl PointsTest for NineDirections {
 
 /// Returns whether one set's values exceed the other's by the gap, at the start and at the end.
 #[inline(always)]
-fn keep_order<L: Lanes>(start: [[L; 2]; 2], end: [[L; 2]; 2]) -> L::Mask {
+fn are_in_order<L: Lanes>(start: [[L; 2]; 2], end: [[L; 2]; 2]) -> L::Mask {
     let [[low_0, high_0], [other_low_0, other_high_0]] = start;
     let [[low_1, high_1], [other_low_1, other_high_1]] = end;
     // Both are powers of two, so the quotient is exact.

@@ -20,7 +20,7 @@ mod table;
 pub use culling::{CullingTest, Stage};
 pub use elementary::ElementaryTest;
 pub use filter::MeasuredFilter;
-pub use preset::{Preset, Redundancy, Source, Stages, UnknownPreset};
+pub use preset::{PairSource, Preset, Redundancy, Stages, UnknownPreset};
 pub use query::{QueryMethod, UnknownMethod};
 
 use selvedge_core::batch::BatchTest;

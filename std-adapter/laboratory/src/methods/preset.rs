@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 /// The source of a method's primitive pairs, and how it avoids testing a pair twice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Source {
+pub enum PairSource {
     /// Candidate triangle pairs, distributed.
     TrianglePairs(Redundancy),
     /// Hierarchies of moving boxes over vertices, edges and faces, which find each primitive pair once
@@ -31,7 +31,7 @@ pub enum Redundancy {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stages {
     /// The source of primitive pairs.
-    pub source: Source,
+    pub source: PairSource,
     /// The culling tests, in order; at most one for each [`Stage`].
     pub tests: &'static [CullingTest],
     /// The test of the surviving pairs.
@@ -84,7 +84,7 @@ const REPRESENTATIVES: Redundancy = Redundancy::RepresentativeTriangles;
 
 const fn published(redundancy: Redundancy, tests: &'static [CullingTest]) -> Stages {
     Stages {
-        source: Source::TrianglePairs(redundancy),
+        source: PairSource::TrianglePairs(redundancy),
         tests,
         elementary: ElementaryTest::Cubic,
     }
@@ -92,7 +92,7 @@ const fn published(redundancy: Redundancy, tests: &'static [CullingTest]) -> Sta
 
 const fn ours(elementary: ElementaryTest) -> Stages {
     Stages {
-        source: Source::MovingBoxes,
+        source: PairSource::MovingBoxes,
         tests: &[CullingTest::CertifiedNonCoplanarity],
         elementary,
     }

@@ -113,7 +113,7 @@ impl<S: Scalar> Batch<S> {
     }
 
     /// Drops the pairs that `test` culls, sixteen at a time.
-    fn keep_by_lanes(&mut self, step: &StepInput<'_, S>, test: impl BatchTest<S>) {
+    fn drop_culled_by_lanes(&mut self, step: &StepInput<'_, S>, test: impl BatchTest<S>) {
         for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
             let pairs = match kind {
                 PairKind::VertexFace => &mut self.vertex_face,
@@ -158,7 +158,7 @@ struct AtWork<'a, S: Scalar> {
 
 impl<S: Scalar> WithLanes<S> for AtWork<'_, S> {
     fn with(self, test: impl BatchTest<S>) {
-        self.batch.keep_by_lanes(self.step, test);
+        self.batch.drop_culled_by_lanes(self.step, test);
     }
 }
 

@@ -17,8 +17,8 @@
 //!
 //! A published method is a [`Preset`]: a choice of stages ([`Stages`]), never another loop. All of them run the same code on the
 //! same broad phase, so that their times compare. Every test runs on sixteen pairs at a time ([`selvedge_core::batch`]). Only the
-//! presets `selvedge` and `selvedge_exact` have no triangle pairs ([`Source::MovingBoxes`]): they run [`CollisionDetector`], with
-//! the same counts.
+//! presets `selvedge` and `selvedge_exact` have no triangle pairs ([`PairSource::MovingBoxes`]): they run [`CollisionDetector`],
+//! with the same counts.
 //!
 //! ```
 //! use selvedge::{glam::DVec3, Topology};
@@ -57,7 +57,7 @@ pub use selvedge::ThreadError;
 use crate::broad_phase::{BroadPhase, SweptBox};
 #[cfg(doc)]
 use crate::methods::Preset;
-use crate::methods::{CullingTest, ElementaryTest, Redundancy, Source, Stages};
+use crate::methods::{CullingTest, ElementaryTest, PairSource, Redundancy, Stages};
 use batch::{Batch, Distributed, StepInput};
 use pairs::MovingMesh;
 use selvedge::PairKind;
@@ -129,7 +129,7 @@ impl<S: Scalar> Pipeline<S> {
         let topology = topology.into();
         let mut own_threads = Workers::default();
         let route = match stages.source {
-            Source::MovingBoxes => {
+            PairSource::MovingBoxes => {
                 let mut detector = CollisionDetector::new(topology.clone());
                 detector.set_threads(Threads::from_count(threads))?;
                 if stages.elementary == ElementaryTest::Exact {
@@ -139,7 +139,7 @@ impl<S: Scalar> Pipeline<S> {
                 }
                 Route::MovingBoxes(Box::new(detector))
             }
-            Source::TrianglePairs(redundancy) => {
+            PairSource::TrianglePairs(redundancy) => {
                 own_threads = Workers::new(Threads::from_count(threads))?;
                 let assignment = match redundancy {
                     Redundancy::RepresentativeTriangles => FeatureAssignment::representative(&topology),

@@ -1,6 +1,6 @@
 //! The colours that distinguish cloths in pictures, glTF files and on the page, whose style sheet has the same four.
 
-use super::recording::{Part, PartKind};
+use super::recording::{PartKind, RecordedPart};
 
 /// The colours of the page's light theme, as linear light. A fifth cloth has the first one again.
 pub(super) const CLOTHS: [[f64; 3]; 4] = [
@@ -11,9 +11,9 @@ pub(super) const CLOTHS: [[f64; 3]; 4] = [
 ];
 
 /// Returns for each part the number of its colour, or `None` for a body.
-pub(super) fn cloth_colours(parts: &[Part]) -> Vec<Option<usize>> {
+pub(super) fn cloth_colours(parts: &[RecordedPart]) -> Vec<Option<usize>> {
     let mut next = (0..CLOTHS.len()).cycle();
-    let own = |part: &Part| match part.kind() {
+    let own = |part: &RecordedPart| match part.kind() {
         PartKind::Cloth => next.next(),
         PartKind::Body => None,
     };

@@ -12,7 +12,7 @@ use crate::methods::QueryMethod;
 use crate::methods::{Preset, Stage};
 use crate::pipeline::StepReport;
 use crate::study::elementary::ElementaryAccuracy;
-use crate::study::{Accuracy, AccuracySet};
+use crate::study::{AccuracySet, FilterAccuracy};
 use crate::study::{Comparison, ComparisonRow, MeanCounts, ScalingPoint};
 use crate::study::{HardAnswer, HardResult, QueryResult};
 use crate::truths::{ErrorUnit, LawRuns};
@@ -333,7 +333,7 @@ pub fn truths(all: &[LawRuns]) -> Value {
 }
 
 /// Returns filters and their times, for `selvedge accuracy`: one row for each set, format, filter and instruction set.
-pub fn accuracy(accuracy: &Accuracy) -> Value {
+pub fn accuracy(accuracy: &FilterAccuracy) -> Value {
     let options = accuracy.options;
     let sets = accuracy.sets.iter().map(|set| {
         let more = [

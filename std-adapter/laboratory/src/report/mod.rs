@@ -23,13 +23,13 @@ pub mod tables;
 mod tangles;
 mod truths;
 
-pub use self::csv::{comparison_csv, contacts_csv, pairs_csv};
+pub use self::csv::{contacts_csv, pairs_csv};
 pub use comparison::comparison_html;
 pub use figure::{FIGURE_SIZE, figure_3};
 pub use paper::{PaperRow, paper_row};
 pub use plot::{accuracy_svg, convergence_svg, cost_of_accuracy_svg, cost_of_law_svg, elementary_svg, scaling_svg, truth_svg};
 pub use prior::{PriorError, PriorRuns};
-pub use recording::{About, Added, FrameError, Knob, Measure, MeasureKind, Part, PartKind, RecordedFrame};
+pub use recording::{About, Added, Knob, Measure, MeasureKind, PartKind, RecordedFrame, RecordedPart, RecordingError};
 pub use recording::{Recorder, Recording, Series, SeriesKind};
 pub use recording::{SimulationRecorder, Subject, costs_of_added_effects};
 pub use step::{StepQuestion, StepSummary};

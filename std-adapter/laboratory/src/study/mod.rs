@@ -13,7 +13,7 @@ mod simulated;
 
 pub use accuracy::elementary;
 pub use accuracy::{
-    Accuracy, AccuracyOptions, AccuracyRow, AccuracySet, BackendTime, BackendsDisagree, PairSet, measure_accuracy,
+    AccuracyOptions, AccuracyRow, AccuracySet, BackendTime, BackendsDisagree, FilterAccuracy, PairSet, measure_accuracy,
 };
 pub use arm::ArmFrames;
 pub use candidates::{StepCandidates, busiest_step, step_candidates};

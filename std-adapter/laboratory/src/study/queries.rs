@@ -61,7 +61,7 @@ pub fn measure_queries<S: Scalar>(
     queries: &[Query<S>],
     progress: &mut dyn FnMut(usize),
 ) -> QueryResult {
-    method.run(Run {
+    method.run(MethodRun {
         kind,
         method,
         queries,
@@ -69,14 +69,14 @@ pub fn measure_queries<S: Scalar>(
     })
 }
 
-struct Run<'a, S: Scalar> {
+struct MethodRun<'a, S: Scalar> {
     method: QueryMethod,
     kind: PairKind,
     queries: &'a [Query<S>],
     progress: &'a mut dyn FnMut(usize),
 }
 
-impl<S: Scalar> WithTest<S, bool> for Run<'_, S> {
+impl<S: Scalar> WithTest<S, bool> for MethodRun<'_, S> {
     type Outcome = QueryResult;
 
     fn with(self, keeps: impl Fn(&PrimitivePair<S>) -> bool) -> QueryResult {

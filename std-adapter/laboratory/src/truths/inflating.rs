@@ -142,7 +142,7 @@ fn centre(points: &[DVec3]) -> DVec3 {
 }
 
 /// Lets balloons at pressures in Pa come to rest.
-fn balloons(skin: Skin, pressures: &[f64], conditions: &Conditions) -> Result<Outcome, Failure> {
+fn inflate_balloons(skin: Skin, pressures: &[f64], conditions: &Conditions) -> Result<Outcome, Failure> {
     let (mut samples, mut scale) = (Vec::new(), 0.0);
     for &pressure in pressures {
         let mesh = ball(conditions.grid);
@@ -168,7 +168,7 @@ pub(super) const BALLOON: Law = Law {
             density: 0.2,
             stiffness: 200.0,
         };
-        balloons(skin, &[20.0, 40.0], conditions)
+        inflate_balloons(skin, &[20.0, 40.0], conditions)
     },
 };
 
@@ -176,7 +176,7 @@ pub(super) const LIGHT_BALLOON: Law = Law {
     name: "light_balloon",
     statement: "A balloon of 20 g/m² and k = 2 kN/m grows by the factor l, 2k(l − 1) = p·R·l², and stays in its place",
     remark: "In a step of 1 ms the pressure would carry the free skin by 10 and 50 mm. The radius grows by 0.5 and 2.6 mm.",
-    simulate: |conditions| balloons(LIGHT, &[200.0, 1000.0], conditions),
+    simulate: |conditions| inflate_balloons(LIGHT, &[200.0, 1000.0], conditions),
     ..BALLOON
 };
 
@@ -184,7 +184,7 @@ pub(super) const FOIL_BALLOON: Law = Law {
     name: "foil_balloon",
     statement: "A balloon of foil, 30 g/m² and k = 100 kN/m, grows by the factor l, 2k(l − 1) = p·R·l², and stays in its place",
     remark: "Foil hardly grows: by 0.025 % at 500 Pa.",
-    simulate: |conditions| balloons(FOIL, &[200.0, 500.0], conditions),
+    simulate: |conditions| inflate_balloons(FOIL, &[200.0, 500.0], conditions),
     ..BALLOON
 };
 
@@ -192,7 +192,7 @@ pub(super) const LATEX_BALLOON: Law = Law {
     name: "latex_balloon",
     statement: "A balloon of latex, 230 g/m² and k = 375 N/m, grows by the factor l, 2k(l − 1) = p·R·l², and stays in its place",
     remark: "At 1 kPa it grows by 19 %. From 1.9 kPa on it would burst.",
-    simulate: |conditions| balloons(LATEX, &[500.0, 1000.0], conditions),
+    simulate: |conditions| inflate_balloons(LATEX, &[500.0, 1000.0], conditions),
     ..BALLOON
 };
 

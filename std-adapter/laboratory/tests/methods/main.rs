@@ -7,6 +7,5 @@ mod baselines_are_no_straw_men;
 mod batches_agree_with_one_pair;
 mod culling_tests_never_cull_what_touches;
 mod exact_answers_enclose_the_first_time;
-mod hard_cases_have_exact_answers;
 mod pipeline_distributes_each_pair_once;
 mod queries_are_read_to_the_nearest;

@@ -9,7 +9,7 @@ use selvedge_core::elementary::advance::time_of_impact;
 use selvedge_core::elementary::{ContactVerdict, Limits, contact};
 use selvedge_core::filter::{Filter, Tier};
 use selvedge_laboratory::baselines::cubic;
-use selvedge_laboratory::methods::{ElementaryTest, Preset, Redundancy, Source, Stage, Stages};
+use selvedge_laboratory::methods::{ElementaryTest, PairSource, Preset, Redundancy, Stage, Stages};
 use selvedge_laboratory::pipeline::Pipeline;
 use selvedge_laboratory::scene::ArmScene;
 use selvedge_verification::formats;
@@ -89,7 +89,7 @@ impl<S: Format> Run<S> {
 
 fn distributed<S: Format>(mesh: &MeshCase<S>, redundancy: Redundancy) -> Vec<MeshPair> {
     let stages = Stages {
-        source: Source::TrianglePairs(redundancy),
+        source: PairSource::TrianglePairs(redundancy),
         tests: &[],
         elementary: ElementaryTest::Cubic,
     };
@@ -183,7 +183,7 @@ fn every_preset_ends_with_what_its_own_tests_leave<S: Format>(mesh: &MeshCase<S>
     let topology = mesh.topology();
     for preset in Preset::ALL {
         let stages = preset.stages();
-        let Source::TrianglePairs(redundancy) = stages.source else {
+        let PairSource::TrianglePairs(redundancy) = stages.source else {
             continue;
         };
         let mut left = distributed(mesh, redundancy);
@@ -341,7 +341,7 @@ fn an_earlier_step_changes_nothing() {
             let mut used = Run::new(&elsewhere, preset.stages(), 1);
             used.step(mesh);
             let mut fresh = Run::new(mesh, preset.stages(), 1);
-            if preset.stages().source == Source::MovingBoxes {
+            if preset.stages().source == PairSource::MovingBoxes {
                 // The order is that of the hierarchies, which keep their shape.
                 let [used, fresh] = [&mut used, &mut fresh].map(Run::in_order);
                 prop_assert_eq!(used, fresh);

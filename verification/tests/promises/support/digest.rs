@@ -2,7 +2,7 @@
 
 use super::prelude::*;
 use fnv::FnvHasher;
-use selvedge_verification::campaign::{Source, sample};
+use selvedge_verification::campaign::{CaseSource, sample};
 use std::hash::Hasher;
 
 /// The hash FNV-1a.
@@ -56,8 +56,8 @@ fn on_a_grid<S: Format>(kind: PairKind, index: usize) -> PairCase<S> {
 /// Makes random and adversarial pairs. One in sixteen has a coordinate that is not finite or huge. Others are so large or small
 /// that products nearly overflow or underflow, or are on a grid.
 pub(crate) fn cases<S: Format>(kind: PairKind, count: usize) -> Vec<PairCase<S>> {
-    let mut cases = sample(Source::Random, kind, 1, count);
-    cases.append(&mut sample(Source::Adversarial, kind, 2, count));
+    let mut cases = sample(CaseSource::Random, kind, 1, count);
+    cases.append(&mut sample(CaseSource::Adversarial, kind, 2, count));
     let odd = [
         S::NAN,
         S::INFINITY,
@@ -72,7 +72,7 @@ pub(crate) fn cases<S: Format>(kind: PairKind, count: usize) -> Vec<PairCase<S>>
         let place = index % 24;
         case.points[place / 6][place / 3 % 2][place % 3] = odd[index / 24 % odd.len()];
     }
-    let sized = sample(Source::Random, kind, 3, count);
+    let sized = sample(CaseSource::Random, kind, 3, count);
     cases.extend(sized.iter().enumerate().map(|(index, case)| {
         let part = [5, 6, 7, 9, 12, 16][index % 6];
         let exponents = [S::MAX_EXPONENT, S::MIN_EXPONENT];

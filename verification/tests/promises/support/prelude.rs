@@ -15,9 +15,9 @@ pub(crate) use selvedge_core::kernels::coplanarity::{MovingTetrahedron, is_in_ra
 pub(crate) use selvedge_core::kernels::vector::Vector;
 pub(crate) use selvedge_core::separation::{closest::ClosestPoints, largest_coordinate};
 pub(crate) use selvedge_core::{Motion, PairKind, PrimitivePair, Scalar, Verdict};
-pub(crate) use selvedge_verification::culling::{CullingTest, verdict};
+pub(crate) use selvedge_verification::culling::{CertifiedTest, verdict};
 pub(crate) use selvedge_verification::formats;
 pub(crate) use selvedge_verification::generator::*;
-pub(crate) use selvedge_verification::oracle::{Pair, collides, coplanar, first_within, rational, within, within_at};
+pub(crate) use selvedge_verification::oracle::{Pair, are_ever_coplanar, collides, first_within, rational, within, within_at};
 pub(crate) use std::cell::Cell;
 pub(crate) use std::collections::{BTreeMap, BTreeSet};

@@ -7,24 +7,24 @@ use selvedge::glam::{DVec3, Vec3};
 use tiny_skia::{FillRule, Paint, Path, PathBuilder, Pixmap, Stroke, Transform};
 
 /// A colour as red, green and blue.
-type Colour = [u8; 3];
+type Rgb = [u8; 3];
 
 /// The colour of vertices of vertex–face pairs.
-pub(super) const BLUE: Colour = [0, 78, 200];
+pub(super) const BLUE: Rgb = [0, 78, 200];
 /// The colour of faces of vertex–face pairs.
-pub(super) const YELLOW: Colour = [255, 214, 10];
+pub(super) const YELLOW: Rgb = [255, 214, 10];
 /// The colour of edges of edge–edge pairs.
-pub(super) const GREEN: Colour = [0, 150, 60];
+pub(super) const GREEN: Rgb = [0, 150, 60];
 /// The colour of the frame around a close-up.
-pub(super) const FRAME: Colour = [60, 66, 74];
-const CLOTH: Colour = [196, 204, 214];
-const OUTLINE: Colour = [90, 100, 112];
+pub(super) const FRAME: Rgb = [60, 66, 74];
+const CLOTH: Rgb = [196, 204, 214];
+const OUTLINE: Rgb = [90, 100, 112];
 
 /// The opacity of faces. The rest of what lies behind shows through.
 const CLOTH_OPACITY: f32 = 0.5;
 const MARK_OPACITY: f32 = 0.8;
 /// The shortest edges, in pixels, of faces with outlines. Shorter ones would make all cloth grey.
-const LEAST_OUTLINED: f32 = 4.0;
+const SHORTEST_OUTLINED_EDGE: f32 = 4.0;
 
 /// The primitives with a candidate pair.
 pub(super) struct Marks {
@@ -67,7 +67,7 @@ fn marked(marks: &[bool]) -> impl Iterator<Item = usize> {
 
 /// A feature that is drawn at once, with its depth.
 #[derive(Clone, Copy)]
-enum Shape {
+enum DrawnShape {
     Face(usize),
     Edge(usize),
     Vertex(usize),
@@ -87,15 +87,15 @@ impl Drawing<'_> {
         let pen = Pen::new(topology, &seen);
         for shape in shapes(topology, &seen, marks, pen.edge_length) {
             match shape {
-                Shape::Face(face) => {
+                DrawnShape::Face(face) => {
                     let corners = topology.triangles()[face].map(|vertex| seen[vertex as usize]);
                     pen.draw_face(picture, corners, marks.faces[face]);
                 }
-                Shape::Edge(edge) => {
+                DrawnShape::Edge(edge) => {
                     let ends = topology.edges()[edge].map(|vertex| seen[vertex as usize]);
                     pen.draw_edge(picture, ends);
                 }
-                Shape::Vertex(vertex) => draw_dot(picture, seen[vertex], pen.dot),
+                DrawnShape::Vertex(vertex) => draw_dot(picture, seen[vertex], pen.dot),
             }
         }
     }
@@ -106,7 +106,7 @@ impl Drawing<'_> {
 ///
 /// A face is as deep as its middle. Edges and vertices lie on faces, so edges come half an edge's length nearer, and vertices a
 /// whole one. Otherwise neighbouring faces and edges with nearer middles would cover them.
-fn shapes(topology: &Topology, seen: &[Seen], marks: &Marks, edge_length: f32) -> Vec<Shape> {
+fn shapes(topology: &Topology, seen: &[Seen], marks: &Marks, edge_length: f32) -> Vec<DrawnShape> {
     fn mean<const N: usize>(seen: &[Seen], vertices: [u32; N]) -> f32 {
         vertices.iter().map(|&v| seen[v as usize].depth).sum::<f32>() / N as f32
     }
@@ -114,14 +114,14 @@ fn shapes(topology: &Topology, seen: &[Seen], marks: &Marks, edge_length: f32) -
         .triangles()
         .iter()
         .enumerate()
-        .map(|(face, &corners)| (marks.faces[face], mean(seen, corners), Shape::Face(face)));
+        .map(|(face, &corners)| (marks.faces[face], mean(seen, corners), DrawnShape::Face(face)));
     let edges = marked(&marks.edges).map(|edge| {
         let depth = mean(seen, topology.edges()[edge]) + 0.5 * edge_length;
-        (true, depth, Shape::Edge(edge))
+        (true, depth, DrawnShape::Edge(edge))
     });
     let vertices = marked(&marks.vertices).map(|vertex| {
         let depth = seen[vertex].depth + edge_length;
-        (true, depth, Shape::Vertex(vertex))
+        (true, depth, DrawnShape::Vertex(vertex))
     });
     let mut shapes: Vec<_> = faces.chain(edges).chain(vertices).collect();
     shapes.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
@@ -148,7 +148,7 @@ impl Pen {
         let edge_length = (sum / edges.len().max(1) as f64) as f32;
         Self {
             edge_length,
-            has_outlines: edge_length >= LEAST_OUTLINED,
+            has_outlines: edge_length >= SHORTEST_OUTLINED_EDGE,
             outline: (0.03 * edge_length).clamp(0.15, 1.0),
             edge: (0.1 * edge_length).clamp(1.0, 5.0),
             dot: (0.13 * edge_length).clamp(1.5, 8.0),
@@ -215,7 +215,7 @@ fn brightness(corners: [Seen; 3], marked: bool) -> f32 {
     darkest + (1.0 - darkest) * normal.dot(lamp).abs()
 }
 
-fn shaded(colour: Colour, brightness: f32) -> Colour {
+fn shaded(colour: Rgb, brightness: f32) -> Rgb {
     colour.map(|channel| (f32::from(channel) * brightness).round() as u8)
 }
 
@@ -231,17 +231,17 @@ fn polyline(points: &[Seen], closed: bool) -> Option<Path> {
     path.finish()
 }
 
-fn paint([red, green, blue]: Colour, opacity: f32) -> Paint<'static> {
+fn paint([red, green, blue]: Rgb, opacity: f32) -> Paint<'static> {
     let mut paint = Paint::default();
     paint.set_color_rgba8(red, green, blue, (255.0 * opacity).round() as u8);
     paint
 }
 
-pub(super) fn fill(picture: &mut Pixmap, path: &Path, colour: Colour, opacity: f32) {
+pub(super) fn fill(picture: &mut Pixmap, path: &Path, colour: Rgb, opacity: f32) {
     picture.fill_path(path, &paint(colour, opacity), FillRule::Winding, Transform::identity(), None);
 }
 
-pub(super) fn stroke(picture: &mut Pixmap, path: &Path, colour: Colour, opacity: f32, width: f32) {
+pub(super) fn stroke(picture: &mut Pixmap, path: &Path, colour: Rgb, opacity: f32, width: f32) {
     let stroke = Stroke {
         width,
         line_cap: tiny_skia::LineCap::Round,

@@ -13,7 +13,7 @@ mod rigid;
 mod tests;
 
 use super::colours::{CLOTHS, cloth_colours};
-use super::recording::{Part, PartKind, RecordedFrame, Recording};
+use super::recording::{PartKind, RecordedFrame, RecordedPart, Recording};
 use binary::Binary;
 pub use binary::TooLarge;
 use rigid::{Pose, poses};
@@ -107,7 +107,7 @@ fn chosen(frames: &[RecordedFrame]) -> Vec<&RecordedFrame> {
 /// Writes a part in its first frame, and a target for each later one.
 fn mesh(
     binary: &mut Binary,
-    part: &Part,
+    part: &RecordedPart,
     colour: Option<usize>,
     rest: &[[f32; 3]],
     later: impl Iterator<Item = (u64, Vec<[f32; 3]>)>,
@@ -208,7 +208,7 @@ struct Material {
 }
 
 /// Returns the materials of cloths, as many as the recording has colours for, with that of bodies after the first.
-fn materials(parts: &[Part]) -> Vec<Value> {
+fn materials(parts: &[RecordedPart]) -> Vec<Value> {
     let cloth = |colour: usize| Material {
         name: ["cloth", "second cloth", "third cloth", "fourth cloth"][colour],
         colour: CLOTHS[colour].map(|light| light as f32),

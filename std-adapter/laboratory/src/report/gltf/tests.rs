@@ -8,9 +8,9 @@ const CLOTH_AND_BALL: usize = 2;
 fn recording(frames: u64, up: DVec3) -> Recording {
     let about = About::test("fall", up, 0.02);
     let parts = vec![
-        Part::new("cloth", PartKind::Cloth, 3, vec![[0, 1, 2]]),
-        Part::new("nothing", PartKind::Body, 1, vec![]),
-        Part::new("ball", PartKind::Body, 4, vec![[0, 1, 2], [2, 1, 3]]),
+        RecordedPart::new("cloth", PartKind::Cloth, 3, vec![[0, 1, 2]]),
+        RecordedPart::new("nothing", PartKind::Body, 1, vec![]),
+        RecordedPart::new("ball", PartKind::Body, 4, vec![[0, 1, 2], [2, 1, 3]]),
     ];
     let mut recorder = Recorder::new(about, parts, &[], &[]);
     for frame in 0..frames {
@@ -150,7 +150,7 @@ fn a_scene_of_nothing_is_valid() {
 fn a_body_that_keeps_its_shape_is_an_animated_node_and_one_that_does_not_has_targets() {
     let corners = [DVec3::new(0.3, 0.1, 0.0), DVec3::X, DVec3::Y, DVec3::new(0.2, 0.3, 0.9)];
     let triangles = vec![[0, 1, 2], [2, 1, 3]];
-    let parts = ["rigid", "breathing"].map(|name| Part::new(name, PartKind::Body, 4, triangles.clone()));
+    let parts = ["rigid", "breathing"].map(|name| RecordedPart::new(name, PartKind::Body, 4, triangles.clone()));
     let about = recording(1, DVec3::Z).about;
     let mut recorder = Recorder::new(about, parts.to_vec(), &[], &[]);
     for frame in 0..9_u64 {

@@ -13,7 +13,7 @@
 //!
 //! The error of a position is thus at most half a 65,535th of the frame's extent, and the rounding of f32.
 
-use super::measures::Shown;
+use super::measures::ShownMeasure;
 use crate::report::colours::cloth_colours;
 use crate::report::label;
 use crate::report::recording::{PartKind, RecordedFrame, Recording, SeriesKind};
@@ -30,20 +30,20 @@ pub(super) fn blocks(recording: &Recording) -> Markup {
         let placed = move |vertex: &u32| first as u32 + vertex;
         part.triangles().iter().flatten().map(placed)
     });
-    let bounds: Vec<Bounds> = recording.frames.iter().map(Bounds::new).collect();
+    let bounds: Vec<FrameBox> = recording.frames.iter().map(FrameBox::new).collect();
     let positions = recording.frames.iter().zip(&bounds);
     let positions = positions.flat_map(|(frame, bounds)| {
         let quantised = |&position| bounds.quantised(position);
         frame.positions.iter().flat_map(quantised)
     });
     let values = recording.series.iter().flat_map(|series| &series.values);
-    let measures = Shown::all(recording);
+    let measures = ShownMeasure::all(recording);
     let measured = measures.iter().flat_map(|measure| &measure.values).map(|&value| value as f32);
     let blocks = [
         ("triangles", base64(triangles.map(u32::to_le_bytes))),
         (
             "bounds",
-            base64(bounds.iter().flat_map(Bounds::numbers).map(f32::to_le_bytes)),
+            base64(bounds.iter().flat_map(FrameBox::numbers).map(f32::to_le_bytes)),
         ),
         ("positions", base64(positions.map(u16::to_le_bytes))),
         ("values", base64(values.map(|value| value.to_le_bytes()))),
@@ -58,7 +58,7 @@ pub(super) fn blocks(recording: &Recording) -> Markup {
 }
 
 /// Returns the header, which describes the blocks.
-fn header(recording: &Recording, measures: &[Shown<'_>]) -> Value {
+fn header(recording: &Recording, measures: &[ShownMeasure<'_>]) -> Value {
     let parts = recording
         .placed_parts()
         .zip(cloth_colours(&recording.parts))
@@ -115,12 +115,12 @@ fn base64<const N: usize>(numbers: impl Iterator<Item = [u8; N]>) -> String {
 }
 
 /// The bounding box of a frame.
-struct Bounds {
+struct FrameBox {
     least: [f32; 3],
     extent: [f32; 3],
 }
 
-impl Bounds {
+impl FrameBox {
     fn new(frame: &RecordedFrame) -> Self {
         let (mut least, mut most) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
         for position in &frame.positions {

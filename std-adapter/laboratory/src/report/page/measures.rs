@@ -6,13 +6,13 @@ use crate::report::recording::{GRAVITATIONAL, Measure, MeasureKind, Recording};
 use maud::{Markup, html};
 
 /// A measure on the page.
-pub(in crate::report) struct Shown<'a> {
+pub(in crate::report) struct ShownMeasure<'a> {
     pub(in crate::report) name: &'a str,
     pub(in crate::report) kind: MeasureKind,
     pub(in crate::report) values: Vec<f64>,
 }
 
-impl<'a> Shown<'a> {
+impl<'a> ShownMeasure<'a> {
     pub(in crate::report) fn all(recording: &'a Recording) -> Vec<Self> {
         recording.measures.iter().map(Self::new).collect()
     }
@@ -56,8 +56,8 @@ impl<'a> Shown<'a> {
 
 /// Returns all sections, as far as they have content.
 pub(super) fn sections(recording: &Recording) -> Markup {
-    let shown = Shown::all(recording);
-    let rows = |kind: MeasureKind| shown.iter().filter(move |one| one.kind == kind).map(Shown::row);
+    let shown = ShownMeasure::all(recording);
+    let rows = |kind: MeasureKind| shown.iter().filter(move |one| one.kind == kind).map(ShownMeasure::row);
     let has = |kind: MeasureKind| !recording.measured_steps.is_empty() && rows(kind).next().is_some();
     html! {
         @if has(MeasureKind::Energy) {

@@ -9,7 +9,7 @@ mod tables;
 #[cfg(test)]
 mod tests;
 
-pub(super) use self::measures::Shown;
+pub(super) use self::measures::ShownMeasure;
 pub(super) use self::tables::bar;
 use super::number::{counted, grouped, moment, ordinal, three_figures, time};
 use super::recording::{LONGEST_EDGE, Measure, PartKind, Recording, Series, SeriesKind};

@@ -1,5 +1,5 @@
 use super::*;
-use crate::report::{About, Knob, MeasureKind, Part, Recorder};
+use crate::report::{About, Knob, MeasureKind, RecordedPart, Recorder};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use proptest::prelude::*;
@@ -39,8 +39,8 @@ fn recording(frames: &[Vec<DVec3>], series: &[(&str, SeriesKind)]) -> Recording 
     };
     let vertices = frames[0].len();
     let parts = vec![
-        Part::new("cloth", PartKind::Cloth, vertices - 3, vec![[0, 1, 2]]),
-        Part::new("</script>", PartKind::Body, 3, vec![[2, 1, 0]]),
+        RecordedPart::new("cloth", PartKind::Cloth, vertices - 3, vec![[0, 1, 2]]),
+        RecordedPart::new("</script>", PartKind::Body, 3, vec![[2, 1, 0]]),
     ];
     let readings = vec![0.0; series.len()];
     let mut recorder = Recorder::new(about, parts, series, &readings);

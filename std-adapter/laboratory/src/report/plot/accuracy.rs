@@ -5,7 +5,7 @@ use super::look::Look;
 use super::picture::{Mark, Panel, Plot, StripRow};
 use crate::methods::MeasuredFilter;
 use crate::report::number::{grouped, percent, round_time, time};
-use crate::study::{Accuracy, AccuracyRow, AccuracySet, BackendTime};
+use crate::study::{AccuracyRow, AccuracySet, BackendTime, FilterAccuracy};
 
 const WIDTH: f64 = 266.0;
 const SHARES: TowardsNone = TowardsNone {
@@ -26,7 +26,7 @@ const LEGEND: [(Look, &str); 4] = [
 /// instruction set, unless the name says otherwise. The vertical axis is the share of pairs that the filter culls, among those
 /// that exact arithmetic culls. Each line is ten times closer to all. Filters without a proof have no place on that axis. They
 /// are in a strip of their own, with the number of pairs that they cull without proof.
-pub fn accuracy_svg(accuracy: &Accuracy) -> String {
+pub fn accuracy_svg(accuracy: &FilterAccuracy) -> String {
     let measured: Vec<_> = accuracy.sets.iter().map(|set| (set, measured(set))).collect();
     let times = measured.iter().flat_map(|(_, rows)| rows).map(|row| row.nanoseconds);
     let axis = LogAxis::over(times, WIDTH);
@@ -63,21 +63,21 @@ fn best_backend(set: &AccuracySet) -> Option<&'static str> {
 }
 
 /// A filter with one of its times.
-struct Measured<'a> {
+struct TimedFilter<'a> {
     row: &'a AccuracyRow,
     look: Look,
     nanoseconds: f64,
 }
 
 /// Returns each filter's best time, and the permanent's time one by one.
-fn measured(set: &AccuracySet) -> Vec<Measured<'_>> {
+fn measured(set: &AccuracySet) -> Vec<TimedFilter<'_>> {
     let rows = set.rows.iter().flat_map(|row| {
         let is_permanent = row.filter == MeasuredFilter::Permanent;
         let one = row.times.first().copied().filter(|_| is_permanent);
         let times = [(look(row.filter), row.best_time()), (Look::ONE_AT_A_TIME, one)];
         times.into_iter().filter_map(move |(look, time)| {
             let BackendTime { nanoseconds, .. } = time.filter(|time| time.nanoseconds.is_finite())?;
-            Some(Measured { row, look, nanoseconds })
+            Some(TimedFilter { row, look, nanoseconds })
         })
     });
     rows.collect()
@@ -91,10 +91,10 @@ fn look(filter: MeasuredFilter) -> Look {
     }
 }
 
-fn panel(set: &AccuracySet, rows: &[Measured<'_>], axis: &LogAxis) -> Panel {
+fn panel(set: &AccuracySet, rows: &[TimedFilter<'_>], axis: &LogAxis) -> Panel {
     let (is_unsafe, is_proven) = (|row: &&_| is_unsafe(row), |row: &&_| !is_unsafe(row));
     let proven = rows.iter().filter(is_proven).filter(|_| set.cullable > 0);
-    let mark = |measured: &Measured<'_>| {
+    let mark = |measured: &TimedFilter<'_>| {
         let kept = measured.row.kept_cullable as f64 / set.cullable as f64;
         Mark {
             look: measured.look,
@@ -121,12 +121,12 @@ fn panel(set: &AccuracySet, rows: &[Measured<'_>], axis: &LogAxis) -> Panel {
     }
 }
 
-fn is_unsafe(measured: &Measured<'_>) -> bool {
+fn is_unsafe(measured: &TimedFilter<'_>) -> bool {
     measured.look == Look::UNSAFE
 }
 
-fn name(measured: &Measured<'_>) -> String {
-    let Measured { row, look, nanoseconds } = *measured;
+fn name(measured: &TimedFilter<'_>) -> String {
+    let TimedFilter { row, look, nanoseconds } = *measured;
     let filter = match row.filter {
         MeasuredFilter::Uncertified => "as computed".to_owned(),
         filter => filter.name().replace('_', " "),
@@ -180,7 +180,7 @@ mod tests {
             separation: 0.0,
             budget: Duration::ZERO,
         };
-        accuracy_svg(&Accuracy { options, sets })
+        accuracy_svg(&FilterAccuracy { options, sets })
     }
 
     #[test]

@@ -7,11 +7,11 @@ use maud::{Markup, html};
 pub(super) struct Look {
     /// Okabe and Ito's colours, which colour-blind people can distinguish; some are darkened.
     pub(super) colour: &'static str,
-    pub(super) shape: Shape,
+    pub(super) shape: MarkShape,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Shape {
+pub(super) enum MarkShape {
     Disc,
     Ring,
     Diamond,
@@ -23,17 +23,17 @@ pub(super) enum Shape {
 
 impl Look {
     /// Methods that decide by rounded arithmetic and a bound.
-    pub(super) const CERTIFIED: Self = Self::new("#0072b2", Shape::Disc);
+    pub(super) const CERTIFIED: Self = Self::new("#0072b2", MarkShape::Disc);
     /// Methods that decide by rounded arithmetic and a bound, one pair at a time.
-    pub(super) const ONE_AT_A_TIME: Self = Self::new("#0072b2", Shape::Ring);
+    pub(super) const ONE_AT_A_TIME: Self = Self::new("#0072b2", MarkShape::Ring);
     /// Methods that decide by exact arithmetic.
-    pub(super) const EXACT: Self = Self::new("#007a58", Shape::Diamond);
+    pub(super) const EXACT: Self = Self::new("#007a58", MarkShape::Diamond);
     /// Methods that decide by bisection of time and parameters.
-    pub(super) const BISECTION: Self = Self::new("#a8508a", Shape::Triangle);
+    pub(super) const BISECTION: Self = Self::new("#a8508a", MarkShape::Triangle);
     /// Methods that decide without proof.
-    pub(super) const UNSAFE: Self = Self::new("#d55e00", Shape::Cross);
+    pub(super) const UNSAFE: Self = Self::new("#d55e00", MarkShape::Cross);
 
-    pub(super) const fn new(colour: &'static str, shape: Shape) -> Self {
+    pub(super) const fn new(colour: &'static str, shape: MarkShape) -> Self {
         Self { colour, shape }
     }
 
@@ -46,17 +46,17 @@ impl Look {
             html! { polygon points=(points.collect::<String>().trim_end()) fill=(colour) {} }
         };
         match shape {
-            Shape::Disc => html! { circle cx=(px(x)) cy=(px(y)) r=(R) fill=(colour) {} },
-            Shape::Ring => {
+            MarkShape::Disc => html! { circle cx=(px(x)) cy=(px(y)) r=(R) fill=(colour) {} },
+            MarkShape::Ring => {
                 html! { circle cx=(px(x)) cy=(px(y)) r=(R) fill=(PAPER_WHITE) stroke=(colour) stroke-width="2" {} }
             }
-            Shape::Diamond => polygon(&[[0.0, -1.35 * R], [1.35 * R, 0.0], [0.0, 1.35 * R], [-1.35 * R, 0.0]]),
-            Shape::Triangle => polygon(&[[0.0, -1.25 * R], [1.2 * R, 0.9 * R], [-1.2 * R, 0.9 * R]]),
-            Shape::Cross => html! { g stroke=(colour) stroke-width="3" {
+            MarkShape::Diamond => polygon(&[[0.0, -1.35 * R], [1.35 * R, 0.0], [0.0, 1.35 * R], [-1.35 * R, 0.0]]),
+            MarkShape::Triangle => polygon(&[[0.0, -1.25 * R], [1.2 * R, 0.9 * R], [-1.2 * R, 0.9 * R]]),
+            MarkShape::Cross => html! { g stroke=(colour) stroke-width="3" {
                 (line("", [x - R, y - R], [x + R, y + R]))
                 (line("", [x - R, y + R], [x + R, y - R]))
             } },
-            Shape::None => html! {},
+            MarkShape::None => html! {},
         }
     }
 }

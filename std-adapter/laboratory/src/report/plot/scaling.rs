@@ -1,7 +1,7 @@
 //! Plots cost against size.
 
 use super::axis::LogAxis;
-use super::look::{Look, Shape};
+use super::look::{Look, MarkShape};
 use super::picture::{Curve, Mark, Panel, Plot};
 use super::svg::{FAINT_INK, INK};
 use crate::methods::Stage;
@@ -63,7 +63,7 @@ pub fn scaling_svg(points: &[ScalingPoint]) -> String {
         let points: Vec<_> = { line.points.iter() }
             .map(|&(triangles, seconds)| [sizes.place(triangles), SIZE[1] - times.place(seconds)])
             .collect();
-        let look = Look::new(line.colour, if line.is_reference { Shape::None } else { Shape::Disc });
+        let look = Look::new(line.colour, if line.is_reference { MarkShape::None } else { MarkShape::Disc });
         let name = |index: usize| (index + 1 == points.len()).then(|| format!("{}: {}", line.name, time(line.points[index].1)));
         let marks = points.iter().enumerate().map(|(index, &at)| Mark {
             look,
@@ -81,7 +81,7 @@ pub fn scaling_svg(points: &[ScalingPoint]) -> String {
     plot.draw(&[panel])
 }
 
-struct Line {
+struct CostLine {
     name: &'static str,
     colour: &'static str,
     is_reference: bool,
@@ -89,7 +89,7 @@ struct Line {
     points: Vec<(f64, f64)>,
 }
 
-fn lines(points: &[ScalingPoint]) -> Vec<Line> {
+fn lines(points: &[ScalingPoint]) -> Vec<CostLine> {
     let line = |name, colour, seconds: &dyn Fn(&ScalingPoint) -> Option<f64>| {
         let points = points
             .iter()
@@ -97,7 +97,7 @@ fn lines(points: &[ScalingPoint]) -> Vec<Line> {
         let is_plotted = |&(triangles, seconds): &(f64, f64)| triangles > 0.0 && seconds > 0.0 && seconds.is_finite();
         let mut points: Vec<_> = points.filter(is_plotted).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        Line {
+        CostLine {
             name,
             colour,
             is_reference: false,
@@ -121,7 +121,7 @@ fn lines(points: &[ScalingPoint]) -> Vec<Line> {
 }
 
 /// Returns n log n through the first point with more than one triangle, since it is zero for one.
-fn reference(whole: &[(f64, f64)]) -> Line {
+fn reference(whole: &[(f64, f64)]) -> CostLine {
     let whole: Vec<_> = whole.iter().filter(|point| point.0 > 1.0).collect();
     let n_log_n = |n: f64| n * n.ln();
     let points = match whole[..] {
@@ -131,7 +131,7 @@ fn reference(whole: &[(f64, f64)]) -> Line {
         }
         _ => Vec::new(),
     };
-    Line {
+    CostLine {
         name: "n log n",
         colour: FAINT_INK,
         is_reference: true,

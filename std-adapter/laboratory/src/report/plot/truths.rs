@@ -1,7 +1,7 @@
 //! Plots the simulation beside the laws that it must obey, and its errors.
 
 use super::axis::{LinearAxis, LogAxis};
-use super::look::{Look, Shape};
+use super::look::{Look, MarkShape};
 use super::picture::{Curve, Mark, Panel, Plot};
 use super::svg::INK;
 use crate::report::number::{magnitude, round_time, three_figures};
@@ -16,7 +16,7 @@ const LARGE: [f64; 2] = [560.0, 860.0];
 const COLOURS: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6e3c"];
 
 /// One line of a plot, and the name at its end.
-struct Line {
+struct NamedLine {
     name: Option<String>,
     colour: &'static str,
     points: Vec<[f64; 2]>,
@@ -25,24 +25,24 @@ struct Line {
 }
 
 /// The lines of one panel, below its title.
-type Titled = (String, Vec<Line>);
+type Titled = (String, Vec<NamedLine>);
 
 /// Plots a law and its simulation on the finest mesh, at each time step.
 #[must_use]
 pub fn truth_svg(runs: &LawRuns) -> String {
     let finest = runs.by_mesh().next_back().unwrap_or_default();
     let points = |run: &Measured, value: fn(&Sample) -> f64| run.samples.iter().map(|own| [own.at, value(own)]).collect();
-    let mut lines: Vec<Line> = finest
+    let mut lines: Vec<NamedLine> = finest
         .iter()
         .zip(COLOURS)
-        .map(|(run, colour)| Line {
+        .map(|(run, colour)| NamedLine {
             name: Some(run.conditions.pace.to_string()),
             colour,
             points: points(run, |own| own.simulated),
             is_dashed: false,
         })
         .collect();
-    lines.extend(finest.first().map(|run| Line {
+    lines.extend(finest.first().map(|run| NamedLine {
         name: Some("exact".to_owned()),
         colour: INK,
         points: points(run, |own| own.exact),
@@ -93,7 +93,7 @@ pub fn cost_of_law_svg(runs: &LawRuns, prior: Option<&PriorRuns>) -> String {
             let points = own.map(|run| [run.seconds, run.error()]);
             line(accuracy.name().to_owned(), colour, points, false)
         });
-        let mut lines: Vec<Line> = own.collect();
+        let mut lines: Vec<NamedLine> = own.collect();
         lines.extend(prior.into_iter().flat_map(|prior| lines_before(runs, prior, &pace)));
         (pace, lines)
     });
@@ -101,7 +101,7 @@ pub fn cost_of_law_svg(runs: &LawRuns, prior: Option<&PriorRuns>) -> String {
 }
 
 /// Returns the dashed lines of another revision at one pace: one for each of its accuracies.
-fn lines_before(runs: &LawRuns, prior: &PriorRuns, pace: &str) -> Vec<Line> {
+fn lines_before(runs: &LawRuns, prior: &PriorRuns, pace: &str) -> Vec<NamedLine> {
     let meshes = runs.law.meshes.iter().filter(|grid| !grid.is_irregular);
     let all: Vec<&PriorRun> = meshes
         .flat_map(|grid| prior.on(runs.law.name, grid.number, false))
@@ -145,11 +145,11 @@ pub fn convergence_svg(runs: &LawRuns) -> String {
 }
 
 /// Returns the line of the points that a plot of logarithms can show, if there are any.
-fn line(name: String, colour: &'static str, points: impl Iterator<Item = [f64; 2]>, is_dashed: bool) -> Option<Line> {
+fn line(name: String, colour: &'static str, points: impl Iterator<Item = [f64; 2]>, is_dashed: bool) -> Option<NamedLine> {
     let points: Vec<_> = points
         .filter(|point| point.iter().all(|value| *value > 0.0 && value.is_finite()))
         .collect();
-    (!points.is_empty()).then_some(Line {
+    (!points.is_empty()).then_some(NamedLine {
         name: Some(name),
         colour,
         points,
@@ -192,7 +192,7 @@ fn drawn(
     plot.draw(&panels)
 }
 
-fn panel(title: &str, lines: &[Line], place: &dyn Fn([f64; 2]) -> [f64; 2]) -> Panel {
+fn panel(title: &str, lines: &[NamedLine], place: &dyn Fn([f64; 2]) -> [f64; 2]) -> Panel {
     let mut panel = Panel {
         title: title.to_owned(),
         ..Panel::default()
@@ -202,7 +202,7 @@ fn panel(title: &str, lines: &[Line], place: &dyn Fn([f64; 2]) -> [f64; 2]) -> P
         let last = points.len().saturating_sub(1);
         let is_law = line.colour == INK;
         panel.marks.extend(points.iter().enumerate().map(|(index, &at)| Mark {
-            look: Look::new(line.colour, if is_law { Shape::None } else { Shape::Disc }),
+            look: Look::new(line.colour, if is_law { MarkShape::None } else { MarkShape::Disc }),
             at,
             name: line.name.clone().filter(|_| index == last),
         }));

@@ -4,7 +4,7 @@
 //!
 //! ```
 //! use selvedge::glam::DVec3;
-//! use selvedge_laboratory::report::{About, Knob, Part, PartKind, Recorder, SeriesKind, gltf, page};
+//! use selvedge_laboratory::report::{About, Knob, RecordedPart, PartKind, Recorder, SeriesKind, gltf, page};
 //!
 //! let about = About {
 //!     name: "falling triangle".to_owned(),
@@ -15,7 +15,7 @@
 //!     fabric: vec![Knob::new("weight", "150 g/m²")],
 //!     knobs: vec![Knob::new("time step", "10 ms")],
 //! };
-//! let cloth = Part::new("cloth", PartKind::Cloth, 3, vec![[0, 1, 2]]);
+//! let cloth = RecordedPart::new("cloth", PartKind::Cloth, 3, vec![[0, 1, 2]]);
 //! let series = [("candidates", SeriesKind::Pairs), ("gravity", SeriesKind::Effect)];
 //! // Counters may run already, as after a checkpoint: their readings now.
 //! let mut recorder = Recorder::new(about, vec![cloth], &series, &[0.0, 0.0]);
@@ -44,7 +44,7 @@ mod simulated;
 mod tests;
 mod thinned;
 
-pub use recorder::{FrameError, Recorder};
+pub use recorder::{Recorder, RecordingError};
 pub use simulated::{SimulationRecorder, Subject, costs_of_added_effects};
 
 use selvedge::Mesh;
@@ -58,7 +58,7 @@ pub struct Recording {
     /// The scene and its settings.
     pub about: About,
     /// The moving parts, in the order of the vertices.
-    pub parts: Vec<Part>,
+    pub parts: Vec<RecordedPart>,
     /// The animation in the order of time: at least one frame. The last is the end of the simulation.
     pub frames: Vec<RecordedFrame>,
     /// The number of recorded steps.
@@ -146,7 +146,7 @@ impl Knob {
     }
 }
 
-/// The kind of a [`Part`], which decides its look.
+/// The kind of a [`RecordedPart`], which decides its look.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PartKind {
     /// A thin surface that is seen from both sides.
@@ -157,14 +157,14 @@ pub enum PartKind {
 
 /// A moving mesh: a cloth or a body.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Part {
+pub struct RecordedPart {
     name: String,
     kind: PartKind,
     vertex_count: usize,
     triangles: Vec<[u32; 3]>,
 }
 
-impl Part {
+impl RecordedPart {
     /// Makes a mesh of `vertex_count` vertices, which its triangles number from 0.
     ///
     /// # Panics
@@ -288,7 +288,7 @@ pub struct Measure {
 impl Recording {
     /// Returns the number of vertices of cloths and bodies.
     pub fn vertex_count(&self) -> usize {
-        self.parts.iter().map(Part::vertex_count).sum()
+        self.parts.iter().map(RecordedPart::vertex_count).sum()
     }
 
     /// Returns the time of a frame, in seconds.
@@ -314,7 +314,7 @@ impl Recording {
     }
 
     /// Returns each part with the number of its first vertex among all.
-    pub fn placed_parts(&self) -> impl Iterator<Item = (usize, &Part)> {
+    pub fn placed_parts(&self) -> impl Iterator<Item = (usize, &RecordedPart)> {
         let mut next = 0;
         self.parts.iter().map(move |part| {
             let first = next;

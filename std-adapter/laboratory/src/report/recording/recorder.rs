@@ -4,7 +4,7 @@
 //! their mean. All stay evenly spread over a simulation of unknown length.
 
 use super::thinned::Thinned;
-use super::{About, Measure, MeasureKind, Part, RecordedFrame, Recording, Series, SeriesKind};
+use super::{About, Measure, MeasureKind, RecordedFrame, RecordedPart, Recording, Series, SeriesKind};
 use selvedge_core::glam::DVec3;
 use selvedge_files::bytes::{Reader, put_block};
 
@@ -16,7 +16,7 @@ const BUDGET: usize = 64 << 20;
 /// A frame that cannot be recorded.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("step {step}: vertex {vertex} is at {position}, which f32 cannot hold")]
-pub struct FrameError {
+pub struct RecordingError {
     /// The frame's step.
     pub step: u64,
     /// The first such vertex.
@@ -46,7 +46,7 @@ impl Recorder {
     ///
     /// # Panics
     /// Panics if there are not as many readings as series.
-    pub fn new(about: About, parts: Vec<Part>, series: &[(&str, SeriesKind)], readings: &[f64]) -> Self {
+    pub fn new(about: About, parts: Vec<RecordedPart>, series: &[(&str, SeriesKind)], readings: &[f64]) -> Self {
         assert_eq!(series.len(), readings.len(), "one reading for each series");
         let named = series.iter().map(|&(name, kind)| Series {
             name: name.to_owned(),
@@ -110,10 +110,10 @@ impl Recorder {
     ///
     /// # Panics
     /// Panics if there is not one position for each vertex.
-    pub fn frame(&mut self, step: u64, positions: &[DVec3]) -> Result<(), FrameError> {
+    pub fn frame(&mut self, step: u64, positions: &[DVec3]) -> Result<(), RecordingError> {
         assert_eq!(positions.len(), self.recording.vertex_count(), "one position for each vertex");
         if let Some(vertex) = positions.iter().position(|&p| !is_finite(rounded(p))) {
-            return Err(FrameError {
+            return Err(RecordingError {
                 step,
                 vertex,
                 position: positions[vertex],
@@ -133,7 +133,7 @@ impl Recorder {
     /// Panics if there is no such part, a copy is of no earlier vertex, or a triangle names a vertex that does not exist.
     pub fn split(&mut self, part: usize, copied: &[u32], triangles: Vec<[u32; 3]>) {
         let parts = &mut self.recording.parts;
-        let first: usize = parts[..part].iter().map(Part::vertex_count).sum();
+        let first: usize = parts[..part].iter().map(RecordedPart::vertex_count).sum();
         let torn = &parts[part];
         let end = first + torn.vertex_count;
         self.frames.change(|positions| {
@@ -143,7 +143,7 @@ impl Recorder {
                 positions.insert(end + place, positions[of]);
             }
         });
-        parts[part] = Part::new(torn.name.clone(), torn.kind, torn.vertex_count + copied.len(), triangles);
+        parts[part] = RecordedPart::new(torn.name.clone(), torn.kind, torn.vertex_count + copied.len(), triangles);
     }
 
     /// Records the values of all measures after `step` steps, in their order. Steps are as for [`frame`](Self::frame).

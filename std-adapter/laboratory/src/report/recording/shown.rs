@@ -6,13 +6,13 @@ use selvedge_core::glam::DVec3;
 /// The visible geometry of a cloth. Its vertices are the cloth's own, if it has triangles, then the rings of its tubes, then the
 /// copies that tears have made.
 #[derive(Clone, Debug)]
-pub(super) struct Shown {
+pub(super) struct ShownGeometry {
     vertices: usize,
     has_triangles: bool,
     tubes: Option<Tubes>,
 }
 
-impl Shown {
+impl ShownGeometry {
     /// Makes the geometry of one of a scene's cloths.
     pub(super) fn new(scene: &Scene, index: usize) -> Self {
         let mesh = scene.cloths[index].mesh();
@@ -74,7 +74,7 @@ mod tests {
         let mesh = Mesh::new(positions, vec![[0, 1, 2]]);
         let cloth = Cloth::from_mesh_with_loose_edges(mesh, &[[0, 3], [3, 4]], DVec3::X, [0.1, 0.1]).unwrap();
         let scene = Scene::new(cloth, 1e-3);
-        let shown = Shown::new(&scene, 0);
+        let shown = ShownGeometry::new(&scene, 0);
         let (count, triangles) = shown.mesh(&scene.cloths[0]);
         assert_eq!((count, triangles[0]), (5 + 3 * 8, [0, 1, 2]));
         let mut placed = Vec::new();

@@ -1,7 +1,7 @@
 //! Records a [`Simulation`]. Loose edges are recorded as [tubes](selvedge_cloth::Tubes): see [shown](super::shown).
 
-use super::shown::Shown;
-use super::{About, Added, FrameError, Knob, Measure, MeasureKind, Part, PartKind, Recorder, Recording, SeriesKind};
+use super::shown::ShownGeometry;
+use super::{About, Added, Knob, Measure, MeasureKind, PartKind, RecordedPart, Recorder, Recording, RecordingError, SeriesKind};
 use super::{EDGES_99, GRAVITATIONAL, LONGEST_EDGE};
 use crate::report::{label, printed};
 use crate::study::EffectCost;
@@ -13,9 +13,9 @@ use selvedge_core::glam::DVec3;
 #[derive(Clone, Debug)]
 pub struct Subject {
     about: About,
-    parts: Vec<Part>,
+    parts: Vec<RecordedPart>,
     /// The geometry of the cloths, if any has loose edges.
-    shown: Vec<Shown>,
+    shown: Vec<ShownGeometry>,
 }
 
 /// Names the measured costs of effects for a [`Recording`]'s `added`.
@@ -47,12 +47,14 @@ impl Subject {
         };
         let bodies = scene.bodies.iter().map(|body| {
             let Mesh { positions, triangles } = &body.mesh;
-            Part::new(&body.name, PartKind::Body, positions.len(), triangles.clone())
+            RecordedPart::new(&body.name, PartKind::Body, positions.len(), triangles.clone())
         });
-        let shown: Vec<Shown> = (0..scene.cloths.len()).map(|index| Shown::new(scene, index)).collect();
+        let shown: Vec<ShownGeometry> = (0..scene.cloths.len())
+            .map(|index| ShownGeometry::new(scene, index))
+            .collect();
         let cloths = scene.cloths.iter().zip(&shown).map(|(cloth, shown)| {
             let (vertices, triangles) = shown.mesh(cloth);
-            Part::new(&cloth.name, PartKind::Cloth, vertices, triangles)
+            RecordedPart::new(&cloth.name, PartKind::Cloth, vertices, triangles)
         });
         let parts = cloths.chain(bodies).collect();
         let has_loose_edges = !scene.all_loose_edges().is_empty();
@@ -75,7 +77,7 @@ pub struct SimulationRecorder {
     /// The number of copied vertices of each cloth.
     copied: Vec<usize>,
     /// The geometry of the cloths, if any has loose edges.
-    shown: Vec<Shown>,
+    shown: Vec<ShownGeometry>,
     /// The positions of all visible vertices in the last frame.
     positions: Vec<DVec3>,
 }
@@ -88,7 +90,7 @@ impl SimulationRecorder {
     ///
     /// # Panics
     /// Panics if the simulation has another number of vertices than the scene.
-    pub fn new(subject: Subject, simulation: &Simulation) -> Result<Self, FrameError> {
+    pub fn new(subject: Subject, simulation: &Simulation) -> Result<Self, RecordingError> {
         let counters = counters(simulation, 0.0);
         let series: Vec<_> = counters.iter().map(|&(name, kind, _)| (name, kind)).collect();
         let Subject { about, parts, shown } = subject;
@@ -139,7 +141,7 @@ impl SimulationRecorder {
     ///
     /// # Errors
     /// Returns an error if a coordinate is not finite as an `f32`.
-    pub fn frame(&mut self, simulation: &Simulation) -> Result<(), FrameError> {
+    pub fn frame(&mut self, simulation: &Simulation) -> Result<(), RecordingError> {
         let step = simulation.runs_done();
         self.follow_tears(simulation);
         let mut positions = simulation.positions();

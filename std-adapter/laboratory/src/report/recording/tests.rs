@@ -5,8 +5,8 @@ fn about() -> About {
     About::test("test", DVec3::Z, 0.5)
 }
 
-fn triangle() -> Part {
-    Part::new("cloth", PartKind::Cloth, 3, vec![[0, 1, 2]])
+fn triangle() -> RecordedPart {
+    RecordedPart::new("cloth", PartKind::Cloth, 3, vec![[0, 1, 2]])
 }
 
 /// Returns a triangle whose height is the number of its step.
@@ -114,7 +114,7 @@ fn a_frame_that_f32_cannot_hold_is_refused_by_step_and_vertex_and_not_recorded()
 
 #[test]
 fn a_frames_mesh_numbers_vertices_across_parts() {
-    let parts = vec![triangle(), Part::new("ball", PartKind::Body, 3, vec![[2, 1, 0]])];
+    let parts = vec![triangle(), RecordedPart::new("ball", PartKind::Body, 3, vec![[2, 1, 0]])];
     let mut recorder = Recorder::new(about(), parts, &[], &[]);
     let all = [positions(0), positions(1)].concat();
     recorder.frame(0, &all).unwrap();
@@ -126,7 +126,7 @@ fn a_frames_mesh_numbers_vertices_across_parts() {
 /// The second of two parts does not move. The first tears twice.
 #[test]
 fn what_is_split_looks_in_earlier_frames_as_it_did_and_copies_of_copies_are_where_these_were() {
-    let parts = vec![triangle(), Part::new("ball", PartKind::Body, 3, vec![[2, 1, 0]])];
+    let parts = vec![triangle(), RecordedPart::new("ball", PartKind::Body, 3, vec![[2, 1, 0]])];
     let mut recorder = Recorder::new(about(), parts, &[], &[]);
     let (cloth, ball) = (positions(0), positions(9));
     recorder.frame(0, &[&cloth[..], &ball].concat()).unwrap();
@@ -147,7 +147,7 @@ fn what_is_split_looks_in_earlier_frames_as_it_did_and_copies_of_copies_are_wher
 #[test]
 #[should_panic(expected = "not among the 3")]
 fn a_part_refuses_a_triangle_beyond_its_vertices() {
-    let _ = Part::new("cloth", PartKind::Cloth, 3, vec![[0, 1, 3]]);
+    let _ = RecordedPart::new("cloth", PartKind::Cloth, 3, vec![[0, 1, 3]]);
 }
 
 #[test]

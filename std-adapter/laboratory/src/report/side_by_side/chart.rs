@@ -1,7 +1,7 @@
 //! Charts of measures over time, one for both simulations.
 
 use crate::report::number::{moment, three_figures};
-use crate::report::page::Shown;
+use crate::report::page::ShownMeasure;
 use crate::report::recording::{MeasureKind, Recording};
 use maud::{Markup, html};
 
@@ -50,7 +50,7 @@ fn lines(both: [&Recording; 2], kind: MeasureKind) -> (Vec<Line>, Vec<String>) {
     let mut colours: Vec<String> = Vec::new();
     let mut lines = Vec::new();
     for (index, recording) in both.into_iter().enumerate() {
-        for shown in Shown::all(recording).into_iter().filter(|shown| shown.kind == kind) {
+        for shown in ShownMeasure::all(recording).into_iter().filter(|shown| shown.kind == kind) {
             let known = colours.iter().position(|name| name == shown.name);
             let colour = known.unwrap_or(colours.len());
             if known.is_none() {

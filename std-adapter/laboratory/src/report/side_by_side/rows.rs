@@ -6,13 +6,13 @@ use crate::report::recording::{Knob, MeasureKind, Recording, SeriesKind};
 use maud::{Markup, html};
 
 /// A number of both: its name, two texts, and the ratio of the second to the first.
-pub(super) struct Row {
+pub(super) struct ComparedNumber {
     name: String,
     pub(super) values: [Option<String>; 2],
     ratio: Option<f64>,
 }
 
-impl Row {
+impl ComparedNumber {
     fn new(name: impl Into<String>, values: [Option<f64>; 2], text: impl Fn(f64) -> String) -> Self {
         let ratio = match values {
             [Some(first), Some(second)] if first > 0.0 && second >= 0.0 => Some(second / first),
@@ -26,7 +26,7 @@ impl Row {
     }
 }
 
-pub(super) fn table(names: &[String; 2], rows: &[Row]) -> Markup {
+pub(super) fn table(names: &[String; 2], rows: &[ComparedNumber]) -> Markup {
     let has_ratios = rows.iter().any(|row| row.ratio.is_some());
     html! {
         div.scroll { table {
@@ -45,19 +45,19 @@ pub(super) fn table(names: &[String; 2], rows: &[Row]) -> Markup {
 }
 
 /// Returns the rows: sizes, times, stretch, energy, events.
-pub(super) fn figures(both: [&Recording; 2]) -> Vec<Row> {
+pub(super) fn figures(both: [&Recording; 2]) -> Vec<ComparedNumber> {
     let size = |recording: &Recording| recording.parts.iter().map(|part| part.triangles().len()).sum::<usize>() as f64;
     let whole = |number: f64| grouped(number as u64);
     let speed = |recording: &Recording| recording.wall_seconds.map(|seconds| recording.steps as f64 / seconds);
     let each = |recording: &Recording| recording.step_times().map(|steps| steps.total / recording.steps as f64);
     let slowest = |recording: &Recording| recording.step_times().map(|steps| steps.largest);
     let mut rows = vec![
-        Row::new("triangles, with bodies", both.map(|one| Some(size(one))), whole),
-        Row::new("time step", both.map(|one| Some(one.about.time_step)), time),
-        Row::new("steps", both.map(|one| Some(one.steps as f64)), whole),
-        Row::new("steps a second", both.map(speed), three_figures),
-        Row::new("a step", both.map(each), time),
-        Row::new("slowest step", both.map(slowest), time),
+        ComparedNumber::new("triangles, with bodies", both.map(|one| Some(size(one))), whole),
+        ComparedNumber::new("time step", both.map(|one| Some(one.about.time_step)), time),
+        ComparedNumber::new("steps", both.map(|one| Some(one.steps as f64)), whole),
+        ComparedNumber::new("steps a second", both.map(speed), three_figures),
+        ComparedNumber::new("a step", both.map(each), time),
+        ComparedNumber::new("slowest step", both.map(slowest), time),
     ];
     for name in names_of(both.map(|one| {
         one.measures
@@ -68,12 +68,12 @@ pub(super) fn figures(both: [&Recording; 2]) -> Vec<Row> {
     })) {
         let measure = |one: &Recording, pick: fn(&crate::report::Measure) -> Option<f64>| one.measure(name).and_then(pick);
         let text = |value: f64| format!("{value:.3}");
-        rows.push(Row::new(
+        rows.push(ComparedNumber::new(
             format!("{name} relative to rest, largest"),
             both.map(|one| measure(one, |m| Some(m.largest))),
             text,
         ));
-        rows.push(Row::new(
+        rows.push(ComparedNumber::new(
             format!("{name} relative to rest, at the end"),
             both.map(|one| measure(one, |m| m.values.last().copied())),
             text,
@@ -85,7 +85,11 @@ pub(super) fn figures(both: [&Recording; 2]) -> Vec<Row> {
             energies.find(|m| m.name == name).and_then(|m| m.values.last().copied())
         };
         let joules = |value: f64| format!("{} J", three_figures(value));
-        rows.push(Row::new(format!("{name} energy at the end"), both.map(last), joules));
+        rows.push(ComparedNumber::new(
+            format!("{name} energy at the end"),
+            both.map(last),
+            joules,
+        ));
     }
     for kind in [SeriesKind::Events, SeriesKind::Effect, SeriesKind::Stage] {
         let of_kind = |one: &'_ Recording| -> Vec<String> { one.series_of(|own| own == kind).map(|s| s.name.clone()).collect() };
@@ -97,8 +101,8 @@ pub(super) fn figures(both: [&Recording; 2]) -> Vec<Row> {
             };
             let a_step = |one: &Recording| total(one).map(|total| total / one.steps as f64);
             rows.push(match kind {
-                SeriesKind::Events => Row::new(name, both.map(total), whole),
-                _ => Row::new(format!("{}, a step", label(name)), both.map(a_step), time),
+                SeriesKind::Events => ComparedNumber::new(name, both.map(total), whole),
+                _ => ComparedNumber::new(format!("{}, a step", label(name)), both.map(a_step), time),
             });
         }
     }
@@ -106,10 +110,10 @@ pub(super) fn figures(both: [&Recording; 2]) -> Vec<Row> {
 }
 
 /// Returns settings and properties of the fabric that differ, or that one of the two lacks.
-pub(super) fn different_settings(both: [&Recording; 2]) -> Vec<Row> {
+pub(super) fn different_settings(both: [&Recording; 2]) -> Vec<ComparedNumber> {
     let all = both.map(|one| one.about.fabric.iter().chain(&one.about.knobs).collect::<Vec<&Knob>>());
     let names = names_of([&all[0], &all[1]].map(|knobs| knobs.iter().map(|knob| &*knob.name).collect()));
-    let row = |name: &str| Row {
+    let row = |name: &str| ComparedNumber {
         name: name.to_owned(),
         values: [&all[0], &all[1]].map(|knobs| knobs.iter().find(|knob| knob.name == name).map(|knob| knob.value.clone())),
         ratio: None,

@@ -1,5 +1,5 @@
 use super::*;
-use crate::report::{About, Knob, MeasureKind, Part, PartKind, Recorder, SeriesKind};
+use crate::report::{About, Knob, MeasureKind, PartKind, RecordedPart, Recorder, SeriesKind};
 use scraper::{Html, Selector};
 use selvedge_core::glam::DVec3;
 
@@ -11,7 +11,7 @@ fn recording(name: &str, scene: &str, thickness: &str, measures: &[(&str, Measur
         ..About::test(name, DVec3::Z, 0.1)
     };
     let series = [("self_collision", SeriesKind::Effect), ("whole step", SeriesKind::Step)];
-    let parts = vec![Part::new("cloth", PartKind::Cloth, 3, vec![[0, 1, 2]])];
+    let parts = vec![RecordedPart::new("cloth", PartKind::Cloth, 3, vec![[0, 1, 2]])];
     let mut recorder = Recorder::new(about, parts, &series, &[0.0; 2]).with_measures(measures);
     for step in 0..3 {
         if step > 0 {

@@ -8,15 +8,15 @@
 //! machine.
 
 mod raster;
+mod scenery;
 mod shade;
-mod stage;
 #[cfg(test)]
 mod tests;
 
 use super::recording::Recording;
 use raster::Raster;
+use scenery::{Camera, Scenery};
 use shade::Light;
-use stage::{Camera, Stage};
 use std::error::Error;
 use tiny_skia::{Pixmap, PremultipliedColorU8};
 
@@ -77,10 +77,10 @@ pub(super) fn png_among(
         .flatten();
     let mut picture = pixmap.ok_or(StillError::Size(width, height))?;
 
-    let stage = Stage::new(all);
-    let surface = stage.surface(recording, frame);
+    let scenery = Scenery::new(all);
+    let surface = scenery.surface(recording, frame);
     let fine = size.map(|side| side as usize * SAMPLES);
-    let camera = Camera::new(&stage, fine);
+    let camera = Camera::new(&scenery, fine);
     let seen = Raster::new(&surface, fine, |point| camera.see(point));
     let light = Light::new(&surface, SHADOW);
     let colour_at = |x: usize, y: usize| {
@@ -90,7 +90,7 @@ pub(super) fn png_among(
             None => {
                 let beside = [(SAMPLES, 0), (0, SAMPLES)];
                 let beside = beside.map(|(dx, dy)| camera.ray((x + dx) as f64 + 0.5, (y + dy) as f64 + 0.5));
-                light.on_floor(&stage, &ray, &beside, camera.eye, y as f64 / fine[1] as f64)
+                light.on_floor(&scenery, &ray, &beside, camera.eye, y as f64 / fine[1] as f64)
             }
         }
     };

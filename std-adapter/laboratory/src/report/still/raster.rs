@@ -1,6 +1,6 @@
 //! Finds the nearest triangle at each sample.
 
-use super::stage::Surface;
+use super::scenery::Surface;
 use selvedge_core::glam::DVec3;
 
 const NOTHING: u32 = u32::MAX;

@@ -2,7 +2,7 @@
 //! shade legible.
 
 use super::raster::Raster;
-use super::stage::{Ray, Stage, Surface};
+use super::scenery::{Ray, Scenery, Surface};
 use crate::report::colours::CLOTHS;
 use selvedge_core::glam::{DVec3, dvec3};
 
@@ -103,11 +103,11 @@ impl Light {
 
     /// Returns the colour of the floor, or of the sky behind it. `down` is the share of the picture's height. `beside` are rays
     /// one pixel to the right and below.
-    pub(super) fn on_floor(&self, stage: &Stage, ray: &Ray, beside: &[Ray; 2], eye: DVec3, down: f64) -> Colour {
+    pub(super) fn on_floor(&self, scenery: &Scenery, ray: &Ray, beside: &[Ray; 2], eye: DVec3, down: f64) -> Colour {
         let [top, bottom] = SKY;
         let sky = [0, 1, 2].map(|k| top[k] + (bottom[k] - top[k]) * down);
         let place = |ray: &Ray| {
-            let distance = (stage.floor - eye.y) / ray.direction.y;
+            let distance = (scenery.floor - eye.y) / ray.direction.y;
             (distance > 0.0).then(|| eye + ray.direction * distance)
         };
         let (Some(point), [Some(right), Some(below)]) = (place(ray), [place(&beside[0]), place(&beside[1])]) else {
@@ -120,8 +120,8 @@ impl Light {
             return sky;
         }
         let line = [0, 2].into_iter().enumerate().map(|(k, axis)| {
-            let cell = (point[axis] + stage.origin[k]) / stage.spacing;
-            let width = ((right[axis] - point[axis]).abs() + (below[axis] - point[axis]).abs()) / stage.spacing;
+            let cell = (point[axis] + scenery.origin[k]) / scenery.spacing;
+            let width = ((right[axis] - point[axis]).abs() + (below[axis] - point[axis]).abs()) / scenery.spacing;
             let distance = (cell - cell.round()).abs() / width.max(1e-6);
             (1.3 - distance).clamp(0.0, 1.0) * (0.35 / width.max(1e-6)).clamp(0.0, 1.0)
         });

@@ -1,5 +1,5 @@
 use super::*;
-use crate::report::{About, Part, PartKind, Recorder};
+use crate::report::{About, PartKind, RecordedPart, Recorder};
 use selvedge_core::glam::DVec3;
 use tiny_skia::ColorU8;
 
@@ -8,8 +8,8 @@ fn recording(up: DVec3, unit: f64) -> Recording {
     let about = About::test("squares", up, 0.1);
     let triangles = vec![[0, 1, 2], [2, 1, 3]];
     let parts = vec![
-        Part::new("cloth", PartKind::Cloth, 4, triangles.clone()),
-        Part::new("floor", PartKind::Body, 4, triangles),
+        RecordedPart::new("cloth", PartKind::Cloth, 4, triangles.clone()),
+        RecordedPart::new("floor", PartKind::Body, 4, triangles),
     ];
     let mut recorder = Recorder::new(about, parts, &[], &[]);
     let [across, along] = [up.any_orthonormal_vector(), up.cross(up.any_orthonormal_vector())];

@@ -1,9 +1,9 @@
 use super::table;
 use crate::report::number::{counted, finite, grouped, percent, three_figures};
-use crate::study::{Accuracy, AccuracyRow, AccuracySet};
+use crate::study::{AccuracyRow, AccuracySet, FilterAccuracy};
 
 /// Returns a table of filters and their times for each set of pairs and format.
-pub fn accuracy(accuracy: &Accuracy) -> String {
+pub fn accuracy(accuracy: &FilterAccuracy) -> String {
     let options = accuracy.options;
     let separation = match options.separation {
         0.0 => String::new(),

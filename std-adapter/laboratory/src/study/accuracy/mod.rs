@@ -52,7 +52,7 @@ pub struct AccuracyOptions {
 
 /// Every filter on every set.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Accuracy {
+pub struct FilterAccuracy {
     /// The options.
     pub options: AccuracyOptions,
     /// The sets, each in `f32`, then in `f64`.
@@ -220,7 +220,7 @@ pub fn measure_accuracy(
     mesh: Option<&dyn Frames>,
     options: AccuracyOptions,
     progress: &mut dyn FnMut(f64),
-) -> Result<Accuracy, Box<dyn Error + Send + Sync>> {
+) -> Result<FilterAccuracy, Box<dyn Error + Send + Sync>> {
     let AccuracyOptions {
         pairs,
         repeat,
@@ -246,14 +246,14 @@ pub fn measure_accuracy(
         let mut share = |part: f64| progress((done + 1.0 + part) / count as f64);
         sets.push(measure::measure::<f64>(double, repeat, separation, &mut share)?);
     }
-    Ok(Accuracy { options, sets })
+    Ok(FilterAccuracy { options, sets })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn measured(separation: f64) -> Accuracy {
+    fn measured(separation: f64) -> FilterAccuracy {
         let options = AccuracyOptions {
             pairs: 3000,
             repeat: 1,

@@ -13,7 +13,7 @@ const LOOKED_AT: usize = 400;
 const FRAMES: usize = 12;
 
 /// The scene over all frames.
-pub(super) struct Stage {
+pub(super) struct Scenery {
     turn: DMat3,
     /// The middle, in the recording's own unit of length.
     middle: DVec3,
@@ -39,8 +39,8 @@ pub(super) struct Surface {
     pub(super) cloths: Vec<Option<usize>>,
 }
 
-impl Stage {
-    /// Makes a stage for all of these. The first decides the direction up.
+impl Scenery {
+    /// Makes a scenery for all of these. The first decides the direction up.
     pub(super) fn new(recordings: &[&Recording]) -> Self {
         let up = recordings[0].up();
         // The axis that is least upright becomes horizontal.
@@ -121,8 +121,8 @@ pub(super) struct Ray {
 }
 
 impl Camera {
-    pub(super) fn new(stage: &Stage, [width, height]: [usize; 2]) -> Self {
-        let yaw = if stage.is_deep { std::f64::consts::FRAC_PI_2 } else { 0.0 } - 0.45;
+    pub(super) fn new(scenery: &Scenery, [width, height]: [usize; 2]) -> Self {
+        let yaw = if scenery.is_deep { std::f64::consts::FRAC_PI_2 } else { 0.0 } - 0.45;
         let pitch = 0.3;
         let (level, rise) = (libm::cos(pitch), libm::sin(pitch));
         let back = DVec3::new(libm::sin(yaw) * level, rise, libm::cos(yaw) * level);
@@ -131,7 +131,7 @@ impl Camera {
         let tall = 0.9 * HALF_FIELD;
         let wide = tall * width as f64 / height as f64;
         let needed = |point: &DVec3| point.dot(back) + (point.dot(right).abs() / wide).max(point.dot(up).abs() / tall);
-        let distance = stage.sample.iter().map(needed).fold(0.1, f64::max);
+        let distance = scenery.sample.iter().map(needed).fold(0.1, f64::max);
         Self {
             eye: back * distance,
             right,
