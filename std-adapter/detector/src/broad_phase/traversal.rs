@@ -204,7 +204,34 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
         // Lanes without a partner count too: the quality of the hierarchies does not depend on what moves.
         tests += u64::from((own & !with_partners(node_a, others & node_b.moving)).count_ones());
         own &= with_partners(node_a, others & node_b.moving);
-        let inset = self.of_neighbours.map(|inset| inset.for_bounds(&node_a.bounds));
+        tests += u64::from(own.count_ones());
+        // There are two loops. In a single one the compiler stores the whole block on the stack in each round, for the second
+        // comparison.
+        match self.of_neighbours {
+            None => self.compare_lanes(lanes, [a, b], [own, others], None, found, left_out),
+            Some(inset) => {
+                let inset = Some(inset.for_bounds(&node_a.bounds));
+                self.compare_lanes(lanes, [a, b], [own, others], inset, found, left_out);
+            }
+        }
+        tests
+    }
+
+    /// Appends the near pairs of some lanes of two blocks to those found. With an `inset`, leaves out neighbours whose boxes are
+    /// apart when drawn in by it.
+    #[inline(always)]
+    fn compare_lanes(
+        &self,
+        lanes: impl Compares,
+        [a, b]: [u32; 2],
+        [mut own, others]: [Mask; 2],
+        inset: Option<f32>,
+        found: &mut PairBuffer,
+        left_out: &mut u64,
+    ) {
+        let (block_a, node_a) = part(self.first, 0, a);
+        let (block_b, node_b) = part(self.second, 0, b);
+        let is_same = self.common == Common::Tree && a == b;
         let corners = &self.second.corners[b as usize];
         let (first, second) = (a * LANES as u32, b * LANES as u32);
         while own != 0 {
@@ -215,7 +242,6 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
             }
             let moving = block_a.get(lane as usize % LANES);
             let mut near = lanes.near(block_b, &moving, among);
-            tests += 1;
             if near != 0 {
                 if let Some(inset) = inset {
                     let far = near & !lanes.near(block_b, &moving.drawn_in(inset), near);
@@ -230,7 +256,6 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
                 found.push(first + lane, second, near);
             }
         }
-        tests
     }
 
     /// Returns the lanes `among` these of the second of two blocks that are neighbours of a lane of the first.
