@@ -123,6 +123,13 @@ impl MovingBroadPhase {
         Ok(())
     }
 
+    /// Takes the positions of a step as [`update`](Self::update) does, without a check: there is one for each vertex, and all are
+    /// finite.
+    pub(crate) fn update_finite(&mut self, start: &[DVec3], end: &[DVec3]) {
+        let fit = self.fit;
+        self.fit_boxes(&Step::of_finite(start, end), &fit);
+    }
+
     pub(crate) fn fit_boxes(&mut self, motions: &dyn Motions, fit: &BoxFit) {
         self.hierarchies.fit_boxes(motions, fit);
     }

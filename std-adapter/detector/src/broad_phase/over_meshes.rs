@@ -69,10 +69,10 @@ impl MeshHierarchy {
         if self.must_build || self.degradation.is_worth_a_build(PRICES, self.boxes.len()) {
             self.build();
         }
-        self.tree.mark(|mesh| self.are_changed[mesh as usize]);
+        self.tree.mark(&self.are_changed);
         self.tree.refit(&self.boxes, true);
         self.are_changed.fill(false);
-        self.tree.mark(|mesh| self.moves[mesh as usize]);
+        self.tree.mark(&self.moves);
         let trees = Trees {
             first: &self.tree,
             second: &self.tree,

@@ -43,6 +43,8 @@ pub(super) struct Tree<const N: usize> {
     pub(super) primitives: Vec<u32>,
     /// The positions of the primitive's vertices in the tree of vertices.
     pub(super) vertices: Vec<[u32; N]>,
+    /// For each block of primitives, the [areas](area) of its vertices.
+    areas: Vec<u64>,
     /// The positions in `vertices`, side by side for each block of primitives, with [`NONE`] in empty lanes.
     pub(super) corners: Vec<[[u32; LANES]; N]>,
     /// The shape at rest of each block of primitives, if there are [neighbours](super::Neighbours).
@@ -61,6 +63,12 @@ pub(super) struct RestBlock {
     pub(super) parts: [u32; LANES],
     /// The largest distance of the boxes of neighbours.
     pub(super) within: [f32; LANES],
+}
+
+/// Returns the area of a vertex at a position, as one bit of 64: vertices that lie close together mostly have one area.
+#[inline(always)]
+fn area(position: u32) -> u64 {
+    1 << (position / LANES as u32 % u64::BITS)
 }
 
 /// Marks a lane without a vertex.
@@ -141,6 +149,9 @@ impl<const N: usize> Tree<N> {
         self.vertices.clear();
         let of_primitives = self.primitives.iter();
         self.vertices.extend(of_primitives.map(|&primitive| vertices_of(primitive)));
+        self.areas.clear();
+        let of_block = |block: &[[u32; N]]| block.iter().flatten().fold(0, |areas, &vertex| areas | area(vertex));
+        self.areas.extend(self.vertices.chunks(LANES).map(of_block));
         self.corners.clear();
         self.corners.extend(self.vertices.chunks(LANES).map(|chunk| {
             let mut corners = [[NONE; LANES]; N];
@@ -153,8 +164,10 @@ impl<const N: usize> Tree<N> {
         }));
     }
 
-    /// Marks the primitives with a vertex that `moves`.
-    pub(super) fn mark(&mut self, moves: impl Fn(u32) -> bool) {
+    /// Marks the primitives with a vertex that moves, given whether each vertex does, by its position.
+    pub(super) fn mark(&mut self, moves: &[bool]) {
+        let moving = (0..).zip(moves).filter(|(_, moves)| **moves);
+        let moving = moving.fold(0, |areas, (vertex, _)| areas | area(vertex));
         let mut below: &[Node] = &[];
         for (height, level) in self.levels.iter_mut().enumerate() {
             for (block, node) in level.nodes.iter_mut().enumerate() {
@@ -162,11 +175,16 @@ impl<const N: usize> Tree<N> {
                     let child = block * LANES + lane;
                     match height {
                         // There is no branch, since each answer is unpredictable.
-                        0 => self.vertices[child].iter().fold(false, |any, &vertex| any | moves(vertex)),
+                        0 => {
+                            let corners = self.vertices[child].iter();
+                            corners.fold(false, |any, &vertex| any | moves[vertex as usize])
+                        }
                         _ => below[child].moving != 0,
                     }
                 };
-                let lanes = 0..node.present.count_ones() as usize;
+                // Where few vertices move, most blocks have none of their areas.
+                let may_move = height > 0 || self.areas[block] & moving != 0;
+                let lanes = 0..if may_move { node.present.count_ones() as usize } else { 0 };
                 node.moving = lanes.fold(0, |mask, lane| mask | Mask::from(is_moving(lane)) << lane);
             }
             below = &level.nodes;
@@ -230,15 +248,15 @@ impl<const N: usize> Tree<N> {
         let vertices = &self.vertices;
         refit_level(leaves, only_moving, |position| {
             let corners = &vertices[position];
-            let mut moving = boxes[corners[0] as usize];
+            let mut moving = Bounds::new(&boxes[corners[0] as usize]);
             for &vertex in &corners[1..] {
-                moving.merge(&boxes[vertex as usize]);
+                moving.merge(&Bounds::new(&boxes[vertex as usize]));
             }
             moving
         });
         let mut below = &*leaves;
         for level in upper {
-            refit_level(level, only_moving, |child| below.nodes[child].bounds);
+            refit_level(level, only_moving, |child| Bounds::new(&below.nodes[child].bounds));
             below = level;
         }
     }
@@ -247,20 +265,116 @@ impl<const N: usize> Tree<N> {
 /// The number of blocks that one thread refits at a time.
 const BLOCKS: usize = 64;
 
-fn refit_level(level: &mut TreeLevel, only_moving: bool, child: impl Fn(usize) -> MovingBox<f32> + Sync) {
+fn refit_level(level: &mut TreeLevel, only_moving: bool, child: impl Fn(usize) -> Bounds + Sync) {
     let blocks = &mut level.blocks;
     parallel::for_each_chunk_with_chunk(&mut level.nodes, blocks, BLOCKS, |first, nodes, blocks| {
         for (index, (node, block)) in nodes.iter_mut().zip(blocks).enumerate() {
             if only_moving && node.moving == 0 {
                 continue;
             }
-            let mut bounds = MovingBox::empty();
+            let mut bounds = Bounds::new(&MovingBox::empty());
             for lane in 0..node.present.count_ones() as usize {
                 let moving = child((first + index) * LANES + lane);
-                block.set(lane, &moving);
+                block.set(lane, &moving.moving_box());
                 bounds.merge(&moving);
             }
-            node.bounds = bounds;
+            node.bounds = bounds.moving_box();
         }
     });
+}
+
+/// The bounds of a moving box, upper ones negated. So merging takes the smaller of each two, four at a time.
+#[derive(Clone, Copy)]
+struct Bounds([f32; 12]);
+
+impl Bounds {
+    #[inline(always)]
+    const fn new(moving: &MovingBox<f32>) -> Self {
+        let ([a, b, c], [d, e, f]) = (moving.start.lower, moving.start.upper);
+        let ([g, h, i], [j, k, l]) = (moving.end.lower, moving.end.upper);
+        Self([a, b, c, -d, -e, -f, g, h, i, -j, -k, -l])
+    }
+
+    #[inline(always)]
+    const fn moving_box(&self) -> MovingBox<f32> {
+        let [a, b, c, d, e, f, g, h, i, j, k, l] = self.0;
+        MovingBox {
+            start: Aabb {
+                lower: [a, b, c],
+                upper: [-d, -e, -f],
+            },
+            end: Aabb {
+                lower: [g, h, i],
+                upper: [-j, -k, -l],
+            },
+        }
+    }
+
+    /// Grows to the bounds of both. There is no NaN in a box.
+    #[inline(always)]
+    fn merge(&mut self, other: &Self) {
+        for (own, &other) in self.0.iter_mut().zip(&other.0) {
+            *own = if other < *own { other } else { *own };
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use selvedge_core::Motion;
+
+    /// The number of vertices: more than [areas](area) tell apart.
+    const VERTICES: u32 = 3 * 1024;
+
+    fn tree(edges: &[[u32; 2]]) -> Tree<2> {
+        let mut tree = Tree::default();
+        let centre = |edge: u32| [edges[edge as usize][0] as f32, 0.0, 0.0];
+        tree.build(0..edges.len() as u32, centre, None);
+        tree.connect(|edge| edges[edge as usize]);
+        tree
+    }
+
+    proptest! {
+        #[test]
+        fn marked_are_the_primitives_with_a_vertex_that_moves_and_the_blocks_with_such_a_primitive(
+            edges in prop::collection::vec((0..VERTICES, 0..VERTICES).prop_map(|(a, b)| [a, b]), 1..600),
+            moving in prop::collection::btree_set(0..VERTICES, 0..40),
+        ) {
+            let mut tree = tree(&edges);
+            let moves: Vec<bool> = (0..VERTICES).map(|vertex| moving.contains(&vertex)).collect();
+            tree.mark(&moves);
+            let mut below: Vec<bool> = tree.vertices.iter().map(|ends| ends.iter().any(|end| moving.contains(end))).collect();
+            for level in &tree.levels {
+                let marked = level.nodes.iter().flat_map(|node| (0..LANES).map(|lane| node.moving >> lane & 1 == 1));
+                let mut marked: Vec<bool> = marked.collect();
+                prop_assert!(marked.split_off(below.len()).iter().all(|marked| !marked));
+                prop_assert_eq!(marked, below);
+                below = level.nodes.iter().map(|node| node.moving != 0).collect();
+            }
+        }
+
+        #[test]
+        fn boxes_hold_the_boxes_of_their_vertices_and_no_more(
+            edges in prop::collection::vec((0..50_u32, 0..50_u32).prop_map(|(a, b)| [a, b]), 1..300),
+            ends in prop::collection::vec(prop::array::uniform6(-1.0..1.0_f32), 50),
+            infinite in 0..50_usize,
+        ) {
+            let point = |&[a, b, c, d, e, f]: &[f32; 6]| MovingBox::from_motion(&Motion::from(([a, b, c], [d, e, f])));
+            let mut boxes: Vec<MovingBox<f32>> = ends.iter().map(point).collect();
+            boxes[infinite].end = Aabb::everything();
+            let mut tree = tree(&edges);
+            tree.refit(&boxes, false);
+            let of_ends = |&[a, b]: &[u32; 2]| boxes[a as usize].merged(&boxes[b as usize]);
+            let mut below: Vec<MovingBox<f32>> = tree.vertices.iter().map(of_ends).collect();
+            for level in &tree.levels {
+                let held = (0..below.len()).map(|child| level.blocks[child / LANES].get(child % LANES));
+                prop_assert!(held.eq(below.iter().copied()));
+                let merged = |block: &[MovingBox<f32>]| block.iter().fold(MovingBox::empty(), |all, own| all.merged(own));
+                below = below.chunks(LANES).map(merged).collect();
+                prop_assert!(level.nodes.iter().map(|node| node.bounds).eq(below.iter().copied()));
+            }
+        }
+    }
 }

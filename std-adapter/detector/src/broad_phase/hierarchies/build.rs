@@ -71,10 +71,9 @@ impl Hierarchies {
         };
         let vertices = self.vertices.primitives.iter();
         let of_vertices: Vec<bool> = vertices.map(|&vertex| moving[vertex as usize]).collect();
-        let moves = |position: u32| of_vertices[position as usize];
-        self.vertices.mark(moves);
-        self.edges.mark(moves);
-        self.faces.mark(moves);
+        self.vertices.mark(&of_vertices);
+        self.edges.mark(&of_vertices);
+        self.faces.mark(&of_vertices);
     }
 
     pub(super) fn note_members(&mut self) {
