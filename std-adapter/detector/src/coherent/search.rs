@@ -139,6 +139,10 @@ impl<I: Interest> Search<I> {
         let [start, end] = expected.motion;
         let certain_gap = self.sieve.set_motion(reach, expected.motion, expected.largest, only);
         self.broad_phase.set_separation_of_neighbours(certain_gap);
+        if expected.largest.is_finite() {
+            // So are all positions: parts are far only where theirs are finite.
+            return self.broad_phase.update_finite(start, end);
+        }
         let updated = self.broad_phase.update(start, end);
         updated.expect("positions are finite");
     }
@@ -189,20 +193,20 @@ impl<I: Interest> Search<I> {
                 pairs.clear();
                 break;
             }
+            // Boxes are too coarse to leave out all pairs of far parts, and the sieve does not count on them.
+            let are_near = |vertices: &[u32; 4]| vertices.iter().all(|&vertex| parts.is_near(vertex));
+            pairs.reserve(left.len());
             for_each_in_order(left, count, by_first, places, |SievedPair { pair, stray }| {
-                let found = match known.find((kind, pair)) {
-                    Some(_) if only_new => None,
+                if let Some(same) = known.find((kind, pair)) {
                     // The caller's data stay.
-                    Some(same) => Some(*same),
-                    None => {
-                        let vertices = topology.vertices_of(kind, pair);
-                        let about = interest.about(kind, vertices);
-                        about.map(|data| NearPair::new(kind, pair, vertices, data))
+                    if !only_new && are_near(&same.vertices) {
+                        pairs.push(same.with_stray(stray));
                     }
-                };
-                // Boxes are too coarse to leave out all pairs of far parts, and the sieve does not count on them.
-                let found = found.filter(|found| found.vertices.iter().all(|&vertex| parts.is_near(vertex)));
-                pairs.extend(found.map(|found| found.with_stray(stray)));
+                    return;
+                }
+                let vertices = topology.vertices_of(kind, pair);
+                let about = interest.about(kind, vertices).filter(|_| are_near(&vertices));
+                pairs.extend(about.map(|data| NearPair::new(kind, pair, vertices, data).with_stray(stray)));
             });
         }
     }
