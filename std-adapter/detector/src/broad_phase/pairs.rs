@@ -18,15 +18,16 @@ pub(super) struct PairBuffer {
 /// from them.
 pub(crate) const CHUNK: usize = 4096;
 
-/// The set bits of each byte, lowest first. The numbers after them have no meaning.
-const SET_BITS: [[u8; 8]; 256] = {
-    let mut table = [[0; 8]; 256];
+/// The set bits of each byte, lowest first, each after a zero. The numbers after them have no meaning. With the zeros, eight
+/// pairs are sixteen sums side by side.
+const SET_BITS: [[u8; 16]; 256] = {
+    let mut table = [[0; 16]; 256];
     let mut byte = 0;
     while byte < 256 {
         let (mut count, mut bit) = (0, 0);
         while bit < 8 {
             if byte >> bit & 1 == 1 {
-                table[byte][count] = bit as u8;
+                table[byte][2 * count + 1] = bit as u8;
                 count += 1;
             }
             bit += 1;
@@ -66,11 +67,11 @@ impl PairBuffer {
     #[inline(always)]
     pub(super) fn push(&mut self, first: u32, second: u32, mask: Mask) {
         for (second, byte) in [(second, mask & 0xFF), (second + 8, mask >> 8)] {
-            let places = &mut self.pairs[self.len..self.len + 8];
-            let lanes = &SET_BITS[byte as usize];
-            for (place, &lane) in places.iter_mut().zip(lanes) {
-                *place = [first, second + u32::from(lane)];
+            let mut numbers: [u32; 16] = std::array::from_fn(|k| if k % 2 == 0 { first } else { second });
+            for (number, &lane) in numbers.iter_mut().zip(&SET_BITS[byte as usize]) {
+                *number += u32::from(lane);
             }
+            self.pairs[self.len..self.len + 8].copy_from_slice(numbers.as_chunks().0);
             self.len += byte.count_ones() as usize;
         }
     }
