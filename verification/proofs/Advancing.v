@@ -75,6 +75,7 @@ Proof.
   intro short. destruct (bar_is_large f fine env given value_of run pairs in_range k short) as (B & E & rep & big &
     small).
   pose proof (G_4 f fine). assert (0 <= Errors.reach f * Errors.reach f) by (apply Rmult_le_pos; lra).
+  pose proof (size_bounds f fine env given value_of run pairs in_range k short) as (_ & _ & e0). pose proof (l_pos f).
   exists B. split; [exact E|]. split; [exact rep|]. lra.
 Qed.
 Theorem held_is_ahead u : is_short 0 -> 0 <= T 0 <= 1 -> says f env value_of (held_for_the_pair pairs) ->

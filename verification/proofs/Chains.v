@@ -11,9 +11,9 @@ Scheme number_mask := Induction for number Sort Prop with mask_number := Inducti
 Combined Scheme numbers_and_masks from number_mask, mask_number.
 
 Section Chains.
-Variables prec emax underflow_ largest_ extent_ reach_ : Z.
+Variables prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ : Z.
 Context (prec_gt_0_ : Prec_gt_0 prec) (prec_lt_emax_ : Prec_lt_emax prec emax).
-Definition constants_of := Constants (Nearest.format_of prec emax underflow_ largest_) extent_ reach_.
+Definition constants_of := Constants (Nearest.format_of prec emax underflow_ largest_) extent_ reach_ safe_ vanishing_.
 Notation f := constants_of.
 Hypothesis fine : Corners.reasonable_constants f.
 Definition ok : reasonable f := Corners.reasonable_base f fine.
@@ -36,6 +36,9 @@ Definition divided v w := match v, w with
     false)
     else settled (near (x / y))
   | _, _ => NaN end.
+Definition rooted v := match v with
+  | Number x => if Rlt_dec x 0 then NaN else settled (near (sqrt x))
+  | Infinite true => Infinite true | _ => NaN end.
 Definition is_greater v w := match v, w with
   | NaN, _ | _, NaN => false
   | Number x, Number y => if Rlt_dec y x then true else false
@@ -52,7 +55,8 @@ Fixpoint nearest (e : number) : value := match e with
   | Magnitude a => magnitude (nearest a)
   | Larger a b => if is_greater (nearest b) (nearest a) then nearest b else nearest a
   | Smaller a b => if is_greater (nearest a) (nearest b) then nearest b else nearest a
-  | Select m a b => if is_said m then nearest a else nearest b end
+  | Select m a b => if is_said m then nearest a else nearest b
+  | Root a => rooted (nearest a) end
 with is_said (m : mask) : bool := match m with
   | Always => true
   | Greater a b => is_greater (nearest a) (nearest b)
@@ -87,7 +91,7 @@ Proof.
 Qed.
 Theorem an_execution_exists : execution f env nearest given.
 Proof.
-  intros [i|c|a b|a b|a b|a b|a|a|a b|a b|m a b]; cbn [nearest]; try reflexivity.
+  intros [i|c|a b|a b|a b|a b|a|a|a b|a b|m a b|a]; cbn [nearest]; try reflexivity.
   1, 2: unfold sum; rewrite !seen_same; destruct (nearest a) as [x| |], (nearest b) as [y| |]; cbn; try reflexivity;
     try exact I; apply settled_result.
   - unfold product. rewrite !seen_same. destruct (nearest a) as [x| |], (nearest b) as [y| |]; cbn; try reflexivity;
@@ -105,6 +109,8 @@ Proof.
     + left. split; [|auto]. intro h. apply is_greater_spec in h. congruence.
   - pose proof (said m) as s. destruct (is_said m); [left; tauto|right]. split; [|reflexivity].
     intro h. apply s in h. discriminate.
+  - unfold root. rewrite seen_same. destruct (nearest a) as [x|[|]|]; cbn; try reflexivity.
+    destruct (Rlt_dec x 0); split; intro; try lra; try reflexivity. apply settled_result.
 Qed.
 
 (* An execution in binary numbers, as long as all are finite. *)
@@ -121,7 +127,9 @@ Definition constant_number c := match c with
   | LargestExtent => Some (power_of_two reach_)
   | Half => Some (power_of_two (-1))
   | Small n => if ((0 <=? n) && (n <? 256))%Z then Some (binary_normalize prec emax _ _ mode_NE n 0 false) else None
-    end.
+  | LargestEdge => Some (power_of_two largest_)
+  | SafeSquare => Some (power_of_two safe_)
+  | LengthUnderflow => Some (power_of_two vanishing_) end.
 Fixpoint run (e : number) : option binary := match e with
   | Input i => Some (given_ i)
   | Constant c => constant_number c
@@ -135,7 +143,10 @@ Fixpoint run (e : number) : option binary := match e with
   | Magnitude a => option_map (@Babs prec emax) (run a)
   | Larger a b => match run a, run b with Some x, Some y => Some (if Bltb x y then y else x) | _, _ => None end
   | Smaller a b => match run a, run b with Some x, Some y => Some (if Bltb y x then y else x) | _, _ => None end
-  | Select m a b => match holds m with Some true => run a | Some false => run b | None => None end end
+  | Select m a b => match holds m with Some true => run a | Some false => run b | None => None end
+  | Root a => match run a with
+    | Some x => if Bltb x (power_of_two (-1)) then None else finite (Bsqrt mode_NE x)
+    | None => None end end
 with holds (m : mask) : option bool := match m with
   | Always => Some true
   | Greater a b => match run a, run b with Some x, Some y => Some (Bltb y x) | _, _ => None end
@@ -194,8 +205,14 @@ Proof.
     pose proof (Corners.small_underflow f fine) as B. pose proof (Corners.extents f fine) as C.
     change (extent_ - prec >= 3 - emax - prec + prec - 1 + 2)%Z in A. change (extent_ <= 0)%Z in B.
     change (0 <= reach_ <= largest_)%Z in C.
-    destruct c as [| | | | |n]; cbn [constant_number constant_value] in h |- *; try injection h as <-.
-    1, 2, 3, 4: match goal with |- context [power_of_two ?e] => destruct (exact_power e) as [-> fin]; [lia|]; auto end.
+    pose proof (Corners.safe f fine) as D.
+    pose proof (Corners.vanishing f fine) as E_. pose proof (edges f ok) as F.
+    change (3 - emax - prec + prec - 1 + 2 + prec <= safe_ <= 0)%Z in D.
+    change (3 - emax - prec + prec - 1 + 2 <= 2 * vanishing_ <= 0)%Z in E_. change (0 <= largest_)%Z in F.
+    pose proof (room f ok) as G_. change (3 * largest_ + 38 <= emax)%Z in G_.
+    destruct c as [| | | | |n| | |]; cbn [constant_number constant_value] in h |- *; try injection h as <-.
+    1, 2, 3, 4, 7, 8, 9: match goal with |- context [power_of_two ?e] => destruct (exact_power e) as [-> fin]; [lia|];
+      auto end.
     + destruct (exact_power (-1)) as [-> fin]; [lia|]. split; [reflexivity|exact fin].
     + destruct (_ && _)%bool eqn:range; [|discriminate]. injection h as <-. apply andb_prop in range as [lo hi].
       apply Z.leb_le in lo. apply Z.ltb_lt in hi. destruct (whole_is n 0) as [E fin]; [lia|lia|].
@@ -235,6 +252,13 @@ Proof.
     injection h as <-. destruct (ra x eq_refl) as [-> fx], (rb y eq_refl) as [-> fy]. cbn [is_greater].
     rewrite (less y x fy fx). destruct (Rlt_dec (B2R y) (B2R x)); auto.
   - intros m rm a ra b rb out h. destruct (holds m) as [[|]|]; [| |discriminate]; rewrite (rm _ eq_refl); auto.
+  - intros a ra out h. destruct (run a) as [x|] eqn:Ex; [|discriminate]. destruct (ra x eq_refl) as [-> fx].
+    destruct (Bltb x (power_of_two (-1))) eqn:less_; [discriminate|].
+    destruct (exact_power (-1)) as [half fin]; [pose proof facts; lia|]. rewrite (less x _ fx fin), half in less_.
+    change (power (-1)) with (/ 2) in less_. destruct (Rlt_dec (B2R x) (/ 2)) as [|large]; [discriminate|].
+    cbn [rooted]. destruct (Rlt_dec (B2R x) 0); [lra|]. unfold Nearest.finite in h.
+    destruct (is_finite (Bsqrt mode_NE x)) eqn:finite_; [|discriminate]. injection h as <-.
+    split; [|exact finite_]. apply of_settled. apply (Bsqrt_correct prec emax _ _ mode_NE x).
   - intros b h. injection h as <-. reflexivity.
   - intros a ra b rb out h. destruct (run a) as [x|] eqn:Ex; [|discriminate]. destruct (run b) as [y|] eqn:Ey;
     [|discriminate].
@@ -296,21 +320,24 @@ Definition clipping_advances code (f : constants) := exists env place given valu
   exists u, value_of (Advancing.until_volume code) = Number u /\ 0 < u.
 
 Section OfAPair.
-Variables prec emax underflow_ largest_ extent_ reach_ : Z.
+Variables prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ : Z.
 Context (p0 : Prec_gt_0 prec) (pe : Prec_lt_emax prec emax).
-Notation f := (constants_of prec emax underflow_ largest_ extent_ reach_).
+Notation f := (constants_of prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_).
 Hypothesis fine : Corners.reasonable_constants f.
 Variable place_ : nat -> Expressions.time -> Expressions.axis -> Z.
 Hypothesis small : is_small place_.
 Variable code : Advancing.proofs.
 Notation input_ := (fun i => whole prec emax p0 pe (halves place_ i) (-1)).
-Definition is_true m := match holds prec emax underflow_ extent_ reach_ p0 pe input_ m with Some b => b | None => false
+Definition is_true m := match holds prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe input_ m with
+  Some b => b | None => false
   end.
 Definition is_beyond n e := is_true (Greater e (Constant (Small n))) &&
-  match run prec emax underflow_ extent_ reach_ p0 pe input_ e with Some _ => true | None => false end.
+  match run prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe input_ e with Some _ => true | None =>
+    false end.
 Lemma input_is i : B2R (input_ i) = IZR (halves place_ i) / 2 /\ is_finite (input_ i) = true.
 Proof.
-  destruct (whole_is prec emax underflow_ largest_ extent_ reach_ p0 pe fine (halves place_ i) (-1)) as [E fin];
+  destruct (whole_is prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe fine (halves place_ i) (-1))
+    as [E fin];
     [apply small|lia|]. split; [|exact fin]. rewrite E. unfold F2R; cbn [Fnum Fexp bpow radix_val radix2]. cbn. lra.
 Qed.
 Lemma what_is_computed : is_true (Advancing.is_in_range code) = true -> exists env place given value_of,
@@ -318,13 +345,15 @@ Lemma what_is_computed : is_true (Advancing.is_in_range code) = true -> exists e
   (forall n e, is_beyond n e = true -> exists u, value_of e = Number u /\ IZR n < u).
 Proof.
   intro range. set (given i := B2R (input_ i)).
-  set (env_ := env prec emax underflow_ largest_ extent_ reach_ fine).
-  set (nearest_ := nearest prec emax underflow_ largest_ extent_ reach_ fine given).
+  set (env_ := env prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ fine).
+  set (nearest_ := nearest prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ fine given).
   assert (E : execution f env_ nearest_ given) by (apply an_execution_exists; assumption).
-  pose proof (run_is_nearest prec emax underflow_ largest_ extent_ reach_ p0 pe fine given input_ (fun i => eq_refl)
+  pose proof (run_is_nearest prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe fine given input_
+    (fun i => eq_refl)
     (fun i => proj2 (input_is i))) as [numbers _].
   assert (truth : forall m, is_true m = true -> says f env_ nearest_ m).
-  { intros m h. apply (what_holds_is_said prec emax underflow_ largest_ extent_ reach_ p0 pe fine given input_ (fun i =>
+  { intros m h. apply (what_holds_is_said prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe fine
+    given input_ (fun i =>
       eq_refl) (fun i => proj2 (input_is i))). unfold is_true in h. destruct (holds _ _ _ _ _ _ _ _ _) as [[|]|];
       congruence. }
   assert (value_ : forall i, given i = IZR (halves place_ i) / 2) by (intro i; apply input_is).
@@ -369,11 +398,11 @@ Proof.
   rewrite <- m0. apply (Advancing.Held code place f env_ given value_of u); auto.
 Qed.
 Lemma single_is_fine : Corners.reasonable_constants Advance.binary32.
-Proof. constructor; [exact Witnesses.single_is_reasonable| | |]; cbn; lia. Qed.
+Proof. constructor; [exact Witnesses.single_is_reasonable| | | | | |]; cbn; lia. Qed.
 Lemma double_is_fine : Corners.reasonable_constants Advance.binary64.
-Proof. constructor; [exact Witnesses.double_is_reasonable| | |]; cbn; lia. Qed.
-Notation in_single theorem := (theorem 24 128 (-117) 30 (-100) 29 _ _ single_is_fine _)%Z.
-Notation in_double theorem := (theorem 53 1024 (-1000) 250 (-960) 250 _ _ double_is_fine _)%Z.
+Proof. constructor; [exact Witnesses.double_is_reasonable| | | | | |]; cbn; lia. Qed.
+Notation in_single theorem := (theorem 24 128 (-117) 30 (-100) 29 (-100) (-62) _ _ single_is_fine _)%Z.
+Notation in_double theorem := (theorem 53 1024 (-1000) 250 (-960) 250 (-900) (-510) _ _ double_is_fine _)%Z.
 Theorem every_proof_holds_for_some f : f = Advance.binary32 \/ f = Advance.binary64 ->
   every_proof_holds Advancing.of_a_vertex_and_a_face f /\ every_proof_holds Advancing.of_two_edges f.
 Proof.

@@ -112,7 +112,7 @@ Qed.
 (* The bar T is large enough, and no overflow. *)
 Definition bar k := product_error pairs (direction k).
 Theorem bar_is_large k : is_short k -> exists B, value_of (bar k) = Number B /\ representable f B /\
-  1.1 * err k + 100 * l <= B <= G * G.
+  1.2 * err k + 400 * l <= B <= G * G.
 Proof.
   intro short. pose proof (e_pos f) as e0. pose proof (e_small f ok) as es. pose proof (l_pos f) as l0.
     pose proof (l_small f ok) as ls.
@@ -346,7 +346,7 @@ Proof.
   assert (step3 : K * z * Dn = K * N) by (rewrite <- zD; ring).
   assert (step4 : K * N <= K * ((1 + e1) * A)) by (apply Rmult_le_compat_l; lra).
   assert (step5 : K * ((1 + e1) * A) <= (1 - e1) * A) by (rewrite <- Rmult_assoc; apply Rmult_le_compat_r; lra).
-  apply (Rmult_le_reg_l (1 - e1)); [lra|]. 
+  apply (Rmult_le_reg_l (1 - e1)); [lra|].
   assert (((1 - e1) * ((y - 3 * l) * D)) <= (1 - e1) * (K * z * D)) by (apply Rmult_le_compat_l; lra). lra.
 Qed.
 End Directions.

@@ -7,7 +7,8 @@ Open Scope R_scope.
 
 (* The format's constants that the time of impact adds: the exponents of μ, of the largest extent and of two limits of
    lengths. *)
-Record constants := Constants { base :> format; extent_underflow : Z; largest_extent : Z }.
+Record constants := Constants { base :> format; extent_underflow : Z; largest_extent : Z; safe_square : Z;
+  length_underflow : Z }.
 
 (* A coordinate of one of the four points, a component of one of the directions that are tried, a time, a length or the
    slack of a gap. *)
@@ -17,12 +18,14 @@ Inductive input :=
 | Place (c : Expressions.coordinate)
 | Along (direction : nat) (a : Expressions.axis)
 | Moment (n : nat).
-Inductive constant := UnitRoundoff | Underflow | ExtentUnderflow | LargestExtent | Half | Small (count : Z).
+Inductive constant := UnitRoundoff | Underflow | ExtentUnderflow | LargestExtent | Half | Small (count : Z) |
+  LargestEdge
+  | SafeSquare | LengthUnderflow.
 Inductive number :=
 | Input (i : input) | Constant (c : constant)
 | Sum (a b : number) | Minus (a b : number) | Product (a b : number) | Quotient (a b : number)
 | Negative (a : number) | Magnitude (a : number)
-| Larger (a b : number) | Smaller (a b : number) | Select (m : mask) (a b : number)
+| Larger (a b : number) | Smaller (a b : number) | Select (m : mask) (a b : number) | Root (a : number)
 with mask := Always | Greater (a b : number) | Both (a b : mask) | Either (a b : mask) | Not (m : mask).
 
 Inductive value := Number (x : R) | Infinite (positive : bool) | NaN.
@@ -72,6 +75,12 @@ Definition quotient v w (divisor_is_positive : Prop) out := match seen_value v, 
   | NaN, _ | _, NaN => out = NaN
   | _, _ => True end.
 
+(* The root of a negative number is NaN. *)
+Definition root v out := match seen_value v with
+  | Number x => (0 <= x -> result (sqrt x) out) /\ (x < 0 -> out = NaN)
+  | Infinite true => out = Infinite true
+  | _ => out = NaN end.
+
 (* A comparison is false with NaN. *)
 Definition greater v w := match seen_value v, seen_value w with
   | NaN, _ | _, NaN => False
@@ -89,7 +98,10 @@ Definition constant_value c := match c with
   | ExtentUnderflow => power (extent_underflow f)
   | LargestExtent => power (largest_extent f)
   | Half => / 2
-  | Small count => IZR count end.
+  | Small count => IZR count
+  | LargestEdge => power (largest_edge f)
+  | SafeSquare => power (safe_square f)
+  | LengthUnderflow => power (length_underflow f) end.
 
 Section Values.
 Variable value_of : number -> value.
@@ -116,6 +128,7 @@ Definition execution (given : input -> R) := forall e, match e with
   | Magnitude a => value_of e = magnitude (value_of a)
   | Larger a b => larger (value_of a) (value_of b) (value_of e)
   | Smaller a b => smaller (value_of a) (value_of b) (value_of e)
-  | Select m a b => (says m /\ value_of e = value_of a) \/ (~ says m /\ value_of e = value_of b) end.
+  | Select m a b => (says m /\ value_of e = value_of a) \/ (~ says m /\ value_of e = value_of b)
+  | Root a => root (value_of a) (value_of e) end.
 End Values.
 End Machine.

@@ -22,7 +22,8 @@ Notation u := (unit_roundoff f).
 Definition proves (k : expr) bound := l <= bound /\ (bound < val k -> 0 < exact D k) /\
   (val k < - bound -> exact D k < 0).
 (* And some of the bound is left over, for what is computed from the value. *)
-Definition is_near (k : expr) bound := exists z, rounds f z (val k) /\ Rabs (z - exact D k) <= 0.985 * bound.
+Definition is_near (k : expr) bound := 490 * l <= bound /\ exists z, rounds f z (val k) /\
+  Rabs (z - exact D k) <= 0.985 * bound.
 
 Section InRange.
 Hypothesis in_range : forall c, exists x, value_of (Difference c) = Number x /\ Rabs x <= reach f.
@@ -52,7 +53,11 @@ Proof.
   assert (IZR (losses a b) <= 490) by (now apply IZR_le).
   assert (l * m ^ 2 * IZR (losses a b) <= l * m ^ 2 * 490) by (apply Rmult_le_compat_l; [apply Rmult_le_pos;
     lra|assumption]).
-  split; [split; [exact big|]|exists z; split; [exact rounded|lra]]. apply (sign_of f ok z _ _ bound rounded);
+  assert (l * 1 <= l * m ^ 2) by (apply Rmult_le_compat_l; lra).
+  assert (0 <= (q f n + q f 3 - 2) * permanent d (Sum a b)).
+  { apply Rmult_le_pos; [pose proof (q_ge f n); pose proof (q_ge f 3); lra|apply permanent_pos]. }
+  split; [split; [exact big|]|split; [lra|exists z; split; [exact rounded|lra]]]. apply (sign_of f ok z _ _ bound
+    rounded);
     [lra|exact rep].
 Qed.
 

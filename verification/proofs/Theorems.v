@@ -7,7 +7,9 @@ From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent
   Magnitudes.
 From Selvedge Require Orders Boxes Apart Certificates Nearest Witnesses Integers.
-From Selvedge Require Machine Nearness Corners Advance Advancing Checker Chains Narrowing Gap Gaps Kept.
+From Selvedge Require Machine Nearness Corners Advance Advancing Checker Chains Narrowing Gap Gaps Kept Least Normals
+  Beyond
+  Separated DirectionsBeyond AdvanceBeyond AdvancingBeyond.
 From Coq Require QArith_base List.
 Import List.ListNotations.
 Open Scope R_scope.
@@ -410,7 +412,92 @@ Proof.
       exact (kept_edges_stay_apart f place s t i r which kept time i01 r01).
 Qed.
 
-(* 14. Certificates.v has the lemmas about exact numbers that they and truncation rest on: a direction held or turning
+(* 14. **The filter with a separation**, from the bits to the geometry. `Separated.is_culled` has an execution of the
+       traced decision (Beyond.v), without a lane that needs the permanent or with one, in any environment, which comes
+       out true for a separation s. A subnormal one is raised to the smallest normal number, as
+       `Filter::with_separation` does. Then the sets stay farther apart than s throughout the step: the squared distance
+       of any of their points exceeds that of s. It holds in either format, so that the widened tier culls no more. *)
+Theorem a_culled_vertex_and_face_stay_apart f place s t i j r code : f = Advance.binary32 \/ f = Advance.binary64 ->
+  lam (Machine.base f) <= s ->
+  code = Beyond.a_vertex_and_a_face.culled_by_permanent_alone \/ code = Beyond.a_vertex_and_a_face.culled_by_permanent
+    -> Separated.is_culled f code place s -> 0 <= t <= 1 ->
+  0 <= i -> 0 <= j -> 0 <= r -> i + j + r = 1 -> let at_time n := at_ (path_of place n) t in
+  s ^ 2 < Certificates.length_squared (minus (at_time 0%nat) (plus (scaled i (at_time 1%nat)) (plus (scaled j (at_time
+    2%nat)) (scaled r (at_time 3%nat))))).
+Proof.
+  intro which. assert (fine : Corners.reasonable_constants f).
+  { destruct constants_of_the_time_of_impact. destruct which as [-> | ->]; assumption. }
+  intros. eapply Separated.a_culled_vertex_and_face_stay_apart; eassumption.
+Qed.
+Theorem culled_edges_stay_apart f place s t i r code : f = Advance.binary32 \/ f = Advance.binary64 ->
+  lam (Machine.base f) <= s ->
+  code = Beyond.two_edges.culled_by_permanent_alone \/ code = Beyond.two_edges.culled_by_permanent ->
+  Separated.is_culled f code place s -> 0 <= t <= 1 -> 0 <= i <= 1 -> 0 <= r <= 1 ->
+  let at_time n := at_ (path_of place n) t in
+  s ^ 2 < Certificates.length_squared (minus (plus (scaled (1 - i) (at_time 0%nat)) (scaled i (at_time 1%nat)))
+    (plus (scaled (1 - r) (at_time 2%nat)) (scaled r (at_time 3%nat)))).
+Proof.
+  intro which. assert (fine : Corners.reasonable_constants f).
+  { destruct constants_of_the_time_of_impact. destruct which as [-> | ->]; assumption. }
+  intros. eapply Separated.culled_edges_stay_apart; eassumption.
+Qed.
+(* Coq runs the traced decisions: some pairs of both kinds are culled. *)
+Theorem the_filter_with_a_separation_culls_some f alone : f = Advance.binary32 \/ f = Advance.binary64 ->
+  (exists place, Separated.is_culled f (if alone : bool then Beyond.a_vertex_and_a_face.culled_by_permanent_alone else
+    Beyond.a_vertex_and_a_face.culled_by_permanent) place (1 / 2)) /\
+  (exists place, Separated.is_culled f (if alone then Beyond.two_edges.culled_by_permanent_alone else
+    Beyond.two_edges.culled_by_permanent) place (1 / 2)).
+Proof. exact (Kept.some_are_culled f alone). Qed.
+
+(* 15. **The time of impact with a separation**, by directions. A chain of rounds as in (10), each a direction that is
+       held, turns or moves on a curve, with the bars of a separation s (AdvanceBeyond.v). `AdvancingBeyond.computed`
+         says
+       what is assumed: s is no subnormal number, and at most the largest extent, as the code requires. Up to the time
+       that the chain reaches, and at it, the sets are farther apart than s, whatever is flushed. *)
+Theorem a_vertex_and_a_face_stay_beyond place s begin until t i j r : AdvancingBeyond.reaches
+  AdvancingBeyond.of_a_vertex_and_a_face place s begin until -> begin <= t <= until -> t <= 1 ->
+  0 <= i -> 0 <= j -> 0 <= r -> i + j + r = 1 -> let at_time n := at_ (path_of place n) t in
+  s ^ 2 < Certificates.length_squared (minus (at_time 0%nat) (plus (scaled i (at_time 1%nat)) (plus (scaled j (at_time
+    2%nat)) (scaled r (at_time 3%nat))))).
+Proof. exact (AdvancingBeyond.a_vertex_and_a_face_stay_apart place s begin until t i j r). Qed.
+Theorem two_edges_stay_beyond place s begin until t i r : AdvancingBeyond.reaches AdvancingBeyond.of_two_edges place s
+  begin until -> begin <= t <= until -> t <= 1 -> 0 <= i <= 1 -> 0 <= r <= 1 ->
+  let at_time n := at_ (path_of place n) t in
+  s ^ 2 < Certificates.length_squared (minus (plus (scaled (1 - i) (at_time 0%nat)) (scaled i (at_time 1%nat)))
+    (plus (scaled (1 - r) (at_time 2%nat)) (scaled r (at_time 3%nat)))).
+Proof. exact (AdvancingBeyond.two_edges_stay_apart place s begin until t i r). Qed.
+Theorem chains_with_a_separation_reach_the_end f : f = Advance.binary32 \/ f = Advance.binary64 ->
+  (exists place, AdvancingBeyond.reaches AdvancingBeyond.of_a_vertex_and_a_face place (1 / 2) 0 1) /\
+  (exists place, AdvancingBeyond.reaches AdvancingBeyond.of_two_edges place (1 / 2) 0 1).
+Proof. exact (Kept.chains_with_a_separation_reach_the_end f). Qed.
+(* An accepted step with a separation s: each pair that can touch in it is kept by a direction, or a chain of rounds
+  with
+   s reaches its end. Then each pair stays farther apart than s during it. *)
+Theorem an_accepted_step_keeps_the_separation s (vertices_and_faces edges : list (coordinate -> R)) t :
+  (forall place, List.In place vertices_and_faces -> AdvancingBeyond.reaches AdvancingBeyond.of_a_vertex_and_a_face
+    place
+    s 0 1 \/ exists f, (f = Advance.binary32 \/ f = Advance.binary64) /\ Gaps.is_kept f Gap.a_vertex_and_a_face.keeps
+      place s) ->
+  (forall place, List.In place edges -> AdvancingBeyond.reaches AdvancingBeyond.of_two_edges place s 0 1 \/
+    exists f, (f = Advance.binary32 \/ f = Advance.binary64) /\ Gaps.is_kept f Gap.two_edges.keeps place s) ->
+  0 <= t <= 1 ->
+  (forall place i j r, List.In place vertices_and_faces -> 0 <= i -> 0 <= j -> 0 <= r -> i + j + r = 1 ->
+    let at_time n := at_ (path_of place n) t in s ^ 2 < Certificates.length_squared (minus (at_time 0%nat) (plus (scaled
+      i (at_time 1%nat)) (plus (scaled j (at_time 2%nat)) (scaled r (at_time 3%nat)))))) /\
+  (forall place i r, List.In place edges -> 0 <= i <= 1 -> 0 <= r <= 1 -> let at_time n := at_ (path_of place n) t in
+    s ^ 2 < Certificates.length_squared (minus (plus (scaled (1 - i) (at_time 0%nat)) (scaled i (at_time 1%nat)))
+      (plus (scaled (1 - r) (at_time 2%nat)) (scaled r (at_time 3%nat))))).
+Proof.
+  intros vf ee time. split.
+  - intros place i j r inside i0 j0 r0 one. destruct (vf place inside) as [chain|(f & which & kept)].
+    + apply (a_vertex_and_a_face_stay_beyond place s 0 1 t i j r chain time); lra.
+    + exact (a_kept_vertex_and_face_stay_apart f place s t i j r which kept time i0 j0 r0 one).
+  - intros place i r inside i01 r01. destruct (ee place inside) as [chain|(f & which & kept)].
+    + apply (two_edges_stay_beyond place s 0 1 t i r chain time); lra.
+    + exact (kept_edges_stay_apart f place s t i r which kept time i01 r01).
+Qed.
+
+(* 16. Certificates.v has the lemmas about exact numbers that they and truncation rest on: a direction held or turning
        over a part of the step, the volume there, shares of ways. *)
 
 Print Assumptions formats_are_reasonable.
@@ -456,6 +543,13 @@ Print Assumptions a_kept_vertex_and_face_stay_apart.
 Print Assumptions kept_edges_stay_apart.
 Print Assumptions some_pairs_are_kept.
 Print Assumptions an_accepted_step_has_no_contact.
+Print Assumptions a_culled_vertex_and_face_stay_apart.
+Print Assumptions culled_edges_stay_apart.
+Print Assumptions the_filter_with_a_separation_culls_some.
+Print Assumptions a_vertex_and_a_face_stay_beyond.
+Print Assumptions two_edges_stay_beyond.
+Print Assumptions chains_with_a_separation_reach_the_end.
+Print Assumptions an_accepted_step_keeps_the_separation.
 Print Assumptions Certificates.a_product_bounds_the_distance.
 Print Assumptions Certificates.ahead_of_the_triangle.
 Print Assumptions Certificates.between_two_ahead.

@@ -4,6 +4,7 @@
 //! prove.
 
 use crate::Text;
+use crate::beyond;
 use crate::gappa::tetrahedron;
 use crate::narrowed;
 use crate::symbols::{MaskStep, Step, Trace, Traced, TracedMask, if_any, trace};
@@ -56,8 +57,10 @@ From Selvedge Require Import Expressions Machine.
 pub fn files() -> Vec<Text> {
     [
         ("Filter.v", filter()),
+        ("Beyond.v", beyond::filter()),
         ("Boxes.v", boxes()),
         ("Advance.v", advance()),
+        ("AdvanceBeyond.v", beyond::advance()),
         ("Gap.v", gaps()),
         ("Narrowed.v", narrowed::text()),
     ]
@@ -121,7 +124,7 @@ fn gaps() -> String {
     ] {
         let (masks, steps) = trace(|| {
             let PairPoints { start, end } = coordinates();
-            let direction = Vector::from(["X", "Y", "Z_"].map(|axis| Traced::input(format!("Along 0 {axis}"))));
+            let direction = direction(0);
             let [separation, largest, slack] =
                 ["Separation", "LargestCoordinate", "Slack"].map(|name| Traced::input(format!("Length {name}")));
             let threshold = gap::threshold(separation, gap::error(largest), slack);
@@ -140,7 +143,7 @@ fn gaps() -> String {
     text
 }
 
-fn machine_input(name: &str) -> String {
+pub(crate) fn machine_input(name: &str) -> String {
     match name.split(' ').next() {
         Some("Coordinate") => format!("Input (Place ({name}))"),
         _ => format!("Input ({name})"),
@@ -149,13 +152,17 @@ fn machine_input(name: &str) -> String {
 
 /// The exponents of the constants that only the time of impact has.
 fn constants<S: Scalar>(name: &str, text: &mut String) {
-    let [underflow, largest] = [S::EXTENT_UNDERFLOW, S::LARGEST_EXTENT].map(|constant| exponent(constant.to_f64()));
-    writeln!(text, "Definition {name} := Constants Filter.{name} ({underflow}) {largest}.").expect("a string");
+    let constants = [S::EXTENT_UNDERFLOW, S::LARGEST_EXTENT, S::SAFE_SQUARE, S::LENGTH_UNDERFLOW];
+    let [underflow, largest, square, length] = constants.map(|constant| exponent(constant.to_f64()));
+    writeln!(
+        text,
+        "Definition {name} := Constants Filter.{name} ({underflow}) {largest} ({square}) ({length})."
+    )
+    .expect("a string");
 }
 
 /// Writes the assumptions and results of each proof of one round, for corners in range.
 fn proofs_of_advance<const N: usize>(of: &str, corners: fn(&PairPoints<Traced>) -> Corners<Traced, N>, text: &mut String) {
-    let direction = |number: usize| Vector::from(["X", "Y", "Z_"].map(|axis| Traced::input(format!("Along {number} {axis}"))));
     let ((margins, masks, times), steps) = trace(|| {
         let corners = corners(&coordinates());
         let in_range = corners.are_in_range();
@@ -209,8 +216,13 @@ fn box_tests<P: PairShape>(of: &str, text: &mut String) {
     writeln!(text, "End {of}.\n").expect("a string");
 }
 
+/// A direction that is tried.
+pub(crate) fn direction(number: usize) -> Vector<Traced> {
+    Vector::from(["X", "Y", "Z_"].map(|axis| Traced::input(format!("Along {number} {axis}"))))
+}
+
 /// A pair's 24 coordinates.
-fn coordinates() -> PairPoints<Traced> {
+pub(crate) fn coordinates() -> PairPoints<Traced> {
     let points = |end: &str| {
         [0, 1, 2, 3]
             .map(|point| Vector::from(["X", "Y", "Z_"].map(|axis| Traced::input(format!("Coordinate {point} {end} {axis}")))))
@@ -274,7 +286,7 @@ fn step(number: Traced, trace: &Trace) -> &Step {
 }
 
 /// Writes definitions of the terms that are used, each once.
-struct Terms<'a> {
+pub(crate) struct Terms<'a> {
     trace: &'a Trace,
     names: BTreeMap<String, String>,
     /// The names of steps and masks whose terms are written.
@@ -282,12 +294,12 @@ struct Terms<'a> {
     masks: BTreeMap<usize, String>,
     number_type: &'static str,
     /// Returns the term of an input from its name.
-    input: fn(&str) -> String,
-    text: String,
+    pub(crate) input: fn(&str) -> String,
+    pub(crate) text: String,
 }
 
 impl<'a> Terms<'a> {
-    fn new(number_type: &'static str, trace: &'a Trace) -> Self {
+    pub(crate) fn new(number_type: &'static str, trace: &'a Trace) -> Self {
         Self {
             trace,
             names: BTreeMap::new(),
@@ -299,13 +311,13 @@ impl<'a> Terms<'a> {
         }
     }
 
-    fn define(&mut self, name: &str, number: Traced) {
+    pub(crate) fn define(&mut self, name: &str, number: Traced) {
         let term = self.number(number);
         writeln!(self.text, "Definition {name} : {} := {term}.", self.number_type).expect("a string");
     }
 
     /// Defines a number whose name stands for it in all that follows. So what follows is compared without it.
-    fn define_for_use(&mut self, name: &str, number: Traced) {
+    pub(crate) fn define_for_use(&mut self, name: &str, number: Traced) {
         self.define(name, number);
         let term = self.number(number);
         for known in self.names.values_mut().chain(self.steps.values_mut()) {
@@ -352,7 +364,7 @@ impl<'a> Terms<'a> {
                 let (a, b) = (self.number(a), self.number(b));
                 format!("Select {mask} {a} {b}")
             }
-            other @ Step::Root(_) => panic!("{other:?} is not known to the proof"),
+            Step::Root(a) => format!("Root {}", self.number(a)),
         };
         let name = self.named('s', self.number_type, term);
         self.steps.insert(index, name.clone());
@@ -364,7 +376,7 @@ impl<'a> Terms<'a> {
         format!("{name} {a} {b}")
     }
 
-    fn mask(&mut self, mask: TracedMask) -> String {
+    pub(crate) fn mask(&mut self, mask: TracedMask) -> String {
         if let Some(name) = self.masks.get(&mask.index) {
             return name.clone();
         }

@@ -10,6 +10,7 @@
 #![allow(clippy::must_use_candidate, reason = "what traces and texts return is all that they do")]
 
 pub mod accepted;
+mod beyond;
 pub mod coq;
 pub mod gappa;
 mod narrowed;

@@ -9,10 +9,11 @@ use std::collections::BTreeMap;
 use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
 /// A number that knows how it was computed. The thread keeps its steps: see [`trace`].
+///
+/// The order of the variants is that of `PartialOrd`: a step is greater than zero, since core asks whether a separation is
+/// positive before it computes with one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Traced {
-    /// The result of a step of the current trace.
-    Step(usize),
     /// The unit roundoff.
     UnitRoundoff,
     /// η.
@@ -33,6 +34,8 @@ pub enum Traced {
     Infinity,
     /// A small integer.
     Small(u8),
+    /// The result of a step of the current trace.
+    Step(usize),
 }
 
 /// A step of a computation.

@@ -184,14 +184,16 @@ pub fn are_apart_curving<L: Lanes, const N: usize>(
 }
 
 /// Returns the length of `w`, or more, up to 8 roundings. If the squares of its components may underflow, it is the sum of their
-/// magnitudes.
+/// magnitudes and μ, which exceeds what flushing takes from the sum.
 #[inline(always)]
 fn length_above<L: Lanes>(w: Vector<L>) -> L {
     let squared = w.dot(w);
     let magnitudes = w.abs();
     // Flushed squares are less than a 2⁻²⁴th (2⁻⁵³th) of this.
     let is_safe = squared.greater(squared.splat(L::Scalar::SAFE_SQUARE));
-    L::select(is_safe, squared.sqrt(), (magnitudes.x + magnitudes.y) + magnitudes.z)
+    let vanishing = squared.splat(L::Scalar::EXTENT_UNDERFLOW);
+    let sum = (magnitudes.x + magnitudes.y) + (magnitudes.z + vanishing);
+    L::select(is_safe, squared.sqrt(), sum)
 }
 
 /// Returns a mask that is true in each lane.
@@ -204,6 +206,14 @@ fn everywhere<L: Lanes>(like: L) -> L::Mask {
 mod tests {
     use super::length_above;
     use crate::vector::Vector;
+
+    /// A thread that flushes results makes zero of a sum of subnormal numbers, and keeps a product with the direction.
+    #[test]
+    fn a_length_that_flushing_would_make_zero_is_not_zero() {
+        let subnormal = f32::MIN_POSITIVE / 2.0;
+        let vector = Vector::new(subnormal, 0.0, 0.0);
+        assert!(length_above(vector) > 1000.0 * f32::MIN_POSITIVE);
+    }
 
     #[test]
     fn where_squares_underflow_the_length_is_at_most_the_sum_of_the_components() {
