@@ -1,7 +1,24 @@
-(* The theorems, for a reader who reads no other file. Words are defined in Geometry.v (contact, volume), Arithmetic.v
-   (one operation), Expressions.v (an execution), and Filter.v (what the code of the certified filter computes); for
-   boxes in Orders.v (an execution) and Boxes.v; for the time of impact in Machine.v (an environment, an execution) and
-   Advancing.v (a round, a chain). *)
+(* The theorems, for a reader who reads no other file. In words:
+
+     (5, 6)   A pair that the certified filter culls does not touch at any time of the step.
+     (7)      Nor does one that swept or relative boxes cull.
+     (14)     A pair that the filter culls with a separation stays farther apart than that throughout the step.
+     (9)      Control values in words of 64 bits are exact, and their top word has the sign.
+     (10)     A pair does not touch before the time that the time of impact answers, nor at it.
+     (15)     With a separation, it stays farther apart than that up to the time that directions reach.
+     (11)     What the checker of witnesses accepts does not touch before the claimed time.
+     (12)     From `f64` to `f32`, times become no later and lengths no smaller.
+     (13)     A pair whose direction has a gap beyond the threshold at both ends of a step stays farther apart than the
+              separation throughout. An accepted step has no contact, and keeps its separation (15).
+     (1 to 4) What these rest on: the formats, an operation, the volume of four moving points, its sign.
+     (8)      None is empty: each decision holds for some pair.
+
+   All hold in every environment of a thread: rounding to nearest or in any direction, subnormal numbers kept or flushed.
+
+   Words are defined in Geometry.v (contact, volume), Arithmetic.v (one operation), Expressions.v (an execution), and
+   Filter.v (what the code of the certified filter computes); for boxes in Orders.v (an execution) and Boxes.v; for the
+   time of impact, gaps and all separations in Machine.v (an environment, an execution); Advancing.v and
+   AdvancingBeyond.v (a round, a chain) and Separated.v (what the filter culls with a separation). *)
 From Coq Require Import Reals ZArith Lra Lia.
 From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent

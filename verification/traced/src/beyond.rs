@@ -1,5 +1,6 @@
 //! Terms of Coq for what the certified filter and the time of impact compute with a separation.
 
+use crate::Text;
 use crate::coq::{Terms, coordinates, direction, machine_input};
 use crate::symbols::{Traced, if_any, trace};
 use selvedge_core::kernels::advance::corners::Corners;
@@ -24,8 +25,15 @@ From Selvedge Require Import Expressions Machine.
 
 ";
 
+/// The files that `verification/proofs` builds on, beside those of [`coq`](crate::coq).
+pub(crate) fn files() -> Vec<Text> {
+    [("Beyond.v", filter()), ("AdvanceBeyond.v", advance())]
+        .map(|(name, text)| (name.to_owned(), text))
+        .into()
+}
+
 /// Writes the decision of the filter with a separation: without a lane that needs the permanent, and with one.
-pub(crate) fn filter() -> String {
+fn filter() -> String {
     let mut text = String::from(FILTER_HEAD);
     filter_beyond::<VertexFace>("a_vertex_and_a_face", &mut text);
     filter_beyond::<EdgeEdge>("two_edges", &mut text);
@@ -55,7 +63,7 @@ fn filter_beyond<P: PairShape>(of: &str, text: &mut String) {
 }
 
 /// Writes the proofs of a round along directions.
-pub(crate) fn advance() -> String {
+fn advance() -> String {
     let mut text = String::from(ADVANCE_HEAD);
     directions_beyond("a_vertex_and_a_face", Corners::of_vertex_face, &mut text);
     directions_beyond("two_edges", Corners::of_edge_edge, &mut text);

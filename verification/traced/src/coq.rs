@@ -4,7 +4,6 @@
 //! prove.
 
 use crate::Text;
-use crate::beyond;
 use crate::gappa::tetrahedron;
 use crate::narrowed;
 use crate::symbols::{MaskStep, Step, Trace, Traced, TracedMask, if_any, trace};
@@ -57,10 +56,8 @@ From Selvedge Require Import Expressions Machine.
 pub fn files() -> Vec<Text> {
     [
         ("Filter.v", filter()),
-        ("Beyond.v", beyond::filter()),
         ("Boxes.v", boxes()),
         ("Advance.v", advance()),
-        ("AdvanceBeyond.v", beyond::advance()),
         ("Gap.v", gaps()),
         ("Narrowed.v", narrowed::text()),
     ]

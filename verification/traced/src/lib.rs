@@ -44,7 +44,7 @@ impl Prover {
     pub fn texts(self) -> Vec<Text> {
         match self {
             Self::Gappa => gappa::scripts(),
-            Self::Coq => coq::files(),
+            Self::Coq => [coq::files(), beyond::files()].concat(),
         }
     }
 }
