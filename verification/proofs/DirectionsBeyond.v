@@ -249,7 +249,7 @@ Proof.
       lra]). lra. }
   assert (PG : P <= 6.7 * G).
   { assert (e1 * (len * c) <= / 8388608 * (len * c)) by (apply Rmult_le_compat_r; lra). lra. }
-  assert (PN : (1 + 10.3 * e1) * norm (along k) <= P).
+  assert (NormP : (1 + 10.3 * e1) * norm (along k) <= P).
   { eapply Rle_trans; [|exact Pl]. apply Rle_trans with ((1 + 10.3 * e1) * ((1 + 3.4 * e1) * len)).
     - apply Rmult_le_compat_l; lra.
     - assert (0 <= e1 * (e1 * len) <= / 8388608 * (e1 * len)) by (split; [apply Rmult_le_pos; lra|apply
@@ -266,7 +266,7 @@ Proof.
   split; [split; [exact R0|lra]|].
   pose proof (norm_pos (along k)) as N0. set (N := norm (along k)) in *.
   assert (sN0 : 0 <= s * N) by (apply Rmult_le_pos; lra).
-  assert (sPN : (1 + 10.3 * e1) * (s * N) <= s * P).
+  assert (sNormP : (1 + 10.3 * e1) * (s * N) <= s * P).
   { replace ((1 + 10.3 * e1) * (s * N)) with (s * ((1 + 10.3 * e1) * N)) by ring. apply Rmult_le_compat_l; lra. }
   assert (esN : 0 <= e1 * (s * N)) by (apply Rmult_le_pos; lra).
   assert (eesN : 0 <= e1 * (e1 * (s * N)) <= / 8388608 * (e1 * (s * N))) by (split; [apply Rmult_le_pos; lra|apply

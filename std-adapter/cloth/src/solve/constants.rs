@@ -96,8 +96,8 @@ pub(super) const STIFFER_THAN_BODIES: f64 = 5.0;
 pub(super) const STIFFER_THAN_CLOTH: f64 = 20.0;
 /// The same for strain limits, stitches and ties.
 pub(super) const STIFFER_THAN_LIMITS: f64 = 3.0;
-/// The depth to which the load of the last step may press a contact within a solve, as a share of its thickness. What has come nearer
-/// has no room, and does not rest there: law of the pinched cloth.
+/// The depth to which the load of the last step may press a contact within a solve, as a share of its thickness. What has come
+/// nearer has no room, and does not rest there: law of the pinched cloth.
 pub(super) const GIVE: f64 = 0.05;
 
 /// The change of a contact's depth that needs no other Newton step, as a share of the largest move in the step.
