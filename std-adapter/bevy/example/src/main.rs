@@ -7,7 +7,7 @@ mod figure;
 use bevy::prelude::*;
 use bevy::render::view::window::screenshot::{Screenshot, save_to_disk};
 use figure::{DURATION, Figure, Keyframes};
-use selvedge_bevy::{CollisionContact, ClothSimulation, CollisionBody, CollisionGroups, Groups, SelvedgePlugin};
+use selvedge_bevy::{ClothSimulation, CollisionBody, CollisionContact, CollisionGroups, Groups, SelvedgePlugin};
 use std::path::PathBuf;
 
 /// The times of the pictures in seconds.
