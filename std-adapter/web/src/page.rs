@@ -8,7 +8,7 @@ use selvedge_core::PrimitivePair;
 use selvedge_core::glam::DVec3;
 use selvedge_laboratory::baselines::{cubic, plain};
 use selvedge_laboratory::hard_cases::{ExactContact, hard_cases};
-use selvedge_laboratory::methods::{Preset, Source, Stages};
+use selvedge_laboratory::methods::{PairSource, Preset, Stages};
 use selvedge_laboratory::pipeline::{Pipeline, StepReport};
 use selvedge_laboratory::scene::ArmScene;
 use std::sync::Arc;
@@ -124,11 +124,11 @@ pub fn run_method(name: &str, triangles: &[u32], start: &JsValue, end: &JsValue)
         let vertices = match stages.source {
             _ if index + 1 == count => pairs.clone(),
             // The pairs after some of the tests are those that a method with these tests alone hands on.
-            Source::TrianglePairs(_) => run.after(Stages {
+            PairSource::TrianglePairs(_) => run.after(Stages {
                 tests: &stages.tests[..index],
                 ..stages
             })?,
-            Source::MovingBoxes => Vec::new(),
+            PairSource::MovingBoxes => Vec::new(),
         };
         show(stage.stage.name(), stage.survivors.total(), stage.seconds, &vertices);
     }
