@@ -65,7 +65,8 @@ macro_rules! identify {
             fn identify(&self, identity: &mut $crate::Identity) {
                 // A field that is not listed does not compile.
                 let Self { $($field: _),* } = self;
-                identity.add(&[]);
+                // A struct may have no fields.
+                let _ = &identity;
                 $($crate::Identify::identify(&self.$field, identity);)*
             }
         }
@@ -121,6 +122,13 @@ impl<T: Identify, const N: usize> Identify for [T; N] {
     }
 }
 
+impl<T: Identify, U: Identify> Identify for (T, U) {
+    fn identify(&self, identity: &mut Identity) {
+        self.0.identify(identity);
+        self.1.identify(identity);
+    }
+}
+
 impl<T: Identify> Identify for [T] {
     fn identify(&self, identity: &mut Identity) {
         self.len().identify(identity);
@@ -151,11 +159,20 @@ identify!(Mesh { positions, triangles });
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::world::Body;
 
     fn value(of: &dyn Identify) -> u64 {
         let mut identity = Identity::default();
         of.identify(&mut identity);
         identity.value()
+    }
+
+    /// Contact uses the smooth surface of a ball, and the faces of its mesh.
+    #[test]
+    fn a_ball_is_another_body_than_its_mesh() {
+        let ball = Body::ball("ball", DVec3::ZERO, 0.1, 8).unwrap();
+        let mesh = Body::from_mesh("ball", ball.mesh.clone());
+        assert_ne!(value(&ball), value(&mesh));
     }
 
     #[test]

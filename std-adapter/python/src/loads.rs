@@ -59,7 +59,7 @@ pub(crate) struct Groups(&'static str, GroupLoad, GroupLoad);
 pub(crate) const PINS: Groups = Groups("pins", Simulation::pin_load, Simulation::mean_pin_load);
 pub(crate) const ATTACHMENTS: Groups = Groups("attachments", Simulation::attachment_load, Simulation::mean_attachment_load);
 
-/// Returns the load on a group, or the error that there is none.
+/// Returns the load on a group. Raises an error if there is no such group.
 pub(crate) fn of_group<'py>(
     py: Python<'py>,
     simulation: &Simulation,

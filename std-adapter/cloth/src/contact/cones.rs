@@ -15,10 +15,10 @@
 //!
 //! Cones are those of surfaces at the start of the step, so that bodies may change their shape.
 //!
-//! **A contact at rest goes on.** Taut cloth on a mesh lies along some of its faces, so that ways from the edges beside them are
-//! at the border of their cones. There a contact would come and go from step to step, and the cloth would tremble: an
-//! irregular bag around two balls by 14 cm/s (law of the bag). So a contact that pushed in the last step pushes on, along the
-//! cone's direction [next to its way](Cones::turn_into): that is the normal of a face beside it, and not oblique.
+//! **A contact at rest goes on.** Taut cloth lies along faces of a body's mesh. An edge beside such a face has a cone that ends
+//! at the face's normal, and the cloth lies there. Such a contact would come and go from step to step, and the cloth would
+//! tremble: an irregular bag around two balls moved by 14 cm/s (law of the bag). So a contact that pushed in the last step pushes
+//! on. Its direction [turns into the cone](Cones::turn_into), to the normal of a face beside it. So it does not push obliquely.
 //!
 //! **Cloth against cloth.** Oblique pushes make layers that lie on each other slide and tremble. But a fold lies beside itself,
 //! and cones on both sides would drop the pairs that keep it open, since the way along the cloth leads through the fold. So the
@@ -101,8 +101,9 @@ impl Cones {
         })
     }
 
-    /// Returns the direction of the normal cone into which this one turns if each way along the surface takes its part of it
-    /// away; `None` if that is not in the cone, or the surface is flat there.
+    /// Turns a direction into the normal cone at the point with these weights of these vertices: it loses what leads along the
+    /// surface. A direction in the cone stays as it is. Returns `None` if the result is not in the cone, or the surface is flat
+    /// there.
     pub(super) fn turn_into(&self, vertices: &[u32], weights: &[f64], positions: &[DVec3], direction: DVec3) -> Option<DVec3> {
         let mut turned = direction;
         self.all_ways(vertices, weights, positions, |way| {

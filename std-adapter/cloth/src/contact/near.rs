@@ -6,7 +6,7 @@
 //! or the mesh would lock, and [less](super::neighbours). A tangled pair has no such distance at rest, and the distance of
 //! the two sides of a tear is zero. They come apart to at least the thickness of neighbours.
 //!
-//! Contacts with a body are those with its [surface](super::cones). The step says which of the others go on.
+//! Contacts with a body are those with its [surface](super::cones), and those at rest, which may [leave](GoesOn) it by little.
 //!
 //! **Only necessary work.** The step computes the closest points of a pair only if the direction that the pair stores does not
 //! keep it at its thickness.
@@ -108,8 +108,8 @@ fn reach(aim: f64) -> f64 {
     aim * (1.0 + MARGIN)
 }
 
-/// Whether a pair of a body that is no more one of its surface goes on as a contact, by its vertices and its distance in
-/// thicknesses.
+/// A test of a pair with a body that has left the [cone](super::cones) of the body's surface: does it go on as a contact? It gets
+/// the pair's key, its vertices, and its distance in thicknesses.
 pub(crate) type GoesOn<'a> = &'a dyn Fn(PairKey, [u32; 4], f64) -> bool;
 
 /// Visits the pairs that may be nearer than their thickness at the end of a step: those that the direction which they store does
@@ -221,29 +221,33 @@ fn near_on_way(
 /// where they cross. Where an end of an edge is closest, its vertex and the other edge's face push.
 fn is_of_surface(pair: &Candidate, closest: &ClosestPoints, rules: Rules<'_>, positions: &[DVec3]) -> bool {
     let Rules { cones, .. } = rules;
-    let [first, second] = sides(pair);
-    let (of_first, of_second) = closest.weights.split_at(first.len());
     if pair.kind == PairKind::EdgeEdge && !pair.data.is_with_body() {
+        let [first, second] = sides(pair);
+        let (of_first, of_second) = closest.weights.split_at(first.len());
         return [(first, of_first), (second, of_second)]
             .into_iter()
             .all(|(edge, weights)| Cones::are_all(weights) || !cones.is_beside_a_face(edge));
     }
-    if rules.is_body_first(pair) {
-        cones.contain(first, of_first, positions, -closest.direction)
-    } else {
-        cones.contain(second, of_second, positions, closest.direction)
-    }
+    let (vertices, weights, direction) = side_with_cone(pair, closest, rules);
+    cones.contain(vertices, weights, positions, direction)
 }
 
-/// Returns the direction of a pair with a body, turned into the cone of the body's side; `None` if it has none.
+/// Returns the direction of a pair with a body, turned into the cone of the body's side; `None` if that is not possible.
 fn turned_to_surface(pair: &Candidate, closest: &ClosestPoints, rules: Rules<'_>, positions: &[DVec3]) -> Option<DVec3> {
-    let Rules { cones, .. } = rules;
+    let (vertices, weights, direction) = side_with_cone(pair, closest, rules);
+    let turned = rules.cones.turn_into(vertices, weights, positions, direction)?;
+    Some(if rules.is_body_first(pair) { -turned } else { turned })
+}
+
+/// Returns the vertices and weights of a body's side, or of the second side of two cloths', and the direction from it to the
+/// other side.
+fn side_with_cone<'a>(pair: &'a Candidate, closest: &'a ClosestPoints, rules: Rules<'_>) -> (&'a [u32], &'a [f64], DVec3) {
     let [first, second] = sides(pair);
     let (of_first, of_second) = closest.weights.split_at(first.len());
     if rules.is_body_first(pair) {
-        Some(-cones.turn_into(first, of_first, positions, -closest.direction)?)
+        (first, of_first, -closest.direction)
     } else {
-        cones.turn_into(second, of_second, positions, closest.direction)
+        (second, of_second, closest.direction)
     }
 }
 

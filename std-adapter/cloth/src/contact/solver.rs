@@ -123,7 +123,7 @@ impl ContactSolver {
 
     /// Finds the candidates of a step, and visits those that may be nearer than their thickness at its end, each with its
     /// distance at the start: `guess` has the positions at which the solve begins, and `goal` those to which everything but
-    /// contact leads. `goes_on` says whether a pair of a body goes on that is no more one of its surface.
+    /// contact leads. `goes_on` tests pairs that have left the surface of a body.
     pub(crate) fn visit_near(
         &mut self,
         step: &TimeStep<'_>,

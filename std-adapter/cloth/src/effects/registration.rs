@@ -6,8 +6,8 @@ use crate::input::{SceneError, Table, ValueError};
 use crate::world::{Cloth, SceneParts};
 use std::fmt::Debug;
 
-/// An effect on cloth: one of [`effects`](crate::effects), or your own. [`identify!`](crate::identify) tells checkpoints its
-/// settings.
+/// An effect on cloth: one of [`effects`](crate::effects), or your own. An effect of your own needs a line
+/// [`identify!`](crate::identify), since checkpoints must know its settings.
 pub trait Effect: Debug + Identify + Send + Sync {
     /// Returns the name in scene files and reports.
     fn name(&self) -> &'static str;

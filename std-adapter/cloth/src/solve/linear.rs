@@ -45,9 +45,9 @@ pub(super) struct Linear {
     pub(super) gradient: Vec<DVec3>,
     /// The pushes after the moves.
     pushes: Vec<f64>,
-    /// What each iteration has mended.
+    /// Twice the energy that each iteration has mended, in J.
     drops: Vec<f64>,
-    /// What all Newton steps before have mended.
+    /// Twice the energy that the earlier Newton steps of the solve have mended, in J.
     before: f64,
 }
 

@@ -4,7 +4,6 @@ use super::animation::{Animation, RATE, START};
 use super::keyframes::KeyframeMotion;
 use super::motion::BodyMotion;
 use super::{read_mesh, shapes};
-use crate::identity::{Identify, Identity};
 use crate::input::{Count, Field, LARGEST_COORDINATE, LENGTH, SceneError, Table, ValueError};
 use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
@@ -34,12 +33,12 @@ pub struct Body {
     pub(crate) capsule: Option<([DVec3; 2], f64)>,
 }
 
-impl Identify for Body {
-    fn identify(&self, identity: &mut Identity) {
-        let parts: [&dyn Identify; 3] = [&self.name, &self.motion, &self.mesh];
-        parts.iter().for_each(|part| part.identify(identity));
-    }
-}
+crate::identify!(Body {
+    name,
+    mesh,
+    motion,
+    capsule
+});
 
 #[derive(Clone, Copy)]
 enum BodyShape {
