@@ -529,7 +529,8 @@ selvedge_status selvedge_simulation_move_body(struct selvedge_simulation *simula
                                               size_t vertex_count);
 
 /**
- * Moves each vertex of a driven group of pins in the next step. `group` is its number in the scene, from 0.
+ * Moves each vertex of a driven group of pins in the next step. `group` is its number in the scene, from 0. Soft pins pull their
+ * vertices towards these positions.
  *
  * The caller promises:
  * The conditions are those of selvedge_simulation_move_body.
@@ -583,7 +584,8 @@ selvedge_status selvedge_simulation_mean_body_load(const struct selvedge_simulat
 
 /**
  * Returns the load on a group of pins at the end of the last step: what moves or holds the pins feels. The weight and the
- * inertia of the pinned vertices are in it. A vertex in several groups counts in each.
+ * inertia of the pinned vertices are in it. Of a soft pin it is the pull of its spring. A vertex in several groups counts in
+ * each.
  *
  * The caller promises:
  * The conditions are those of selvedge_simulation_body_load.

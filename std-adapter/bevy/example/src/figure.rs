@@ -136,10 +136,7 @@ fn cape(cells: [u32; 2]) -> Result<Scene, ValueError> {
         acceleration: DVec3::NEG_Y * 9.81,
     });
     scene.add(Pins {
-        groups: vec![PinGroup {
-            vertices: clasped,
-            motion: PinMotion::Body(0),
-        }],
+        groups: vec![PinGroup::new(clasped, PinMotion::Body(0))],
     });
     scene
         .add(Stretch::isotropic(400.0))

@@ -94,10 +94,7 @@ fn the_mesh_of_cloth_that_tears_is_torn_as_well() {
         ..Keyframe::default()
     });
     let away = PinMotion::Own(KeyframeMotion::new(DVec3::ZERO, DVec3::Z, keys.to_vec()).unwrap().into());
-    let right = PinGroup {
-        vertices: right,
-        motion: away,
-    };
+    let right = PinGroup::new(right, away);
     scene.add(Pins {
         groups: vec![PinGroup::resting(left), right],
     });

@@ -14,10 +14,7 @@ use selvedge_bevy::{ClothSimulation, SelvedgeError, SelvedgeProblem};
 /// Spawns an entity that leads the ball, and a sheet that is pinned to the ball by its middle.
 fn spawn_pinned_to_a_ball(app: &mut App) -> [Entity; 2] {
     let mut scene = over_a_ball();
-    let middle = PinGroup {
-        vertices: vec![84],
-        motion: PinMotion::Body(0),
-    };
+    let middle = PinGroup::new([84], PinMotion::Body(0));
     scene.add(Pins { groups: vec![middle] });
     let ball = app.world_mut().spawn(Transform::default()).id();
     let cloth = ClothSimulation::new(scene).led_by(0, ball);

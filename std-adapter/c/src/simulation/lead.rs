@@ -178,7 +178,8 @@ pub unsafe extern "C" fn selvedge_simulation_move_body(
     }
 }
 
-/// Moves each vertex of a driven group of pins in the next step. `group` is its number in the scene, from 0.
+/// Moves each vertex of a driven group of pins in the next step. `group` is its number in the scene, from 0. Soft pins pull their
+/// vertices towards these positions.
 ///
 /// # Safety
 /// The conditions are those of selvedge_simulation_move_body.

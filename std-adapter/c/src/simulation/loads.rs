@@ -168,7 +168,8 @@ pub unsafe extern "C" fn selvedge_simulation_mean_body_load(
 }
 
 /// Returns the load on a group of pins at the end of the last step: what moves or holds the pins feels. The weight and the
-/// inertia of the pinned vertices are in it. A vertex in several groups counts in each.
+/// inertia of the pinned vertices are in it. Of a soft pin it is the pull of its spring. A vertex in several groups counts in
+/// each.
 ///
 /// # Safety
 /// The conditions are those of selvedge_simulation_body_load.

@@ -157,6 +157,7 @@ mod tests {
             start: &start,
             inverse_masses: &inverse_masses,
             poses: &[rest, rest],
+            motions: &[],
         };
         let mut zones = ImpactZones::default();
         zones.reset(10);

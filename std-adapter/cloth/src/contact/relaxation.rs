@@ -142,7 +142,7 @@ mod tests {
             let kept = 0.5 * ClosestPoints::from_points(kind, start).distance();
             prop_assume!(kept > 1e-3);
             let inverse_masses = [0, 1, 2, 3].map(|corner| if corner == fixed { 0.0 } else { 1.0 + corner as f64 });
-            let step = TimeStep { time: 0.0, h: 1.0, start: &start, inverse_masses: &inverse_masses, poses: &[] };
+            let step = TimeStep { time: 0.0, h: 1.0, start: &start, inverse_masses: &inverse_masses, poses: &[], motions: &[] };
             let pair = Candidate::new(kind, [0, 0], [0, 1, 2, 3], OfPair { aim: Aim::asked(0.0), body: FREE });
             let mut relaxation = Relaxation::default();
             relaxation.add(&pair, kept, &step);

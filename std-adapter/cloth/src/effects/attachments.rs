@@ -14,6 +14,7 @@ use super::selection::{check_body, check_vertices, keys, placed, read_motion, re
 use crate::effects::plan::Plan;
 use crate::input::{FORCE, Field, LENGTH, ValueError};
 use crate::model::step::{Memory, Release, TimeStep};
+use crate::solve::SpringGroup;
 use crate::solve::springs::{Held, Spring, Springs};
 use crate::world::{BodyMotion, KeyframeMotion, SceneParts};
 use selvedge_core::glam::DVec3;
@@ -162,22 +163,27 @@ struct Attachment {
 #[derive(Debug)]
 struct Holding(Vec<Attachment>);
 
+impl Attachment {
+    fn spring(&self, anchor: DVec3) -> Spring {
+        Spring {
+            vertex: self.vertex,
+            anchor,
+            stiffness: self.stiffness,
+            group: SpringGroup::Attachments(self.group),
+            body: self.anchor.vertex_of_body(),
+        }
+    }
+}
+
 impl Springs for Holding {
     fn springs(&self, step: &TimeStep<'_>, x: &[DVec3], springs: &mut Vec<Spring>) {
         let holding = self.0.iter().filter(|held| held.released.is_none());
-        springs.extend(holding.map(|held| Spring {
-            vertex: held.vertex,
-            anchor: held.anchor.at(step, x),
-            stiffness: held.stiffness,
-            group: held.group,
-            body: held.anchor.vertex_of_body(),
-        }));
+        springs.extend(holding.map(|held| held.spring(held.anchor.at(step, x))));
     }
 
-    fn energy(&self, positions: &[DVec3]) -> f64 {
+    fn settled(&self) -> Vec<Spring> {
         let holding = self.0.iter().filter(|held| held.released.is_none());
-        let each = holding.map(|held| 0.5 * held.stiffness * held.last.distance_squared(positions[held.vertex as usize]));
-        each.sum()
+        holding.map(|held| held.spring(held.last)).collect()
     }
 }
 

@@ -30,6 +30,7 @@ mod seams;
 mod selection;
 mod self_collision;
 mod shear;
+mod soft_pins;
 mod strain_limit;
 mod stretch;
 mod tearing;

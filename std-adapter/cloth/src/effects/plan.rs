@@ -323,11 +323,16 @@ impl<'a> Plan<'a> {
         positions
     }
 
-    /// Returns the triangles of a body, as the scene numbers vertices.
-    pub(crate) fn triangles_of(&self, body: usize) -> Vec<[u32; 3]> {
+    /// Returns the first vertex of a body, as the scene numbers vertices.
+    pub(crate) fn first_vertex_of(&self, body: usize) -> u32 {
         let before = &self.scene.bodies[..body];
         let of_bodies: usize = before.iter().map(|body| body.mesh.positions.len()).sum();
-        let first = (self.scene.cloth_vertices() + of_bodies) as u32;
+        (self.scene.cloth_vertices() + of_bodies) as u32
+    }
+
+    /// Returns the triangles of a body, as the scene numbers vertices.
+    pub(crate) fn triangles_of(&self, body: usize) -> Vec<[u32; 3]> {
+        let first = self.first_vertex_of(body);
         let own = self.scene.bodies[body].mesh.triangles.iter();
         own.map(|triangle| triangle.map(|vertex| first + vertex)).collect()
     }

@@ -56,7 +56,7 @@ pub(super) const REGISTRATION: Registration = Registration::new(&["strength", "p
 /// let [left, right] = ["left", "right"].map(|part| scene.part("cloth", part).unwrap_or_default());
 /// let keys = [(0.0, 0.0), (0.1, 0.01)].map(|(time, x)| Keyframe { time, translation: DVec3::X * x, ..Keyframe::default() });
 /// let away = PinMotion::Own(KeyframeMotion::new(DVec3::ZERO, DVec3::Z, keys.to_vec())?.into());
-/// scene.add(Pins { groups: vec![PinGroup::resting(left), PinGroup { vertices: right, motion: away }] });
+/// scene.add(Pins { groups: vec![PinGroup::resting(left), PinGroup::new(right, away)] });
 /// scene.add(Stretch::isotropic(1000.0)).add(SelfCollision(Thickness::new(1e-3)));
 /// scene.add(Tearing::perforated((0..6).map(|row| 11 * row + 5).collect::<Vec<u32>>(), 20.0));
 ///

@@ -116,6 +116,17 @@ impl<'a> Table<'a> {
         array.iter().map(whole).collect::<Result<_, _>>().map(Some)
     }
 
+    pub(crate) fn numbers(&self, field: &Field) -> Result<Option<Vec<f64>>, SceneError> {
+        let Some(value) = self.get(field.name) else {
+            return Ok(None);
+        };
+        let DeValue::Array(array) = value.get_ref() else {
+            return Err(self.wrong(field.name, value, "a list of numbers"));
+        };
+        let number = |value| self.quantity(field, value);
+        array.iter().map(number).collect::<Result<_, _>>().map(Some)
+    }
+
     pub(crate) fn vector(&self, field: &Field) -> Result<Option<DVec3>, SceneError> {
         self.get(field.name).map(|value| self.three(field, value)).transpose()
     }

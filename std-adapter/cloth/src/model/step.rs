@@ -3,9 +3,11 @@
 //! Vertices of bodies and pinned vertices are **kinematic**: they follow a prescribed motion, as if their mass were infinite.
 
 use super::energy::{Configuration, StoredEnergy};
-use crate::world::Pose;
+use crate::world::{Kinematic, Pose};
 use selvedge_core::glam::DVec3;
 use std::fmt::Debug;
+
+pub(crate) use crate::world::{Carrier, FREE};
 
 /// The data that all phases of a step, or of a part of one, read.
 #[derive(Clone, Copy, Debug)]
@@ -20,19 +22,22 @@ pub struct TimeStep<'a> {
     pub inverse_masses: &'a [f64],
     /// The poses of each kinematic motion, at the start and at the end.
     pub(crate) poses: &'a [[Pose; 2]],
+    /// These motions, where they are at the end.
+    pub(crate) motions: &'a [Kinematic],
 }
 
 #[cfg(test)]
 impl<'a> TimeStep<'a> {
     /// Makes the first step, in which nothing is carried.
     pub(crate) const fn first(h: f64, start: &'a [DVec3], inverse_masses: &'a [f64]) -> Self {
-        let (time, poses) = (0.0, &[] as &[_]);
+        let (time, poses, motions) = (0.0, &[] as &[_], &[] as &[_]);
         Self {
             time,
             h,
             start,
             inverse_masses,
             poses,
+            motions,
         }
     }
 }
@@ -75,12 +80,42 @@ pub trait Memory {
         Vec::new()
     }
 
+    /// Returns the anchors that follow [motions](TimeStep) of their own.
+    #[doc(hidden)]
+    #[expect(private_interfaces, reason = "no effect outside of this crate has such anchors")]
+    fn anchors(&self) -> Vec<MovedAnchor> {
+        Vec::new()
+    }
+
     /// Moves what it remembers of those places that belong to moved vertices.
     fn teleport(&mut self, _is_moved: &[bool], _to: &dyn Fn(DVec3) -> DVec3) {}
 
     /// Returns the vertices released so far.
     fn released(&self) -> Vec<Release> {
         Vec::new()
+    }
+}
+
+/// An anchor that follows a motion as a pinned vertex does.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct MovedAnchor {
+    /// The vertex that it pulls.
+    pub(crate) vertex: u32,
+    pub(crate) carrier: Carrier,
+    /// Its index among the points of the motion; `None` on a body.
+    pub(crate) index: Option<u32>,
+    /// Where it is without any motion.
+    pub(crate) rest: DVec3,
+    /// Where it is now.
+    pub(crate) place: DVec3,
+}
+
+impl MovedAnchor {
+    /// Returns the place at the end of a step. It stays where it is if that body deforms, as pinned vertices do.
+    pub(crate) fn at(&self, step: &TimeStep<'_>) -> DVec3 {
+        let carrier = self.carrier as usize;
+        let at = step.motions[carrier].point(&step.poses[carrier][1], self.index, self.rest);
+        at.unwrap_or(self.place)
     }
 }
 
@@ -94,8 +129,3 @@ pub struct Release {
     /// The start of the step in which it was released, in seconds.
     pub time: f64,
 }
-
-/// The kinematic motion of a vertex: its index among the motions.
-pub(crate) type Carrier = u32;
-/// The carrier of vertices without such a motion, which the solver moves.
-pub(crate) const FREE: Carrier = u32::MAX;

@@ -105,8 +105,13 @@ impl Simulation {
         // The threads are taken out so that they can run code that borrows the rest.
         let threads = std::mem::take(&mut self.threads);
         let clock = self.state.clock;
-        for driven in self.made.motions.iter_mut().filter_map(Kinematic::driven_mut) {
-            driven.begin(clock, seconds, &self.state.positions, &self.carried);
+        let anchors = self.made.anchors();
+        for (carrier, motion) in (0..).zip(&mut self.made.motions) {
+            let own = anchors.iter().filter(|anchor| anchor.carrier == carrier);
+            let own = own.filter_map(|anchor| Some((anchor.index?, anchor.place)));
+            if let Some(driven) = motion.driven_mut() {
+                driven.begin(clock, seconds, [&self.state.positions, &self.carried], own);
+            }
         }
         if let Some(too_fast) = self.too_fast() {
             self.threads = threads;

@@ -1,9 +1,9 @@
-//! The speed of bodies and pins in the frame that begins.
+//! The speed of bodies and pins, and of the anchors of soft pins, in the frame that begins.
 
 use super::assembly::Assembly;
 use super::state::State;
-use crate::model::step::{Carrier, FREE};
-use crate::world::put_kinematic;
+use crate::model::step::{Carrier, FREE, MovedAnchor};
+use crate::world::{Kinematic, put_kinematic};
 use selvedge_core::glam::DVec3;
 
 /// The number of places at which bodies and pins are looked at on their way through a frame. A motion that begins or ends within
@@ -18,11 +18,32 @@ pub(super) struct Ahead {
     to: Vec<DVec3>,
 }
 
+/// Raises the speeds of vertices to those of their anchors, which move from `place` to where their motions have been put at a
+/// time of the clock.
+fn follow_anchors(
+    anchors: &mut [MovedAnchor],
+    motions: &[Kinematic],
+    (clock, between): (f64, f64),
+    mean: DVec3,
+    speeds: &mut [f64],
+) {
+    for anchor in anchors {
+        let motion = &motions[anchor.carrier as usize];
+        let to = motion
+            .point(&motion.pose(clock), anchor.index, anchor.rest)
+            .unwrap_or(anchor.place);
+        let speed = &mut speeds[anchor.vertex as usize];
+        *speed = speed.max(((to - anchor.place) / between - mean).length());
+        anchor.place = to;
+    }
+}
+
 impl Ahead {
-    /// Returns the speed of each vertex relative to `mean`: of cloth as it is, and of bodies and pins the largest on their way
-    /// through a frame of so many seconds.
+    /// Returns the speed of each vertex relative to `mean`: of cloth as it is, and of bodies, pins and anchors the largest on
+    /// their way through a frame of so many seconds.
     pub(super) fn speeds(&mut self, state: &State, made: &mut Assembly, carried: &[DVec3], seconds: f64, mean: DVec3) -> &[f64] {
         let Self { speeds, from, to } = self;
+        let mut anchors = made.anchors();
         let Assembly { carriers, motions, .. } = made;
         let of_cloth = |(velocity, carrier): (&DVec3, &Carrier)| match *carrier {
             FREE => (*velocity - mean).length(),
@@ -39,6 +60,7 @@ impl Ahead {
             for (vertex, speed) in speeds.iter_mut().enumerate().filter(|(vertex, _)| carriers[*vertex] != FREE) {
                 *speed = speed.max(((to[vertex] - from[vertex]) / between - mean).length());
             }
+            follow_anchors(&mut anchors, motions, (clock, between), mean, speeds);
             std::mem::swap(from, to);
         }
         speeds

@@ -6,7 +6,7 @@ use super::momentum::Pieces;
 use crate::contact::ContactSolver;
 use crate::contact::smooth_body::SmoothBody;
 use crate::effects::plan::{ActingForce, Entry, OfCloths, Plan};
-use crate::model::step::{Carrier, Memory};
+use crate::model::step::{Carrier, Memory, MovedAnchor};
 use crate::model::tearing::Tearable;
 use crate::scene::{Scene, append};
 use crate::solve::{Solve, Term};
@@ -158,6 +158,11 @@ impl Assembly {
     /// The memories of its terms.
     pub(super) fn memories(&self) -> impl Iterator<Item = &dyn Memory> {
         self.solve.terms.iter().filter_map(|entry| entry.action.memory())
+    }
+
+    /// Returns the anchors that follow motions; none without soft pins.
+    pub(super) fn anchors(&self) -> Vec<MovedAnchor> {
+        self.memories().flat_map(Memory::anchors).collect()
     }
 
     /// The same, to change them.

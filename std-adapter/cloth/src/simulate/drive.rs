@@ -98,7 +98,7 @@ impl Simulation {
     }
 
     /// Moves each vertex of a group of driven pins straight to a position, in metres, in the next step. `group` is the index of
-    /// the group in [`Pins`](crate::effects::Pins).
+    /// the group in [`Pins`](crate::effects::Pins). Soft pins pull their vertices towards these positions.
     ///
     /// # Errors
     /// Returns an error if there is no such group, or it is not driven. Each vertex needs one position, finite and within a

@@ -4,7 +4,8 @@
 //! Torques are summed about the origin of the scene, so that a caller may name any point later.
 //!
 //! **Pins.** A pinned vertex of mass m has a given motion. What holds it feels all that pulls the vertex, its weight, and −m·a of
-//! its acceleration. Forces leave pinned vertices alone, so they are applied again to a copy in which no vertex is pinned.
+//! its acceleration. Forces leave pinned vertices alone, so they are applied again to a copy in which no vertex is pinned. A soft
+//! pin feels the pull of its spring alone.
 //!
 //! **Accuracy.** The sum of all loads is the change of the cloth's momentum without that by gravity, up to the force that the
 //! solve left ([`Accuracy`](crate::Accuracy)), and what the certificate took from the motion. At rest both vanish.
@@ -13,7 +14,7 @@ use super::added_forces::AddedForces;
 use crate::contact::smooth_body::SmoothBody;
 use crate::effects::plan::ActingForce;
 use crate::model::step::{Carrier, TimeStep};
-use crate::solve::{ContactRow, RowKey, Solve};
+use crate::solve::{ContactRow, RowKey, Solve, SpringGroup};
 use crate::world::Cloth;
 use selvedge_core::glam::DVec3;
 
@@ -112,7 +113,7 @@ pub struct ContactLoad {
 /// The pins and attachments that hold the cloth.
 #[derive(Debug)]
 pub(super) struct Supports {
-    /// The vertices of each group of pins.
+    /// The vertices of each group of pins, apart from those with soft pins.
     groups: Vec<Vec<u32>>,
     attachment_groups: usize,
     /// All pinned vertices, each once, with their masses in kg.
@@ -236,10 +237,15 @@ impl Loads {
         let Solved { solve, x, carriers, .. } = *solved;
         solve.visit_pulls(x, &mut |pull| {
             let load = Wrench::at(pull.anchor, pull.force);
-            self.next.attachments[pull.group].add(load, 1.0);
             let body = pull.body.map(|vertex| carriers[vertex as usize] as usize);
-            if let Some(body) = body.and_then(|body| self.next.bodies.get_mut(body)) {
-                body.attachments.add(load, 1.0);
+            let body = body.and_then(|body| self.next.bodies.get_mut(body));
+            let (group, of_body) = match pull.group {
+                SpringGroup::Attachments(group) => (&mut self.next.attachments[group], body.map(|body| &mut body.attachments)),
+                SpringGroup::Pins(group) => (&mut self.next.pins[group], body.map(|body| &mut body.pins)),
+            };
+            group.add(load, 1.0);
+            if let Some(of_body) = of_body {
+                of_body.add(load, 1.0);
             }
         });
     }

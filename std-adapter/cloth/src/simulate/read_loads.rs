@@ -45,7 +45,7 @@ impl Simulation {
 
     /// Returns the load on a group of [`Pins`](crate::effects::Pins) at the end of the last step, with the torque about a point;
     /// `None` if there is no such group. This is what moves or holds the pins feels: the cloth's pull, the weight of the pinned
-    /// vertices and their inertia. A vertex in several groups counts in each.
+    /// vertices and their inertia. Of a soft pin it is the pull of its spring. A vertex in several groups counts in each.
     #[must_use]
     pub fn pin_load(&self, group: usize, about: DVec3) -> Option<Wrench> {
         Some(self.loads.now.pins.get(group)?.about(about))

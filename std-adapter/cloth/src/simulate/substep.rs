@@ -93,13 +93,6 @@ impl Simulation {
                 .iter()
                 .map(|motion| [clock, clock + ticks].map(|time| motion.pose(time))),
         );
-        let step = TimeStep {
-            time: state.time(*time_step),
-            h,
-            start: &state.positions,
-            inverse_masses,
-            poses,
-        };
         let SubstepWork {
             history,
             prediction,
@@ -110,12 +103,18 @@ impl Simulation {
             is_moved,
             velocities,
         } = substep;
+        ends.clone_from(&state.positions);
+        put_kinematic(motions, carriers, carried, clock + ticks, ends);
+        let step = TimeStep {
+            time: state.time(*time_step),
+            h,
+            start: &state.positions,
+            inverse_masses,
+            poses,
+            motions,
+        };
         forced.clone_from(&state.velocities);
         apply_forces((forces, added_forces), &step, forced, effects);
-        ends.clear();
-        ends.extend_from_slice(step.start);
-        put_kinematic(motions, carriers, carried, clock + ticks, ends);
-
         let both = [&state.velocities[..], &forced[..]];
         let order = (&drag[..], solve.accuracy.is_of_second_order());
         prediction::predict(prediction, &step, history, both, order, ends, count);

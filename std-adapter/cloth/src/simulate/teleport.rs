@@ -5,7 +5,7 @@ use super::drive::DriveError;
 use super::simulation::Simulation;
 use crate::contact::Crossing;
 use crate::input::{LARGEST_COORDINATE, ValueError};
-use crate::model::step::{FREE, Memory};
+use crate::model::step::{FREE, Memory, MovedAnchor};
 use crate::world::Placement;
 use selvedge_core::glam::DVec3;
 
@@ -80,7 +80,7 @@ impl Simulation {
     /// ball.motion = BodyMotion::Driven(Placement::default());
     /// scene.bodies.push(ball);
     /// scene.add(Stretch::isotropic(400.0));
-    /// scene.add(Pins { groups: vec![PinGroup { vertices: vec![4], motion: PinMotion::Body(0) }] });
+    /// scene.add(Pins { groups: vec![PinGroup::new([4], PinMotion::Body(0))] });
     ///
     /// let mut simulation = Simulation::new(scene, 1)?;
     /// simulation.teleport(&[0], &[], Placement::at(100.0 * DVec3::X))?;
@@ -207,9 +207,10 @@ impl Simulation {
             moved.vertices[*vertex as usize] |= moves;
         }
         // Pins that move may hold other pieces, which then move as well.
+        let anchors = made.anchors();
         let mut reached = 0;
         loop {
-            moved.follow(made, self.body_names.len());
+            moved.follow(made, &anchors, self.body_names.len());
             let now = moved.vertices.iter().filter(|moves| **moves).count();
             if now == reached {
                 break;
@@ -245,7 +246,7 @@ impl Simulation {
                     let own = made.body_vertices.iter().position(|own| own.contains(&(on as usize)));
                     return refuse(vertex as usize, body(own.unwrap_or_default()));
                 }
-                None => return refuse(vertex as usize, "attachments with keyframes".to_owned()),
+                None => return refuse(vertex as usize, "attachments or soft pins with keyframes".to_owned()),
             }
         }
         Ok(())
@@ -254,9 +255,14 @@ impl Simulation {
 
 impl Moved {
     /// Lets everything move whose motion moves, each piece of which a vertex moves, and driven pins of such pieces.
-    fn follow(&mut self, made: &Assembly, bodies: usize) {
+    fn follow(&mut self, made: &Assembly, anchors: &[MovedAnchor], bodies: usize) {
+        let moves_pins =
+            |carrier: usize| carrier >= bodies && made.motions.get(carrier).is_some_and(|motion| motion.driven().is_some());
         for (moves, &carrier) in self.vertices.iter_mut().zip(&made.carriers) {
             *moves |= carrier != FREE && self.motions[carrier as usize];
+        }
+        for anchor in anchors {
+            self.vertices[anchor.vertex as usize] |= self.motions[anchor.carrier as usize];
         }
         for piece in made.pieces.vertices() {
             if !piece.clone().any(|vertex| self.vertices[vertex as usize]) {
@@ -265,11 +271,14 @@ impl Moved {
             for vertex in piece {
                 self.vertices[vertex as usize] = true;
                 let carrier = made.carriers[vertex as usize] as usize;
-                let is_driven = made.motions.get(carrier).is_some_and(|motion| motion.driven().is_some());
-                if carrier >= bodies && is_driven {
+                if moves_pins(carrier) {
                     self.motions[carrier] = true;
                 }
             }
+        }
+        for anchor in anchors.iter().filter(|anchor| self.vertices[anchor.vertex as usize]) {
+            let carrier = anchor.carrier as usize;
+            self.motions[carrier] |= moves_pins(carrier);
         }
     }
 }

@@ -7,11 +7,18 @@ use super::Solve;
 use super::contact_row::ContactRow;
 use selvedge_core::glam::DVec3;
 
+/// The group to which a spring belongs.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum SpringGroup {
+    Attachments(usize),
+    /// A group of pins, which are soft.
+    Pins(usize),
+}
+
 /// The pull of a spring on what holds it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pull {
-    /// The group of attachments.
-    pub(crate) group: usize,
+    pub(crate) group: SpringGroup,
     /// A vertex of the body that holds the spring; `None` for something else.
     pub(crate) body: Option<u32>,
     /// The place of the anchor, and the force on it, in N.

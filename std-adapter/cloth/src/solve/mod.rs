@@ -48,6 +48,7 @@ pub use constants::Accuracy;
 #[cfg(doc)]
 use constants::RECOVERY;
 pub(crate) use contact_row::{ContactRow, RowKey};
+pub(crate) use loads::SpringGroup;
 pub use matrix::Matrix;
 pub(crate) use newton::NotFinite;
 pub use term::{Prediction, Renewed, Term};

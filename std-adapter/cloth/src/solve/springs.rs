@@ -1,7 +1,7 @@
-//! Springs between vertices and anchors, which carry attachments: ½k|x − a|², with the anchor a where it is at the end of the
-//! step.
+//! Springs between vertices and anchors, which carry attachments and soft pins: ½k|x − a|², with the anchor a where it is at the
+//! end of the step.
 
-use super::loads::Pull;
+use super::loads::{Pull, SpringGroup};
 use super::matrix::Matrix;
 use super::term::{Prediction, Term};
 use crate::model::energy::{Configuration, StoredEnergy};
@@ -17,9 +17,17 @@ pub(crate) struct Spring {
     pub(crate) anchor: DVec3,
     /// The stiffness, in N/m.
     pub(crate) stiffness: f64,
-    /// The group of the attachment, and a vertex of the body that holds it; `None` for something else.
-    pub(crate) group: usize,
+    pub(crate) group: SpringGroup,
+    /// A vertex of the body that holds it; `None` for something else.
     pub(crate) body: Option<u32>,
+}
+
+impl Spring {
+    /// Returns the way from the anchor to the vertex, in m, and the stored energy, in J.
+    fn stretched(&self, x: &[DVec3]) -> (DVec3, f64) {
+        let way = x[self.vertex as usize] - self.anchor;
+        (way, 0.5 * self.stiffness * way.length_squared())
+    }
 }
 
 /// Springs that an effect holds.
@@ -27,8 +35,8 @@ pub(crate) trait Springs: Debug + Send + Sync + Memory {
     /// Adds each spring that holds. `x` has the bodies where they are at the end of the step.
     fn springs(&self, step: &TimeStep<'_>, x: &[DVec3], springs: &mut Vec<Spring>);
 
-    /// Returns the stored energy, in J.
-    fn energy(&self, positions: &[DVec3]) -> f64;
+    /// Returns each spring that holds, with its anchor where the last step has left it.
+    fn settled(&self) -> Vec<Spring>;
 }
 
 /// The springs in this step.
@@ -55,16 +63,10 @@ impl<S: Springs> Term for Held<S> {
 
     fn gradient(&mut self, x: &[DVec3], gradient: &mut [DVec3]) -> f64 {
         let mut energy = 0.0;
-        for &Spring {
-            vertex,
-            anchor,
-            stiffness,
-            ..
-        } in &self.springs
-        {
-            let way = x[vertex as usize] - anchor;
-            gradient[vertex as usize] += way * stiffness;
-            energy += 0.5 * stiffness * way.length_squared();
+        for spring in &self.springs {
+            let (way, stored) = spring.stretched(x);
+            gradient[spring.vertex as usize] += way * spring.stiffness;
+            energy += stored;
         }
         energy
     }
@@ -76,7 +78,9 @@ impl<S: Springs> Term for Held<S> {
     }
 
     fn energy(&self, now: &Configuration<'_>, own: usize) -> Vec<(usize, StoredEnergy)> {
-        vec![(own, StoredEnergy::Elastic(self.effect.energy(now.positions)))]
+        let settled = self.effect.settled();
+        let stored = settled.iter().map(|spring| spring.stretched(now.positions).1).sum();
+        vec![(own, StoredEnergy::Elastic(stored))]
     }
 
     fn visit_pulls(&self, x: &[DVec3], visit: &mut dyn FnMut(Pull)) {
@@ -85,7 +89,7 @@ impl<S: Springs> Term for Held<S> {
                 group: spring.group,
                 body: spring.body,
                 anchor: spring.anchor,
-                force: (x[spring.vertex as usize] - spring.anchor) * spring.stiffness,
+                force: spring.stretched(x).0 * spring.stiffness,
             });
         }
     }

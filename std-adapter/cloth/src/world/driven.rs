@@ -5,9 +5,8 @@
 
 use super::animation::Animation;
 use super::keyframes::KeyframeMotion;
-use super::motion::{BodyMotion, Pose};
+use super::motion::{BodyMotion, Carrier, Pose};
 use super::placement::Placement;
-use crate::model::step::Carrier;
 use selvedge_core::glam::DVec3;
 
 #[derive(Debug)]
@@ -17,17 +16,22 @@ pub(crate) enum Kinematic {
     Driven(Box<Driven>),
 }
 
+/// The vertex of a point that no vertex follows, such as the anchor of a soft pin.
+pub(crate) const NO_VERTEX: u32 = u32::MAX;
+
 /// A known motion of each vertex.
 #[derive(Debug)]
 pub(crate) struct Animated {
     vertices: Vec<u32>,
     animation: Animation,
+    /// The points where [`Kinematic::put`] has left them.
     positions: Vec<DVec3>,
 }
 
 /// A motion that the caller drives.
 #[derive(Debug)]
 pub(crate) struct Driven {
+    /// The vertex of each point, or [`NO_VERTEX`].
     pub(crate) vertices: Vec<u32>,
     /// The present placement of the points at rest; `None` after the caller moved them one by one.
     pub(crate) placement: Option<Placement>,
@@ -98,6 +102,21 @@ impl Kinematic {
         }
     }
 
+    /// Returns the place of a point in a pose of this motion; `None` if the motion does not say it. `index` is its place among
+    /// the points on separate paths, if it is one of them, and `rest` is where it is without any motion. Points of an animation
+    /// are where they were put last.
+    pub(crate) fn point(&self, pose: &Pose, index: Option<u32>, rest: DVec3) -> Option<DVec3> {
+        let Some(along) = pose.deformed else {
+            return Some(pose.apply(rest));
+        };
+        let index = index? as usize;
+        match self {
+            Self::Keyframes(_) => None,
+            Self::Animated(animated) => animated.positions.get(index).copied(),
+            Self::Driven(driven) => driven.point(along, index),
+        }
+    }
+
     /// Takes over the state of another motion of the same vertices, which have new numbers.
     pub(crate) fn take_over(&mut self, other: Self) {
         if let (Self::Driven(own), Self::Driven(other)) = (self, other) {
@@ -150,8 +169,10 @@ pub(crate) fn put_kinematic(
 impl Animated {
     fn put(&mut self, clock: f64, positions: &mut [DVec3]) {
         self.animation.sample(clock, &mut self.positions);
-        for (&vertex, &position) in self.vertices.iter().zip(&self.positions) {
-            positions[vertex as usize] = position;
+        for (&vertex, &point) in self.vertices.iter().zip(&self.positions) {
+            if let Some(position) = positions.get_mut(vertex as usize) {
+                *position = point;
+            }
         }
     }
 }
@@ -185,28 +206,48 @@ impl Driven {
         self.goal = Some(Goal::Points(positions));
     }
 
-    /// Begins a step of `h` seconds of the clock, with all points at `positions`. `rest` are the points without any motion.
-    pub(crate) fn begin(&mut self, clock: f64, h: f64, positions: &[DVec3], rest: &[DVec3]) {
+    /// Begins a step of `h` seconds of the clock, with all vertices at `positions`. `rest` are the vertices without any motion.
+    /// `anchors` are points without a vertex, by their index.
+    pub(crate) fn begin(
+        &mut self,
+        clock: f64,
+        h: f64,
+        [positions, rest]: [&[DVec3]; 2],
+        anchors: impl Iterator<Item = (u32, DVec3)>,
+    ) {
         self.clock = [clock, clock + h];
-        let now = |positions: &[DVec3]| self.vertices.iter().map(|&v| positions[v as usize]).collect::<Vec<_>>();
+        // Points with neither a vertex nor an anchor do not matter, and stay where `others` has them.
+        let points = |all: &[DVec3], others: &[DVec3]| {
+            let point = |(index, &vertex): (usize, &u32)| all.get(vertex as usize).or(others.get(index)).copied();
+            let points = self.vertices.iter().enumerate();
+            points.map(|of| point(of).unwrap_or_default()).collect::<Vec<_>>()
+        };
+        let now = |others: &[DVec3]| {
+            let mut points = points(positions, others);
+            anchors.for_each(|(index, place)| points[index as usize] = place);
+            points
+        };
         self.leg = match (self.goal.take(), self.placement) {
             (None, Some(placement)) => Leg::standing(placement),
-            (None, None) => Leg::Points {
-                from: now(positions),
-                to: now(positions),
-                then: None,
-            },
+            (None, None) => {
+                let from = now(&[]);
+                Leg::Points {
+                    to: from.clone(),
+                    from,
+                    then: None,
+                }
+            }
             (Some(Goal::Placement(to)), Some(from)) => {
                 let (axis, angle) = from.turn_to(&to);
                 Leg::Rigid { axis, angle, from, to }
             }
             (Some(Goal::Placement(placement)), None) => Leg::Points {
-                from: now(positions),
-                to: now(rest).into_iter().map(|point| placement.apply(point)).collect(),
+                from: now(&[]),
+                to: points(rest, &[]).into_iter().map(|point| placement.apply(point)).collect(),
                 then: Some(placement),
             },
             (Some(Goal::Points(to)), _) => Leg::Points {
-                from: now(positions),
+                from: now(&to),
                 to,
                 then: None,
             },
@@ -260,8 +301,18 @@ impl Driven {
         if let Leg::Points { from, to, .. } = &self.leg {
             let share = self.share(clock);
             for ((&vertex, from), to) in self.vertices.iter().zip(from).zip(to) {
-                positions[vertex as usize] = if share < 1.0 { *from + (*to - *from) * share } else { *to };
+                if let Some(position) = positions.get_mut(vertex as usize) {
+                    *position = on_way([*from, *to], share);
+                }
             }
+        }
+    }
+
+    /// Returns a point at this progress on the leg; `None` if the leg does not say it.
+    fn point(&self, share: f64, index: usize) -> Option<DVec3> {
+        match &self.leg {
+            Leg::Rigid { .. } => None,
+            Leg::Points { from, to, .. } => Some(on_way([*from.get(index)?, *to.get(index)?], share)),
         }
     }
 
@@ -286,4 +337,9 @@ impl Driven {
             0.0
         }
     }
+}
+
+/// Returns the point at a share of the way, and exactly its end there.
+fn on_way([from, to]: [DVec3; 2], share: f64) -> DVec3 {
+    if share < 1.0 { from + (to - from) * share } else { to }
 }

@@ -29,11 +29,11 @@ pub use motion::BodyMotion;
 pub use placement::Placement;
 
 pub(crate) use animation::FASTEST_VERTEX;
-pub(crate) use driven::{Driven, Kinematic, put_kinematic};
+pub(crate) use driven::{Driven, Kinematic, NO_VERTEX, put_kinematic};
 pub(crate) use file_mesh::FileNumbering;
 pub use file_mesh::MeshInFiles;
 pub(crate) use keyframes::{KEY_TIME, check_key_time};
-pub(crate) use motion::Pose;
+pub(crate) use motion::{Carrier, FREE, Pose};
 pub(crate) use runs::runs;
 pub(crate) use selvedge::Adjacency as Incidence;
 #[cfg(test)]

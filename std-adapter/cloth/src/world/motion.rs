@@ -64,6 +64,11 @@ impl From<KeyframeMotion> for BodyMotion {
     }
 }
 
+/// The kinematic motion of a vertex: its index among the motions.
+pub(crate) type Carrier = u32;
+/// The carrier of vertices without such a motion, which the solver moves.
+pub(crate) const FREE: Carrier = u32::MAX;
+
 /// The placement of a moving body at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pose {

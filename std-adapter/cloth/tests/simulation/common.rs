@@ -76,7 +76,7 @@ pub(crate) fn resting(vertices: impl Into<Vec<u32>>) -> Pins {
 pub(crate) fn pinned(vertices: impl Into<Vec<u32>>, motion: PinMotion) -> Pins {
     let vertices = vertices.into();
     Pins {
-        groups: vec![PinGroup { vertices, motion }],
+        groups: vec![PinGroup::new(vertices, motion)],
     }
 }
 

@@ -476,7 +476,7 @@ fn thirty_wrong_ways_to_use_it_from_code_get_thirty_errors_that_say_what_would_b
         |s| _ = s.add(pins(vec![PinGroup::resting([169])]))
             => "pins: the scene has no vertex 169 of cloth: it has 169, numbered from 0…";
         |s| _ = s.add(pins(vec![PinGroup::resting([2, 3, 3])])) => "pins: vertex 3 is pinned twice";
-        |s| _ = s.add(pins(vec![PinGroup::resting([3]), PinGroup { vertices: vec![2, 3], motion: PinMotion::Body(0) }]))
+        |s| _ = s.add(pins(vec![PinGroup::resting([3]), PinGroup::new([2, 3], PinMotion::Body(0))]))
             => "pins: vertex 3 is pinned twice, with different motions";
         |s| _ = s.add(pinned([0], PinMotion::Body(4)))
             => "pins: there is no body 4: the scene has 1, numbered from 0…";

@@ -22,6 +22,7 @@ mod rest_shape;
 mod ropes;
 mod seams;
 mod several_cloths;
+mod soft_pins;
 mod stability;
 mod stretch;
 mod tangled;

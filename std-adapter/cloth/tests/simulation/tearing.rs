@@ -16,16 +16,21 @@ fn column(column: u32) -> Vec<u32> {
     (0..=CELLS[1]).map(|row| (CELLS[0] + 1) * row + column).collect()
 }
 
-/// Makes a strip of 1 kN/m whose ends are drawn apart by a centimetre in a tenth of a second. It stretches by a tenth, so that
-/// 100 N pull on each metre of its width.
-fn pulled(tearing: Tearing) -> Scene {
-    let mut scene = Scene::new(strip("cloth", DVec3::ZERO), 1e-3);
+/// Pins the ends of the strip.
+fn drawn() -> Pins {
     let mut pins = pinned(
         column(CELLS[0]),
         PinMotion::Own(along([(0.0, DVec3::ZERO), (0.1, DVec3::X * 0.01)])),
     );
     pins.groups.push(PinGroup::resting(column(0)));
-    scene.add(pins);
+    pins
+}
+
+/// Makes a strip of 1 kN/m whose ends are drawn apart by a centimetre in a tenth of a second. It stretches by a tenth, so that
+/// 100 N pull on each metre of its width.
+fn pulled(tearing: Tearing) -> Scene {
+    let mut scene = Scene::new(strip("cloth", DVec3::ZERO), 1e-3);
+    scene.add(drawn());
     scene.add(Stretch::isotropic(1000.0)).add(Shear::new(100.0));
     scene.add(SelfCollision(Thickness::new(1e-3))).add(tearing);
     scene
@@ -241,6 +246,35 @@ fn what_names_vertices_of_a_cloth_behind_one_that_tears_goes_on_holding_them() {
     }
 }
 
+/// The caller moves anchors of the second cloth before and after the first one tears.
+#[test]
+fn soft_pins_go_on_pulling_a_cloth_behind_one_that_tears() {
+    let mut scene = pulled(Tearing::perforated(column(5), 60.0));
+    scene.cloths.push(strip("second", DVec3::Z * 0.1));
+    let corners = [66, 66 + CELLS[0]];
+    let mut pins = drawn();
+    pins.groups.push(PinGroup {
+        stiffness: Some(100.0),
+        ..PinGroup::new(corners, PinMotion::Own(BodyMotion::Driven(Placement::default())))
+    });
+    scene.add(pins).add(AirDrag { rate: 20.0 });
+    let mut simulation = Simulation::new(scene, 1).unwrap();
+    let start = corners.map(|corner| simulation.positions()[corner as usize]);
+    let torn_after = (1..=600).fold(None, |torn, step| {
+        let way = DVec3::Z * (1e-4 * f64::from(step.min(300)));
+        simulation.move_pins(2, &start.map(|corner| corner + way)).unwrap();
+        simulation.step().unwrap();
+        torn.or((simulation.torn_edges().len() == 5).then_some(step))
+    });
+    assert!(torn_after.is_some_and(|step| step < 300), "{torn_after:?}");
+    let own = simulation.vertices_of_cloth(1).unwrap();
+    assert_eq!(own, 72..138);
+    for (corner, start) in [0, CELLS[0] as usize].into_iter().zip(start) {
+        let off = simulation.positions()[own.start + corner].distance(start + DVec3::Z * 0.03);
+        assert!(off < 1e-4, "{off} m off");
+    }
+}
+
 /// Makes a strip with a tassel of two edges at a vertex, whose ends are 66 and 67.
 fn with_tassel(name: &str, at: DVec3, vertex: u32) -> Cloth {
     let mut mesh = strip(name, at).mesh().clone();
@@ -335,9 +369,11 @@ fn in_a_groove() -> Scene {
     groove.motion = away;
     scene.bodies = vec![groove, Body::from_mesh("wedge", folded(3, -1..5, gap))];
     let drawn = |side: f64| PinMotion::Own(along([(0.0, DVec3::ZERO), (0.15, DVec3::new(side, 0.0, 1.0) * 0.002)]));
-    let ends = [-1.0, 1.0].map(|side: f64| PinGroup {
-        vertices: (0..4).map(|row| 5 * row + if side < 0.0 { 0 } else { 4 }).collect(),
-        motion: drawn(side),
+    let ends = [-1.0, 1.0].map(|side: f64| {
+        PinGroup::new(
+            (0..4).map(|row| 5 * row + if side < 0.0 { 0 } else { 4 }).collect::<Vec<_>>(),
+            drawn(side),
+        )
     });
     scene.add(Pins { groups: ends.to_vec() });
     scene.add(Stretch::isotropic(1000.0)).add(BodyContact(Thickness::new(50e-6)));

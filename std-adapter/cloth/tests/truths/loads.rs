@@ -16,21 +16,21 @@ const THICKNESS: f64 = 2e-3;
 
 /// How a test runs its scene: in steps of so many seconds, or in frames.
 #[derive(Clone, Copy, Debug)]
-enum Pace {
+pub(super) enum Pace {
     Steps(f64),
     Frames(f64),
 }
 
-const PACES: [Pace; 3] = [Pace::Steps(1e-3), Pace::Steps(4e-3), Pace::Frames(1.0 / 60.0)];
+pub(super) const PACES: [Pace; 3] = [Pace::Steps(1e-3), Pace::Steps(4e-3), Pace::Frames(1.0 / 60.0)];
 
 impl Pace {
-    fn seconds(self) -> f64 {
+    pub(super) fn seconds(self) -> f64 {
         match self {
             Self::Steps(seconds) | Self::Frames(seconds) => seconds,
         }
     }
 
-    fn run(self, simulation: &mut Simulation, seconds: f64) {
+    pub(super) fn run(self, simulation: &mut Simulation, seconds: f64) {
         for _ in 0..(seconds / self.seconds()).round() as u32 {
             match self {
                 Self::Steps(_) => simulation.step().unwrap(),
@@ -84,7 +84,7 @@ fn table(angle: f64) -> Body {
 }
 
 /// Checks that a vector is as exact as a share of a scale allows.
-fn near(what: &str, found: DVec3, exact: DVec3, scale: f64, share: f64) {
+pub(super) fn near(what: &str, found: DVec3, exact: DVec3, scale: f64, share: f64) {
     let error = (found - exact).length() / scale;
     println!("{what}: {error:e} off {exact}");
     assert!(error <= share, "{what}: {found} instead of {exact}");
@@ -162,7 +162,7 @@ fn pins_and_attachments_carry_the_weight_of_cloth_and_its_load() {
             } else {
                 let vertices = top;
                 scene.add(Pins {
-                    groups: vec![PinGroup { vertices, motion }],
+                    groups: vec![PinGroup::new(vertices, motion)],
                 });
             }
             scene.add(AirDrag { rate: 5.0 });
@@ -206,10 +206,10 @@ fn pins_feel_the_inertia_of_what_they_lift() {
     let mut scene = Scene::new(rope, 1e-3);
     scene.add(Gravity::default()).add(RopeStretch::new(1000.0));
     scene.add(Pins {
-        groups: vec![PinGroup {
-            vertices: (0..count as u32).collect(),
-            motion: PinMotion::Own(selvedge_cloth::BodyMotion::Driven(Placement::default())),
-        }],
+        groups: vec![PinGroup::new(
+            (0..count as u32).collect::<Vec<_>>(),
+            PinMotion::Own(selvedge_cloth::BodyMotion::Driven(Placement::default())),
+        )],
     });
     let mut simulation = Simulation::new(scene, 1).unwrap();
     let acceleration = 2.0;

@@ -5,6 +5,7 @@ mod limits;
 mod loads;
 mod momentum;
 mod rest;
+mod soft_pins;
 
 use selvedge_cloth::effects::{Bend, Shear, Stretch};
 use selvedge_cloth::glam::DVec3;

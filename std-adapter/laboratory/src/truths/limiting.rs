@@ -124,10 +124,10 @@ pub(super) const LONGEST_EDGE: Law = Law {
 /// Pins that the caller moves.
 fn driven(vertices: &[u32]) -> Pins {
     Pins {
-        groups: vec![PinGroup {
-            vertices: vertices.to_vec(),
-            motion: PinMotion::Own(BodyMotion::Driven(Placement::default())),
-        }],
+        groups: vec![PinGroup::new(
+            vertices.to_vec(),
+            PinMotion::Own(BodyMotion::Driven(Placement::default())),
+        )],
     }
 }
 
@@ -212,10 +212,10 @@ pub(super) const TAUT: Law = Law {
             };
             let keys = vec![key(0.0, 0.0), key(0.4, -0.07), key(0.5, -depth - taut)];
             let motion = KeyframeMotion::new(DVec3::ZERO, DVec3::Z, keys)?;
-            Ok(PinGroup {
-                vertices: vertices_where(cloth.mesh(), |point| point.x * side > half - 1e-9),
-                motion: PinMotion::Own(motion.interpolated(Interpolation::Smooth).into()),
-            })
+            Ok(PinGroup::new(
+                vertices_where(cloth.mesh(), |point| point.x * side > half - 1e-9),
+                PinMotion::Own(motion.interpolated(Interpolation::Smooth).into()),
+            ))
         };
         let groups = vec![group(-1.0)?, group(1.0)?];
         let mut scene = scene(cloth);

@@ -177,7 +177,7 @@ fn tensions_at_cylinder([angle, friction]: [f64; 2], conditions: &Conditions) ->
     let motion = PinMotion::Own(motion.interpolated(Interpolation::Smooth).into());
     let vertices = vec![segments];
     scene.add(Pins {
-        groups: vec![PinGroup { vertices, motion }],
+        groups: vec![PinGroup::new(vertices, motion)],
     });
     elastic(&mut scene, 1e5, 1e-3);
     scene
