@@ -208,6 +208,47 @@ def test_bodies_pins_and_wind_go_where_python_leads_them():
     np.testing.assert_array_equal(simulation.positions[ball], (turned * 1.01).astype(np.float32))
 
 
+STIFFNESS = 50.0
+
+
+def on_soft_pins(weights: object, stiffness: float = STIFFNESS) -> dict:
+    """The corners of a sheet, on soft pins that Python moves."""
+    scene = over_a_ball()
+    corners = {"vertices": np.array([0, 12, 156, 168]), "stiffness": stiffness, "weights": weights, "driven": True}
+    scene["effects"] = {"gravity": {}, "air_drag": {"rate": 10}, "stretch": {"stiffness": 200}, "pins": {"group": [corners]}}
+    return scene
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_soft_pins_yield_by_force_over_stiffness_and_go_where_python_leads_them(dtype: type):
+    weights = np.array([1, 1, 0.5, 0.5], dtype)
+    simulation = Simulation.from_dict(on_soft_pins(weights))
+    corners = [0, 12, 156, 168]
+    start = simulation.positions[corners].copy()
+    weight = 0.2 * 0.3**2 * 9.81
+    for step in range(1, 1501):
+        simulation.move_pins(0, start + [0, 0, 0.05 * min(step, 250) / 250])
+        simulation.step()
+    pulls = (start + [0, 0, 0.05] - simulation.positions[corners]) * (STIFFNESS * weights[:, None])
+    load = simulation.pin_load(0).force
+    np.testing.assert_allclose(pulls.sum(0), [0, 0, weight], atol=1e-3 * weight)
+    np.testing.assert_allclose(load, [0, 0, -weight], atol=1e-3 * weight)
+
+
+@pytest.mark.parametrize(
+    ("weights", "stiffness", "message"),
+    [
+        ([1, 1, np.nan, 1], 1.0, r"effects\.pins\.group\[0\]\.weights.*NaN, but must be from 0 to 1"),
+        ([1, 1, 1.5, 1], 1.0, r"effects\.pins\.group\[0\]\.weights.*1\.5, but must be from 0 to 1"),
+        ([1, 1], 1.0, r"effects\.pins\.group\[0\]\.weights: `weights` has 2 numbers for 4 vertices"),
+        ([1, 1, 1, 1], -1.0, r"effects\.pins\.group\[0\]\.stiffness.*-1 N/m, but must be from"),
+    ],
+)
+def test_wrong_soft_pins_are_named_by_their_field(weights: list, stiffness: float, message: str):
+    with pytest.raises(errors.SceneError, match=message):
+        Simulation.from_dict(on_soft_pins(weights, stiffness))
+
+
 def test_a_body_that_jumps_is_refused_and_a_teleport_takes_the_cloth_along():
     simulation = Simulation.from_dict(over_a_ball())
     simulation.step(5)

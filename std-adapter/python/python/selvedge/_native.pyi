@@ -319,7 +319,8 @@ class Simulation:
         """Moves each vertex of a driven body straight to a position, in metres, in the next step, as for a skinned figure."""
 
     def move_pins(self, group: int, positions: ArrayLike) -> None:
-        """Moves each vertex of a driven group of pins, given by its index, in the next step."""
+        """Moves each vertex of a driven group of pins, given by its index, in the next step. Soft pins (a group with a ``stiffness`` in
+        N/m, and perhaps ``weights`` from 0 to 1, one for each of its vertices) pull their vertices towards these positions."""
 
     def set_velocity(self, vertices: ArrayLike, velocity: Sequence[float] | NDArray[np.floating[Any]]) -> None:
         """Sets the velocity, in m/s, with which vertices of cloth start the next step, as if a hand pulled them. ``vertices`` are rows of
@@ -342,7 +343,7 @@ class Simulation:
         self, group: int, about: Sequence[float] | NDArray[np.floating[Any]] = ..., *, mean: bool = False
     ) -> Wrench:
         """The load on a group of pins, given by its index, as :meth:`body_load`: what moves or holds the pins feels. The weight and the
-        inertia of the pinned vertices are in it. A vertex in several groups counts in each."""
+        inertia of the pinned vertices are in it. Of a soft pin it is the pull of its spring. A vertex in several groups counts in each."""
 
     def attachment_load(
         self, group: int, about: Sequence[float] | NDArray[np.floating[Any]] = ..., *, mean: bool = False
