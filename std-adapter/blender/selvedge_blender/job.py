@@ -22,10 +22,8 @@ class Part:
     obj: object
     used: np.ndarray
     """The vertices of the evaluated mesh that the simulation has."""
-    pinned: np.ndarray
-    """Indices of pinned ones among these."""
-    group: int
-    """The group of pins; -1 without any."""
+    pinned: dict
+    """group of pins -> indices of its vertices among these."""
     shot: Snapshot
     rows: slice = None
     """Of the simulation's positions."""
@@ -157,9 +155,7 @@ class Job:
         rest = self._rest(obj, shot)
         if rest is not None:
             table["rest_positions"] = rest[used]
-        pinned = np.flatnonzero(weights(obj, depsgraph, own.pin_group, len(shot.positions))[used] >= 0.5)
-        if len(pinned):
-            groups.append({"cloth": obj.name, "vertices": pinned, "driven": True})
+        pinned = self._pins(obj, weights(obj, depsgraph, own.pin_group, len(shot.positions))[used], groups)
         if own.sew:
             number = np.full(len(shot.positions), -1)
             number[used] = np.arange(len(used))
@@ -170,9 +166,22 @@ class Job:
             seams += [{"first": place | {"vertices": a}, "second": place | {"vertices": b}} | closing for a, b in rows]
             if not rows:
                 raise Refused(f"'{obj.name}' is to be sewn, but has no loose edges: join the sides of a seam by edges without faces")
-        self.parts.append(Part(obj, used, pinned, len(groups) - 1 if len(pinned) else -1, shot))
+        self.parts.append(Part(obj, used, pinned, shot))
         self.counts[obj.name] = len(shot.positions)
         return table
+
+    @staticmethod
+    def _pins(obj, shares, groups):
+        """Adds the groups of hard and of soft pins, by the weights of the cloth's vertices; returns their vertices."""
+        hard = np.flatnonzero(shares >= 1)
+        soft = np.flatnonzero((shares > 0) & (shares < 1))
+        kinds = [(hard, {}), (soft, {"stiffness": obj.selvedge.pin_stiffness, "weights": shares[soft]})]
+        pinned = {}
+        for vertices, springs in kinds:
+            if len(vertices):
+                pinned[len(groups)] = vertices
+                groups.append({"cloth": obj.name, "vertices": vertices, "driven": True} | springs)
+        return pinned
 
     def _rest(self, obj, shot):
         """The positions at rest, in world space: those of the rest shape key, or of the first frame of a run that continues."""
@@ -243,8 +252,8 @@ class Job:
             self.simulation.move_body(obj.name, self._read(obj, depsgraph).positions)
         for part in self.parts:
             part.shot = self._read(part.obj, depsgraph)
-            if part.group >= 0:
-                self.simulation.move_pins(part.group, part.shot.positions[part.used][part.pinned])
+            for group, vertices in part.pinned.items():
+                self.simulation.move_pins(group, part.shot.positions[part.used][vertices])
         if self.wind is not None:
             self.simulation.set_wind(self._wind())
 

@@ -40,6 +40,9 @@ def draw_object(layout, obj):
         return
     layout.prop(own, "thickness")
     layout.prop_search(own, "pin_group", obj, "vertex_groups")
+    sub = layout.row()
+    sub.active = own.pin_group != ""
+    sub.prop(own, "pin_stiffness")
     if obj.data.shape_keys is not None:
         layout.prop_search(own, "rest_key", obj.data.shape_keys, "key_blocks")
     row = layout.row(heading="Sewing")

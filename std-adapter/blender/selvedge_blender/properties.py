@@ -24,7 +24,17 @@ class SelvedgeObject(bpy.types.PropertyGroup):
     is_collider: BoolProperty(name="Collider", default=True, description="Cloth does not pass through this object")
     pin_group: StringProperty(
         name="Pin Group",
-        description="A vertex group: vertices with a weight of 0.5 or more go where the armature and other modifiers put them",
+        description="A vertex group: vertices of weight 1 go where the armature and other modifiers put them. Springs pull vertices of "
+        "lower weights there",
+    )
+    pin_stiffness: FloatProperty(
+        name="Pin Stiffness",
+        default=20,
+        min=1e-3,
+        soft_max=1000,
+        max=1e6,
+        description="How hard springs pull vertices with a pin weight below 1, in N/m for each vertex, times its weight. A vertex yields by "
+        "the force on it over that",
     )
     rest_key: StringProperty(
         name="Rest Shape Key",
