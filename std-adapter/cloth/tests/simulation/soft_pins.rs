@@ -110,6 +110,40 @@ fn anchors_that_are_moved_too_fast_are_errors_with_their_group() {
     assert_eq!(simulation.positions(), before);
 }
 
+/// The anchors move by four cells in the first frame, while the cloth is still at rest.
+#[test]
+fn a_frame_takes_as_many_steps_for_anchors_as_for_pinned_vertices() {
+    const FRAME: f64 = 1.0 / 60.0;
+    let way = DVec3::Z * 0.2;
+    let key = |time: f64, translation: DVec3| Keyframe {
+        time,
+        translation,
+        ..Keyframe::default()
+    };
+    let keys = KeyframeMotion::new(DVec3::ZERO, DVec3::Z, vec![key(0.0, DVec3::ZERO), key(FRAME, way)]).unwrap();
+    for motion in [driven(), PinMotion::Body(0), PinMotion::Own(keys.into())] {
+        let [hard, soft] = [None, Some(50.0)].map(|stiffness| {
+            let mut group = PinGroup::new([20, 24], motion.clone());
+            group.stiffness = stiffness;
+            let mut scene = hung(vec![group]);
+            let mut ball = Body::ball("ball", DVec3::new(0.1, 0.3, 0.2), 0.1, 12).unwrap();
+            ball.motion = BodyMotion::Driven(Placement::default());
+            scene.bodies.push(ball);
+            let mut simulation = Simulation::new(scene, 1).unwrap();
+            match motion {
+                PinMotion::Body(_) => simulation.place_body(0, Placement::at(way)).unwrap(),
+                PinMotion::Own(BodyMotion::Driven(_)) => {
+                    let to = [20, 24].map(|vertex: usize| simulation.positions()[vertex] + way);
+                    simulation.move_pins(0, &to).unwrap();
+                }
+                PinMotion::Own(_) => {}
+            }
+            simulation.advance(FRAME).unwrap().needed
+        });
+        assert!(soft == hard && hard > 4, "{motion:?}: {soft} and {hard}");
+    }
+}
+
 /// Two springs of 10 N/m are one of 20 N/m.
 #[test]
 fn the_forces_of_soft_pins_at_one_vertex_add_up() {
