@@ -2,13 +2,13 @@
 
 Start with :class:`Detector`. It takes the positions at the start and at the end of a step and returns the contacts as numpy arrays.
 :mod:`selvedge.ipc` offers the names that users of ipctk know. :class:`Simulation` simulates cloth. :mod:`selvedge.laboratory` measures
-what accuracy costs in time.
+what accuracy costs in time. :mod:`selvedge.guard` certifies the steps of other simulators.
 
 Positions are arrays of shape (vertex_count, 3) in any unit of length. float32 and float64 arrays in C order are not copied; others are.
 Times are in [0, 1] of the step. Calls release the interpreter lock. Do not write to the positions during a call.
 """
 
-from . import errors, ipc, laboratory
+from . import errors, guard, ipc, laboratory
 from ._answers import (
     BodyLoad,
     CandidatePairs,
@@ -59,6 +59,7 @@ __all__ = [
     "Wrench",
     "__version__",
     "errors",
+    "guard",
     "ipc",
     "laboratory",
     "read_mesh",
