@@ -76,6 +76,10 @@ try() { # NAME OUTPUT COMMAND...
         cmp "$flown" "$output" || give_up "$* builds a flag with different output"
         grep -q '^500 of 500 states are certified' "$output" || give_up "not every state of the flag is certified"
         ;;
+    guard)
+        "$folder/program" >"$output"
+        grep -q '^with the guard: 0 of 100 states' "$output" || give_up "the guard lets states intersect"
+        ;;
     *) "$folder/program" ;;
     esac
 }
@@ -91,7 +95,7 @@ for compiler in gcc clang g++ clang++; do
     *) standards="c11 c17" suffix=c ;;
     esac
     for standard in $standards; do
-        for source in examples/{frames,flag} tests/programs/{refusals,refusals_of_worlds,simulations,fork,fork_simulation}; do
+        for source in examples/{frames,flag,guard} tests/programs/{refusals,refusals_of_worlds,simulations,fork,fork_simulation}; do
             [ -e "$source.$suffix" ] || continue
             for mode in plain sanitized; do
                 # The allocator of the sanitizers may be locked by a thread that the child does not have, and then hangs.

@@ -245,6 +245,22 @@ fn the_example_in_cpp_prints_what_rust_finds_bit_for_bit() {
 }
 
 #[test]
+fn a_simulator_behind_the_guard_in_c_never_intersects_and_without_it_does() {
+    let Some(program) = build(Language::C, "examples/guard") else {
+        return;
+    };
+    let output = String::from_utf8(succeed(&mut Command::new(program)).stdout).unwrap();
+    let lines: Vec<&str> = output.lines().collect();
+    let intersecting = |line: &str, run: &str| -> usize {
+        let counts = line.strip_prefix(run).unwrap().strip_prefix(" the guard: ").unwrap();
+        counts.split(' ').next().unwrap().parse().unwrap()
+    };
+    assert!(intersecting(lines[0], "without") > 10, "{output}");
+    assert_eq!(intersecting(lines[1], "with"), 0, "{output}");
+    assert_eq!(lines[2..], ["a step to a number that is not finite is not free"]);
+}
+
+#[test]
 fn wrong_input_from_c_is_refused_and_changes_nothing() {
     runs(Language::C, "tests/programs/refusals");
     runs(Language::C, "tests/programs/refusals_of_worlds");
