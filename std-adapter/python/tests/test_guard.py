@@ -205,7 +205,7 @@ def test_bodies_may_pass_through_each_other():
 
 
 def pressed() -> tuple[Guard, Guard, Frame, list[Frame], list[Frame]]:
-    """A sheet between two bodies that move through each other: guards that drive and hold bodies, the sheet, the bodies before and after."""
+    """A sheet between two bodies that move through each other: guards that drive and hold them, the sheet, the bodies before and after."""
     faces, cloth = sheet(4)
     cloth = rough(cloth)
     bodies = [cube(0.4, (0.3, 0.3, -0.45)), cube(0.4, (0.3, 0.3, 0.05))]

@@ -33,8 +33,8 @@ __all__ = ["Guard", "GuardedStep"]
 
 _Positions = NDArray[Any]
 
-# A driven body carries cloth along in so many equal parts of its motion, until one succeeds. Each part costs as much as a step, so all
-# attempts together cost at most fifteen.
+# A driven body carries cloth along in so many equal parts of its motion, until one succeeds. Each part costs as much as a
+# step, so all attempts together cost at most fifteen.
 _PARTS = (1, 2, 4, 8)
 # A held body is slowed so often before it rests.
 _SLOWED = 3
@@ -179,7 +179,7 @@ class Guard:
             if len(part) != count:
                 raise InputError(f"{name}: expected {count} vertices, not {len(part)}")
             if part.dtype.itemsize > parts[0].dtype.itemsize:
-                raise DataTypeError(f"{name}: {part.dtype} would have to be rounded to the format of the cloth, {parts[0].dtype}; convert it")
+                raise DataTypeError(f"{name}: {part.dtype} would have to be rounded to the cloth's {parts[0].dtype}; convert it")
         return np.concatenate(parts).astype(parts[0].dtype, copy=False)
 
     def _look_at_numbers(self, joined: _Positions, when: str) -> None:
@@ -211,8 +211,7 @@ class Guard:
             carried = self._carried(start, wanted, parts)
             if carried is not None:
                 return self._truncated(carried, wanted)
-        text = "after: a body moves through cloth that cannot move out of its way; move it less in one step, or hold it back (hold_bodies)"
-        raise _NotFree(text)
+        raise _NotFree("after: a body moves through cloth that cannot get out of its way; move it less in a step, or pass hold_bodies")
 
     def _truncated(self, start: _Positions, wanted: _Positions) -> _Positions:
         """Returns the ends of a certified step. The start must be free."""
