@@ -50,7 +50,7 @@ say "Python: installed into an empty environment, the examples of the pages"
 rm -rf "$environment"
 "$python" -m venv "$environment"
 "$environment/bin/pip" install --quiet --disable-pip-version-check "$wheels"/*.whl
-for page in README.md ../../README.md ../../docs/tutorials/python.md; do
+for page in README.md ../../README.md ../../docs/tutorials/python.md ../../docs/guard.md; do
     sed -n '/^```python/,/^```/p' "$page" | sed '/^```/d' >"$target/page.py"
     (cd "$target" && environment/bin/python page.py)
 done
