@@ -42,9 +42,9 @@ def test_a_simulator_that_knows_no_board_passes_through_it_and_not_if_guarded():
     assert heights.min() < -0.02 and heights.max() > guarded.BOARD[2]
 
 
-@pytest.mark.parametrize("simulator", ["newton", "mujoco"])
-def test_an_example_without_its_simulator_says_what_to_install(simulator):
-    program = f"import sys, runpy; sys.modules[{simulator!r}] = None; runpy.run_path('guard_{simulator}.py', run_name='__main__')"
+@pytest.mark.parametrize(("example", "simulator"), [("guard_newton", "newton"), ("guard_mujoco", "mujoco"), ("arm_mujoco", "mujoco")])
+def test_an_example_without_its_simulator_says_what_to_install(example, simulator):
+    program = f"import sys, runpy; sys.modules[{simulator!r}] = None; runpy.run_path('{example}.py', run_name='__main__')"
     done = subprocess.run([sys.executable, "-B", "-c", program], cwd=EXAMPLES, capture_output=True, text=True)
     assert done.returncode == 0 and done.stdout == ""
     assert "skipped" in done.stderr and f"pip install {simulator}==" in done.stderr
