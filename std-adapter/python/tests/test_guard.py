@@ -237,6 +237,27 @@ def test_more_pairs_than_the_limit_are_not_free():
     assert not step.free and step.positions is None and "too violent" in step.reason
 
 
+def test_a_rope_and_a_particle_do_not_pass_through_a_body_either():
+    table = np.array([[-5.0, -5.0, 0.0], [5.0, -5.0, 0.0], [0.0, 5.0, 0.0]])
+    start = np.array([[-1.0, -1.0, 0.1], [0.0, -1.0, 0.1], [1.0, -1.0, 0.1], [0.0, 0.0, 0.2]])
+    guard = Guard([], 4, edges=[[0, 1], [1, 2]], points=[3], bodies=[([[0, 1, 2]], 3)])
+    step = guard.hold(start, start - [0.0, 0.0, 1.0], bodies_before=[table])
+    assert step.free and (step.positions[:, 2] > 0.0).all() and (step.positions[:, 2] < 0.01).all()
+    through = start.copy()
+    through[1, 2] = -0.1
+    tangled = guard.hold(through, through, bodies_before=[table])
+    assert not tangled.free and tangled.tangled.tolist() == [[0, 1], [0, 2]]
+    assert "face 0 of body 0 and loose edge or point 0 of the cloth" in tangled.reason
+
+
+def test_a_body_that_moves_farther_than_numbers_reach_is_not_free():
+    faces, cloth = sheet(3)
+    body = cube(0.2, (0.4, 0.4, -0.5))
+    guard = Guard(faces, len(cloth), bodies=[(CUBE_FACES, 8)])
+    step = guard.hold(cloth, cloth, bodies_before=[body], bodies_after=[body + [0.0, 0.0, 1e308]])
+    assert not step.free and step.positions is None and "too far" in step.reason
+
+
 def test_results_do_not_depend_on_threads():
     random = np.random.default_rng(5)
     faces, cloth = two_sheets(8)
@@ -259,3 +280,5 @@ def test_bad_shapes_and_formats_are_errors():
         guard.hold(cloth, cloth.astype(np.float32), bodies_before=[body], bodies_after=[body.astype(np.float32)])
     with pytest.raises(InputError, match="faces of body 0: there is no vertex 7"):
         Guard(faces, len(cloth), bodies=[(CUBE_FACES, 7)])
+    with pytest.raises(InputError, match="edges: there is no vertex 9"):
+        Guard(faces, len(cloth), edges=[[0, 9]], bodies=[(CUBE_FACES, 8)])

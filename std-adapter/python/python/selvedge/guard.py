@@ -79,8 +79,8 @@ class Guard:
     ``vertex_count`` vertices. ``bodies`` has the triangles and the number of vertices of each body. Cloth collides with itself and with
     bodies; bodies do not collide with each other.
 
-    ``separation`` is a distance that held vertices keep, in the unit of the positions. Without it cloth stops within the tolerance
-    (2^-30, or 2^-20 for float32) of what it meets. Pairs that start nearer than ``separation`` may stay there, but never touch.
+    ``separation`` is a distance that held vertices keep, in the unit of the positions. Without it they may come as near as the
+    ``tolerance`` (2^-30, or 2^-20 for float32). Pairs that start nearer than ``separation`` may stay there, but never touch.
 
     ``hold_bodies`` holds back bodies like cloth, each as a whole; otherwise they reach their ends. ``threads`` is 1 for the calling
     thread or 0 for one per core; results do not depend on it. ``pair_limit`` bounds the candidate pairs of a step.
@@ -104,6 +104,9 @@ class Guard:
     ) -> None:
         self._count = vertex_count
         self._hold_bodies = hold_bodies
+        # A number that is too large would name a vertex of a body.
+        edges = None if edges is None else _of_mesh(edges, vertex_count, "edges", 2)
+        points = None if points is None else _of_mesh(points, vertex_count, "points", 1)[:, 0]
         counts = [vertex_count, *(count for _, count in bodies)]
         self._starts = np.cumsum([0, *counts])
         meshes = [_of_mesh(faces, vertex_count, "faces")]
@@ -167,7 +170,7 @@ class Guard:
         cloth, *bodies = np.split(end, self._starts[1:-1])
         ways = cloth.astype(np.float64) - wanted[: self._count]
         held = np.flatnonzero((ways != 0.0).any(axis=1)).astype(np.uint32)
-        return GuardedStep(cloth, bodies, held, np.linalg.norm(ways[held], axis=1), None)
+        return GuardedStep(cloth, bodies, held, _lengths(ways[held]), None)
 
     def _joined(self, cloth: ArrayLike, bodies: Sequence[ArrayLike], when: str) -> _Positions:
         """Returns the positions of cloth and bodies as one array, in the format of the cloth."""
@@ -232,8 +235,8 @@ class Guard:
         wanted = wanted.copy()
         for attempt in range(_SLOWED + 1):
             for first, last in zip(self._starts[1:-1], self._starts[2:], strict=True):
-                ways = np.linalg.norm(wanted[first:last].astype(np.float64) - start[first:last], axis=1)
-                gone = np.linalg.norm(end[first:last].astype(np.float64) - start[first:last], axis=1)
+                ways = _lengths(wanted[first:last].astype(np.float64) - start[first:last])
+                gone = _lengths(end[first:last].astype(np.float64) - start[first:last])
                 if np.array_equal(end[first:last], wanted[first:last]):
                     continue
                 share = 0.0 if attempt == _SLOWED else float(np.min(gone[ways > 0.0] / ways[ways > 0.0]))
@@ -265,7 +268,7 @@ class Guard:
         count = self._count
         motion = bodies.astype(np.float64) - start
         motion[:count] = 0.0
-        way = float(np.linalg.norm(motion, axis=1).max())
+        way = float(_lengths(motion).max())
         if not np.isfinite(3.0 * way):
             raise _NotFree("after: a body moves too far to measure its way")
         near = self._between.near(start, 3.0 * way)
@@ -294,9 +297,15 @@ class Guard:
         return f"face {face - int(self._face_starts[mesh])} of " + ("the cloth" if mesh == 0 else f"body {mesh - 1}")
 
 
-def _of_mesh(faces: ArrayLike, count: int, name: str) -> NDArray[np.uint32]:
-    """Returns the faces of a mesh. A number that is too large would name a vertex of the next mesh."""
-    found = indices(faces, name, 3)
+def _lengths(rows: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Returns the length of each row. Squares of its numbers may be too large."""
+    lengths: NDArray[np.float64] = np.hypot(np.hypot(rows[:, 0], rows[:, 1]), rows[:, 2])
+    return lengths
+
+
+def _of_mesh(faces: ArrayLike, count: int, name: str, columns: int = 3) -> NDArray[np.uint32]:
+    """Returns the primitives of a mesh. A number that is too large would name a vertex of the next mesh."""
+    found = indices(faces, name, columns)
     if found.size and int(found.max()) >= count:
         raise InputError(f"{name}: there is no vertex {int(found.max())}; there are {count}")
     return found
