@@ -1,16 +1,17 @@
 """Certifies a flexible sheet of MuJoCo by a guard, and counts crossings with and without it.
 
     pip install selvedge mujoco==4.0.0
-    python guard_mujoco.py [--cells 20] [--seconds 0.5] [--separation 1e-4]
+    python guard_mujoco.py [--cells 20] [--seconds 0.5] [--separation 1e-4] [--heave 0.05]
 
-The sheet collides with the board and with itself, as MuJoCo does it by default. Without MuJoCo the example says so and does nothing.
+The sheet collides with the board and with itself, without MuJoCo's experimental ipc. With --heave the board swings up and down, three times
+a second. Without MuJoCo the example says so and does nothing.
 """
 
 import argparse
 import sys
 
 import numpy as np
-from guarded import BOARD, DENSITY, FRICTION, HEIGHT, SIDE, Positions, Simulator, compare
+from guarded import BOARD, DENSITY, FRICTION, HEIGHT, SIDE, Positions, Simulator, board_vertices, compare
 from numpy.typing import NDArray
 
 try:
@@ -28,7 +29,7 @@ def make(options: argparse.Namespace) -> Simulator:
   <option integrator="discrete" timestep="{time_step}" solver="Newton" tolerance="1e-6" iterations="100"/>
   <size memory="4G"/>
   <worldbody>
-    <geom type="box" size="{" ".join(map(str, BOARD))}"/>
+    <body name="board" mocap="true"><geom type="box" size="{" ".join(map(str, BOARD))}"/></body>
     <flexcomp name="sheet" type="grid" dim="2" count="{n + 1} {n + 1} 1" spacing="{spacing} {spacing} {spacing}" pos="0.013 0.007 {HEIGHT}"
               radius="0.001" mass="{DENSITY * SIDE * SIDE}">
       <contact selfcollide="auto" condim="3" friction="{FRICTION}"/>
@@ -47,6 +48,10 @@ def make(options: argparse.Namespace) -> Simulator:
     model.body_pos[bodies] = 0.0
     mujoco.mj_forward(model, data)
 
+    def step() -> None:
+        data.mocap_pos[0, 2] = options.heave * np.sin(6.0 * np.pi * (data.time + time_step))
+        mujoco.mj_step(model, data)
+
     def positions() -> Positions:
         mujoco.mj_kinematics(model, data)
         mujoco.mj_flex(model, data)
@@ -57,8 +62,9 @@ def make(options: argparse.Namespace) -> Simulator:
         data.qvel[speeds[held]] = (points[held] - before[held]) / time_step
 
     faces = model.flex_elem.reshape(-1, 3).astype(np.uint32)
-    return Simulator(f"MuJoCo {mujoco.__version__}, flex", faces, lambda: mujoco.mj_step(model, data), positions, put, time_step)
+    name = f"MuJoCo {mujoco.__version__}, flex"
+    return Simulator(name, faces, step, positions, put, time_step, lambda: board_vertices() + data.mocap_pos[0])
 
 
 if __name__ == "__main__":
-    compare(make, __doc__)
+    compare(make, __doc__, can_heave=True)

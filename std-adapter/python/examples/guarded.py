@@ -44,6 +44,8 @@ class Simulator:
     put: Callable[[Positions, Positions, NDArray[np.uint32]], None]
     """Puts the cloth to positions, given those before the step and the vertices that were held back, and slows these."""
     time_step: float
+    board: Callable[[], NDArray[np.float64]] = board_vertices
+    """Returns the present vertices of the board."""
 
 
 @dataclass
@@ -62,7 +64,7 @@ class Tally:
 def run(made: Simulator, steps: int, guarded: bool, separation: float) -> Tally:
     """Runs the simulator for some steps, and counts the crossings of all states exactly."""
     cloth = made.positions()
-    board = board_vertices().astype(cloth.dtype)
+    board = made.board().astype(cloth.dtype)
     guard = Guard(made.faces, len(cloth), bodies=[(BOX_FACES, len(board))], separation=separation)
     oracle = Detector(np.concatenate([made.faces, BOX_FACES + len(cloth)]).astype(np.uint32), len(cloth) + len(board))
     tally = Tally()
@@ -70,11 +72,11 @@ def run(made: Simulator, steps: int, guarded: bool, separation: float) -> Tally:
     for _ in range(steps):
         started = time.process_time()
         made.step()
-        after = made.positions()
+        after, moved = made.positions(), made.board().astype(cloth.dtype)
         tally.simulator += time.process_time() - started
         if guarded:
             started = time.process_time()
-            step = guard.hold(before, after, bodies_before=[board])
+            step = guard.hold(before, after, bodies_before=[board], bodies_after=[moved])
             tally.guard += time.process_time() - started
             if step.positions is None:
                 sys.exit(f"the step is not free: {step.reason}")
@@ -91,19 +93,21 @@ def run(made: Simulator, steps: int, guarded: bool, separation: float) -> Tally:
             print(f"{made.name}: positions are not finite after {tally.states} steps", file=sys.stderr)
             break
         # Edges of the board meet its own faces nowhere, so all intersections are of cloth.
-        found = len(oracle.intersections(np.concatenate([after, board])))
+        found = len(oracle.intersections(np.concatenate([after, moved])))
         tally.crossed += found > 0
         tally.crossings += found
-        before = after
+        before, board = after, moved
     return tally
 
 
-def compare(make: Callable[[argparse.Namespace], Simulator], description: str) -> None:
+def compare(make: Callable[[argparse.Namespace], Simulator], description: str, *, can_heave: bool = False) -> None:
     """Runs a simulator without and with the guard, and prints a row for each. Ends with 1 if a guarded state has a crossing."""
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--cells", type=int, default=20, help="of the sheet, along each side (default: %(default)s)")
     parser.add_argument("--seconds", type=float, default=0.5, help="simulated time (default: %(default)s)")
     parser.add_argument("--separation", type=float, default=1e-4, help="that held vertices keep, in m (default: %(default)s)")
+    if can_heave:
+        parser.add_argument("--heave", type=float, default=0.0, help="of the board, up and down, in m (default: %(default)s)")
     options = parser.parse_args()
     print("| simulator | states with crossings | crossings | held back a step, mean, most | farthest | simulator a step | guard a step |")
     print("|---|--:|--:|--:|--:|--:|--:|")

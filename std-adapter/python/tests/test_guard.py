@@ -25,6 +25,12 @@ def cube(size: float, corner: tuple[float, float, float]) -> Frame:
     return size * np.array(list(itertools.product((0.0, 1.0), repeat=3))) + np.array(corner)
 
 
+def turned(angle: float) -> Frame:
+    """The matrix of a rotation about the diagonal of space, by Rodrigues."""
+    cross = np.array([[0.0, -1.0, 1.0], [1.0, 0.0, -1.0], [-1.0, 1.0, 0.0]]) / np.sqrt(3.0)
+    return np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * cross @ cross
+
+
 def edges_of(faces: Faces) -> list[tuple[int, int]]:
     return sorted({(min(a, b), max(a, b)) for face in faces.tolist() for a, b in itertools.combinations(face, 2)})
 
@@ -129,6 +135,63 @@ def test_a_body_carries_cloth_that_its_simulator_leaves_in_its_way():
     assert crossings(both, np.concatenate([cloth, body]), len(cloth)) == 0
     # Its top was 0.05 below the sheet and rose by 0.4; the sheet lies on it, and far from it rests.
     assert cloth[:, 2].max() > 0.35 and abs(cloth[0, 2]) < 0.01
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_crumpled_cloth_is_never_in_the_way_of_one_rigid_body(dtype):
+    random = np.random.default_rng(4)
+    faces, cloth = sheet(6)
+    cloth, body = rough(cloth).astype(dtype), cube(0.3, (0.3, 0.3, -0.45)).astype(dtype)
+    both = np.concatenate([faces, CUBE_FACES + len(cloth)]).astype(np.uint32)
+    guard = Guard(faces, len(cloth), bodies=[(CUBE_FACES, 8)], separation=1e-3)
+    carried = 0
+    for _ in range(12):
+        after = (cloth + random.normal(0.0, 0.15, cloth.shape)).astype(dtype)
+        # It turns by up to 0.3 about the diagonal of space, and goes towards the middle of the cloth.
+        turn = turned(random.uniform(-0.3, 0.3))
+        centre = body.mean(axis=0)
+        way = 0.5 * (cloth.mean(axis=0) - centre) + random.normal(0.0, 0.1, 3)
+        moved = ((body - centre) @ turn.T + centre + way).astype(dtype)
+        step = guard.hold(cloth, after, bodies_before=[body], bodies_after=[moved])
+        assert step.free, step.reason
+        assert np.array_equal(step.bodies[0], moved)
+        carried += (step.distances > 0.0).any()
+        cloth, body = step.positions, moved
+        assert crossings(both, np.concatenate([cloth, body]), len(cloth)) == 0
+    assert carried > 6
+
+
+def test_a_layer_far_from_a_body_follows_the_cloth_under_it_that_the_body_carries():
+    # A long triangle, and a small one close above its far end. The body lifts the long one at its near end.
+    cloth = np.array([[-0.5, -0.5, 0.0], [-0.5, 0.5, 0.0], [3.0, 0.0, 0.0], [2.0, 0.0, 1e-5], [2.2, -0.1, 1e-5], [2.2, 0.1, 1e-5]])
+    body = cube(0.2, (-0.4, -0.1, -0.21))
+    guard = Guard([[0, 1, 2], [3, 4, 5]], len(cloth), bodies=[(CUBE_FACES, 8)])
+    moved = body + [0.0, 0.0, 0.2]
+    step = guard.hold(cloth, cloth, bodies_before=[body], bodies_after=[moved])
+    assert step.free and np.array_equal(step.bodies[0], moved)
+    both = np.concatenate([[[0, 1, 2], [3, 4, 5]], CUBE_FACES + len(cloth)]).astype(np.uint32)
+    assert crossings(both, np.concatenate([step.positions, moved]), len(cloth)) == 0
+
+
+def test_a_body_that_presses_does_not_use_up_the_separation():
+    faces, cloth = sheet(4)
+    cloth = rough(cloth)
+    under = cloth[:, 2].min() - 0.0005
+    body = cube(0.4, (0.3, 0.3, under - 0.4))
+    guard = Guard(faces, len(cloth), bodies=[(CUBE_FACES, 8)], separation=0.001)
+    moved = body + [0.0, 0.0, 0.05]
+    step = guard.hold(cloth, cloth, bodies_before=[body], bodies_after=[moved])
+    both = np.concatenate([faces, CUBE_FACES + len(cloth)]).astype(np.uint32)
+    near = Detector(both, len(cloth) + 8).near(np.concatenate([step.positions, moved]), 0.1)
+    between = (near.vertices < len(cloth)).any(axis=1) & (near.vertices >= len(cloth)).any(axis=1)
+    assert step.free and near.distances[between, 1].min() >= 0.001
+
+
+def test_what_starts_within_the_separation_keeps_a_part_of_its_distance(falling):
+    faces, before, _ = falling
+    before[3:, 2] = 0.01
+    step = Guard(faces, 6, separation=0.1).hold(before, before - np.array([0.0, 0.0, 1.0]) * np.repeat([0, 1], 3)[:, None])
+    assert step.free and (step.positions[3:, 2] > 0.1 / 4**3).all()
 
 
 def test_a_free_step_is_returned_bit_for_bit():

@@ -18,7 +18,7 @@ Give the simulator the returned positions, and reduce the velocity of the vertic
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -33,9 +33,12 @@ __all__ = ["Guard", "GuardedStep"]
 
 _Positions = NDArray[Any]
 
-# A driven body carries cloth along in so many equal parts of its motion, until one succeeds. Each part costs as much as a
-# step, so all attempts together cost at most fifteen.
-_PARTS = (1, 2, 4, 8)
+# A driven body carries cloth along in so many equal parts of its motion, and up to so many lengths of an edge from it, until an
+# attempt succeeds. Where cloth is folded sharply, it must move as one as far as the fold goes; without a limit all of it follows.
+# Each part costs as much as a step, so all attempts together cost at most twelve.
+_ATTEMPTS = ((1, 0.0), (1, 1.0), (1, 4.0), (1, np.inf), (4, 1.0), (4, 4.0))
+# So many separations are tried for a step, each a quarter of the last.
+_SEPARATIONS = 4
 # A held body is slowed so often before it rests.
 _SLOWED = 3
 
@@ -104,12 +107,14 @@ class Guard:
     ) -> None:
         self._count = vertex_count
         self._hold_bodies = hold_bodies
+        self._separation, self._tolerance = float(separation), tolerance
         # A number that is too large would name a vertex of a body.
         edges = None if edges is None else _of_mesh(edges, vertex_count, "edges", 2)
         points = None if points is None else _of_mesh(points, vertex_count, "points", 1)[:, 0]
         counts = [vertex_count, *(count for _, count in bodies)]
         self._starts = np.cumsum([0, *counts])
         meshes = [_of_mesh(faces, vertex_count, "faces")]
+        self._faces = meshes[0]
         meshes += [_of_mesh(own, count, f"faces of body {body}") for body, (own, count) in enumerate(bodies)]
         self._face_starts = np.cumsum([0, *map(len, meshes)])
         joined = np.concatenate([mesh + np.uint32(start) for mesh, start in zip(meshes, self._starts[:-1], strict=True)])
@@ -142,7 +147,8 @@ class Guard:
 
         The result is reached from ``before`` by straight motions without a contact, so that nothing passes through anything in between
         either. A vertex ends where the simulator put it, or on the way there. Bodies end at ``bodies_after``; without it they rest. A
-        body that moves into cloth carries it along first; such cloth may end beside its own path.
+        body that moves into cloth carries it along first; such cloth may end beside its own path. One rigid body that turns by less than
+        half a turn, or several that move as one, can be followed if no other body is in the way.
 
         The result is not free, and has no positions, if a coordinate is not finite, if the start intersects itself, if a body cannot
         reach its end, or if there are more pairs than the limits allow. The guard remains usable. If ``before`` and ``bodies_before``
@@ -210,20 +216,33 @@ class Guard:
             return end
         if self._hold_bodies:
             return self._with_held_bodies(start, wanted, end)
-        for parts in _PARTS:
-            carried = self._carried(start, wanted, parts)
+        for parts, edges in _ATTEMPTS:
+            try:
+                carried = self._carried(start, wanted, parts, edges * self._edge_length(start))
+            except (TooManyPairsError, TooMuchMemoryError):
+                # Other attempts may look at fewer pairs.
+                continue
             if carried is not None:
                 return self._truncated(carried, wanted)
         raise _NotFree("after: a body moves through cloth that cannot get out of its way; move it less in a step, or pass hold_bodies")
 
     def _truncated(self, start: _Positions, wanted: _Positions) -> _Positions:
         """Returns the ends of a certified step. The start must be free."""
-        done = self._detector.truncate(start, wanted)
+        # Pairs that start nearer than the separation would rest. A smaller one lets them leave, and keeps some of their distance.
+        for shrunk in range(_SEPARATIONS):
+            self._detector.set_limits(self._separation / 4.0**shrunk, self._tolerance)
+            done = self._detector.truncate(start, wanted)
+            if not done.in_contact:
+                return done.positions
+            if self._separation == 0.0:
+                break
+        return self._exactly_truncated(start, wanted)
+
+    def _exactly_truncated(self, start: _Positions, wanted: _Positions) -> _Positions:
+        """Returns the ends of a certified step without a separation. Pairs within the tolerance can leave each other, too."""
+        done = self._exact.truncate(start, wanted)
         if done.in_contact:
-            # Pairs within the tolerance at the start rest in it, though they are apart. The exact test lets them leave.
-            done = self._exact.truncate(start, wanted)
-            if done.in_contact:
-                raise _NotFree(f"before: {done.in_contact} pairs are in contact")
+            raise _NotFree(f"before: {done.in_contact} pairs are in contact")
         return done.positions
 
     def _reach(self, end: _Positions, wanted: _Positions) -> bool:
@@ -248,43 +267,76 @@ class Guard:
         wanted[self._count :] = start[self._count :]
         return self._truncated(start, wanted)
 
-    def _carried(self, start: _Positions, wanted: _Positions, parts: int) -> _Positions | None:
+    def _edge_length(self, start: _Positions) -> float:
+        """Returns the mean length of the edges of the cloth, or 0 without faces."""
+        if not len(self._faces):
+            return 0.0
+        corners = start[self._faces].astype(np.float64)
+        return float(_lengths((corners - np.roll(corners, 1, axis=1)).reshape(-1, 3)).mean())
+
+    def _carried(self, start: _Positions, wanted: _Positions, parts: int, width: float) -> _Positions | None:
         """Moves the bodies to their ends in equal parts, each with the cloth near it, or returns None if cloth is in their way."""
         here = start
         for part in range(1, parts + 1):
             there = wanted.copy() if part == parts else start + (wanted - start) * start.dtype.type(part / parts)
-            there[: self._count] = self._pushed(here, there)
-            here = self._truncated(here, there)
+            there[: self._count] = self._pushed(here, there, width) if np.isfinite(width) else self._following(here, there)
+            # Only true contact stops a body here: carried cloth may come nearer than the separation for a moment.
+            here = self._exactly_truncated(here, there)
             if not self._reach(here, there):
                 return None
         return here
 
-    def _pushed(self, start: _Positions, bodies: _Positions) -> _Positions:
+    def _pushed(self, start: _Positions, bodies: _Positions, width: float) -> _Positions:
         """Returns positions of the cloth that has moved with the nearest body.
 
-        Cloth within the longest way s of a body moves as the body does at the nearest point, cloth beyond 3 s rests, and in between the
-        motion fades. Two points at distances d and e differ by at most |d - e| / 2 in their motion, so layers do not meet.
+        Cloth within the longest way s of a body moves as the body does. Over twice the ``width`` from there, at least 2 s, the motion
+        fades. So two points at distances d and e differ by at most |d - e| / 2 in their motion, and layers do not meet. Cloth that is
+        nearer than twice the separation also moves away from the body, so that pressure does not use up its distance.
         """
         count = self._count
         motion = bodies.astype(np.float64) - start
         motion[:count] = 0.0
         way = float(_lengths(motion).max())
-        if not np.isfinite(3.0 * way):
+        apart = 2.0 * self._separation
+        fade = 2.0 * max(width, way)
+        reach = max(way + fade, apart)
+        if not np.isfinite(reach):
             raise _NotFree("after: a body moves too far to measure its way")
-        near = self._between.near(start, 3.0 * way)
+        near = self._between.near(start, reach)
         pushed = start[:count].copy()
         if not len(near):
             return pushed
-        # Each side of a pair is cloth or body as a whole, and the motion of cloth is 0 here.
-        at_point = np.einsum("ij,ijk->ik", near.weights, motion[near.vertices])
         pairs, corners = np.nonzero(near.vertices < count)
         order = np.lexsort((pairs, near.distances[pairs, 0]))
-        vertices = near.vertices[pairs, corners][order]
-        unique, first = np.unique(vertices, return_index=True)
+        moved, first = np.unique(near.vertices[pairs, corners][order], return_index=True)
         nearest = pairs[order][first]
-        fading = np.clip((3.0 * way - near.distances[nearest, 0]) / (2.0 * way), 0.0, 1.0)
-        pushed[unique] = start[unique] + fading[:, None] * at_point[nearest]
+        # Each side of a pair is cloth or body as a whole.
+        touched = near.vertices[nearest]
+        is_body = touched >= count
+        weights = np.where(is_body, near.weights[nearest], 0.0)
+        body = np.searchsorted(self._starts, touched.max(axis=1), side="right") - 1
+        own = np.zeros((len(moved), 3))
+        for mesh in np.unique(body):
+            rows = body == mesh
+            motion_at = _affine(start[self._starts[mesh] : self._starts[mesh + 1]], motion[self._starts[mesh] : self._starts[mesh + 1]])
+            rest = motion[touched[rows]] - motion_at(start[touched[rows]])
+            own[rows] = motion_at(start[moved[rows]]) + np.einsum("ij,ijk->ik", weights[rows], rest)
+        distance = near.distances[nearest, 0]
+        fading = np.clip((way + fade - distance) / fade, 0.0, 1.0)
+        # Normals point to the first side.
+        normals = np.where(is_body[:, :1], -1.0, 1.0) * np.nan_to_num(near.normals[nearest])
+        pushed[moved] = start[moved] + fading[:, None] * own + np.maximum(apart - distance, 0.0)[:, None] * normals
         return pushed
+
+    def _following(self, start: _Positions, bodies: _Positions) -> _Positions:
+        """Returns positions of the cloth that has moved as a whole, as all bodies that move do together. Behind one rigid body, or several
+        that move as one, neither cloth nor body comes nearer to anything of both."""
+        moves = np.zeros(len(start), bool)
+        for first, last in zip(self._starts[1:-1], self._starts[2:], strict=True):
+            moves[first:last] = (bodies[first:last] != start[first:last]).any()
+        followed = _affine(start[moves], bodies[moves].astype(np.float64) - start[moves])
+        cloth = start[: self._count]
+        return (cloth + followed(cloth)).astype(start.dtype)
 
     def _vertex_name(self, vertex: int) -> str:
         mesh = int(np.searchsorted(self._starts, vertex, side="right")) - 1
@@ -301,6 +353,18 @@ def _lengths(rows: NDArray[np.float64]) -> NDArray[np.float64]:
     """Returns the length of each row. Squares of its numbers may be too large."""
     lengths: NDArray[np.float64] = np.hypot(np.hypot(rows[:, 0], rows[:, 1]), rows[:, 2])
     return lengths
+
+
+def _affine(points: _Positions, motion: NDArray[np.float64]) -> Callable[[_Positions], NDArray[np.float64]]:
+    """Returns the affine motion of space that is nearest to that of these points.
+
+    It is the motion itself for a rigid body whose points move straight, whatever it turns by. So cloth that follows it keeps its
+    distance from all of the body, not only from the nearest point.
+    """
+    centre = points.astype(np.float64).mean(axis=0)
+    mean = motion.mean(axis=0)
+    gradient, *_ = np.linalg.lstsq(points - centre, motion - mean, rcond=None)
+    return lambda at: (at - centre) @ gradient + mean
 
 
 def _of_mesh(faces: ArrayLike, count: int, name: str, columns: int = 3) -> NDArray[np.uint32]:
