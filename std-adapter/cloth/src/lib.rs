@@ -61,12 +61,13 @@ pub use selvedge_core::glam;
 pub use selvedge_files as files;
 pub use simulate::{
     Blocked, BodyLoad, CHECKPOINT_STEPS, CheckpointError, ContactLoad, DriveError, EdgeStretch, EffectTime, FASTEST, FrameError,
-    FrameProgress, FrameSteps, SetupError, Simulation, Tangled, TeleportError, Untangled, UntanglingEnd, UntanglingProgress,
-    Wrench,
+    FrameProgress, FrameSteps, FreeBodyState, SetupError, Simulation, Tangled, TeleportError, Untangled, UntanglingEnd,
+    UntanglingProgress, Wrench,
 };
 pub use solve::{Accuracy, SolveCounts};
 pub use world::{
-    Animation, Body, BodyMotion, Cloth, Interpolation, Keyframe, KeyframeMotion, Material, MeshInFiles, Placement, sleeve,
+    Animation, Body, BodyMass, BodyMotion, Cloth, FreeMotion, Interpolation, Keyframe, KeyframeMotion, Material, MeshInFiles,
+    Placement, sleeve,
 };
 
 /// The scene of the paper's sleeve on a bending arm, as text for [`Scene::parse`].

@@ -51,6 +51,8 @@ pub(super) struct OfContact {
     carriers: Vec<Carrier>,
     /// The number of the cloth's vertices; bodies' vertices come after them.
     cloth_vertices: usize,
+    /// Whether each body is free.
+    are_free: Vec<bool>,
     /// The neighbours, if they have a thickness of their own.
     neighbours: Option<Arc<Neighbours>>,
 }
@@ -62,7 +64,7 @@ pub(super) fn candidates(
     topology: Topology,
     rest: &[DVec3],
     carriers: &[Carrier],
-    cloth_vertices: usize,
+    (cloth_vertices, are_free): (usize, &[bool]),
     time_step: f64,
 ) -> Candidates {
     let topology = Arc::new(topology);
@@ -102,18 +104,23 @@ pub(super) fn candidates(
         settings: settings.clone(),
         carriers: carriers.to_vec(),
         cloth_vertices,
+        are_free: are_free.to_vec(),
         neighbours,
     };
-    // Pairs of two bodies are not needed.
-    let wanted = (0..rest.len()).map(|vertex| vertex < cloth_vertices).collect();
+    let is_free = |body: Carrier| are_free.get(body as usize) == Some(&true);
+    // Pairs of two bodies that the solve does not move are not needed.
+    let wanted = (0..rest.len()).map(|vertex| vertex < cloth_vertices || is_free(carriers[vertex]));
+    let wanted = wanted.collect();
     let candidates = NearPairs::new(topology, interest, wanted, reach);
     let mut candidates = candidates.expect("scenes give a positive thickness");
     // The vertices of a body follow each other.
     let mut end = cloth_vertices;
-    let bodies = carriers[cloth_vertices..].chunk_by(|one, other| one == other).map(|own| {
-        end += own.len();
-        end - own.len()..end
-    });
+    let bodies = carriers[cloth_vertices..]
+        .chunk_by(|one, other| one == other)
+        .filter_map(|own| {
+            end += own.len();
+            (!is_free(own[0])).then(|| end - own.len()..end)
+        });
     candidates.set_parts(bodies.collect());
     candidates
 }
@@ -190,14 +197,25 @@ impl OfContact {
         { found }.find(positions, is_of_body).map_or(true, |found| !found.is_empty())
     }
 
-    /// The body of two vertices to keep apart, [`FREE`] for cloth and cloth; `None` if no effect keeps them apart.
+    /// The body of two vertices to keep apart, [`FREE`] for cloth and cloth; `None` if no effect keeps them apart. Of two bodies
+    /// it is one that the solve does not move, if there is one.
     #[inline(always)]
     pub(super) fn body_of_pair(&self, one: u32, other: u32) -> Option<Carrier> {
         match (self.body(one), self.body(other)) {
             (FREE, FREE) if self.settings.asks(false) => Some(FREE),
             (FREE, body) | (body, FREE) if body != FREE && self.settings.asks(true) => Some(body),
+            (one, other) if one != other && self.settings.asks(true) => match [one, other].map(|body| self.is_free(body)) {
+                [false, false] => None,
+                [true, false] => Some(other),
+                [false, true] => Some(one),
+                [true, true] => Some(one.min(other)),
+            },
             _ => None,
         }
+    }
+
+    fn is_free(&self, body: Carrier) -> bool {
+        self.are_free.get(body as usize) == Some(&true)
     }
 
     /// The body of a vertex; [`FREE`] for cloth, pinned or not.
@@ -222,7 +240,7 @@ mod tests {
         settings.keep_from_bodies(Thickness::new(of_bodies));
         let topology = Topology::new(9, vec![[0, 1, 2], [3, 4, 5], [6, 7, 8]]).unwrap();
         let carriers: Vec<Carrier> = [[FREE; 6].as_slice(), &[0; 3]].concat();
-        let mut near = candidates(&mut settings, topology, &at([0.0, 1.0, -1.0]), &carriers, 6, 1e-3);
+        let mut near = candidates(&mut settings, topology, &at([0.0, 1.0, -1.0]), &carriers, (6, &[]), 1e-3);
         let positions = at([0.0, layers, -body]);
         near.find(&positions, &positions, 1e-3);
         let with_body = near.list.iter().filter(|pair| pair.data.is_with_body()).count();

@@ -3,8 +3,11 @@
 //!
 //! A zone moves with its mean, which keeps its momentum. If it touches a body or pin (its carrier), it moves with that, which
 //! keeps it on the body. No motion suits a zone that touches two carriers; it rests.
+//!
+//! A free body is in a zone as a whole. Its first vertex stands for all.
 
 use super::candidate::Candidate;
+use crate::model::rigid::RigidMotion;
 use crate::model::step::{Carrier, FREE, TimeStep};
 use selvedge_core::glam::DVec3;
 
@@ -25,10 +28,20 @@ pub(super) struct ImpactZones {
     members: Vec<u32>,
     /// The mass and momentum of each root's zone, in the unit of the wanted ways.
     sums: Vec<(f64, DVec3)>,
+    /// The vertex that stands for each one: the first of a free body, or the vertex itself. Empty without free bodies.
+    stands_for: Vec<u32>,
 }
 
 impl ImpactZones {
-    pub(super) fn reset(&mut self, vertices: usize) {
+    pub(super) fn reset(&mut self, vertices: usize, bodies: &[RigidMotion]) {
+        self.stands_for.clear();
+        if !bodies.is_empty() {
+            self.stands_for.extend(0..vertices as u32);
+        }
+        for body in bodies {
+            body.members()
+                .for_each(|vertex| self.stands_for[vertex] = body.vertices.start as u32);
+        }
         self.parents.clear();
         self.parents.resize(vertices, ALONE);
         self.carriers.clear();
@@ -46,6 +59,7 @@ impl ImpactZones {
         let mut one = None;
         for vertex in pair.vertices {
             if carriers[vertex as usize] == FREE {
+                let vertex = self.stands_for.get(vertex as usize).copied().unwrap_or(vertex);
                 if self.parents[vertex as usize] == ALONE {
                     self.parents[vertex as usize] = vertex;
                     self.members.push(vertex);
@@ -73,24 +87,36 @@ impl ImpactZones {
     }
 
     /// Moves the members of each zone from the start of the step with its carrier or its mean. A zone with two carriers does not
-    /// move. Marks those whose positions change.
-    pub(super) fn carry(&mut self, step: &TimeStep<'_>, wanted: &[DVec3], positions: &mut [DVec3], moved: &mut [bool]) {
+    /// move. Marks those whose positions change. Both positions come with the motions of free bodies.
+    pub(super) fn carry(
+        &mut self,
+        step: &TimeStep<'_>,
+        (wanted, wanted_bodies): (&[DVec3], &[RigidMotion]),
+        (positions, bodies): (&mut [DVec3], &mut [RigidMotion]),
+        moved: &mut [bool],
+    ) {
         self.members.sort_unstable();
         let members = std::mem::take(&mut self.members);
         self.sums.clear();
         self.sums.resize(self.parents.len(), (0.0, DVec3::ZERO));
         for &member in &members {
             let root = self.root(member) as usize;
-            let mass = 1.0 / step.inverse_masses[member as usize];
+            let (mass, way) = match body_of(wanted_bodies, member) {
+                Some(body) => (wanted_bodies[body].mass, wanted_bodies[body].way),
+                None => {
+                    let way = wanted[member as usize] - step.start[member as usize];
+                    (1.0 / step.inverse_masses[member as usize], way)
+                }
+            };
             let (all, momentum) = &mut self.sums[root];
             *all += mass;
-            *momentum += (wanted[member as usize] - step.start[member as usize]) * mass;
+            *momentum += way * mass;
         }
         for &member in &members {
             let root = self.root(member) as usize;
-            let start = step.start[member as usize];
             let (mass, momentum) = self.sums[root];
-            let carried = match self.carriers[root] {
+            let carrier = self.carriers[root];
+            let carried = |start: DVec3| match carrier {
                 FREE => start + momentum / mass,
                 TORN => start,
                 carrier => {
@@ -98,8 +124,24 @@ impl ImpactZones {
                     before.carry(now, start)
                 }
             };
-            moved[member as usize] |= positions[member as usize] != carried;
-            positions[member as usize] = carried;
+            let mut own = vec![member as usize];
+            if let Some(body) = body_of(bodies, member) {
+                let body = &mut bodies[body];
+                own = body.members().collect();
+                body.way = carried(body.centre) - body.centre;
+                body.turn = match carrier {
+                    FREE | TORN => DVec3::ZERO,
+                    carrier => {
+                        let [before, now] = &step.poses[carrier as usize];
+                        before.turn_until(now)
+                    }
+                };
+            }
+            for vertex in own {
+                let carried = carried(step.start[vertex]);
+                moved[vertex] |= positions[vertex] != carried;
+                positions[vertex] = carried;
+            }
         }
         self.members = members;
     }
@@ -112,6 +154,11 @@ impl ImpactZones {
         }
         vertex
     }
+}
+
+/// Returns the place of the free body for which this vertex stands.
+fn body_of(bodies: &[RigidMotion], vertex: u32) -> Option<usize> {
+    bodies.iter().position(|body| body.vertices.start == vertex as usize)
 }
 
 /// The carrier of a zone that touches both.
@@ -160,13 +207,13 @@ mod tests {
             motions: &[],
         };
         let mut zones = ImpactZones::default();
-        zones.reset(10);
+        zones.reset(10, &[]);
         for &vertices in pairs {
             assert!(zones.join(&pair(vertices), &carriers));
             assert!(!zones.join(&pair(vertices), &carriers), "all is as it was");
         }
         let (mut positions, mut moved) = (wanted.clone(), [false; 10]);
-        zones.carry(&step, &wanted, &mut positions, &mut moved);
+        zones.carry(&step, (&wanted, &[]), (&mut positions, &mut []), &mut moved);
         for vertex in 0..10 {
             assert_eq!(moved[vertex], positions[vertex] != wanted[vertex]);
         }

@@ -78,6 +78,11 @@ impl Rules<'_> {
         pair.data.is_with_body() && second[0] < self.cloth_vertices
     }
 
+    /// Returns whether both sides of a pair are of bodies.
+    fn are_bodies(&self, pair: &Candidate) -> bool {
+        sides(pair).iter().all(|side| side[0] >= self.cloth_vertices)
+    }
+
     /// Returns the joints of a vertex.
     fn joined_to(&self, vertex: u32) -> &[[u32; 2]] {
         let from = self.joints.partition_point(|[one, _]| *one < vertex);
@@ -175,6 +180,37 @@ fn first_near(pair: &Candidate, [start, guess]: [&[DVec3]; 2], closing: f64, at_
     None
 }
 
+/// The share of its thickness by which a pair slides in a step before its tangent plane may be that at the [guess](at_guess).
+/// What slides less has nearly the same plane there, and is most of what rests.
+const FAST: f64 = 0.1;
+/// The share of its thickness below which a pair is squeezed. It keeps its plane: law of the pinched cloth. A load presses less.
+const SQUEEZED: f64 = 0.95;
+
+/// Returns the closest points at the first guess, if the pair slides to there more than it comes nearer, and is farther apart
+/// there than the tangent plane at the start says. That plane would hold back what slides past an edge or a corner: law of the
+/// tablecloth that is pulled away under a plate. What comes nearer keeps its plane, since the guess may be far beyond the other
+/// side.
+fn at_guess(pair: &Candidate, [start, guess]: [&[DVec3]; 2], at_start: ClosestPoints) -> Option<ClosestPoints> {
+    let aim = pair.data.aim.length();
+    let image = |points: [DVec3; 4]| -> DVec3 {
+        points
+            .iter()
+            .zip(at_start.weights)
+            .map(|(point, weight)| *point * weight)
+            .sum()
+    };
+    let (points, normal) = (pair.points(guess), at_start.direction);
+    let apart = image(points);
+    let moved = apart - image(pair.points(start));
+    let nearer = moved.dot(normal).abs();
+    let slides = (moved.length_squared() - nearer * nearer).max(0.0).sqrt();
+    if at_start.distance() < SQUEEZED * aim || apart.dot(normal) >= aim || slides <= nearer.max(FAST * aim) {
+        return None;
+    }
+    let closest = ClosestPoints::from_points(pair.kind, points);
+    (closest.distance() > apart.dot(normal) && closest.direction.dot(normal) > 0.0).then_some(closest)
+}
+
 /// Returns the pair with its distance at the start of the step, if it is a contact on the way to the first guess.
 fn near_on_way(
     pair: &mut Candidate,
@@ -196,11 +232,17 @@ fn near_on_way(
         }
         closest = first_near(pair, way, closing, closest)?;
     }
+    if pair.data.is_with_body() && closing > FAST * aim {
+        closest = at_guess(pair, way, closest).unwrap_or(closest);
+    }
     if !pair.data.aim.is_own() {
         pair.data.aim = Aim::own(thickness_of(pair, rules)?);
     }
     let mut normal = closest.direction;
-    if !is_of_surface(pair, &closest, rules, start) {
+    if rules.are_bodies(pair) {
+        normal = of_two_surfaces(pair, &closest, rules, start)?;
+        distance *= normal.dot(closest.direction);
+    } else if !is_of_surface(pair, &closest, rules, start) {
         if !(pair.data.is_with_body() && goes_on(pair.key(), pair.vertices, distance / aim)) {
             return None;
         }
@@ -230,6 +272,26 @@ fn is_of_surface(pair: &Candidate, closest: &ClosestPoints, rules: Rules<'_>, po
     }
     let (vertices, weights, direction) = side_with_cone(pair, closest, rules);
     cones.contain(vertices, weights, positions, direction)
+}
+
+/// The cosine of the angle by which the direction of two bodies may turn into their cones. What turns farther is another contact.
+const LEAST_COSINE: f64 = 0.99;
+
+/// Returns the direction of a pair of two bodies, turned a little into the cones of both; `None` if that is not possible. Boxes
+/// that stand on each other touch where the cones of their corners and edges end, and a tilt by rounding would leave the cones.
+fn of_two_surfaces(pair: &Candidate, closest: &ClosestPoints, rules: Rules<'_>, positions: &[DVec3]) -> Option<DVec3> {
+    let [first, second] = sides(pair);
+    let (of_first, of_second) = closest.weights.split_at(first.len());
+    let into = |vertices: &[u32], weights: &[f64], direction: DVec3| {
+        if rules.cones.contain(vertices, weights, positions, direction) {
+            return Some(direction);
+        }
+        rules.cones.turn_into(vertices, weights, positions, direction)
+    };
+    let normal = into(second, of_second, closest.direction)?;
+    let normal = -into(first, of_first, -normal)?;
+    let is_of_both = rules.cones.contain(second, of_second, positions, normal);
+    (is_of_both && normal.dot(closest.direction) >= LEAST_COSINE).then_some(normal)
 }
 
 /// Returns the direction of a pair with a body, turned into the cone of the body's side; `None` if that is not possible.

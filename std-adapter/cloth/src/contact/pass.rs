@@ -26,6 +26,7 @@ use super::candidate::{Candidate, ClosestOfSome, impact, time_of_impact_of};
 use super::report::Blocker;
 use super::separations::Separations;
 use super::solver::{ContactSolver, gap_error};
+use crate::model::rigid::RigidMotion;
 use crate::model::step::{FREE, TimeStep};
 use selvedge::PairKind;
 use selvedge::clock::Clock;
@@ -57,11 +58,12 @@ pub(super) struct Effort {
 }
 
 impl ContactSolver {
-    /// Turns the wanted motion, from the start of the step to `end`, into one that is certainly free.
+    /// Turns the wanted motion, from the start of the step to `end`, into one that is certainly free. `bodies` are the motions of
+    /// free bodies, which it changes as well where cloth alone cannot give way.
     ///
     /// # Errors
     /// Returns an error if the step has to be cut; then only `end` has changed.
-    pub(crate) fn certify(&mut self, step: &TimeStep<'_>, end: &mut [DVec3]) -> Result<(), Blocker> {
+    pub(crate) fn certify(&mut self, step: &TimeStep<'_>, end: &mut [DVec3], bodies: &mut [RigidMotion]) -> Result<(), Blocker> {
         let start = step.start;
         let begin = Clock::now();
         self.candidates.cover(start, end, step.h);
@@ -76,7 +78,7 @@ impl ContactSolver {
         let mut result = Ok(());
         if !open.is_empty() {
             let begin = Clock::now();
-            result = self.repair(open, step, end);
+            result = self.repair(open, step, end, bodies);
             self.stages.repairs += begin.elapsed().as_secs_f64();
         }
         match result {
@@ -204,14 +206,21 @@ impl ContactSolver {
     }
 
     /// Moves `end` until all pairs are free; `open` are those that are not.
-    fn repair(&mut self, open: Vec<usize>, step: &TimeStep<'_>, end: &mut [DVec3]) -> Result<(), Blocker> {
+    fn repair(
+        &mut self,
+        open: Vec<usize>,
+        step: &TimeStep<'_>,
+        end: &mut [DVec3],
+        bodies: &mut [RigidMotion],
+    ) -> Result<(), Blocker> {
         let open = self.relax(open, EFFORT, step, end);
         if open.is_empty() {
             return Ok(());
         }
-        let wanted = end.to_vec();
-        self.find_base(open, step, &wanted, end)?;
-        self.truncate(step, &wanted, end)
+        let (wanted, wanted_bodies) = (end.to_vec(), bodies.to_vec());
+        let wanted = (&wanted[..], &wanted_bodies[..]);
+        self.find_base(open, step, wanted, (end, bodies))?;
+        self.truncate(step, wanted, (end, bodies))
     }
 
     /// Relaxes `end`, for which the pairs in `open` are not free; returns the pairs that are not free afterwards.

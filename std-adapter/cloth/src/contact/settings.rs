@@ -130,7 +130,10 @@ impl ContactSettings {
     fn of_several(&self, is_with_body: bool, one: u32, other: u32) -> Option<Thickness> {
         let of_cloths = self.asked(is_with_body);
         // Bodies' vertices come after the cloths'.
-        let own = *of_cloths.get(self.cloth_of(one.min(other)))?;
+        let Some(&own) = of_cloths.get(self.cloth_of(one.min(other))) else {
+            // Two bodies.
+            return self.largest(is_with_body);
+        };
         if is_with_body {
             return Some(own);
         }

@@ -10,7 +10,7 @@ use super::near::{GoesOn, ProximityPair, Rules, visit_near};
 use super::relaxation::Relaxation;
 use super::report::{ContactCounts, ContactSeconds};
 use super::settings::ContactSettings;
-use crate::model::step::{Carrier, TimeStep};
+use crate::model::step::{Carrier, FREE, TimeStep};
 use selvedge::clock::Clock;
 use selvedge::simd::{Level, best_level};
 use selvedge::{StepError, Topology};
@@ -49,22 +49,21 @@ pub(crate) struct ContactSolver {
 }
 
 impl ContactSolver {
-    /// `rest` and `carriers` are of all vertices, the cloth's first; `topology` is of all triangles, and the cloth's loose edges.
-    /// Steps mostly take `time_step` seconds.
+    /// `rest` and `carriers` are of all vertices, the cloth's first; `are_free` says which bodies the solve moves. `topology` is
+    /// of all triangles, and the cloth's loose edges. Steps mostly take `time_step` seconds.
     pub(crate) fn new(
         mut settings: ContactSettings,
         topology: Topology,
         rest: &[DVec3],
         carriers: &[Carrier],
-        cloth_vertices: usize,
-        bodies: usize,
+        (cloth_vertices, are_free): (usize, &[bool]),
         time_step: f64,
     ) -> Self {
         Self {
             cones: Cones::new(&topology),
             cloth_vertices: cloth_vertices as u32,
             joints: Vec::new(),
-            candidates: candidates(&mut settings, topology, rest, carriers, cloth_vertices, time_step),
+            candidates: candidates(&mut settings, topology, rest, carriers, (cloth_vertices, are_free), time_step),
             settings,
             carriers: carriers.to_vec(),
             rest: rest.to_vec(),
@@ -74,11 +73,26 @@ impl ContactSolver {
             places: Vec::new(),
             relaxation: Relaxation::default(),
             zones: ImpactZones::default(),
-            exempt: Exempt::new(bodies),
+            exempt: Exempt::new(are_free.len()),
             pushes: true,
             counts: ContactCounts::default(),
             stages: ContactSeconds::default(),
         }
+    }
+
+    /// The largest separation that pairs with bodies keep, in metres; `None` if no effect keeps them apart.
+    pub(crate) fn separation_from_bodies(&self) -> Option<f64> {
+        self.settings.largest(true).map(|own| own.separation)
+    }
+
+    /// Returns whether one of these vertices is near a body or pin for which `is_held` holds.
+    pub(crate) fn meets(&self, vertices: &[bool], is_held: impl Fn(Carrier) -> bool) -> bool {
+        let has = |pair: &Candidate| pair.vertices.iter().any(|&vertex| vertices[vertex as usize]);
+        let meets = |pair: &Candidate| {
+            let carriers = pair.vertices.iter().map(|&vertex| self.carriers[vertex as usize]);
+            { carriers }.any(|carrier| carrier != FREE && is_held(carrier))
+        };
+        self.candidates.list.iter().any(|pair| has(pair) && meets(pair))
     }
 
     /// Names vertices that seams hold together.

@@ -11,8 +11,8 @@
 //!
 //! **Truncation.** From the base each vertex moves towards its place after the relaxation, by a share that is the least in any of
 //! its pairs: [core's lemma](selvedge_core::separation::truncation). Bodies and pins have the share 1, and reach their keyframes
-//! exactly. No promise depends on the shares. Every pair with a vertex that moves is certified at last, and the vertices of those
-//! that are not free return to the base.
+//! exactly. A free body has the least share of its vertices, of its way and of its turn. No promise depends on the shares. Every
+//! pair with a vertex that moves is certified at last, and the vertices of those that are not free return to the base.
 //!
 //! **It ends.** Each round of [`find_base`](ContactSolver::find_base) changes the zones, or is the last one, with a bounded
 //! number of rounds of relaxation ([`EFFORT`]). The zones can change no more than four times for each vertex. There are
@@ -23,6 +23,7 @@ use super::impact_zones::TORN;
 use super::pass::Effort;
 use super::report::Blocker;
 use super::solver::ContactSolver;
+use crate::model::rigid::RigidMotion;
 use crate::model::step::{Carrier, FREE, TimeStep};
 use selvedge_core::Motion;
 use selvedge_core::glam::DVec3;
@@ -47,11 +48,11 @@ impl ContactSolver {
         &mut self,
         mut open: Vec<usize>,
         step: &TimeStep<'_>,
-        wanted: &[DVec3],
-        end: &mut [DVec3],
+        wanted: (&[DVec3], &[RigidMotion]),
+        (end, bodies): (&mut [DVec3], &mut [RigidMotion]),
     ) -> Result<(), Blocker> {
-        let carriers = self.carriers_of_the_step(step);
-        self.zones.reset(end.len());
+        let carriers = self.carriers_of_the_step(step, bodies);
+        self.zones.reset(end.len(), bodies);
         while !open.is_empty() {
             self.counts.zone_rounds += 1;
             let mut has_changed = false;
@@ -66,16 +67,21 @@ impl ContactSolver {
                 }
                 break;
             }
-            self.zones.carry(step, wanted, end, &mut self.moved);
+            self.zones.carry(step, wanted, (end, bodies), &mut self.moved);
             open = self.check_moved(&open, step, end);
         }
         Ok(())
     }
 
     /// Moves `end`, which is a base, as far towards `wanted` as each vertex may go.
-    pub(super) fn truncate(&mut self, step: &TimeStep<'_>, wanted: &[DVec3], end: &mut [DVec3]) -> Result<(), Blocker> {
+    pub(super) fn truncate(
+        &mut self,
+        step: &TimeStep<'_>,
+        (wanted, wanted_bodies): (&[DVec3], &[RigidMotion]),
+        (end, bodies): (&mut [DVec3], &mut [RigidMotion]),
+    ) -> Result<(), Blocker> {
         let start = step.start;
-        let base = end.to_vec();
+        let (base, base_bodies) = (end.to_vec(), bodies.to_vec());
         let differs: Vec<bool> = base.iter().zip(wanted).map(|(base, wanted)| base != wanted).collect();
         let (mut shares, mut places) = (Vec::new(), Vec::new());
         self.candidates.find_places(&differs, &mut places);
@@ -96,8 +102,19 @@ impl ContactSolver {
                     *share = if *share < own { *share } else { own };
                 }
             }
-            for vertex in (0..end.len()).filter(|&vertex| differs[vertex]) {
+            for vertex in (0..end.len()).filter(|&vertex| differs[vertex] && self.carriers[vertex] == FREE) {
                 end[vertex] = Motion::new(end[vertex], wanted[vertex]).at(shares[vertex]);
+            }
+            for (body, wanted_body) in bodies.iter_mut().zip(wanted_bodies) {
+                let share = body.members().map(|vertex| shares[vertex]).fold(1.0, f64::min);
+                if share >= 1.0 {
+                    *body = wanted_body.clone();
+                    body.members().for_each(|vertex| end[vertex] = wanted[vertex]);
+                } else if body.members().all(|vertex| shares[vertex] > 0.0) {
+                    // NaN keeps the body in place.
+                    *body = body.between(wanted_body, share);
+                    body.put(end);
+                }
             }
         }
         self.moved.copy_from_slice(&differs);
@@ -113,6 +130,17 @@ impl ContactSolver {
                     }
                 }
             }
+            for (body, base_body) in bodies.iter_mut().zip(&base_bodies) {
+                // Some of its vertices are back.
+                let is_back = !body.leads_where(base_body) && body.members().any(|vertex| self.moved[vertex]);
+                if is_back {
+                    *body = base_body.clone();
+                    for vertex in body.members() {
+                        end[vertex] = base[vertex];
+                        self.moved[vertex] = true;
+                    }
+                }
+            }
             if !has_changed {
                 return Err(self.blocker(&open, step));
             }
@@ -125,8 +153,9 @@ impl ContactSolver {
         Ok(())
     }
 
-    /// Each vertex's carrier. Those that rest in this step count as one: a zone may touch any number of them.
-    fn carriers_of_the_step(&self, step: &TimeStep<'_>) -> Vec<Carrier> {
+    /// Each vertex's carrier. Those that rest in this step count as one: a zone may touch any number of them. Free bodies have
+    /// none.
+    fn carriers_of_the_step(&self, step: &TimeStep<'_>, bodies: &[RigidMotion]) -> Vec<Carrier> {
         let rests = |carrier: usize| step.poses[carrier][0] == step.poses[carrier][1];
         let first_at_rest = (0..step.poses.len()).find(|&carrier| rests(carrier));
         let of_step = |&carrier: &Carrier| match first_at_rest {
@@ -136,6 +165,9 @@ impl ContactSolver {
             _ if !step.poses[carrier as usize][1].is_rigid() => TORN,
             _ => carrier,
         };
-        self.carriers.iter().map(of_step).collect()
+        let mut carriers: Vec<Carrier> = self.carriers.iter().map(of_step).collect();
+        let members = bodies.iter().flat_map(RigidMotion::members);
+        members.for_each(|vertex| carriers[vertex] = FREE);
+        carriers
     }
 }

@@ -75,7 +75,16 @@ impl AttachmentGroup {
         LIMIT.check(self.limit)?;
         GIVE.check(self.give)?;
         match &self.motion {
-            &PinMotion::Body(body) => check_body(body, world),
+            &PinMotion::Body(body) => {
+                check_body(body, world)?;
+                if matches!(world.bodies[body].motion, BodyMotion::Free(_)) {
+                    let name = &world.bodies[body].name;
+                    let message =
+                        format!("attachments cannot follow '{name}', which moves freely (it has a mass): pin the vertices to it");
+                    return Err(ValueError::new("follow", message));
+                }
+                Ok(())
+            }
             PinMotion::Own(motion @ BodyMotion::Keyframes(_)) => {
                 motion.check(&world.positions_of(&self.vertices), world.time_step)
             }

@@ -43,9 +43,12 @@ impl Gravity {
 
 crate::identify!(Gravity { acceleration });
 
+/// The name of the effect.
+pub(crate) const NAME: &str = "gravity";
+
 impl Effect for Gravity {
     fn name(&self) -> &'static str {
-        "gravity"
+        NAME
     }
 
     fn scope(&self) -> Scope {
@@ -57,6 +60,7 @@ impl Effect for Gravity {
     }
 
     fn register(&self, plan: &mut Plan<'_>) {
+        plan.gravity += self.acceleration;
         plan.add_force(*self);
     }
 }

@@ -49,6 +49,7 @@ pub use bend::Bend;
 pub use body_contact::BodyContact;
 pub use friction::Friction;
 pub use gravity::Gravity;
+pub(crate) use gravity::NAME as GRAVITY;
 pub use inflation::{Inflation, PressureKey};
 pub use pins::{PinGroup, PinMotion, Pins};
 pub use plan::Plan;

@@ -175,7 +175,15 @@ impl PinGroup {
                         let message = format!("pins cannot follow '{name}', which deforms; give them a motion of their own");
                         Err(ValueError::new("follow", message))
                     }
-                    BodyMotion::Driven(_) => Ok(()),
+                    BodyMotion::Free(_) if (0..self.vertices.len()).any(|place| self.soft(place).is_some()) => {
+                        let name = &world.bodies[body].name;
+                        let message = format!(
+                            "soft pins cannot follow '{name}', which moves freely (it has a mass): leave out `stiffness` and \
+                             `weights`, so that the vertices move with it"
+                        );
+                        Err(ValueError::new("follow", message))
+                    }
+                    BodyMotion::Driven(_) | BodyMotion::Free(_) => Ok(()),
                 }
             }
             PinMotion::Own(motion) => motion.check(&world.positions_of(&self.vertices), world.time_step),

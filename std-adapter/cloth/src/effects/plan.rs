@@ -141,6 +141,8 @@ pub struct Plan<'a> {
     pub(crate) drag: Vec<f64>,
     /// The coefficient of friction.
     pub(crate) friction_coefficient: f64,
+    /// The acceleration of free bodies, in m/s².
+    pub(crate) gravity: DVec3,
 }
 
 impl<'a> Plan<'a> {
@@ -150,7 +152,7 @@ impl<'a> Plan<'a> {
         let motions = scene.bodies.iter().map(|body| {
             let vertices = first..first + body.mesh.positions.len() as u32;
             first = vertices.end;
-            Kinematic::new(body.motion.clone(), vertices.collect())
+            Kinematic::of_body(body, vertices.collect())
         });
         Self {
             motions: motions.collect(),
@@ -174,6 +176,7 @@ impl<'a> Plan<'a> {
             smooth_bodies: Vec::new(),
             drag: Vec::new(),
             friction_coefficient: 0.0,
+            gravity: DVec3::ZERO,
         }
     }
 

@@ -29,6 +29,7 @@ quantities! {
     SPEED = "a speed" ["m/s" 1.0, "cm/s" 1e-2, "km/h" 1.0 / 3.6];
     ACCELERATION = "an acceleration" ["m/s2" 1.0];
     FREQUENCY = "a frequency" ["Hz" 1.0, "1/s" 1.0];
+    MASS = "a mass" ["kg" 1.0, "g" 1e-3];
     AREA_DENSITY = "a mass per area" ["kg/m2" 1.0, "g/m2" 1e-3];
     LINEAR_DENSITY = "a mass per length" ["kg/m" 1.0, "g/m" 1e-3];
     AIR_DENSITY = "a density" ["kg/m3" 1.0];

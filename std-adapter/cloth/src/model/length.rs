@@ -22,12 +22,28 @@ pub(crate) fn shortened(vector: DVec3, most: f64) -> DVec3 {
     }
 }
 
+/// Turns a vector into the plane with this normal, of length one. A vector that is mostly along the normal keeps only its part in
+/// the plane.
+pub(crate) fn turned_into_plane(vector: DVec3, normal: DVec3) -> DVec3 {
+    let within = vector - normal * vector.dot(normal);
+    let (all, left) = (length(vector), length(within));
+    if left > 0.5 * all { within * (all / left) } else { within }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use proptest::prelude::*;
 
     proptest! {
+        #[test]
+        fn a_vector_that_turns_into_a_plane_keeps_its_length_and_lies_there(angle in -1.0..1.0_f64, size in 1e-3..1e3_f64) {
+            let normal = DVec3::new(libm::sin(angle), 0.0, libm::cos(angle));
+            let turned = turned_into_plane(DVec3::X * size, normal);
+            prop_assert!((length(turned) - size).abs() < 1e-12 * size && turned.dot(normal).abs() < 1e-12 * size);
+            prop_assert!(turned_into_plane(normal * size, normal).length() < 1e-12 * size);
+        }
+
         #[test]
         fn lengths_have_the_bits_of_glam(
             [x, y, z] in prop::array::uniform3(prop_oneof![-1e3..1e3_f64, prop::num::f64::NORMAL]),

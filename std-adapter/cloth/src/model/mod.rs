@@ -5,6 +5,7 @@ pub(crate) mod edge_lengths;
 pub(crate) mod energy;
 pub(crate) mod length;
 pub(crate) mod membrane;
+pub(crate) mod rigid;
 pub(crate) mod step;
 pub(crate) mod stitches;
 pub(crate) mod tearing;

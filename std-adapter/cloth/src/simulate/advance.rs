@@ -240,6 +240,28 @@ impl Simulation {
                 }
             }
         }
+        self.without_large_turn_of_free(h)
+    }
+
+    /// Returns `h`, halved until the vertices of free bodies leave their straight ways by less than the separation at their
+    /// present spin.
+    fn without_large_turn_of_free(&self, mut h: f64) -> f64 {
+        let Some(separation) = self
+            .made
+            .contact
+            .as_ref()
+            .and_then(|contact| contact.separation_from_bodies())
+        else {
+            return h;
+        };
+        for free in self.made.motions.iter().filter_map(Kinematic::free) {
+            let turn = free.spin_of(&free.state).length();
+            // The arc of a turn θ at the distance r is up to r·(1 − cos(θ/2)) ≤ r·θ²/8 from its chord.
+            let most = (8.0 * separation / free.radius()).sqrt();
+            while turn * h > most {
+                h *= 0.5;
+            }
+        }
         h
     }
 

@@ -1,16 +1,17 @@
 //! The data that a simulation derives from a scene's meshes and effects: at the start, and again after cloth has torn.
 
 use super::errors::SetupError;
+use super::free_bodies::OfFreeBodies;
 use super::loads::Supports;
 use super::momentum::Pieces;
 use crate::contact::ContactSolver;
 use crate::contact::smooth_body::SmoothBody;
 use crate::effects::plan::{ActingForce, Entry, OfCloths, Plan};
-use crate::model::step::{Carrier, Memory, MovedAnchor};
+use crate::model::step::{Carrier, FREE, Memory, MovedAnchor};
 use crate::model::tearing::Tearable;
 use crate::scene::{Scene, append};
 use crate::solve::{Solve, Term};
-use crate::world::Kinematic;
+use crate::world::{Cloth, Kinematic};
 use selvedge::{Mesh, Topology};
 use selvedge_core::glam::DVec3;
 use std::ops::Range;
@@ -46,6 +47,7 @@ pub(super) struct Assembly {
     pub(super) drag: Vec<f64>,
     /// The coefficient of friction.
     pub(super) friction_coefficient: f64,
+    pub(super) of_free_bodies: OfFreeBodies,
     /// The pieces of all cloths; each keeps its momentum.
     pub(super) pieces: Pieces,
     /// The mean length of the cloths' edges at rest, in metres, each counted once for each triangle.
@@ -63,7 +65,7 @@ impl Assembly {
         let Plan {
             mut inverse_masses,
             mut carriers,
-            motions,
+            mut motions,
             pins,
             pinned,
             attachment_groups,
@@ -77,6 +79,7 @@ impl Assembly {
             smooth_bodies,
             drag,
             friction_coefficient,
+            gravity,
             ..
         } = plan;
         let mut rows_of_ropes = Vec::new();
@@ -103,17 +106,17 @@ impl Assembly {
         } = all;
         inverse_masses.resize(rest.len(), 0.0);
         let loose_edges = scene.all_loose_edges();
+        take_riders(scene, &mut motions, &carriers[..cloth_vertices]);
+        let are_free: Vec<bool> = { motions[..scene.bodies.len()].iter() }.map(Kinematic::is_free).collect();
         let contact = contact.asks_for_any().then(|| {
             let topology = Topology::with_loose_features(rest.len(), triangles.clone(), &loose_edges, &[])?;
-            let bodies = scene.bodies.len();
             let (rest, time_step) = (&rest, scene.time_step);
             Ok::<_, SetupError>(ContactSolver::new(
                 contact,
                 topology,
                 rest,
                 &carriers,
-                cloth_vertices,
-                bodies,
+                (cloth_vertices, &are_free),
                 time_step,
             ))
         });
@@ -125,10 +128,11 @@ impl Assembly {
         let edges = edges(&triangles[..cloth_triangles])
             .chain(loose_edges.iter().copied())
             .chain(joints);
-        let mean_edge = mean_length(edges.clone(), &rest);
-        let cloth = &triangles[..cloth_triangles];
-        let solve = Solve::new(terms, scene.accuracy, cloth, &hinges, &rows_of_ropes, cloth_vertices);
-        let pieces = Pieces::new(&inverse_masses[..cloth_vertices], edges);
+        let (mean_edge, cloth) = (mean_length(edges.clone(), &rest), &triangles[..cloth_triangles]);
+        let counts = [cloth_vertices, are_free.iter().filter(|is_free| **is_free).count()];
+        let solve = Solve::new(terms, scene.accuracy, cloth, &hinges, &rows_of_ropes, counts);
+        let rides = |vertex: usize| carriers[vertex] != FREE && are_free.get(carriers[vertex] as usize) == Some(&true);
+        let pieces = Pieces::new(&inverse_masses[..cloth_vertices], rides, edges);
         Ok(Self {
             effects,
             contact,
@@ -149,6 +153,7 @@ impl Assembly {
             smooth_bodies,
             drag,
             friction_coefficient,
+            of_free_bodies: OfFreeBodies { gravity, rest: false },
             pieces,
             mean_edge,
             rest,
@@ -168,6 +173,26 @@ impl Assembly {
     /// The same, to change them.
     pub(super) fn memories_mut(&mut self) -> impl Iterator<Item = &mut dyn Memory> {
         self.solve.terms.iter_mut().filter_map(|entry| entry.action.memory_mut())
+    }
+}
+
+/// Gives free bodies the vertices of cloth that are pinned to them. `carriers` are those of the cloths' vertices.
+fn take_riders(scene: &Scene, motions: &mut [Kinematic], carriers: &[Carrier]) {
+    if !motions.iter().any(Kinematic::is_free) {
+        return;
+    }
+    let start = scene.cloths.iter().flat_map(|cloth| cloth.start().to_vec());
+    let masses = scene.cloths.iter().flat_map(Cloth::masses);
+    let all: Vec<_> = (0_u32..).zip(start).zip(masses).zip(carriers).collect();
+    for (body, motion) in motions.iter_mut().enumerate() {
+        let Some(free) = motion.free_mut() else { continue };
+        let own = all.iter().filter(|(_, carrier)| **carrier as usize == body);
+        let own: Vec<_> = own
+            .map(|(((vertex, position), mass), _)| (*vertex, *position, *mass))
+            .collect();
+        if !own.is_empty() {
+            free.take_riders(&own);
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::state::State;
 use crate::contact::{ContactCounts, ContactSeconds, PairKey};
 use crate::model::tearing::TornEdge;
-use crate::world::{Cloth, Placement};
+use crate::world::{Cloth, KEPT, Placement};
 use selvedge::PairKind;
 use selvedge_core::glam::{DQuat, DVec3};
 use selvedge_files::bytes::{Reader, put_block};
@@ -120,6 +120,8 @@ pub(super) struct Checkpoint {
     pub(super) seconds: Vec<f64>,
     /// The placement of each body and group of pins that the caller moves, unless it was moved point by point.
     pub(super) placements: Vec<Option<Placement>>,
+    /// The state of each free body.
+    pub(super) free_bodies: Vec<[f64; KEPT]>,
     pub(super) memories: Vec<f64>,
     /// The counts of contact; all zero without contact.
     pub(super) counts: ContactCounts,
@@ -136,6 +138,7 @@ pub(super) struct Sizes {
     pub(super) yielding: usize,
     pub(super) seconds: usize,
     pub(super) placements: usize,
+    pub(super) free_bodies: usize,
     pub(super) memories: usize,
 }
 
@@ -171,7 +174,8 @@ impl Checkpoint {
             let numbers = rotation.to_array().into_iter().chain(translation.to_array());
             bytes.extend(numbers.flat_map(f64::to_le_bytes));
         }
-        bytes.extend(self.memories.iter().flat_map(|x| x.to_le_bytes()));
+        let of_bodies = self.free_bodies.as_flattened().iter();
+        bytes.extend(of_bodies.chain(&self.memories).flat_map(|x| x.to_le_bytes()));
         let ContactCounts {
             candidates,
             looked_at,
@@ -215,7 +219,8 @@ impl Checkpoint {
         let checkpoint = Self::read_on(&mut reader, sizes).ok_or(CheckpointError::Damaged)?;
         let state = &checkpoint.state;
         let all = state.positions.iter().chain(&state.velocities);
-        let remembered = checkpoint.memories.iter().all(|number| number.is_finite());
+        let of_bodies = checkpoint.free_bodies.as_flattened().iter();
+        let remembered = of_bodies.chain(&checkpoint.memories).all(|number| number.is_finite());
         let is_finite = remembered && [state.clock, state.before].iter().all(|time| time.is_finite()) && { all }
             .all(|vector| vector.is_finite());
         if is_finite && reader.0.is_empty() {
@@ -247,6 +252,7 @@ impl Checkpoint {
         };
         let seconds: Option<Vec<_>> = (0..sizes.seconds).map(|_| reader.f64()).collect();
         let placements: Option<Vec<_>> = (0..sizes.placements).map(|_| placement(reader)).collect();
+        let free_bodies: Option<Vec<_>> = (0..sizes.free_bodies).map(|_| free_body(reader)).collect();
         let memories: Option<Vec<_>> = (0..sizes.memories).map(|_| reader.f64()).collect();
         Some(Self {
             torn: None,
@@ -266,6 +272,7 @@ impl Checkpoint {
             parting,
             seconds: seconds?,
             placements: placements?,
+            free_bodies: free_bodies?,
             memories: memories?,
             counts: ContactCounts {
                 candidates: reader.u64()?,
@@ -318,6 +325,14 @@ fn placement(reader: &mut Reader<'_>) -> Option<Option<Placement>> {
     Some(is_there.then_some(placement))
 }
 
+fn free_body(reader: &mut Reader<'_>) -> Option<[f64; KEPT]> {
+    let mut numbers = [0.0; KEPT];
+    for number in &mut numbers {
+        *number = reader.f64()?;
+    }
+    Some(numbers)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -327,6 +342,7 @@ mod tests {
         yielding: 2,
         seconds: 1,
         placements: 2,
+        free_bodies: 1,
         memories: 3,
     };
 
@@ -358,6 +374,7 @@ mod tests {
             parting: Some(vec![(PairKind::VertexFace, [1, 0]), (PairKind::EdgeEdge, [0, 2])]),
             seconds: vec![0.25],
             placements: vec![Some(Placement::at(DVec3::Y)), None],
+            free_bodies: vec![[0.5; KEPT]],
             memories: vec![-1.0, 0.5, 2.0],
             kept: vec![1, 2, 3],
             counts: ContactCounts {

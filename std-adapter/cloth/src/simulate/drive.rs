@@ -115,13 +115,16 @@ impl Simulation {
         Ok(())
     }
 
-    /// The present placement of a [driven](crate::BodyMotion::Driven) body; `None` for any other body, and for one that was moved
-    /// vertex by vertex.
+    /// The present placement of a [driven](crate::BodyMotion::Driven) or [free](crate::BodyMotion::Free) body; `None` for any
+    /// other body, and for one that was moved vertex by vertex.
     #[must_use]
     pub fn placement(&self, body: usize) -> Option<Placement> {
         let is_body = body < self.body_names.len();
-        let driven = is_body.then(|| self.made.motions[body].driven()).flatten();
-        driven.and_then(|driven| driven.placement)
+        let motion = is_body.then(|| &self.made.motions[body])?;
+        match motion.free() {
+            Some(free) => Some(free.placement()),
+            None => motion.driven()?.placement,
+        }
     }
 
     /// Sets the velocity of the [`Wind`] from now on, in m/s.

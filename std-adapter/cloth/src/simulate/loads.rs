@@ -253,23 +253,22 @@ impl Loads {
     fn measure_contacts(&mut self, solved: &Solved<'_>) {
         let (h, x) = (solved.step.h, solved.x);
         solved.solve.visit_pushes(h, x, &mut |row, forces| {
-            let Some((body, point, side)) = solved.sides(row) else {
-                return;
-            };
-            let [push, friction] = forces.map(|force| force * -side);
-            let load = &mut self.next.bodies[body];
-            load.contact.add(Wrench::at(point, push), 1.0);
-            load.friction.add(Wrench::at(point, friction), 1.0);
-            let vertices = row.vertices;
-            self.next_contacts.push((
-                body,
-                ContactLoad {
-                    point,
-                    vertices,
-                    push,
-                    friction,
-                },
-            ));
+            for (body, point, side) in solved.sides(row).into_iter().flatten() {
+                let [push, friction] = forces.map(|force| force * side);
+                let load = &mut self.next.bodies[body];
+                load.contact.add(Wrench::at(point, push), 1.0);
+                load.friction.add(Wrench::at(point, friction), 1.0);
+                let vertices = row.vertices;
+                self.next_contacts.push((
+                    body,
+                    ContactLoad {
+                        point,
+                        vertices,
+                        push,
+                        friction,
+                    },
+                ));
+            }
         });
     }
 
@@ -338,21 +337,22 @@ impl Loads {
 }
 
 impl Solved<'_> {
-    /// Returns the body of a row, the point of the cloth, and the sign of the cloth's side; `None` if the row has no body.
-    fn sides(&self, row: &ContactRow) -> Option<(usize, DVec3, f64)> {
+    /// Returns the bodies of a row, each with the point of what it meets, and the sign of its own side.
+    fn sides(&self, row: &ContactRow) -> [Option<(usize, DVec3, f64)>; 2] {
         if let RowKey::Smooth(vertex, index) = row.key {
             let body = self.smooth_bodies[index as usize].carrier;
-            return Some((body, self.x[vertex as usize], 1.0));
+            return [Some((body, self.x[vertex as usize], -1.0)), None];
         }
-        let (mut body, mut point, mut side) = (None, DVec3::ZERO, 1.0);
-        for (vertex, weight) in row.parts() {
-            if vertex < self.cloth_vertices {
-                point += self.x[vertex] * weight.abs();
-                side = weight.signum();
-            } else {
-                body = Some(self.carriers[vertex] as usize);
+        [1.0, -1.0].map(|side| {
+            let (mut body, mut point) = (None, DVec3::ZERO);
+            for (vertex, weight) in row.parts() {
+                if weight * side < 0.0 {
+                    point += self.x[vertex] * weight.abs();
+                } else if vertex >= self.cloth_vertices {
+                    body = Some(self.carriers[vertex] as usize);
+                }
             }
-        }
-        Some((body?, point, side))
+            Some((body?, point, side))
+        })
     }
 }

@@ -8,11 +8,19 @@
 //! one about that line. Then the piece turns about it. Other pins take up all moments. A piece that something presses is left as
 //! it is.
 //!
+//! **What the certificate holds back** loses momentum. If only pieces and free bodies take part, all get it back as velocities.
+//!
+//! **Free bodies** that press, and are pressed by, free pieces or other free bodies alone keep their momentum together with
+//! those, and with pieces that are pinned to them.
+//!
 //! **A piece** is what edges and [joints](crate::solve::Term::joints) connect, pinned vertices included.
 
 use crate::model::step::TimeStep;
+use crate::solve::ContactRow;
 use crate::solve::Prediction;
 use crate::solve::prediction::History;
+use crate::solve::rigid::RigidBodies;
+use crate::solve::rigid_body::{moments_of_bodies, sums_of_bodies};
 use selvedge_core::glam::{DMat3, DVec3};
 
 /// Pins are on a line if none is farther from it than this share of their extent, which exceeds rounding to single precision.
@@ -28,7 +36,9 @@ pub(super) struct Pieces(Vec<Piece>);
 #[derive(Clone, Debug, Default)]
 struct Piece {
     free: Vec<u32>,
+    /// The vertices that are pinned, and those that are pinned to free bodies.
     pinned: Vec<u32>,
+    riders: Vec<u32>,
 }
 
 /// The possible rotations of a piece.
@@ -41,8 +51,9 @@ enum Hinge {
 }
 
 impl Pieces {
-    /// Connects vertices with these inverse masses by `edges`; a vertex without edges is no piece.
-    pub(super) fn new(inverse_masses: &[f64], edges: impl Iterator<Item = [u32; 2]>) -> Self {
+    /// Connects vertices with these inverse masses by `edges`; a vertex without edges is no piece. `rides` says which vertices
+    /// are pinned to free bodies.
+    pub(super) fn new(inverse_masses: &[f64], rides: impl Fn(usize) -> bool, edges: impl Iterator<Item = [u32; 2]>) -> Self {
         let mut parents: Vec<u32> = (0..inverse_masses.len() as u32).collect();
         for edge in edges {
             let [one, other] = edge.map(|vertex| root(&mut parents, vertex));
@@ -53,19 +64,20 @@ impl Pieces {
             let piece = &mut of_roots[root(&mut parents, vertex as u32) as usize];
             let list = if inverse_mass > 0.0 {
                 &mut piece.free
+            } else if rides(vertex) {
+                &mut piece.riders
             } else {
                 &mut piece.pinned
             };
             list.push(vertex as u32);
         }
-        of_roots.retain(|piece| !piece.free.is_empty() && piece.free.len() + piece.pinned.len() > 1);
+        of_roots.retain(|piece| !piece.free.is_empty() && piece.vertices().nth(1).is_some());
         Self(of_roots)
     }
 
     /// The vertices of each piece. A vertex that nothing connects is in none.
     pub(super) fn vertices(&self) -> impl Iterator<Item = impl Iterator<Item = u32> + Clone> {
-        let pieces = self.0.iter();
-        pieces.map(|piece| piece.free.iter().chain(&piece.pinned).copied())
+        self.0.iter().map(Piece::vertices)
     }
 }
 
@@ -78,34 +90,85 @@ pub(super) struct Motion<'a> {
     pub(super) prediction: &'a Prediction,
 }
 
+impl<'a> Motion<'a> {
+    pub(super) const fn new(
+        forced: &'a [DVec3],
+        velocities: &'a [DVec3],
+        history: &'a History,
+        prediction: &'a Prediction,
+    ) -> Self {
+        Self {
+            forced,
+            velocities,
+            history,
+            prediction,
+        }
+    }
+}
+
+/// What a correction changes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Correction {
+    /// Positions and velocities.
+    Motion,
+    /// Velocities alone: positions are certified.
+    Velocity,
+}
+
+impl Correction {
+    /// The share of a correction of velocities that also moves positions.
+    const fn share(self) -> f64 {
+        match self {
+            Self::Motion => 1.0,
+            Self::Velocity => 0.0,
+        }
+    }
+}
+
 impl Pieces {
     /// Returns whether pins do not take up the momentum of every piece.
     pub(super) fn may_move(&self, step: &TimeStep<'_>) -> bool {
         self.0.iter().any(|piece| piece.hinge(step.start).is_some())
     }
 
-    /// Gives each piece that touches nothing the momentum that forces leave it; all terms are inner forces. If no body presses
-    /// (`is_body_near`), the free pieces that press each other keep theirs together.
+    /// Gives each piece that touches nothing the momentum that forces leave it; all terms are inner forces. If nothing that is
+    /// held presses (`is_held`), the free pieces and the bodies that press each other keep theirs together.
     pub(super) fn keep_momentum(
         &self,
         step: &TimeStep<'_>,
         motion: &Motion<'_>,
-        (is_pressed, is_body_near): (&[bool], bool),
-        x: &mut [DVec3],
-        velocities: &mut [DVec3],
+        (is_pressed, is_held): (&[bool], bool),
+        correction: Correction,
+        (x, velocities): (&mut [DVec3], &mut [DVec3]),
+        (bodies, are_pressed): (&mut RigidBodies, &[bool]),
     ) {
         for piece in self.0.iter().filter(|piece| piece.is_free(is_pressed)) {
-            piece.keep_momentum(step, motion, x, velocities);
+            let none = (&mut RigidBodies::default(), &[][..]);
+            piece.keep_momentum(step, motion, correction, (x, velocities), none);
         }
         let pressed = || self.0.iter().filter(|piece| !piece.is_free(is_pressed));
-        if !is_body_near && pressed().next().is_some() && pressed().all(|piece| piece.pinned.is_empty()) {
+        let is_any = pressed().next().is_some() || are_pressed.contains(&true);
+        if !is_held && is_any && pressed().all(|piece| piece.pinned.is_empty()) {
             let together = Piece {
                 free: pressed().flat_map(|piece| piece.free.iter().copied()).collect(),
-                pinned: Vec::new(),
+                ..Piece::default()
             };
-            together.keep_momentum(step, motion, x, velocities);
+            together.keep_momentum(step, motion, correction, (x, velocities), (bodies, are_pressed));
         }
     }
+}
+
+/// Returns whether a row presses against something that the solve does not move: a body that is not free. The scene has so many
+/// vertices of cloth.
+pub(super) fn is_held(row: &ContactRow, cloth_vertices: usize) -> bool {
+    let sides_of_cloth = || row.parts().any(|(vertex, _)| vertex < cloth_vertices);
+    row.push > 0.0
+        && row.is_with_body
+        && match row.touches[1] {
+            0 => true,
+            1 => !sides_of_cloth(),
+            _ => false,
+        }
 }
 
 /// The smallest vertex known to be connected with this one. Shortens the path to it.
@@ -137,49 +200,59 @@ impl Piece {
         is_straight.then_some(Hinge::Axis(first, axis))
     }
 
-    /// Returns whether nothing presses the piece.
+    fn vertices(&self) -> impl Iterator<Item = u32> + Clone {
+        let pinned = self.pinned.iter().chain(&self.riders);
+        self.free.iter().chain(pinned).copied()
+    }
+
+    /// Returns whether nothing presses the piece, and no free body holds it.
     fn is_free(&self, is_pressed: &[bool]) -> bool {
-        !self.free.iter().any(|&vertex| is_pressed[vertex as usize])
+        self.riders.is_empty() && !self.free.iter().any(|&vertex| is_pressed[vertex as usize])
     }
 
     /// Gives the piece the momentum that forces leave it, and the angular momentum about its hinge.
     ///
-    /// A vertex has v′ = (x′ − b)/r with the base b and the rate r of its [prediction](Prediction), so that x′ × v′ = b × v′. The
-    /// equation of motion is m(v′ − w)/r = −g with w = (y − b)/r, and the gradient g of inner forces has no sum. The
-    /// angular momentum about a fixed point is L′ = L + h·τ after a step of first order, and L′ = (4L − L₋)/3 + ⅔h·τ after one
-    /// of second order: the same formulas as for v′, with the moment τ of forces from outside. A pinned point is at its place at
-    /// the end of the step, where its force has no moment about it.
-    fn keep_momentum(&self, step: &TimeStep<'_>, motion: &Motion<'_>, x: &mut [DVec3], velocities: &mut [DVec3]) {
+    /// A vertex has v′ = (x′ − b)/r with the base b and the rate r of its [prediction](Prediction), so that x′ × v′ = b × v′.
+    /// What contacts that started too near have moved is not in v′; so b is x′ − r·v′ here. If velocities alone are corrected, x′
+    /// stays and takes its place. The equation of motion is m(v′ − w)/r = −g with w = (y − b)/r, and the gradient g of inner
+    /// forces has no sum. The angular momentum about a fixed point is L′ = L + h·τ after a step of first order, and L′ = (4L −
+    /// L₋)/3 + ⅔h·τ after one of second order: the same formulas as for v′, with the moment τ of forces from outside. A pinned
+    /// point is at its place at the end of the step, where its force has no moment about it.
+    ///
+    /// Bodies that are pressed belong to a piece without pins.
+    fn keep_momentum(
+        &self,
+        step: &TimeStep<'_>,
+        motion: &Motion<'_>,
+        correction: Correction,
+        (x, velocities): (&mut [DVec3], &mut [DVec3]),
+        (bodies, are_pressed): (&mut RigidBodies, &[bool]),
+    ) {
         let Some(hinge) = self.hinge(x) else { return };
-        let Motion {
-            forced,
-            velocities: before,
-            history,
-            prediction:
-                Prediction {
-                    goal,
-                    masses,
-                    base,
-                    rate,
-                },
-        } = motion;
+        let Motion { forced, history, .. } = motion;
+        let Prediction { masses, base, rate, .. } = motion.prediction;
         let (h, start) = (step.h, step.start);
         let free = || self.free.iter().map(|&vertex| vertex as usize);
         let mass = |vertex: usize| step.inverse_masses[vertex].recip();
         // What still air adds to the weight of a vertex.
         let slowing = |vertex: usize| masses[vertex] * rate[vertex] * rate[vertex] * step.inverse_masses[vertex];
+        let moved = correction.share();
+        let base_of = |x: DVec3, velocity: DVec3, vertex: usize| x - velocity * (moved * rate[vertex]);
         let is_second_order = free().all(|vertex| rate[vertex] < h);
+        let balances = bodies.balances(h, moved, are_pressed);
         let mut shift = DVec3::ZERO;
         let centre = match hinge {
             Hinge::CentreOfMass => {
-                let (mut total, mut of_rates, mut centre) = (0.0, 0.0, DVec3::ZERO);
+                let (mut total, mut of_rates, mut centre, lost) = sums_of_bodies(&balances, h);
+                shift -= lost;
                 for vertex in free() {
+                    let own_base = base_of(x[vertex], velocities[vertex], vertex);
                     let (mass, rate) = (mass(vertex), rate[vertex]);
-                    let predicted = (goal[vertex] - base[vertex]) / rate;
+                    let predicted = (motion.prediction.goal[vertex] - base[vertex]) / rate;
                     let weight = slowing(vertex) * mass / rate;
                     shift -= (velocities[vertex] - predicted) * weight;
                     of_rates += weight;
-                    centre += base[vertex] * mass;
+                    centre += own_base * mass;
                     total += mass;
                 }
                 shift /= of_rates;
@@ -187,17 +260,17 @@ impl Piece {
             }
             Hinge::Point(point) | Hinge::Axis(point, _) => point,
         };
-        let mut moment = DVec3::ZERO;
-        // Σ m·q·qᵀ, from which the inertia follows.
-        let (mut squares, mut products) = (DVec3::ZERO, DVec3::ZERO);
+        // The second and third are Σ m·q·qᵀ, from which the inertia follows.
+        let [mut moment, mut squares, mut products] = moments_of_bodies(&balances, centre, shift);
         for vertex in free() {
-            let (mass, arm) = (mass(vertex), base[vertex] - centre);
+            let own_base = base_of(x[vertex], velocities[vertex], vertex);
+            let (mass, arm) = (mass(vertex), own_base - centre);
             let end = x[vertex] - centre;
             let angular = |at: DVec3, velocity: DVec3| (at - centre).cross(velocity * mass);
             let kept = if is_second_order {
-                let kept =
-                    angular(start[vertex], before[vertex]) * 4.0 - angular(history.positions[vertex], history.velocities[vertex]);
-                let forces = (forced[vertex] - before[vertex]) * mass;
+                let kept = angular(start[vertex], motion.velocities[vertex]) * 4.0
+                    - angular(history.positions[vertex], history.velocities[vertex]);
+                let forces = (forced[vertex] - motion.velocities[vertex]) * mass;
                 kept / 3.0 + end.cross(forces) * (2.0 / 3.0)
             } else {
                 angular(start[vertex], forced[vertex])
@@ -213,10 +286,12 @@ impl Piece {
             return;
         }
         for vertex in free() {
-            let change = shift + turn.cross(base[vertex] - centre);
+            let own_base = base_of(x[vertex], velocities[vertex], vertex);
+            let change = shift + turn.cross(own_base - centre);
             velocities[vertex] += change;
-            x[vertex] += change * rate[vertex];
+            x[vertex] += change * (moved * rate[vertex]);
         }
+        bodies.correct((h, moved), (are_pressed, &balances), [shift, turn, centre], x);
     }
 }
 
@@ -282,9 +357,15 @@ mod tests {
             };
             let mut x = x.clone();
             let mut velocities = self.velocities();
-            let pieces = Pieces::new(inverse_masses, (1..count as u32).map(|vertex| [vertex - 1, vertex]));
+            let pieces = Pieces::new(
+                inverse_masses,
+                |_| false,
+                (1..count as u32).map(|vertex| [vertex - 1, vertex]),
+            );
             let is_pressed = vec![false; count];
-            pieces.keep_momentum(&step, &motion, (&is_pressed, false), &mut x, &mut velocities);
+            let none = (&mut RigidBodies::default(), &[][..]);
+            let pressed = (&is_pressed[..], false);
+            pieces.keep_momentum(&step, &motion, pressed, Correction::Motion, (&mut x, &mut velocities), none);
             for (vertex, velocity) in velocities.iter().enumerate() {
                 assert!(
                     (start[vertex] + *velocity * H - x[vertex]).length() < 1e-12,
@@ -356,7 +437,7 @@ mod tests {
 
     #[test]
     fn what_no_edge_connects_is_no_piece_and_a_straight_row_does_not_turn_about_itself() {
-        let Pieces(pieces) = Pieces::new(&[1.0; 5], [[0, 1], [3, 4]].into_iter());
+        let Pieces(pieces) = Pieces::new(&[1.0; 5], |_| false, [[0, 1], [3, 4]].into_iter());
         assert_eq!(
             pieces.iter().map(|piece| &piece.free[..]).collect::<Vec<_>>(),
             [[0, 1], [3, 4]]

@@ -3,7 +3,7 @@
 use super::checkpoint::{Checkpoint, CheckpointError, Sizes};
 use super::simulation::Simulation;
 use crate::model::step::Memory;
-use crate::world::{Driven, Kinematic};
+use crate::world::{Driven, Free, Kinematic};
 
 impl Simulation {
     /// Returns all that the rest of the simulation depends on, and what has been measured so far, every
@@ -18,6 +18,7 @@ impl Simulation {
             state: self.state.clone(),
             seconds: self.seconds(),
             placements: self.driven().map(|driven| driven.placement).collect(),
+            free_bodies: self.free().map(Free::numbers).collect(),
             torn: self.torn_cloths(),
             memories: self.remembered(),
             kept: self.made.solve.write_kept(&self.work.substep.history),
@@ -55,6 +56,7 @@ impl Simulation {
             yielding: self.made.contact.as_ref().map_or(0, |c| c.exempt().yielding.len()),
             seconds: self.seconds().len(),
             placements: self.driven().count(),
+            free_bodies: self.free().count(),
             memories,
         };
         let checkpoint = Checkpoint::read(reader, sizes)?;
@@ -89,6 +91,9 @@ impl Simulation {
         for (driven, placement) in driven.zip(checkpoint.placements) {
             driven.placement = placement;
         }
+        let free = self.made.motions.iter_mut().filter_map(Kinematic::free_mut);
+        free.zip(&checkpoint.free_bodies)
+            .for_each(|(free, numbers)| free.recall(numbers));
         self.recall(&checkpoint.memories);
         self.made.solve.keep(kept, &mut self.work.substep.history);
         self.state = checkpoint.state;
@@ -130,5 +135,9 @@ impl Simulation {
 
     pub(super) fn driven(&self) -> impl Iterator<Item = &Driven> {
         self.made.motions.iter().filter_map(Kinematic::driven)
+    }
+
+    fn free(&self) -> impl Iterator<Item = &Free> {
+        self.made.motions.iter().filter_map(Kinematic::free)
     }
 }

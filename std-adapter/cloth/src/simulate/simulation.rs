@@ -11,11 +11,12 @@ use super::tangled::Untangled;
 use super::tearing::Tearing;
 use super::waiting::Waiting;
 use crate::contact::{ContactCounts, ContactSeconds, Crossing, ProximityPair};
-use crate::model::energy::{Configuration, Energy};
+use crate::effects::GRAVITY;
+use crate::model::energy::{Configuration, Energy, StoredEnergy};
 use crate::model::step::Release;
 use crate::scene::{OnBlocked, TangledStart};
 use crate::solve::SolveCounts;
-use crate::world::{FileNumbering, MeshInFiles, Pose};
+use crate::world::{FileNumbering, Kinematic, MeshInFiles, Pose};
 use selvedge::Mesh;
 use selvedge::parallel::Workers;
 use selvedge_core::glam::DVec3;
@@ -230,8 +231,8 @@ impl Simulation {
         }
     }
 
-    /// Returns the present energy of the cloth: of its motion, and of its effects. It takes about as long as the effects' share
-    /// of a step.
+    /// Returns the present energy of the cloth and of free bodies: of their motion, and of effects. It takes about as long as the
+    /// effects' share of a step.
     ///
     /// Each step takes some of the energy, as implicit steps do: in free fall ½·m·g²·h·t, for a mass m after a time t in steps of
     /// h.
@@ -248,6 +249,13 @@ impl Simulation {
         let mut energy = Energy::of_motion(&self.made.inverse_masses, &self.state.velocities);
         for (effect, stored) in forces.chain(terms) {
             energy.add(self.effects[effect].name, stored);
+        }
+        for free in self.made.motions.iter().filter_map(Kinematic::free) {
+            energy.kinetic += free.kinetic_energy();
+            if self.made.of_free_bodies.gravity != DVec3::ZERO {
+                let of_weight = -free.mass.mass * self.made.of_free_bodies.gravity.dot(free.state.centre);
+                energy.add(GRAVITY, StoredEnergy::Gravitational(of_weight));
+            }
         }
         energy
     }

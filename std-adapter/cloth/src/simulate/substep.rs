@@ -6,16 +6,20 @@
 
 use super::added_forces::AddedForces;
 use super::assembly::Assembly;
+use super::free_bodies;
 use super::loads::Solved;
 use super::measures::EffectTime;
-use super::momentum::Motion;
+use super::momentum::{self, Correction, Motion};
 use super::simulation::{Simulation, Work};
 use super::state::{FASTEST, limited};
 use crate::contact::smooth_body::{OF_MESH, SmoothBody, away};
 use crate::contact::{Blocker, ContactSolver, ProximityPair};
 use crate::effects::plan::ActingForce;
+use crate::model::length::turned_into_plane;
+use crate::model::rigid::RigidMotion;
 use crate::model::step::{Carrier, FREE, TimeStep};
 use crate::solve::prediction::{self, History};
+use crate::solve::rigid::RigidBodies;
 use crate::solve::{ContactRow, Prediction, RowKey, Solve};
 use crate::world::put_kinematic;
 use selvedge::PairKind;
@@ -81,18 +85,17 @@ impl Simulation {
             drag,
             supports,
             friction_coefficient,
+            of_free_bodies,
+            body_vertices,
             cloth_vertices,
             ..
         } = made;
         let Work { poses, substep, .. } = work;
         let count = *cloth_vertices;
         let clock = state.clock;
+        let times = [clock, clock + ticks];
         poses.clear();
-        poses.extend(
-            motions
-                .iter()
-                .map(|motion| [clock, clock + ticks].map(|time| motion.pose(time))),
-        );
+        poses.extend({ motions.iter() }.map(|motion| times.map(|time| motion.pose(time))));
         let SubstepWork {
             history,
             prediction,
@@ -105,6 +108,9 @@ impl Simulation {
         } = substep;
         ends.clone_from(&state.positions);
         put_kinematic(motions, carriers, carried, clock + ticks, ends);
+        let order = (&drag[..], solve.accuracy.is_of_second_order());
+        let bodies = (&motions[..], &body_vertices[..], *of_free_bodies);
+        free_bodies::begin(solve, bodies, (h, history), count, poses);
         let step = TimeStep {
             time: state.time(*time_step),
             h,
@@ -116,9 +122,9 @@ impl Simulation {
         forced.clone_from(&state.velocities);
         apply_forces((forces, added_forces), &step, forced, effects);
         let both = [&state.velocities[..], &forced[..]];
-        let order = (&drag[..], solve.accuracy.is_of_second_order());
         prediction::predict(prediction, &step, history, both, order, ends, count);
         prediction::guess(x, &step, history, both, ends, count);
+        free_bodies::put(&solve.bodies, x, &mut prediction.goal);
         collect_rows(
             solve,
             (smooth_bodies, carriers),
@@ -128,26 +134,24 @@ impl Simulation {
             *friction_coefficient,
         );
         solve.remind_rows(h);
+        free_bodies::touch(solve, carriers, smooth_bodies, step.start, x);
         prediction::hold_pressed(&solve.rows, &step, x, count);
-        let follow = |row: &mut ContactRow, x: &[DVec3]| follow_smooth(row, &step, smooth_bodies, x);
-        begin_smooth(&mut solve.rows, &step, smooth_bodies, x);
+        let follow = |row: &mut ContactRow, x: &[DVec3], bodies: &mut RigidBodies| {
+            follow_smooth(row, &step, smooth_bodies, x, bodies);
+        };
+        begin_smooth(&mut solve.rows, &follow, x, &mut solve.bodies);
         let outcome = solve.run(&step, prediction, x, &follow);
         for entry in &mut solve.terms {
             effects[entry.effect].seconds += std::mem::take(&mut entry.seconds);
         }
         outcome.map_err(|_| refusal(&step))?;
 
-        is_pressed.clear();
-        is_pressed.resize(count, false);
-        for row in solve.rows.iter().filter(|row| row.push > 0.0) {
-            row.parts()
-                .filter(|(vertex, _)| *vertex < count)
-                .for_each(|(vertex, _)| is_pressed[vertex] = true);
-        }
+        mark_pressed(&solve.rows, count, is_pressed);
+        let mut are_pressed = free_bodies::settle(solve, h, x);
         limit_moves(&step, &carriers[..count], x);
         prediction::velocities(prediction, &step, x, is_pressed, velocities);
         for row in &mut solve.rows {
-            row.remove_recovery(h, step.inverse_masses, velocities);
+            row.remove_recovery(h, step.inverse_masses, velocities, &mut solve.bodies);
         }
         loads.measure(
             &Solved {
@@ -164,20 +168,39 @@ impl Simulation {
             },
             forces,
         );
-        if solve.is_inner() && pieces.may_move(&step) {
-            let is_body_near = solve.rows.iter().any(|row| row.push > 0.0 && row.is_with_body);
-            let motion = Motion {
-                forced,
-                velocities: &state.velocities,
-                history,
-                prediction,
-            };
-            pieces.keep_momentum(&step, &motion, (is_pressed, is_body_near), x, velocities);
+        let keeps_momentum = solve.is_inner() && (pieces.may_move(&step) || !solve.bodies.is_empty());
+        let is_held = solve.rows.iter().any(|row| momentum::is_held(row, count));
+        if keeps_momentum {
+            let motion = Motion::new(forced, &state.velocities, history, prediction);
+            let pressed = (&is_pressed[..], is_held);
+            let with_bodies = (&mut solve.bodies, &are_pressed[..]);
+            pieces.keep_momentum(&step, &motion, pressed, Correction::Motion, (x, velocities), with_bodies);
         }
         is_moved.clear();
         is_moved.resize(step.start.len(), false);
         if let Some(contact) = contact {
-            certify(contact, solve, &step, overstretched, [x, ends], (is_moved, velocities))?;
+            let mut certified: Vec<RigidMotion> = solve.bodies.all.iter().map(|body| body.motion.clone()).collect();
+            let motions_of_bodies = ([&mut *x, ends], &mut certified[..]);
+            certify(
+                contact,
+                solve,
+                &step,
+                overstretched,
+                motions_of_bodies,
+                (is_moved, velocities),
+            )?;
+            free_bodies::hold(&mut solve.bodies, certified, &mut are_pressed);
+            let may_be_held = |body: Carrier| !solve.bodies.has(body);
+            if keeps_momentum && !is_held && is_moved.contains(&true) && !contact.meets(is_moved, may_be_held) {
+                is_pressed
+                    .iter_mut()
+                    .zip(&*is_moved)
+                    .for_each(|(pressed, moved)| *pressed |= *moved);
+                let motion = Motion::new(forced, &state.velocities, history, prediction);
+                let pressed = (&is_pressed[..], is_held);
+                let with_bodies = (&mut solve.bodies, &are_pressed[..]);
+                pieces.keep_momentum(&step, &motion, pressed, Correction::Velocity, (x, velocities), with_bodies);
+            }
         }
         solve.accept(is_moved, h);
         for entry in &mut solve.terms {
@@ -190,12 +213,23 @@ impl Simulation {
             .is_first_order
             .extend(is_pressed.iter().zip(&*is_moved).map(|(pressed, moved)| *pressed || *moved));
         history.record(&state.positions, &state.velocities, h);
+        free_bodies::accept(motions, &solve.bodies, h, &are_pressed, velocities);
         std::mem::swap(&mut state.velocities, velocities);
         std::mem::swap(&mut state.positions, x);
         state.clock += ticks;
         loads.accept(h);
         Ok(())
     }
+}
+
+/// Marks the vertices of cloth that rows push.
+fn mark_pressed(rows: &[ContactRow], count: usize, is_pressed: &mut Vec<bool>) {
+    is_pressed.clear();
+    is_pressed.resize(count, false);
+    let parts = rows.iter().filter(|row| row.push > 0.0).flat_map(ContactRow::parts);
+    parts
+        .filter(|(vertex, _)| *vertex < count)
+        .for_each(|(vertex, _)| is_pressed[vertex] = true);
 }
 
 /// Applies forces to velocities, and counts the time of their effects.
@@ -232,11 +266,11 @@ fn certify(
     solve: &Solve,
     step: &TimeStep<'_>,
     overstretched: Overstretched,
-    [x, wanted]: [&mut Vec<DVec3>; 2],
+    ([x, wanted], bodies): ([&mut Vec<DVec3>; 2], &mut [RigidMotion]),
     (is_moved, velocities): (&mut [bool], &mut [DVec3]),
 ) -> Result<(), Blocker> {
     wanted.clone_from(x);
-    contact.certify(step, x)?;
+    contact.certify(step, x, bodies)?;
     for (vertex, is_moved) in is_moved.iter_mut().enumerate() {
         *is_moved = wanted[vertex] != x[vertex];
         if *is_moved {
@@ -274,13 +308,19 @@ fn collect_rows(
     [guess, goal]: [&[DVec3]; 2],
     friction: f64,
 ) {
-    let (rows, was_at_rest) = solve.begin_rows();
+    // Bodies' vertices come after the cloths'.
+    let cloth_vertices = solve.bodies.first_slot;
+    let (rows, bodies, was_at_rest) = solve.begin_rows();
     collect_smooth_rows(rows, smooth_bodies, step, [guess, goal], friction);
     let Some(contact) = contact else { return };
-    // Bodies' vertices come after the cloths'.
+    let is_on_free_body = |vertex: u32| bodies.all.iter().any(|body| body.motion.moves(vertex));
     let is_smooth = |vertices: [u32; 4]| {
         let [a, b, c, d] = vertices;
         let carrier = carriers[a.max(b).max(c.max(d)) as usize];
+        // Two bodies have no rows of their smooth surfaces.
+        if a.min(b).min(c.min(d)) as usize >= cloth_vertices {
+            return false;
+        }
         let own = smooth_bodies.iter().map(|body| body.carrier);
         { own }.any(|own| own == carrier as usize && step.poses[own][1].is_rigid())
     };
@@ -296,15 +336,20 @@ fn collect_rows(
             mut thickness,
         } = near;
         if is_with_body && is_smooth(vertices) {
-            // Its own rows stop what comes from afar, whose tangent planes would hold it off the surface.
-            if distance > REACH * thickness {
+            // Its own rows stop vertices that come from afar. Tangent planes would hold them off the surface.
+            let mut of_cloth = vertices
+                .into_iter()
+                .zip(weights)
+                .filter(|(vertex, _)| (*vertex as usize) < cloth_vertices);
+            let is_vertex = of_cloth.any(|(_, weight)| weight.abs() == 1.0);
+            if is_vertex && distance > REACH * thickness {
                 return;
             }
             thickness *= OF_MESH;
         }
-        // Bodies are at their ends in the guess, and the cloth at the start.
+        // What the solve moves is at the start, and other bodies are at their ends.
         let at = |vertex: u32| {
-            if step.inverse_masses[vertex as usize] > 0.0 {
+            if step.inverse_masses[vertex as usize] > 0.0 || is_on_free_body(vertex) {
                 step.start[vertex as usize]
             } else {
                 guess[vertex as usize]
@@ -365,24 +410,33 @@ fn collect_smooth_rows(
 }
 
 /// Prepares the rows of smooth bodies for a solve that begins at `x`.
-fn begin_smooth(rows: &mut [ContactRow], step: &TimeStep<'_>, smooth_bodies: &[SmoothBody], x: &mut [DVec3]) {
+fn begin_smooth(
+    rows: &mut [ContactRow],
+    follow: &dyn Fn(&mut ContactRow, &[DVec3], &mut RigidBodies),
+    x: &mut [DVec3],
+    bodies: &mut RigidBodies,
+) {
     for row in rows.iter_mut().filter(|row| row.is_smooth()) {
         if row.push > 0.0 && row.is_at_bound() {
             // It slides along the surface, and not off it.
             let vertex = row.vertices[0] as usize;
-            follow_smooth(row, step, smooth_bodies, x);
+            follow(row, x, bodies);
             let gap = row.gap(x);
             x[vertex] -= row.normal * gap;
         }
-        follow_smooth(row, step, smooth_bodies, x);
+        follow(row, x, bodies);
     }
 }
 
 /// Finds the normal of a smooth body again, and the rest distance along it.
-fn follow_smooth(row: &mut ContactRow, step: &TimeStep<'_>, smooth_bodies: &[SmoothBody], x: &[DVec3]) {
+fn follow_smooth(row: &mut ContactRow, step: &TimeStep<'_>, smooth_bodies: &[SmoothBody], x: &[DVec3], bodies: &mut RigidBodies) {
     let RowKey::Smooth(vertex, body) = row.key else { return };
     let body = &smooth_bodies[body as usize];
-    let axis = body.axis(&step.poses[body.carrier][1]);
+    let [before, now] = &step.poses[body.carrier];
+    let axis = match bodies.of_carrier(body.carrier) {
+        Some(free) => body.axis(before).map(|end| free.carry(end)),
+        None => body.axis(now),
+    };
     let at = x[vertex as usize];
     let (normal, distance) = away(axis, at);
     if normal == DVec3::ZERO {
@@ -390,5 +444,10 @@ fn follow_smooth(row: &mut ContactRow, step: &TimeStep<'_>, smooth_bodies: &[Smo
     }
     row.normal = normal;
     row.rest = normal.dot(at) - distance + row.reach;
-    row.grip -= normal * row.grip.dot(normal);
+    row.grip = turned_into_plane(row.grip, normal);
+    if row.is_on_free_body() {
+        let points = [distance - row.reach, distance].map(|back| at - normal * back);
+        bodies.follow(row.touches, points);
+        row.refresh(bodies);
+    }
 }

@@ -67,6 +67,7 @@ impl Simulation {
         let begin = Clock::now();
         let forces = std::mem::take(&mut self.made.forces);
         let loads = self.made.solve.take_loads();
+        self.made.of_free_bodies.rest = true;
         let velocities = self.state.velocities.clone();
         let start = self.state.positions.clone();
         let times = self.effects.clone();
@@ -97,6 +98,7 @@ impl Simulation {
         }
         (self.made.forces, self.effects) = (forces, times);
         self.made.solve.give_loads(loads);
+        self.made.of_free_bodies.rest = false;
         self.state.velocities = velocities;
         // No joint breaks, and no fold stays, before the first step.
         self.recall(&remembered);

@@ -15,8 +15,9 @@
 
 use super::constants::RECOVERY;
 use super::matrix::{Matrix, outer};
+use super::rigid::RigidBodies;
 use crate::contact::PairKey;
-use crate::model::length::{length, shortened};
+use crate::model::length::{length, shortened, turned_into_plane};
 use selvedge_core::glam::{DVec3, Mat3A, Vec3A};
 
 /// The name of a contact from step to step.
@@ -87,6 +88,8 @@ pub(crate) struct ContactRow {
     /// Σw·x at the start of the step, and the motion of a smooth body since then.
     pub(crate) start: DVec3,
     pub(crate) drift: DVec3,
+    /// The first of its [touches](super::rigid) with free bodies, and their number.
+    pub(crate) touches: [u32; 2],
     /// The coefficient of friction.
     pub(crate) friction: f64,
     /// The push λ and the friction, in N.
@@ -127,6 +130,7 @@ impl ContactRow {
             reach: 0.0,
             start: DVec3::ZERO,
             drift: DVec3::ZERO,
+            touches: [0; 2],
             friction: 0.0,
             push: 0.0,
             grip: DVec3::ZERO,
@@ -147,7 +151,8 @@ impl ContactRow {
     /// position satisfies both sides, and their forces would grow without end. Nor does it then resist bodies that come nearer.
     pub(crate) fn choose_rest(&mut self, before: Option<&Remembered>, h: f64) {
         if let Some(before) = before {
-            (self.push, self.grip) = (before.push, before.grip - self.normal * before.grip.dot(self.normal));
+            // Friction turns with the surface. What slips stays at its bound.
+            (self.push, self.grip) = (before.push, turned_into_plane(before.grip, self.normal));
             let asked = before.asked;
             let has_gained = !(asked > 0.0) || self.distance - before.distance >= LEAST_GAIN * asked;
             self.share = if has_gained {
@@ -181,7 +186,7 @@ impl ContactRow {
 
     /// Removes from velocities the speed at which the row has taken its sides apart because they started too near: a step of `h`
     /// seconds has moved them, but that is not motion (Guendelman, Bridson and Fedkiw 2003 separate the two in the same way).
-    pub(crate) fn remove_recovery(&mut self, h: f64, inverse_masses: &[f64], velocities: &mut [DVec3]) {
+    pub(crate) fn remove_recovery(&mut self, h: f64, inverse_masses: &[f64], velocities: &mut [DVec3], bodies: &mut RigidBodies) {
         self.removed = 0.0;
         let asked = self.asked(h);
         if !(self.push > 0.0 && asked > 0.0) {
@@ -194,7 +199,9 @@ impl ContactRow {
             moved += velocities[vertex] * weight;
             mobility += weight * weight * inverse_mass;
         }
-        let apart = moved.dot(self.normal);
+        let (of_bodies, removed) = bodies.mobility(self.touches, self.normal);
+        mobility += of_bodies;
+        let apart = moved.dot(self.normal) + removed;
         if !(apart > 0.0 && mobility > 0.0) {
             return;
         }
@@ -203,12 +210,41 @@ impl ContactRow {
         for (vertex, weight, inverse_mass) in parts() {
             velocities[vertex] -= by * (weight * inverse_mass);
         }
+        bodies.remove(self.touches, by);
         self.removed = removed;
     }
 
     /// Returns whether the row is one of a vertex and a smooth body, whose normal follows the solve.
     pub(crate) const fn is_smooth(&self) -> bool {
         matches!(self.key, RowKey::Smooth(..))
+    }
+
+    /// Returns the number of its smooth body, if it is a row of one.
+    pub(crate) const fn smooth_body(&self) -> Option<usize> {
+        match self.key {
+            RowKey::Smooth(_, body) => Some(body as usize),
+            RowKey::Pair(_) => None,
+        }
+    }
+
+    /// Returns whether one of its sides is a free body.
+    pub(crate) const fn is_on_free_body(&self) -> bool {
+        self.touches[1] > 0
+    }
+
+    /// Takes where its free bodies are in the solve.
+    pub(crate) fn refresh(&mut self, bodies: &RigidBodies) {
+        if !self.is_on_free_body() {
+            return;
+        }
+        if !self.is_smooth() {
+            self.drift = bodies.drift(self.touches);
+        } else if let Some((drift, on_axis)) = bodies.of_smooth(self.touches) {
+            self.drift = drift;
+            if let Some(on_axis) = on_axis {
+                self.rest = self.normal.dot(on_axis) + self.reach;
+            }
+        }
     }
 
     /// The vertices that take part, with their weights.
@@ -310,23 +346,25 @@ impl ContactRow {
 
     /// Subtracts the force of an active row from the gradient: as it is, or as the linear problem has it.
     #[inline]
-    pub(super) fn add_gradient(&self, x: &[DVec3], is_linear: bool, gradient: &mut [DVec3]) {
+    pub(super) fn add_gradient(&self, x: &[DVec3], is_linear: bool, gradient: &mut [DVec3], bodies: &RigidBodies) {
         if !self.is_active {
             return;
         }
         let Forces { push, grip, .. } = self.forces(x, is_linear);
         let force = self.normal * push + grip;
+        let (cloth, _) = gradient.split_at_mut(bodies.first_slot);
         for k in 0..4 {
-            if let Some(own) = gradient.get_mut(self.vertices[k] as usize)
+            if let Some(own) = cloth.get_mut(self.vertices[k] as usize)
                 && self.weights[k] != 0.0
             {
                 *own -= force * self.weights[k];
             }
         }
+        bodies.add_gradient(self.touches, force, gradient);
     }
 
     /// Adds the second derivative of an active row.
-    pub(super) fn add_curvature(&self, x: &[DVec3], matrix: &mut Matrix) {
+    pub(super) fn add_curvature(&self, x: &[DVec3], matrix: &mut Matrix, bodies: &RigidBodies) {
         if !self.is_active {
             return;
         }
@@ -344,12 +382,18 @@ impl ContactRow {
                 }
             }
         }
-        matrix.add_contact(&self.vertices, &self.weights, stiffness);
+        if self.is_on_free_body() {
+            let mut touches = Vec::with_capacity(2);
+            bodies.visit(self.touches, &mut |slot, side, arm| touches.push((slot, side, arm)));
+            matrix.add_contact_with_bodies(&self.vertices, &self.weights, stiffness, &touches);
+        } else {
+            matrix.add_contact(&self.vertices, &self.weights, stiffness);
+        }
     }
 
     /// Returns the push after moves, as the linear problem has it.
-    pub(super) fn push_after(&self, x: &[DVec3], moves: &[Vec3A]) -> f64 {
-        self.push - self.stiffness * (self.gap(x) + self.moved(moves).dot(self.normal))
+    pub(super) fn push_after(&self, x: &[DVec3], moves: &[Vec3A], bodies: &RigidBodies) -> f64 {
+        self.push - self.stiffness * (self.gap(x) + self.moved(moves, bodies).dot(self.normal))
     }
 
     /// Takes part in the linear problem, or no more.
@@ -359,11 +403,16 @@ impl ContactRow {
     }
 
     /// Returns Σ w·move.
-    fn moved(&self, moves: &[Vec3A]) -> DVec3 {
+    fn moved(&self, moves: &[Vec3A], bodies: &RigidBodies) -> DVec3 {
+        let (cloth, _) = moves.split_at(bodies.first_slot);
         let of_cloth = self
             .parts()
-            .filter_map(|(vertex, weight)| moves.get(vertex).map(|own| own.as_dvec3() * weight));
-        of_cloth.sum()
+            .filter_map(|(vertex, weight)| cloth.get(vertex).map(|own| own.as_dvec3() * weight));
+        let of_cloth: DVec3 = of_cloth.sum();
+        if self.is_on_free_body() {
+            return of_cloth + bodies.moved(self.touches, moves);
+        }
+        of_cloth
     }
 
     /// Takes the forces at `x` as multipliers; inertia and terms pull by `all` in sum, in N. Returns the largest change, in m.
@@ -392,8 +441,8 @@ impl ContactRow {
 
     /// Prepares the line search along `moves`; returns what the row adds to the slope, and its pieces: the push, its fall along
     /// the whole way in N, and the way in m.
-    pub(super) fn along(&self, x: &[DVec3], moves: &[Vec3A]) -> Along {
-        let moved = self.moved(moves);
+    pub(super) fn along(&self, x: &[DVec3], moves: &[Vec3A], bodies: &RigidBodies) -> Along {
+        let moved = self.moved(moves, bodies);
         let way = moved.dot(self.normal);
         let push = self.push - self.stiffness * self.gap(x);
         let fall = self.stiffness * way;

@@ -74,10 +74,19 @@ impl Solve {
         let Linear { vectors, gradient, .. } = linear;
         gradient.clear();
         gradient.extend_from_slice(of_terms);
-        self.rows.iter().for_each(|row| row.add_gradient(x, true, gradient));
-        for ((residual, gradient), mass) in vectors.residual.iter_mut().zip(gradient).zip(&prediction.masses) {
+        { self.rows.iter() }.for_each(|row| row.add_gradient(x, true, gradient, &self.bodies));
+        for ((residual, gradient), mass) in vectors.residual.iter_mut().zip(&*gradient).zip(&prediction.masses) {
             *residual = if *mass > 0.0 { (-*gradient).as_vec3a() } else { Vec3A::ZERO };
         }
+        let first = self.bodies.first_slot;
+        for (residual, gradient) in vectors.residual[first..].iter_mut().zip(&gradient[first..]) {
+            *residual = (-*gradient).as_vec3a();
+        }
+        self.bodies.visit_riders(&mut |vertex, slot, arm| {
+            let force = -gradient[vertex];
+            vectors.residual[slot] += force.as_vec3a();
+            vectors.residual[slot + 1] += arm.cross(force).as_vec3a();
+        });
     }
 
     /// Finds the moves of a Newton step from the residual at `x`, where `of_terms` is the gradient of the terms, and the matrix
@@ -94,7 +103,7 @@ impl Solve {
             entry.timed(|action| action.curvature_of_multipliers(x, &mut self.matrix));
         }
         self.matrix.begin_contacts();
-        self.rows.iter().for_each(|row| row.add_curvature(x, &mut self.matrix));
+        { self.rows.iter() }.for_each(|row| row.add_curvature(x, &mut self.matrix, &self.bodies));
         self.preconditioner.prepare(&self.matrix);
         linear.vectors.moves.fill(Vec3A::ZERO);
         linear.before = tolerance.mended;
@@ -113,10 +122,14 @@ impl Solve {
             self.matrix.multiply(moves, product);
             // Moves m mend 2m·r − m·A·m = m·r + m·(r − A·m) of twice the energy.
             let mut mended = dot(moves, residual);
-            for ((residual, product), mass) in residual.iter_mut().zip(product).zip(&prediction.masses) {
+            for ((residual, product), mass) in residual.iter_mut().zip(&*product).zip(&prediction.masses) {
                 if *mass > 0.0 {
                     *residual -= *product;
                 }
+            }
+            let first = self.bodies.first_slot;
+            for (residual, product) in residual[first..].iter_mut().zip(&product[first..]) {
+                *residual -= *product;
             }
             mended += dot(moves, residual);
             tolerance.mended = linear.before + mended.max(0.0);
@@ -130,7 +143,7 @@ impl Solve {
     fn change_contacts(&mut self, x: &[DVec3], linear: &mut Linear, tolerance: &Tolerance) -> bool {
         let Linear { vectors, pushes, .. } = linear;
         pushes.clear();
-        pushes.extend(self.rows.iter().map(|row| row.push_after(x, &vectors.moves)));
+        pushes.extend({ self.rows.iter() }.map(|row| row.push_after(x, &vectors.moves, &self.bodies)));
         let changes = self.rows.iter().zip(&*pushes);
         let changes = changes.filter(|(row, push)| row.is_active != (**push > 0.0));
         let twice_energy: f64 = changes.map(|(row, push)| push * push / row.stiffness).sum();
@@ -143,7 +156,7 @@ impl Solve {
                 row.take_part(*push > 0.0);
             }
         }
-        self.rows.iter().for_each(|row| row.add_curvature(x, &mut self.matrix));
+        { self.rows.iter() }.for_each(|row| row.add_curvature(x, &mut self.matrix, &self.bodies));
         self.preconditioner.renew(&self.matrix);
         true
     }
@@ -165,6 +178,7 @@ impl Solve {
             if !(rest > 0.0) {
                 break;
             }
+            matrix.coupled.carry_riders(&mut vectors.direction);
             matrix.multiply(&vectors.direction, &mut vectors.product);
             let curvature = dot(&vectors.direction, &vectors.product);
             if !(curvature > 0.0) {
@@ -172,6 +186,7 @@ impl Solve {
                 if tolerance.mended == *before {
                     // Along the preconditioned force the energy falls in any case.
                     vectors.moves.clone_from(&vectors.image);
+                    matrix.coupled.carry_riders(&mut vectors.moves);
                 }
                 break;
             }

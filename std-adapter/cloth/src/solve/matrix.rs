@@ -7,9 +7,12 @@
 //!   when all vertices move alike;
 //! * one number for the two vertices of a hinge that share no triangle. Bending is the same along all axes, and constant;
 //! * [links](Link) JᵀKJ of up to four vertices: contacts, ropes, stitches;
-//! * [products](RankOne) β·g·gᵀ of whole cloths: a gas in a closed cloth.
+//! * [products](RankOne) β·g·gᵀ of whole cloths: a gas in a closed cloth;
+//! * the [part](super::coupled) that free rigid bodies have, in slots after the vertices.
 
 use super::bands::Bands;
+use super::coupled::Coupled;
+use super::rigid::RigidBodies;
 use crate::world::Incidence;
 use selvedge::parallel;
 use selvedge_core::glam::{DMat3, DVec3, Mat3A, Vec3, Vec3A};
@@ -85,7 +88,11 @@ pub struct Matrix {
     pub(super) diagonal: Vec<Mat3A>,
     /// The same without the links of ropes.
     pub(super) beside_ropes: Vec<Mat3A>,
+    /// True for fixed vertices, those that are pinned to free bodies, and the slots of bodies.
     pub(super) is_fixed: Vec<bool>,
+    /// True for vertices that are pinned to free bodies.
+    rides: Vec<bool>,
+    pub(super) coupled: Coupled,
     /// True unless conjugate gradients have met a direction without stiffness in this step.
     pub(super) may_be_indefinite: bool,
 }
@@ -136,7 +143,8 @@ impl Matrix {
             own: vec![Mat3A::ZERO; vertex_count],
             diagonal: vec![Mat3A::ZERO; vertex_count],
             beside_ropes: vec![Mat3A::ZERO; vertex_count],
-            is_fixed: vec![false; vertex_count],
+            is_fixed: vec![true; vertex_count],
+            rides: vec![false; vertex_count],
             bands: Bands::new(ropes, vertex_count),
             ..Self::default()
         }
@@ -155,6 +163,13 @@ impl Matrix {
             self.own[vertex] = Mat3A::from_diagonal(Vec3::splat(mass as f32));
             self.is_fixed[vertex] = mass == 0.0;
         }
+    }
+
+    /// Begins with free bodies.
+    pub(super) fn begin_bodies(&mut self, bodies: &RigidBodies) {
+        self.coupled.begin(bodies);
+        self.rides.fill(false);
+        self.coupled.riders().for_each(|vertex| self.rides[vertex as usize] = true);
     }
 
     /// Adds the blocks between the [`PAIRS`] of a triangle of cloth, and minus their sums on the diagonal.
@@ -212,7 +227,12 @@ impl Matrix {
         };
         let mut count = 0;
         for (&vertex, &weight) in vertices.iter().zip(weights) {
-            if weight != 0.0 && self.is_fixed.get(vertex as usize) == Some(&false) && count < 4 {
+            let place = vertex as usize;
+            let moves = self
+                .is_fixed
+                .get(place)
+                .is_some_and(|is_fixed| !is_fixed || self.rides[place]);
+            if weight != 0.0 && moves && count < 4 {
                 (link.vertices[count], link.weights[count]) = (vertex, weight as f32);
                 count += 1;
             }
@@ -291,9 +311,14 @@ impl Matrix {
 
     /// Adds the link of a contact.
     pub(super) fn add_contact(&mut self, vertices: &[u32], weights: &[f64], stiffness: Mat3A) {
-        let Some(link) = self.link(vertices, weights, stiffness) else {
-            return;
-        };
+        if let Some(link) = self.link(vertices, weights, stiffness) {
+            self.keep_blocks(&link);
+            self.take_late(link);
+        }
+    }
+
+    /// Keeps the blocks of a contact's vertices as they are before it.
+    fn keep_blocks(&mut self, link: &Link) {
         for (&vertex, weight) in link.vertices.iter().zip(link.weights) {
             if weight != 0.0 {
                 let place = vertex as usize;
@@ -306,11 +331,29 @@ impl Matrix {
                 self.pressed.push(vertex);
             }
         }
-        self.take_late(link);
+    }
+
+    /// Adds a contact with free bodies, each with its first slot, its side and its arm.
+    pub(super) fn add_contact_with_bodies(
+        &mut self,
+        vertices: &[u32],
+        weights: &[f64],
+        stiffness: Mat3A,
+        touches: &[(usize, f64, DVec3)],
+    ) {
+        let link = self.link(vertices, weights, stiffness);
+        if let Some(link) = &link {
+            self.keep_blocks(link);
+            link.add_to(&mut self.diagonal);
+            link.add_to(&mut self.beside_ropes);
+        }
+        self.coupled
+            .add(link.map(|link| (link.vertices, link.weights)), stiffness, touches);
     }
 
     /// Removes all contacts.
     pub(super) fn remove_contacts(&mut self) {
+        self.coupled.remove_contacts();
         self.links.truncate(self.first_contact);
         // Backwards, so that the first of several contacts of a vertex has the last word.
         for before in self.before_contacts.drain(..).rev() {
@@ -363,6 +406,7 @@ impl Matrix {
                 *product += *direction * by;
             }
         }
+        self.coupled.multiply(moves, product);
     }
 
     /// Returns what Σ w·x yields along a direction to a force of 1 N, in m/N, if each vertex acted alone. Fixed vertices yield

@@ -14,8 +14,9 @@
 //! |---|---|
 //! | [`prediction`] | y and M: implicit Euler for what something presses, second order for the rest; where the solve begins |
 //! | [`newton`], [`tolerance`] | the loop, and its end |
-//! | [`linear`], [`matrix`], [`preconditioner`], [`bands`] | the linear problem of a Newton step |
+//! | [`linear`], [`matrix`], [`preconditioner`], [`bands`], [`coupled`] | the linear problem of a Newton step |
 //! | [`contact_row`] | contact and friction |
+//! | [`rigid`], [`rigid_body`], [`caught`] | free rigid bodies: six unknowns each; what they press against something |
 //! | [`membranes`], [`bending`], [`ropes`], [`stitches`], [`springs`], [`walls`], [`air`] | the terms |
 //! | [`loads`] | the forces on bodies, pins and attachments |
 //! | [`kept`] | what goes on from step to step, for checkpoints |
@@ -24,8 +25,10 @@
 //! Sums run in a fixed order, so that the result has the same bits on any number of threads.
 
 mod bands;
+mod caught;
 mod constants;
 mod contact_row;
+mod coupled;
 mod kept;
 mod linear;
 mod loads;
@@ -39,6 +42,8 @@ pub(crate) mod air;
 pub(crate) mod bending;
 pub(crate) mod membranes;
 pub(crate) mod prediction;
+pub(crate) mod rigid;
+pub(crate) mod rigid_body;
 pub(crate) mod ropes;
 pub(crate) mod springs;
 pub(crate) mod stitches;
@@ -57,9 +62,11 @@ pub(crate) use tolerance::Outcome;
 use crate::contact::PairKey;
 use crate::effects::plan::Entry;
 use crate::model::step::TimeStep;
+use caught::Caught;
 use constants::{GIVE, STIFFER_THAN_BODIES, STIFFER_THAN_CLOTH};
 use contact_row::Remembered;
 use preconditioner::Preconditioner;
+use rigid::RigidBodies;
 use rustc_hash::FxHashMap;
 use selvedge::clock::Clock;
 use selvedge_core::glam::DVec3;
@@ -86,6 +93,8 @@ pub struct SolveCounts {
 pub(crate) struct Solve {
     pub(crate) terms: Vec<Entry<dyn Term>>,
     pub(crate) rows: Vec<ContactRow>,
+    /// The free bodies of the present step.
+    pub(crate) bodies: RigidBodies,
     pub(crate) counts: SolveCounts,
     pub(crate) accuracy: Accuracy,
     /// The seconds so far, without those of the terms.
@@ -98,35 +107,39 @@ pub(crate) struct Solve {
 }
 
 impl Solve {
-    /// Makes the solve of these terms. `triangles` are those of all cloths, and `ropes` are rows of successive vertices.
+    /// Makes the solve of these terms. `triangles` are those of all cloths, and `ropes` are rows of successive vertices. The
+    /// numbers are those of the cloths' vertices and of the free bodies.
     pub(crate) fn new(
         terms: Vec<Entry<dyn Term>>,
         accuracy: Accuracy,
         triangles: &[[u32; 3]],
         bending: &[([u32; 4], [f64; 4], f64)],
         ropes: &[Vec<u32>],
-        vertex_count: usize,
+        [vertex_count, free_bodies]: [usize; 2],
     ) -> Self {
         Self {
             terms,
             rows: Vec::new(),
+            bodies: RigidBodies::default(),
             counts: SolveCounts::default(),
             accuracy,
             seconds: 0.0,
-            matrix: Matrix::new(triangles, bending, ropes, vertex_count),
+            matrix: Matrix::new(triangles, bending, ropes, vertex_count + 2 * free_bodies),
             preconditioner: Preconditioner::default(),
             pushes: FxHashMap::default(),
             work: newton::Work::default(),
         }
     }
 
-    /// Removes all rows, and returns their place with a test whether a pair was a contact at rest in the last step, by its
-    /// distance in thicknesses: it pushed, and is pressed by no more than a load may press it.
-    pub(crate) fn begin_rows(&mut self) -> (&mut Vec<ContactRow>, impl Fn(PairKey, f64) -> bool + '_) {
-        let Self { rows, pushes, .. } = self;
+    /// Removes all rows, and returns their place and the free bodies, with a test whether a pair was a contact at rest in the
+    /// last step, by its distance in thicknesses: it pushed, and is pressed by no more than a load may press it.
+    pub(crate) fn begin_rows(&mut self) -> (&mut Vec<ContactRow>, &RigidBodies, impl Fn(PairKey, f64) -> bool + '_) {
+        let Self {
+            rows, bodies, pushes, ..
+        } = self;
         rows.clear();
         let was_at_rest = |key, thicknesses| thicknesses >= 1.0 - GIVE && pushes.contains_key(&RowKey::Pair(key));
-        (rows, was_at_rest)
+        (rows, bodies, was_at_rest)
     }
 
     /// Gives the rows the forces that they had in the last step, and chooses where they are at rest in one of `h` seconds.
@@ -145,7 +158,7 @@ impl Solve {
         step: &TimeStep<'_>,
         prediction: &Prediction,
         x: &mut Vec<DVec3>,
-        follow: &dyn Fn(&mut ContactRow, &[DVec3]),
+        follow: &dyn Fn(&mut ContactRow, &[DVec3], &mut RigidBodies),
     ) -> Result<Outcome, NotFinite> {
         let begin = Clock::now();
         let result = self.minimise(step, prediction, x, follow);
@@ -209,9 +222,9 @@ impl Solve {
 /// Returns κ of a row, in N/m; zero if neither side moves.
 ///
 /// It is stiffer than the vertices by a factor, and stiff enough that the load of the last step presses it by a small share of
-/// its thickness alone.
-fn row_stiffness(row: &ContactRow, matrix: &Matrix) -> f64 {
-    let compliance = matrix.compliance(&row.vertices, &row.weights, row.normal);
+/// its thickness alone. What is [caught] is at least as stiff as the body that it carries.
+fn row_stiffness(row: &ContactRow, matrix: &Matrix, bodies: &RigidBodies, caught: &Caught) -> f64 {
+    let compliance = matrix.compliance(&row.vertices, &row.weights, row.normal) + bodies.compliance(row.touches, row.normal);
     if !(compliance > 0.0) {
         return 0.0;
     }
@@ -220,5 +233,6 @@ fn row_stiffness(row: &ContactRow, matrix: &Matrix) -> f64 {
     } else {
         STIFFER_THAN_CLOTH
     };
-    (stiffer / compliance).max(row.push / (GIVE * row.thickness))
+    let least = (row.push / (GIVE * row.thickness)).max(caught.least_stiffness(row, bodies));
+    (stiffer / compliance).max(least)
 }

@@ -14,14 +14,17 @@
 //! **Not finished** after the most Newton steps is not a failure. Multipliers go on in the next step, and the certificate guards
 //! the state. A cloth that buckles goes down from a saddle of the energy, which takes many steps, and none of them is wrong.
 
+use super::caught::Caught;
 use super::constants::{MOST_HALVINGS, MOST_NEWTON_STEPS, NEARLY_LINEAR, SLOWEST_CHANGE, SMALL_CHANGE};
 use super::contact_row::ContactRow;
 use super::linear::{Linear, Vectors};
 use super::matrix::dot;
+use super::rigid::RigidBodies;
 use super::term::{Prediction, Term};
 use super::tolerance::{Outcome, Tolerance};
 use super::{Solve, row_stiffness};
 use crate::effects::plan::Entry;
+use crate::model::rigid::RigidMotion;
 use crate::model::step::TimeStep;
 use selvedge_core::glam::DVec3;
 
@@ -45,6 +48,9 @@ pub(super) struct Work {
     next: Vec<DVec3>,
     pub(super) linear: Linear,
     pieces: Vec<[f64; 3]>,
+    /// The motions of free bodies at the guess, and before the present trial of the line search.
+    guess_of_bodies: Vec<RigidMotion>,
+    before: Vec<RigidMotion>,
 }
 
 /// An energy that is not finite.
@@ -62,19 +68,20 @@ impl Solve {
         step: &TimeStep<'_>,
         prediction: &Prediction,
         x: &mut Vec<DVec3>,
-        follow: &dyn Fn(&mut ContactRow, &[DVec3]),
+        follow: &dyn Fn(&mut ContactRow, &[DVec3], &mut RigidBodies),
     ) -> Result<Outcome, NotFinite> {
-        let count = prediction.masses.len();
         let mut work = std::mem::take(&mut self.work);
-        work.linear.resize(count);
-        let mut tolerance = Tolerance::new(self.accuracy, prediction);
+        work.linear.resize(prediction.masses.len() + self.bodies.slots());
+        work.guess_of_bodies.clear();
+        work.guess_of_bodies.extend(self.bodies.motions());
+        let mut tolerance = Tolerance::new(self.accuracy, prediction, self.bodies.mass());
         let mut outcome = Outcome::default();
         work.guess.clone_from(x);
         self.matrix.may_be_indefinite = true;
         for entry in &mut self.terms {
             entry.timed(|action| action.begin(step, prediction, x));
         }
-        let mut energy = gradient(&mut self.terms, prediction, x, &mut work.gradient);
+        let mut energy = gradient(&mut self.terms, &self.bodies, prediction, x, &mut work.gradient);
         self.weigh_rows(prediction, x, &mut energy, &mut work.gradient);
         let (mut error, mut was_short, mut linear_rest) = (f64::INFINITY, false, f64::INFINITY);
         let mut result = Ok(());
@@ -85,7 +92,7 @@ impl Solve {
             }
             if newton > 0 {
                 for row in self.rows.iter_mut().filter(|row| row.is_smooth()) {
-                    follow(row, x);
+                    follow(row, x, &mut self.bodies);
                 }
             }
             let goal = (newton == 0).then_some(&prediction.goal[..]);
@@ -94,7 +101,7 @@ impl Solve {
             if newton > 0 {
                 let Vectors { residual, image, .. } = &mut work.linear.vectors;
                 let left = self.preconditioner.measure(&self.matrix, residual, image);
-                let [left_to_move, moved] = work.motion(prediction, x);
+                let [left_to_move, moved] = work.motion(prediction, x, &self.bodies);
                 let little = NEARLY_LINEAR * linear_rest;
                 let is_right = left <= tolerance.rest().max(little) && left_to_move <= tolerance.rest_of(moved).max(little);
                 if is_right && error <= 1.0 {
@@ -109,7 +116,12 @@ impl Solve {
             let at = (&x[..], &work.gradient[..]);
             linear_rest = self.find_moves(prediction, at, &mut work.linear, &mut tolerance, &mut outcome);
             outcome.newton_steps += 1;
-            let share = self.advance(prediction, x, &mut energy, &mut work);
+            let mut share = self.advance(prediction, x, &mut energy, &mut work);
+            if share == 0.0 {
+                // The contacts of the linear problem may lead up. Along the force there is always a way down.
+                self.find_descent(prediction, x, &mut work);
+                share = self.advance(prediction, x, &mut energy, &mut work);
+            }
             if share > ENOUGH || std::mem::replace(&mut was_short, true) {
                 was_short = false;
                 error = self.renew(step.h, prediction, x, &mut energy, &mut work.gradient);
@@ -121,9 +133,25 @@ impl Solve {
         result.map(|()| outcome)
     }
 
+    /// Lets the moves be the preconditioned force at `x`.
+    fn find_descent(&mut self, prediction: &Prediction, x: &[DVec3], work: &mut Work) {
+        self.matrix.remove_contacts();
+        self.rows.iter_mut().for_each(|row| row.choose(x, None));
+        { self.rows.iter() }.for_each(|row| row.add_curvature(x, &mut self.matrix, &self.bodies));
+        self.preconditioner.renew(&self.matrix);
+        self.find_residual(prediction, x, &work.gradient, &mut work.linear);
+        let Vectors {
+            residual, image, moves, ..
+        } = &mut work.linear.vectors;
+        self.preconditioner.measure(&self.matrix, residual, image);
+        moves.clone_from(image);
+        self.matrix.coupled.carry_riders(moves);
+    }
+
     /// Fills the matrix with the terms at `x`.
     fn assemble(&mut self, prediction: &Prediction, x: &[DVec3]) {
         self.matrix.clear(&prediction.masses);
+        self.matrix.begin_bodies(&self.bodies);
         for entry in &mut self.terms {
             entry.timed(|action| action.curvature(x, &mut self.matrix));
         }
@@ -138,11 +166,12 @@ impl Solve {
             has_changed |= entry.timed(|action| action.weigh(&self.matrix, x));
         }
         if has_changed {
-            *energy = gradient(&mut self.terms, prediction, x, slope);
+            *energy = gradient(&mut self.terms, &self.bodies, prediction, x, slope);
         }
-        let matrix = &self.matrix;
+        let (matrix, bodies) = (&self.matrix, &self.bodies);
+        let caught = Caught::new(&self.rows, bodies, &prediction.goal);
         self.rows.retain_mut(|row| {
-            row.stiffness = row_stiffness(row, matrix);
+            row.stiffness = row_stiffness(row, matrix, bodies, &caught);
             row.stiffness > 0.0
         });
     }
@@ -153,11 +182,19 @@ impl Solve {
         let of_rows = |rows: &[ContactRow], x: &[DVec3]| rows.iter().map(|row| row.energy(x)).sum::<f64>();
         let before = *energy + of_rows(&self.rows, x);
         work.next.clone_from(x);
+        work.before.clear();
+        work.before.extend(self.bodies.motions());
         for _ in 0..MOST_HALVINGS {
-            for ((next, x), moved) in work.next.iter_mut().zip(&*x).zip(&work.linear.vectors.moves) {
+            let moves = &work.linear.vectors.moves;
+            for ((next, x), moved) in work.next.iter_mut().zip(&*x).zip(&moves[..self.bodies.first_slot]) {
                 *next = *x + moved.as_dvec3() * share;
             }
-            let found = gradient(&mut self.terms, prediction, &work.next, &mut work.next_gradient);
+            if !self.bodies.is_empty() {
+                self.bodies.advance(&work.before, moves, share);
+                self.bodies.put(&mut work.next);
+                { self.rows.iter_mut() }.for_each(|row| row.refresh(&self.bodies));
+            }
+            let found = gradient(&mut self.terms, &self.bodies, prediction, &work.next, &mut work.next_gradient);
             let [relative, absolute] = ROUNDING;
             if found + of_rows(&self.rows, &work.next) <= before + relative * before.abs() + absolute {
                 *energy = found;
@@ -168,7 +205,9 @@ impl Solve {
             share *= 0.5;
         }
         // Nothing on the way is less: other multipliers may have another way.
-        *energy = gradient(&mut self.terms, prediction, x, &mut work.gradient);
+        self.bodies.go_back(&work.before);
+        { self.rows.iter_mut() }.for_each(|row| row.refresh(&self.bodies));
+        *energy = gradient(&mut self.terms, &self.bodies, prediction, x, &mut work.gradient);
         0.0
     }
 
@@ -184,7 +223,7 @@ impl Solve {
         let mut bend = -along(&work.linear.gradient) - dot(residual, moves);
         work.pieces.clear();
         for row in &self.rows {
-            let along = row.along(x, moves);
+            let along = row.along(x, moves, &self.bodies);
             slope += along.slope;
             bend += along.bend;
             work.pieces.extend(along.piece);
@@ -214,8 +253,9 @@ impl Solve {
     /// Renews all multipliers. Returns the largest change over the one that does not matter.
     fn renew(&mut self, h: f64, prediction: &Prediction, x: &[DVec3], energy: &mut f64, gradient: &mut [DVec3]) -> f64 {
         let mut error = 0.0_f64;
+        let (of_cloth, _) = gradient.split_at_mut(self.bodies.first_slot);
         for entry in &mut self.terms {
-            let renewed = entry.timed(|action| action.renew(x, gradient));
+            let renewed = entry.timed(|action| action.renew(x, of_cloth));
             *energy += renewed.energy;
             error = error.max(renewed.error);
         }
@@ -227,13 +267,11 @@ impl Solve {
             .zip(&prediction.base)
             .zip(&prediction.masses)
             .filter(|(_, mass)| **mass > 0.0);
-        let farthest = farthest
-            .map(|((x, base), _)| x.distance_squared(*base))
-            .fold(0.0, f64::max)
-            .sqrt();
+        let farthest = farthest.map(|((x, base), _)| x.distance_squared(*base));
+        let farthest = farthest.fold(self.bodies.farthest_squared(), f64::max).sqrt();
         let largest = self.accuracy.largest_change();
         let pulls = gradient.iter().zip(&prediction.masses).filter(|(_, mass)| **mass > 0.0);
-        let all = pulls.map(|(pull, _)| pull.length()).sum();
+        let all = pulls.map(|(pull, _)| pull.length()).sum::<f64>() + self.bodies.pulls();
         for row in &mut self.rows {
             let change = row.renew(x, all);
             let small = (SMALL_CHANGE * farthest).min(largest * row.thickness).max(SLOWEST_CHANGE * h);
@@ -245,20 +283,28 @@ impl Solve {
 
 impl Work {
     /// Returns the squares, in the norm of the masses, of what remains to move, and of the way from the first guess to `x`.
-    fn motion(&self, prediction: &Prediction, x: &[DVec3]) -> [f64; 2] {
+    fn motion(&self, prediction: &Prediction, x: &[DVec3], bodies: &RigidBodies) -> [f64; 2] {
         let by_mass = |vectors: &mut dyn Iterator<Item = DVec3>| {
             let each = prediction.masses.iter().zip(vectors);
-            each.map(|(mass, vector)| mass * vector.length_squared()).sum()
+            each.map(|(mass, vector)| mass * vector.length_squared()).sum::<f64>()
         };
+        let image = &self.linear.vectors.image;
+        let [of_bodies, moved_bodies] = bodies.motion(image, &self.guess_of_bodies);
         [
-            by_mass(&mut self.linear.vectors.image.iter().map(|image| image.as_dvec3())),
-            by_mass(&mut x.iter().zip(&self.guess).map(|(x, guess)| *x - *guess)),
+            by_mass(&mut image.iter().map(|image| image.as_dvec3())) + of_bodies,
+            by_mass(&mut x.iter().zip(&self.guess).map(|(x, guess)| *x - *guess)) + moved_bodies,
         ]
     }
 }
 
 /// Finds the gradient of inertia and all terms at `x`, and returns their energy.
-fn gradient(terms: &mut [Entry<dyn Term>], prediction: &Prediction, x: &[DVec3], gradient: &mut Vec<DVec3>) -> f64 {
+fn gradient(
+    terms: &mut [Entry<dyn Term>],
+    bodies: &RigidBodies,
+    prediction: &Prediction,
+    x: &[DVec3],
+    gradient: &mut Vec<DVec3>,
+) -> f64 {
     let Prediction { goal, masses, .. } = prediction;
     gradient.clear();
     let mut energy = 0.0;
@@ -267,8 +313,10 @@ fn gradient(terms: &mut [Entry<dyn Term>], prediction: &Prediction, x: &[DVec3],
         gradient.push(way * *mass);
         energy += 0.5 * mass * way.length_squared();
     }
+    energy += bodies.begin_gradient(gradient);
+    let (of_cloth, _) = gradient.split_at_mut(bodies.first_slot);
     for entry in terms {
-        energy += entry.timed(|action| action.gradient(x, gradient));
+        energy += entry.timed(|action| action.gradient(x, of_cloth));
     }
     energy
 }

@@ -1,8 +1,9 @@
 //! An approximate inverse of the [matrix](super::matrix): the inverse block of each vertex.
 //!
-//! For ropes it is the inverse of their [bands](super::bands).
+//! For ropes it is the inverse of their [bands](super::bands), and for a free body that of its [block](super::coupled).
 
 use super::bands::BandFactors;
+use super::coupled::BodyFactors;
 use super::linear::Vectors;
 use super::matrix::{Matrix, dot};
 use selvedge_core::glam::{Mat3A, Vec3A};
@@ -12,6 +13,7 @@ use selvedge_core::glam::{Mat3A, Vec3A};
 pub(super) struct Preconditioner {
     inverse: Vec<Mat3A>,
     factors: BandFactors,
+    of_bodies: BodyFactors,
     /// W·g for each rank-one part of the matrix, with W the rest of the preconditioner.
     ranks: Vec<(f64, Vec<Vec3A>)>,
 }
@@ -23,6 +25,7 @@ impl Preconditioner {
         self.inverse
             .extend((0..matrix.diagonal.len()).map(|vertex| inverse(matrix, vertex)));
         self.factors.factorise(matrix);
+        self.of_bodies.factorise(&matrix.coupled, &matrix.diagonal);
         self.ranks.clear();
         for rank in &matrix.ranks[..matrix.used_ranks] {
             let mut image = vec![Vec3A::ZERO; self.inverse.len()];
@@ -41,6 +44,7 @@ impl Preconditioner {
         for &vertex in &matrix.pressed {
             self.inverse[vertex as usize] = inverse(matrix, vertex as usize);
         }
+        self.of_bodies.factorise(&matrix.coupled, &matrix.diagonal);
     }
 
     /// Returns whether it consists of the inverse blocks alone.
@@ -54,6 +58,7 @@ impl Preconditioner {
             *image = *inverse * *residual;
         }
         self.factors.solve(&matrix.bands, residual, image);
+        self.of_bodies.solve(residual, image);
         // Sherman and Morrison: (W⁻¹ + β·g·gᵀ)⁻¹ = W − β·Wg·(Wg)ᵀ/(1 + β·g·Wg).
         for (factor, of_rank) in &self.ranks {
             let by = (factor * dot(of_rank, residual)) as f32;
@@ -90,7 +95,7 @@ impl Preconditioner {
             sum += f64::from(image.dot(*residual));
         }
         if self.is_of_vertices(matrix) {
-            return sum;
+            return sum + self.of_bodies.solve(residual, image);
         }
         self.measure(matrix, residual, image)
     }

@@ -53,6 +53,16 @@ impl History {
         }
     }
 
+    /// Returns the length of the last step in seconds, if it is known.
+    pub(crate) fn step_before(&self) -> Option<f64> {
+        self.is_known().then_some(self.h)
+    }
+
+    /// Returns whether the last step was as long as one of `h` seconds.
+    pub(crate) fn was_as_long_as(&self, h: f64) -> bool {
+        self.is_known() && (self.h - h).abs() <= EQUAL * h
+    }
+
     fn is_known(&self) -> bool {
         !self.positions.is_empty()
     }
@@ -99,7 +109,7 @@ pub(crate) fn predict(
     masses.clear();
     rate.clear();
     let h = step.h;
-    let is_second = may_be_second && history.is_known() && (history.h - h).abs() <= EQUAL * h;
+    let is_second = may_be_second && history.was_as_long_as(h);
     for vertex in 0..count {
         let (x, inverse_mass) = (step.start[vertex], step.inverse_masses[vertex]);
         if !(inverse_mass > 0.0) {

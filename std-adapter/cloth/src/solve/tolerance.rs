@@ -17,9 +17,10 @@ pub(super) struct Tolerance {
 }
 
 impl Tolerance {
-    pub(super) fn new(accuracy: Accuracy, prediction: &Prediction) -> Self {
+    /// `of_bodies` is the mass of free bodies, in kg.
+    pub(super) fn new(accuracy: Accuracy, prediction: &Prediction, of_bodies: f64) -> Self {
         let masses = prediction.masses.iter().zip(&prediction.rate);
-        let mass: f64 = masses.map(|(mass, rate)| mass * rate * rate).sum();
+        let mass: f64 = masses.map(|(mass, rate)| mass * rate * rate).sum::<f64>() + of_bodies;
         Self {
             squared: accuracy.share().powi(2),
             still: mass * STILL * STILL,

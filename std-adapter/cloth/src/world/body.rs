@@ -1,6 +1,7 @@
 //! Bodies, `[[body]]`: the obstacles of the cloth.
 
 use super::animation::{Animation, RATE, START};
+use super::free::FreeMotion;
 use super::keyframes::KeyframeMotion;
 use super::motion::BodyMotion;
 use super::{read_mesh, shapes};
@@ -10,7 +11,7 @@ use selvedge_core::glam::DVec3;
 use selvedge_files::animation::{self, AnimationProblem, Choice};
 use selvedge_files::mesh::{self, CacheFormat, MeshError, MeshSequence, ReadOptions};
 
-/// A kinematic body: it follows its motion, and the cloth does not push it.
+/// A body. It follows its motion, and the cloth does not push it, unless it is [free](BodyMotion::Free).
 ///
 /// ```
 /// use selvedge_cloth::{Body, BodyMotion, Placement};
@@ -112,9 +113,15 @@ impl Body {
     }
 
     pub(crate) fn check(&self, time_step: f64) -> Result<(), ValueError> {
-        let motion = || self.motion.check(&self.mesh.positions, time_step);
-        let checked = shapes::check(&self.mesh).and_then(|()| motion());
+        let checked = shapes::check(&self.mesh).and_then(|()| self.check_motion(time_step));
         checked.map_err(|error| error.of(&self.name))
+    }
+
+    fn check_motion(&self, time_step: f64) -> Result<(), ValueError> {
+        match &self.motion {
+            BodyMotion::Free(motion) => motion.check(&self.mesh),
+            motion => motion.check(&self.mesh.positions, time_step),
+        }
     }
 
     pub(crate) fn read(table: &Table<'_>, time_step: f64) -> Result<Self, SceneError> {
@@ -147,7 +154,7 @@ impl Body {
         };
         let motion: &[&str] = match shape {
             BodyShape::Frames | BodyShape::Figure => &[],
-            _ => &BodyMotion::KEYS,
+            _ => &[&BodyMotion::KEYS[..], &FreeMotion::KEYS].concat(),
         };
         table.expect_keys(&[&["name", "shape"], motion, own].concat())?;
         let Some(name) = table.text("name")? else {
@@ -171,8 +178,14 @@ impl Body {
             BodyShape::Figure => return Self::read_figure(name, table, time_step),
         };
         let mut body = made.map_err(|error| table.placed(&error))?;
-        body.motion = BodyMotion::read(table, time_step)?;
-        let checked = body.motion.check(&body.mesh.positions, time_step);
+        body.motion = match BodyMotion::KEYS.into_iter().find(|key| table.has(key)) {
+            Some(key) if FreeMotion::is_in(table) => {
+                return Err(table.error(key, format!("a free body has no `{key}`: it moves by itself")));
+            }
+            None if FreeMotion::is_in(table) => FreeMotion::read(table)?.into(),
+            _ => BodyMotion::read(table, time_step)?,
+        };
+        let checked = body.check_motion(time_step);
         checked.map_err(|error| table.placed(&error.of(name)))?;
         Ok(body)
     }

@@ -4,6 +4,8 @@
 //! their own move straight. If a step is cut or waits, they are on the way, and the next step starts from there.
 
 use super::animation::Animation;
+use super::body::Body;
+use super::free::Free;
 use super::keyframes::KeyframeMotion;
 use super::motion::{BodyMotion, Carrier, Pose};
 use super::placement::Placement;
@@ -14,6 +16,8 @@ pub(crate) enum Kinematic {
     Keyframes(KeyframeMotion),
     Animated(Animated),
     Driven(Box<Driven>),
+    /// A free body, which the solve moves.
+    Free(Box<Free>),
 }
 
 /// The vertex of a point that no vertex follows, such as the anchor of a soft pin.
@@ -63,8 +67,18 @@ enum Leg {
 }
 
 impl Kinematic {
+    /// Makes the motion of a body.
+    pub(crate) fn of_body(body: &Body, vertices: Vec<u32>) -> Self {
+        match &body.motion {
+            BodyMotion::Free(motion) => Self::Free(Box::new(Free::new(motion, &body.mesh))),
+            motion => Self::new(motion.clone(), vertices),
+        }
+    }
+
+    /// Makes the motion of pins. Scenes are checked earlier: pins do not move freely, and rest.
     pub(crate) fn new(motion: BodyMotion, vertices: Vec<u32>) -> Self {
         match motion {
+            BodyMotion::Free(_) => Self::Keyframes(KeyframeMotion::resting()),
             BodyMotion::Keyframes(motion) => Self::Keyframes(motion),
             BodyMotion::Animated(animation) => Self::Animated(Animated {
                 vertices,
@@ -90,13 +104,14 @@ impl Kinematic {
             Self::Keyframes(motion) => motion.pose(clock),
             Self::Animated(animated) => Pose::deformed(animated.animation.key(clock)),
             Self::Driven(driven) => driven.pose(clock),
+            Self::Free(free) => Pose::standing(free.placement()),
         }
     }
 
     /// Writes the positions of points with separate paths at a time of the clock.
     pub(crate) fn put(&mut self, clock: f64, positions: &mut [DVec3]) {
         match self {
-            Self::Keyframes(_) => {}
+            Self::Keyframes(_) | Self::Free(_) => {}
             Self::Animated(animated) => animated.put(clock, positions),
             Self::Driven(driven) => driven.put(clock, positions),
         }
@@ -111,7 +126,7 @@ impl Kinematic {
         };
         let index = index? as usize;
         match self {
-            Self::Keyframes(_) => None,
+            Self::Keyframes(_) | Self::Free(_) => None,
             Self::Animated(animated) => animated.positions.get(index).copied(),
             Self::Driven(driven) => driven.point(along, index),
         }
@@ -119,23 +134,45 @@ impl Kinematic {
 
     /// Takes over the state of another motion of the same vertices, which have new numbers.
     pub(crate) fn take_over(&mut self, other: Self) {
-        if let (Self::Driven(own), Self::Driven(other)) = (self, other) {
-            let vertices = std::mem::take(&mut own.vertices);
-            **own = Driven { vertices, ..*other };
+        match (self, other) {
+            (Self::Driven(own), Self::Driven(other)) => {
+                let vertices = std::mem::take(&mut own.vertices);
+                **own = Driven { vertices, ..*other };
+            }
+            (Self::Free(own), Self::Free(other)) => own.take_over(&other),
+            _ => {}
         }
     }
 
     pub(crate) fn driven(&self) -> Option<&Driven> {
         match self {
-            Self::Keyframes(_) | Self::Animated(_) => None,
+            Self::Keyframes(_) | Self::Animated(_) | Self::Free(_) => None,
             Self::Driven(driven) => Some(driven),
         }
     }
 
     pub(crate) fn driven_mut(&mut self) -> Option<&mut Driven> {
         match self {
-            Self::Keyframes(_) | Self::Animated(_) => None,
+            Self::Keyframes(_) | Self::Animated(_) | Self::Free(_) => None,
             Self::Driven(driven) => Some(driven),
+        }
+    }
+
+    pub(crate) const fn is_free(&self) -> bool {
+        matches!(self, Self::Free(_))
+    }
+
+    pub(crate) fn free(&self) -> Option<&Free> {
+        match self {
+            Self::Free(free) => Some(free),
+            Self::Keyframes(_) | Self::Animated(_) | Self::Driven(_) => None,
+        }
+    }
+
+    pub(crate) fn free_mut(&mut self) -> Option<&mut Free> {
+        match self {
+            Self::Free(free) => Some(free),
+            Self::Keyframes(_) | Self::Animated(_) | Self::Driven(_) => None,
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Motions of bodies and pins: along keyframes, as an [animation](super::animation), or [driven](super::driven) by the caller.
 
 use super::Animation;
+use super::free::FreeMotion;
 use super::keyframes::KeyframeMotion;
 use super::placement::Placement;
 use crate::input::{SceneError, Table, ValueError};
@@ -17,9 +18,11 @@ pub enum BodyMotion {
     /// The caller moves the body from here. Without a call before a step it rests in that step. See
     /// [`Simulation::place_body`](crate::Simulation::place_body).
     Driven(Placement),
+    /// Gravity, contact and friction move the body.
+    Free(FreeMotion),
 }
 
-crate::identify!(enum BodyMotion { 0 => Keyframes(motion), 1 => Animated(animation), 2 => Driven(placement) });
+crate::identify!(enum BodyMotion { 0 => Keyframes(motion), 1 => Animated(animation), 2 => Driven(placement), 3 => Free(motion) });
 
 impl BodyMotion {
     /// Checks the motion of points, given at rest.
@@ -32,6 +35,7 @@ impl BodyMotion {
             Self::Keyframes(motion) => motion.check(points, time_step),
             Self::Animated(animation) => animation.check(points.len(), time_step),
             Self::Driven(placement) => placement.checked().map(drop),
+            Self::Free(_) => Err(ValueError::new("mass", "only bodies move freely")),
         }
     }
 }
@@ -55,6 +59,12 @@ impl BodyMotion {
 impl From<Animation> for BodyMotion {
     fn from(animation: Animation) -> Self {
         Self::Animated(animation)
+    }
+}
+
+impl From<FreeMotion> for BodyMotion {
+    fn from(motion: FreeMotion) -> Self {
+        Self::Free(motion)
     }
 }
 
@@ -107,8 +117,13 @@ impl Pose {
         }
     }
 
+    /// Lets the rotation be one about another point.
+    pub(crate) fn about(self, pivot: DVec3) -> Self {
+        Self { pivot, ..self }
+    }
+
     /// Adds a rotation about an axis through the body's origin, and a translation.
-    pub(super) fn turned_and_moved(self, axis: DVec3, angle: f64, translation: DVec3) -> Self {
+    pub(crate) fn turned_and_moved(self, axis: DVec3, angle: f64, translation: DVec3) -> Self {
         Self {
             axis,
             angle,
@@ -141,6 +156,11 @@ impl Pose {
             return point + self.translation;
         }
         self.pivot + turned(point - self.pivot, self.axis, self.angle) + self.translation
+    }
+
+    /// Returns the rotation vector by which the body turns until `later`, if both are [rigid](Self::is_rigid).
+    pub(crate) fn turn_until(&self, later: &Self) -> DVec3 {
+        self.axis * (later.angle - self.angle)
     }
 
     /// Maps a point that moves with the body to its position when the pose becomes `later`, if both are [rigid](Self::is_rigid).

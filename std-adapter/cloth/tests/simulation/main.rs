@@ -10,6 +10,7 @@ mod energy;
 mod far_bodies;
 mod files;
 mod frames;
+mod free_bodies;
 mod from_code;
 mod garments;
 mod irregular;

@@ -1,6 +1,8 @@
 //! The simulation against exact predictions: momenta, strain limits, and rest. `selvedge truths` has the laws with closed forms,
 //! which the laboratory tests.
 
+mod bodies;
+mod coupled;
 mod limits;
 mod loads;
 mod momentum;

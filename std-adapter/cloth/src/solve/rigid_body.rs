@@ -1,0 +1,309 @@
+//! A free rigid body in a step: its six unknowns, and its inertia.
+//!
+//! **Unknowns.** The way of the centre of mass since the start of the step, and the turn since then, as a rotation vector θ.
+//!
+//! **Inertia.** ½M|c − y|² for the centre, as for a vertex. For the turn ½(θ − θ*)ᵀÎ(θ − θ*), where θ* is the free motion, and Î
+//! the inertia there over the square of the rate. The gradient for small rotations from the left is J⁻ᵀÎ(θ − θ*), and the second
+//! derivative J⁻ᵀÎJ⁻¹, with the left Jacobian J of exp. The free motion keeps the angular momentum: θ* = θ₀ + r·I(θ*)⁻¹L*, so
+//! that gyroscopic moments cost nothing in the solve. Steps are of first and second order as those of
+//! [vertices](super::prediction), with L in the place of v.
+
+use crate::model::length::shortened;
+use crate::model::rigid::{RigidMotion, RigidState, rotation_by, turned, vector_of};
+use crate::world::Free;
+use selvedge_core::glam::{DMat3, DVec3};
+use std::ops::Range;
+
+/// The rounds of the fixed-point iteration for the free turn. Each gains a factor of about the turn in the step.
+const ROUNDS: usize = 8;
+/// The least turn, in radians, whose Jacobian differs from its series up to the first order by more than rounding.
+const SMALL_TURN: f64 = 1e-4;
+/// The start of a solve follows the acceleration of the last step up to so many m/s²: twice the Earth's gravity. What rests needs
+/// no more, and a blow does not last.
+const FOLLOWED: f64 = 20.0;
+
+/// A free body in a step.
+#[derive(Clone, Debug)]
+pub(crate) struct RigidBody {
+    /// Its number in the scene.
+    pub(crate) carrier: usize,
+    /// The motion so far: where the solve is.
+    pub(crate) motion: RigidMotion,
+    /// The inertia in the axes of the body.
+    pub(super) inertia: DMat3,
+    /// The rotation since the start of the step.
+    pub(super) rotated: DMat3,
+    /// M, the way that leads to y, and its base and rate: see [`Prediction`](super::Prediction).
+    pub(super) weight: f64,
+    pub(super) goal: DVec3,
+    pub(super) base: DVec3,
+    pub(crate) rate: f64,
+    /// θ*, Î, θ₀ and L*.
+    pub(super) goal_turn: DVec3,
+    pub(super) of_turn: DMat3,
+    pub(super) momentum: DVec3,
+    /// The velocity after gravity, and the angular momentum at the start.
+    pub(super) forced: DVec3,
+    pub(super) started: DVec3,
+    /// What the velocity and the angular velocity have besides the motion of the step: minus what rows that started too near
+    /// have made, and corrections of momentum.
+    pub(super) removed: [DVec3; 2],
+}
+
+/// The data with which a step begins.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StepOfBody {
+    pub(crate) h: f64,
+    pub(crate) gravity: DVec3,
+    /// True if the last step was as long as this one, and steps may be of second order.
+    pub(crate) may_be_second: bool,
+    /// The length of the last step in seconds; `None` in the first step.
+    pub(crate) before: Option<f64>,
+}
+
+impl RigidBody {
+    /// Makes a body at its first guess.
+    pub(crate) fn new(carrier: usize, vertices: Range<usize>, free: &Free, step: StepOfBody) -> Self {
+        let StepOfBody { h, gravity, .. } = step;
+        let RigidState {
+            rotation,
+            centre,
+            velocity,
+            momentum,
+        } = free.state;
+        let before = &free.before;
+        let is_second = step.may_be_second && !free.is_first_order;
+        let change = gravity * h;
+        let (base, way, rate, base_turn, momentum) = if is_second {
+            let way = (velocity * 8.0 - before.velocity * 2.0 + change * 4.0) * (h / 9.0);
+            let last_turn = vector_of(rotation * before.rotation.inverse());
+            let base = (centre - before.centre) / 3.0;
+            (
+                base,
+                way,
+                h * 2.0 / 3.0,
+                last_turn / 3.0,
+                (momentum * 4.0 - before.momentum) / 3.0,
+            )
+        } else {
+            (DVec3::ZERO, (velocity + change) * h, h, DVec3::ZERO, momentum)
+        };
+        let at_start = free.state.turned(&free.mass.inertia);
+        let inertia_after = |turn: DVec3| turned(&DMat3::from_quat(rotation_by(turn)), &at_start);
+        let mut goal_turn = base_turn;
+        for _ in 0..ROUNDS {
+            goal_turn = base_turn + inertia_after(goal_turn).inverse() * momentum * rate;
+        }
+        let mut body = Self {
+            carrier,
+            motion: RigidMotion {
+                vertices,
+                riders: free.riders.clone(),
+                points: free.points.clone(),
+                mass: free.mass.mass,
+                rotation,
+                centre,
+                way: base + way,
+                turn: goal_turn,
+            },
+            inertia: free.mass.inertia,
+            rotated: DMat3::IDENTITY,
+            weight: free.mass.mass / (rate * rate),
+            goal: base + way,
+            base,
+            rate,
+            goal_turn,
+            of_turn: inertia_after(goal_turn) * (rate * rate).recip(),
+            momentum,
+            forced: velocity + change,
+            started: free.state.momentum,
+            removed: [DVec3::ZERO; 2],
+        };
+        body.find_rotation();
+        let motion = body.guess(free, step);
+        body.place(motion);
+        body
+    }
+
+    /// Returns the motion at which the solve begins: that of the last step with all of its acceleration. What a heavy body still
+    /// has to gain would be a false force.
+    pub(super) fn guess(&self, free: &Free, StepOfBody { h, before, .. }: StepOfBody) -> RigidMotion {
+        let Some(last) = before else {
+            return RigidMotion {
+                way: free.state.velocity * h,
+                ..self.motion.clone()
+            };
+        };
+        let acceleration = (free.state.velocity - free.before.velocity) / last;
+        let acceleration = shortened(acceleration, FOLLOWED);
+        let change = free.spin_of(&free.state) - free.spin_of(&free.before);
+        RigidMotion {
+            way: (free.state.velocity + acceleration * h) * h,
+            turn: self.goal_turn + change * (h / last * h),
+            ..self.motion.clone()
+        }
+    }
+
+    /// The goal, where everything but contact leads.
+    pub(crate) fn goal(&self) -> RigidMotion {
+        RigidMotion {
+            way: self.goal,
+            turn: self.goal_turn,
+            ..self.motion.clone()
+        }
+    }
+
+    /// Moves the body to where another motion ends.
+    pub(crate) fn place(&mut self, motion: RigidMotion) {
+        self.motion = motion;
+        self.find_rotation();
+    }
+
+    pub(super) fn find_rotation(&mut self) {
+        self.rotated = DMat3::from_quat(rotation_by(self.motion.turn));
+    }
+
+    /// Maps a point that moves with the body from the start of the step to where the solve is.
+    pub(crate) fn carry(&self, point: DVec3) -> DVec3 {
+        self.rotated * (point - self.motion.centre) + self.motion.end_centre()
+    }
+
+    /// Returns the inertia about the centre of mass, in the axes of the scene, where the solve is.
+    pub(super) fn inertia_now(&self) -> DMat3 {
+        turned(&DMat3::from_quat(self.motion.end_rotation()), &self.inertia)
+    }
+
+    /// Returns J⁻¹ of the turn, for small rotations from the left.
+    pub(super) fn inverse_jacobian(&self) -> DMat3 {
+        let turn = self.motion.turn;
+        let squared = turn.length_squared();
+        let cross = cross(turn);
+        let second = if squared > SMALL_TURN * SMALL_TURN {
+            let angle = squared.sqrt();
+            let (sine, cosine) = (libm::sin(angle), libm::cos(angle));
+            squared.recip() - (1.0 + cosine) / (2.0 * angle * sine)
+        } else {
+            1.0 / 12.0
+        };
+        DMat3::IDENTITY - cross * 0.5 + cross * cross * second
+    }
+
+    /// Returns the gradient of inertia, for both slots.
+    pub(super) fn gradient(&self) -> [DVec3; 2] {
+        let of_way = (self.motion.way - self.goal) * self.weight;
+        let of_turn = self.inverse_jacobian().transpose() * (self.of_turn * (self.motion.turn - self.goal_turn));
+        [of_way, of_turn]
+    }
+
+    /// Returns the energy of inertia, in J.
+    pub(super) fn energy(&self) -> f64 {
+        let (way, turn) = (self.motion.way - self.goal, self.motion.turn - self.goal_turn);
+        0.5 * self.weight * way.length_squared() + 0.5 * turn.dot(self.of_turn * turn)
+    }
+
+    /// Returns M, and the second derivative for the slot of the turn.
+    pub(super) fn curvature(&self) -> (f64, DMat3) {
+        let jacobian = self.inverse_jacobian();
+        (self.weight, jacobian.transpose() * self.of_turn * jacobian)
+    }
+
+    /// Returns the state at the end of a step, of first order if something presses the body.
+    pub(crate) fn end(&self, h: f64, is_pressed: bool) -> RigidState {
+        let inertia = self.inertia_now();
+        let (velocity, momentum) = if is_pressed {
+            (self.motion.way / h, inertia * self.motion.turn / h)
+        } else {
+            let [_, torque] = self.gradient();
+            ((self.motion.way - self.base) / self.rate, self.momentum + torque * self.rate)
+        };
+        let [speed, spin] = self.removed;
+        RigidState {
+            rotation: self.motion.end_rotation(),
+            centre: self.motion.end_centre(),
+            velocity: velocity + speed,
+            momentum: momentum + inertia * spin,
+        }
+    }
+
+    /// Returns what a step of first order of `h` seconds has made of the body's momentum. A correction of its velocity moves it
+    /// by this share of the step.
+    pub(super) fn balance(&self, h: f64, share: f64) -> Balance {
+        let RigidState { velocity, momentum, .. } = self.end(h, true);
+        Balance {
+            mass: self.motion.mass,
+            start: self.motion.centre,
+            base: self.motion.end_centre() - velocity * (share * h),
+            velocities: [self.forced, velocity],
+            momenta: [self.started, momentum],
+            inertia: self.inertia_now(),
+        }
+    }
+
+    /// Returns what the body yields to a push of 1 N in a direction at an arm, in m/N.
+    pub(super) fn compliance(&self, arm: DVec3, direction: DVec3) -> f64 {
+        let moment = arm.cross(direction);
+        self.weight.recip() + moment.dot(self.of_turn.inverse() * moment)
+    }
+
+    /// Returns what it yields to an impulse, in m/s per N·s.
+    pub(super) fn mobility(&self, arm: DVec3, direction: DVec3) -> f64 {
+        let moment = arm.cross(direction);
+        self.motion.mass.recip() + moment.dot(self.inertia_now().inverse() * moment)
+    }
+}
+
+/// The momentum of a body before a step, with what gravity adds to it, and after it.
+pub(crate) struct Balance {
+    mass: f64,
+    /// The centre of mass at the start.
+    start: DVec3,
+    /// The centre of mass at the end, without the part of the way that the velocity after the step makes and a correction moves.
+    pub(crate) base: DVec3,
+    velocities: [DVec3; 2],
+    /// The angular momenta about the centre of mass.
+    momenta: [DVec3; 2],
+    /// The inertia about it, at the end.
+    pub(crate) inertia: DMat3,
+}
+
+/// Returns the mass of bodies, that over `h`, Σ m·c, and the momentum over `h` that a step has added besides gravity.
+pub(crate) fn sums_of_bodies(bodies: &[Balance], h: f64) -> (f64, f64, DVec3, DVec3) {
+    let (mut mass, mut centre, mut added) = (0.0, DVec3::ZERO, DVec3::ZERO);
+    for body in bodies {
+        let [before, after] = body.velocities;
+        mass += body.mass;
+        centre += body.base * body.mass;
+        added += (after - before) * (body.mass / h);
+    }
+    (mass, mass / h, centre, added)
+}
+
+/// Returns the moment about `centre` that bodies lack once all velocities have `shift` more, and the second moments of their
+/// masses about it: Σ m·q², one for each axis, and Σ m·(xy, yz, zx).
+pub(crate) fn moments_of_bodies(bodies: &[Balance], centre: DVec3, shift: DVec3) -> [DVec3; 3] {
+    let [mut moment, mut squares, mut products] = [DVec3::ZERO; 3];
+    for body in bodies {
+        let arm = body.base - centre;
+        let [before, after] = body.velocities;
+        let [kept, found] = body.momenta;
+        moment += (body.start - centre).cross(before * body.mass) + kept;
+        moment -= arm.cross((after + shift) * body.mass) + found;
+        let own = body.inertia;
+        let diagonal = DVec3::new(own.x_axis.x, own.y_axis.y, own.z_axis.z);
+        squares += DVec3::splat(0.5 * diagonal.element_sum()) - diagonal;
+        products -= DVec3::new(own.x_axis.y, own.y_axis.z, own.z_axis.x);
+        let weighted = arm * body.mass;
+        squares += weighted * arm;
+        products += weighted * DVec3::new(arm.y, arm.z, arm.x);
+    }
+    [moment, squares, products]
+}
+
+/// Returns the matrix of v × x.
+pub(super) fn cross(v: DVec3) -> DMat3 {
+    DMat3::from_cols(
+        DVec3::new(0.0, v.z, -v.y),
+        DVec3::new(-v.z, 0.0, v.x),
+        DVec3::new(v.y, -v.x, 0.0),
+    )
+}
