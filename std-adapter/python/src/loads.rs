@@ -1,11 +1,11 @@
-//! Loads on bodies, pins and attachments, and forces on vertices.
+//! Loads on bodies, pins and attachments, forces on vertices, and the motion of free bodies.
 
 use crate::answers::{class, column, rows};
 use crate::driven::copied_as;
 use crate::errors::{self, InputError};
 use pyo3::prelude::*;
 use selvedge_cloth::glam::DVec3;
-use selvedge_cloth::{BodyLoad, ContactLoad, Simulation, Wrench};
+use selvedge_cloth::{BodyLoad, ContactLoad, FreeBodyState, Simulation, Wrench};
 
 /// Adds one force on all vertices, or one for each of them.
 pub(crate) fn add_force(simulation: &mut Simulation, vertices: &[u32], force: &Bound<'_, PyAny>) -> PyResult<()> {
@@ -81,4 +81,22 @@ pub(crate) fn of_contacts<'py>(py: Python<'py>, simulation: &Simulation, body: u
         column(|contact| contact.push)?,
         column(|contact| contact.friction)?,
     ))
+}
+
+/// Returns the motion of a body, whose index is known to be right; `None` unless it is free.
+pub(crate) fn of_free_body<'py>(py: Python<'py>, simulation: &Simulation, body: usize) -> PyResult<Option<Bound<'py, PyAny>>> {
+    let Some(state) = simulation.body_motion(body) else {
+        return Ok(None);
+    };
+    let FreeBodyState {
+        mass,
+        centre,
+        velocity,
+        spin,
+        angular_momentum,
+    } = state;
+    let [centre, velocity, spin, angular_momentum] = [centre, velocity, spin, angular_momentum].map(|of| vector(py, of));
+    class(py, "FreeBodyState")?
+        .call1((mass, centre, velocity, spin, angular_momentum))
+        .map(Some)
 }

@@ -9,7 +9,7 @@ use crate::scenes;
 use crate::simulated::{Call, Simulation};
 use numpy::PyArray1;
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict, PySlice, PyType};
+use pyo3::types::{IntoPyDict, PyBytes, PyDict, PySlice, PyType};
 use selvedge_cloth::glam::{DQuat, DVec3};
 use selvedge_cloth::{FrameError, Placement, Scene, SceneContext, vertex_normals};
 use std::ops::{ControlFlow, Range};
@@ -224,6 +224,12 @@ impl Simulation {
         Ok(placement.map(|placement| (placement.translation.to_array(), placement.rotation.to_array())))
     }
 
+    #[doc = crate::stub!("Simulation.body_motion")]
+    fn body_motion<'py>(&self, py: Python<'py>, body: Body) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let body = body.index(&self.of_scene.body_names)?;
+        loads::of_free_body(py, &*self.simulation()?, body)
+    }
+
     #[doc = crate::stub!("Simulation.move_body")]
     fn move_body(&self, body: Body, positions: &Bound<'_, PyAny>) -> PyResult<()> {
         let positions = copied(positions)?;
@@ -404,12 +410,8 @@ impl Simulation {
 
     #[doc = crate::stub!("Simulation.settings")]
     #[getter]
-    fn settings(&self, py: Python<'_>) -> PyResult<Py<PyDict>> {
-        let settings = PyDict::new(py);
-        for (name, value) in &self.of_scene.settings {
-            settings.set_item(name, value)?;
-        }
-        Ok(settings.unbind())
+    fn settings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        self.of_scene.settings.iter().into_py_dict(py)
     }
 
     #[doc = crate::stub!("Simulation.steps_done")]
@@ -457,12 +459,10 @@ impl Simulation {
 
     #[doc = crate::stub!("Simulation.effect_seconds")]
     #[getter]
-    fn effect_seconds(&self, py: Python<'_>) -> PyResult<Py<PyDict>> {
-        let seconds = PyDict::new(py);
-        for effect in self.simulation()?.effects() {
-            seconds.set_item(effect.name, effect.seconds)?;
-        }
-        Ok(seconds.unbind())
+    fn effect_seconds<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let simulation = self.simulation()?;
+        let seconds = simulation.effects().iter().map(|effect| (effect.name, effect.seconds));
+        seconds.into_py_dict(py)
     }
 
     #[doc = crate::stub!("Simulation.contact_counts")]

@@ -268,6 +268,21 @@ class BodyLoad(NamedTuple):
         return Wrench(np.sum([part.force for part in self], axis=0), np.sum([part.torque for part in self], axis=0))
 
 
+class FreeBodyState(NamedTuple):
+    """The mass and the motion of a free body."""
+
+    mass: float
+    """The mass, in kg, with that of cloth that is pinned to it."""
+    centre: NDArray[np.float64]
+    """(3,) the centre of mass, in m."""
+    velocity: NDArray[np.float64]
+    """(3,) the velocity of the centre of mass, in m/s."""
+    spin: NDArray[np.float64]
+    """(3,) the angular velocity, in rad/s."""
+    angular_momentum: NDArray[np.float64]
+    """(3,) the angular momentum about the centre of mass, in kg m^2/s."""
+
+
 @dataclass(frozen=True, eq=False)
 class ContactLoads:
     """The contacts that pushed a body."""

@@ -16,6 +16,7 @@ from ._answers import (
     Contacts,
     ContactTimes,
     Crossings,
+    FreeBodyState,
     Intersections,
     MeshFile,
     MeshInFiles,
@@ -222,7 +223,8 @@ class Simulation:
         ``unit``, ``scale``, ``rotation``, ``translation`` and ``weld`` apply as to files. A cloth may also have ``edges`` (k, 2), its loose
         edges, and ``rest_positions`` (n, 3), its shape at rest if it starts in another one. Each of its vertices must be in a face or an
         edge, so that numbers never change. A body that deforms has ``frames`` (f, n, 3) with ``frames_per_second`` instead of
-        ``positions``. ``vertices`` may be a mask of bool. ``body_contact`` is left out of a scene without bodies.
+        ``positions``. A body with a ``mass``, or a ``density`` if its mesh is closed, moves freely, from a ``velocity`` and a ``spin``.
+        ``vertices`` may be a mask of bool. ``body_contact`` is left out of a scene without bodies.
 
         Messages name the path of the field, such as ``effects.friction.coefficient``. Files are relative to ``folder``."""
 
@@ -313,7 +315,11 @@ class Simulation:
         garment without pins. On an error nothing has changed."""
 
     def placement(self, body: str | int) -> tuple[list[float], list[float]] | None:
-        """Returns the translation and rotation of a driven body; None for other bodies and for one that was moved vertex by vertex."""
+        """Returns the translation and rotation of a driven or free body; None for other bodies and for one that was moved vertex by vertex.
+        They take the mesh of the scene to where it is now."""
+
+    def body_motion(self, body: str | int) -> FreeBodyState | None:
+        """Returns the mass and the present motion of a free body, one with a ``mass`` or a ``density``; None for any other body."""
 
     def move_body(self, body: str | int, positions: ArrayLike) -> None:
         """Moves each vertex of a driven body straight to a position, in metres, in the next step, as for a skinned figure."""
