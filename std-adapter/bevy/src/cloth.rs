@@ -56,6 +56,8 @@ pub struct ClothSimulation {
     state: State,
     /// The entities that bodies follow, by the index of the body.
     leaders: BTreeMap<usize, Entity>,
+    /// The entities that follow free bodies, by the index of the body.
+    followers: BTreeMap<usize, Entity>,
     threads: usize,
     /// The tubes of cloths with loose edges, by the index of the cloth, once it runs.
     tubes: Vec<(usize, Tubes)>,
@@ -83,6 +85,7 @@ enum Part {
     TimeStep,
     Seen,
     Body(usize),
+    Follower(usize),
 }
 
 impl ClothSimulation {
@@ -93,6 +96,7 @@ impl ClothSimulation {
         Self {
             state: State::Planned(Box::new(scene)),
             leaders: BTreeMap::new(),
+            followers: BTreeMap::new(),
             threads: 1,
             tubes: Vec::new(),
             vertices: None,
@@ -114,6 +118,17 @@ impl ClothSimulation {
         self
     }
 
+    /// Lets an entity follow a free body of the scene, given by its index: one with a [`FreeMotion`](selvedge_cloth::FreeMotion),
+    /// or with a `mass` or a `density` in a file.
+    ///
+    /// After each fixed step, before contacts are found, the entity's `Transform` is where the body is; its scale stays. So the
+    /// entity may show the body's mesh ([`mesh_of`]) and be a [`CollisionBody`](crate::CollisionBody). Its ancestors may move.
+    #[must_use]
+    pub fn followed_by(mut self, body: usize, entity: Entity) -> Self {
+        self.followers.insert(body, entity);
+        self
+    }
+
     /// Sets the number of threads (0: one for each core). It changes no bit of the result.
     #[must_use]
     pub const fn on_threads(mut self, threads: usize) -> Self {
@@ -122,7 +137,8 @@ impl ClothSimulation {
     }
 
     /// Returns the simulation; `None` until it has started, and if it could not start. Its
-    /// [`mean_body_load`](Simulation::mean_body_load) is the force and the torque of the cloth on a body in the last fixed step.
+    /// [`mean_body_load`](Simulation::mean_body_load) is the force and the torque of the cloth on a body in the last fixed step,
+    /// and its [`body_motion`](Simulation::body_motion) the velocity and the spin of a free body.
     #[must_use]
     pub fn simulation(&self) -> Option<&Simulation> {
         match &self.state {
@@ -163,6 +179,15 @@ impl ClothSimulation {
     /// Returns the tubes of ropes, laces and fringes, by the index of their cloth.
     pub(crate) fn tubes(&self) -> &[(usize, Tubes)] {
         &self.tubes
+    }
+
+    pub(crate) const fn followers(&self) -> &BTreeMap<usize, Entity> {
+        &self.followers
+    }
+
+    /// Returns the error unless it was the last report on the entity that follows this body.
+    pub(crate) fn is_new_of_follower(&mut self, body: usize, result: Result<(), SelvedgeError>) -> Option<SelvedgeError> {
+        self.is_new(Part::Follower(body), result)
     }
 
     /// Returns whether it has stopped: its set-up failed, or it is blocked and its scene stops then.

@@ -56,6 +56,12 @@ pub enum SelvedgeError {
         /// The number of bodies.
         bodies: usize,
     },
+    /// A body that an entity follows is not free: it has no mass. The entity stays.
+    #[error("no entity can follow body {body}, which is not free: give it a `FreeMotion` (`mass` or `density` in a file)")]
+    NotFree {
+        /// The index of the body.
+        body: usize,
+    },
     /// A body cannot reach its entity, for example because it is more than a kilometre away. It stops on the way.
     #[error("a body cannot follow its entity: {0}")]
     Lead(DriveError),

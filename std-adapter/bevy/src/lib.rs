@@ -5,13 +5,14 @@
 //!
 //! ```text
 //! Transforms, meshes ──▶ place, shape ──▶ collisions: bodies of a World ──▶ CollisionContact
-//!                                     └─▶ cloth: bodies of a Simulation ──▶ meshes; ropes as tubes
+//!                                     └─▶ cloth: bodies of a Simulation ──▶ meshes; ropes as tubes; Transforms of free bodies
 //! ```
 
 mod body;
 mod cloth;
 mod collisions;
 mod error;
+mod free;
 mod place;
 mod ropes;
 mod seen;
@@ -37,7 +38,7 @@ use bevy_time::{Fixed, Time};
 /// The system sets of the plugin in each fixed step, in `FixedPostUpdate`, in this order.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SelvedgeSystems {
-    /// Cloths run their steps and write their meshes.
+    /// Cloths run their steps, write their meshes, and move the entities that follow free bodies.
     Cloth,
     /// The contacts of the step are found and written.
     Contacts,
@@ -62,7 +63,9 @@ impl Plugin for SelvedgePlugin {
             .configure_sets(FixedPostUpdate, (SelvedgeSystems::Cloth, SelvedgeSystems::Contacts).chain())
             .add_systems(
                 FixedPostUpdate,
-                (cloth::step_cloths, ropes::show_ropes).chain().in_set(SelvedgeSystems::Cloth),
+                (cloth::step_cloths, free::show_bodies, ropes::show_ropes)
+                    .chain()
+                    .in_set(SelvedgeSystems::Cloth),
             )
             .add_systems(FixedPostUpdate, collisions::find_contacts.in_set(SelvedgeSystems::Contacts));
     }

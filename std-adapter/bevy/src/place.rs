@@ -101,4 +101,10 @@ impl Places<'_, '_> {
             Err(SelvedgeError::BadTransform)
         }
     }
+
+    /// Returns the place of the parent of an entity; `None` without one.
+    pub(crate) fn of_parent(&self, entity: Entity) -> Result<Option<Place>, SelvedgeError> {
+        let parent = self.parents.get(entity).ok().map(ChildOf::parent);
+        parent.map(|parent| self.of(parent)).transpose()
+    }
 }

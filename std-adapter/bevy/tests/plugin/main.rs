@@ -3,6 +3,8 @@
 mod bodies;
 mod cloth;
 mod contacts;
+mod free;
+mod loads;
 mod problems;
 mod teleports;
 
