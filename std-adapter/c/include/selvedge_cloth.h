@@ -266,6 +266,32 @@ typedef struct selvedge_contact_load {
   double friction[3];
 } selvedge_contact_load;
 
+/**
+ * The mass and the motion of a free body.
+ */
+typedef struct selvedge_free_body_state {
+  /**
+   * The mass, in kg, with that of cloth that is pinned to the body.
+   */
+  double mass;
+  /**
+   * The centre of mass, in metres.
+   */
+  double centre[3];
+  /**
+   * The velocity of the centre of mass, in m/s.
+   */
+  double velocity[3];
+  /**
+   * The angular velocity, in rad/s.
+   */
+  double spin[3];
+  /**
+   * The angular momentum about the centre of mass, in kg m^2/s.
+   */
+  double angular_momentum[3];
+} selvedge_free_body_state;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -505,8 +531,8 @@ selvedge_status selvedge_simulation_teleport(struct selvedge_simulation *simulat
                                              const selvedge_pose *by);
 
 /**
- * Returns the current placement of a driven body. `*is_known` is false for other bodies and for one that was moved vertex by
- * vertex; `*placement` then stays unchanged.
+ * Returns the current placement of a driven or free body. `*is_known` is false for other bodies and for one that was moved
+ * vertex by vertex; `*placement` then stays unchanged.
  *
  * The caller promises:
  * `is_known` and `placement` point to one entry each.
@@ -640,6 +666,18 @@ selvedge_status selvedge_simulation_contact_loads(struct selvedge_simulation *si
                                                   size_t body,
                                                   const struct selvedge_contact_load **contacts,
                                                   size_t *count);
+
+/**
+ * Returns the mass and the present motion of a free body, one with a `mass` or a `density` in the scene. `*is_free` is false for
+ * other bodies; `*state` then stays unchanged. selvedge_simulation_placement says where its mesh is.
+ *
+ * The caller promises:
+ * `is_free` and `state` point to one entry each.
+ */
+selvedge_status selvedge_simulation_body_motion(const struct selvedge_simulation *simulation,
+                                                size_t body,
+                                                bool *is_free,
+                                                struct selvedge_free_body_state *state);
 
 /**
  * Returns the state of the simulation as bytes. Motions that were set for the next step and the wind are not included. The call

@@ -151,12 +151,20 @@ class simulation {
     check(selvedge_simulation_place_body(get(), body, &placement));
   }
 
-  /// Returns the placement of a driven body; none for other bodies and for one that was moved vertex by vertex.
+  /// Returns the placement of a driven or free body; none for other bodies and for one that was moved vertex by vertex.
   std::optional<selvedge_pose> placement(std::size_t body) const {
     bool is_known = false;
     selvedge_pose placement{};
     check(selvedge_simulation_placement(get(), body, &is_known, &placement));
     return is_known ? std::optional<selvedge_pose>(placement) : std::nullopt;
+  }
+
+  /// Returns the mass and the present motion of a free body; none for any other body.
+  std::optional<selvedge_free_body_state> body_motion(std::size_t body) const {
+    bool is_free = false;
+    selvedge_free_body_state state{};
+    check(selvedge_simulation_body_motion(get(), body, &is_free, &state));
+    return is_free ? std::optional<selvedge_free_body_state>(state) : std::nullopt;
   }
 
   /// Moves driven bodies, their pins and the cloth that hangs on them, and other cloths, elsewhere at once, without a step. `by`

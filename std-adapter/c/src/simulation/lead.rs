@@ -105,8 +105,8 @@ pub unsafe extern "C" fn selvedge_simulation_teleport(
     })
 }
 
-/// Returns the current placement of a driven body. `*is_known` is false for other bodies and for one that was moved vertex by
-/// vertex; `*placement` then stays unchanged.
+/// Returns the current placement of a driven or free body. `*is_known` is false for other bodies and for one that was moved
+/// vertex by vertex; `*placement` then stays unchanged.
 ///
 /// # Safety
 /// `is_known` and `placement` point to one entry each.

@@ -4,6 +4,7 @@ pub(crate) mod checkpoint;
 pub(crate) mod counts;
 pub(crate) mod lead;
 pub(crate) mod loads;
+pub(crate) mod motion;
 pub(crate) mod run;
 pub(crate) mod state;
 #[cfg(test)]

@@ -4,6 +4,7 @@ use super::checkpoint::*;
 use super::counts::*;
 use super::lead::*;
 use super::loads::*;
+use super::motion::*;
 use super::on;
 use super::run::*;
 use super::state::*;
@@ -298,6 +299,45 @@ fn a_teleport_is_that_of_rust_and_a_jump_is_refused() {
     // SAFETY: there is one entry.
     let status = unsafe { selvedge_simulation_place_body(handle, 0, &raw const far) };
     assert_eq!((status, selvedge_simulation_step(handle)), (Status::Ok, Status::Blocked));
+    assert_eq!(selvedge_simulation_free(handle), Status::Ok);
+}
+
+#[test]
+fn a_free_body_moves_as_in_rust_bit_for_bit() {
+    let text = SCENE
+        .to_str()
+        .unwrap()
+        .replacen("driven = true", "mass = 0.3\nvelocity = [0, 0, 1]\nspin = [1, 0, 9]", 1);
+    let scene = Scene::parse(&text, Path::new("scene.toml")).unwrap();
+    let mut simulation = Simulation::new(scene, 1).unwrap();
+    let text = CString::new(text).unwrap();
+    let mut handle = ptr::null_mut();
+    // SAFETY: the text ends with a zero, and there is a place for the handle.
+    let status = unsafe { selvedge_simulation_new(text.as_ptr(), ptr::null(), 2, &raw mut handle) };
+    assert_eq!(status, Status::Ok);
+    for _ in 0..50 {
+        simulation.step().unwrap();
+        assert_eq!(selvedge_simulation_step(handle), Status::Ok);
+        let mut state = FreeBodyStateRow::default();
+        let mut pose = PoseRow {
+            rotation: [0.0; 4],
+            origin: [0.0; 3],
+        };
+        let (mut is_free, mut is_known) = (false, false);
+        // SAFETY: there is one entry for each.
+        let statuses = unsafe {
+            [
+                selvedge_simulation_body_motion(handle, 0, &raw mut is_free, &raw mut state),
+                selvedge_simulation_placement(handle, 0, &raw mut is_known, &raw mut pose),
+            ]
+        };
+        assert_eq!((statuses, is_free, is_known), ([Status::Ok; 2], true, true));
+        let (known, placement) = (simulation.body_motion(0).unwrap(), simulation.placement(0).unwrap());
+        assert_eq!(state, known.into());
+        assert_eq!(pose.rotation, placement.rotation.to_array());
+        assert_eq!(pose.origin, placement.translation.to_array());
+    }
+    assert!(simulation.body_load(0, DVec3::ZERO).unwrap().total().force.length() > 0.0);
     assert_eq!(selvedge_simulation_free(handle), Status::Ok);
 }
 

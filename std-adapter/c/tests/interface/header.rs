@@ -19,13 +19,14 @@ const SOURCES: [&str; 8] = [
 /// The files that `build.rs` generates, with the functions for float.
 const SINGLE: [&str; 2] = [concat!(env!("OUT_DIR"), "/queries.rs"), concat!(env!("OUT_DIR"), "/world.rs")];
 
-const CLOTH_SOURCES: [&str; 7] = [
+const CLOTH_SOURCES: [&str; 8] = [
     "files",
     "simulation/run",
     "simulation/counts",
     "simulation/state",
     "simulation/lead",
     "simulation/loads",
+    "simulation/motion",
     "simulation/checkpoint",
 ];
 

@@ -16,9 +16,9 @@
   "[cloth]\nshape = \"sheet\"\nsides = { first = [0.4, 0, 0], second = [0, 0.4, 0] }\ncells = [4, 4]\ndensity = 0.15\n" \
   "[effects.gravity]\n[effects.stretch]\nstiffness = 500\n"
 #define BALL "[[body]]\nname = \"ball\"\nshape = \"ball\"\ncentre = [0.2, 0.2, -0.2]\nradius = 0.1\naround = 8\n"
+#define REST "[[body]]\nname = \"rest\"\nshape = \"ball\"\ncentre = [0.2, 0.2, -1]\nradius = 0.1\naround = 8\n"
 static const char SCENE[] = HEAD BALL
-    "driven = true\n"
-    "[[body]]\nname = \"rest\"\nshape = \"ball\"\ncentre = [0.2, 0.2, -1]\nradius = 0.1\naround = 8\n" CLOTH
+    "driven = true\n" REST CLOTH
     "[effects.wind]\nvelocity = [0, 0, 0]\n"
     "[effects.self_collision]\nthickness = 0.005\n[effects.body_contact]\nthickness = 0.005\n"
     "[[effects.pins.group]]\npart = \"left\"\ndriven = true\n[[effects.pins.group]]\npart = \"right\"\n";
@@ -195,6 +195,38 @@ static void loads(selvedge_simulation *it) {
   HOLDS(count == 7);
 }
 
+/* A ball of 0.5 kg that falls away from a sheet. */
+static void free_bodies(void) {
+  static const char falling[] = HEAD BALL "mass = 0.5\nvelocity = [0, 0, -1]\nspin = [0, 3, 0]\n" REST "driven = true\n" CLOTH
+                                "[effects.body_contact]\nthickness = 0.005\n";
+  selvedge_simulation *it = NULL;
+  selvedge_free_body_state state = {0}, untouched = {0};
+  selvedge_pose pose = {{0, 0, 0, 1}, {0, 0, 0}};
+  bool is_free = false;
+  EXPECT(BAD_SCENE, selvedge_simulation_new(HEAD BALL "mass = 0.5\ndensity = 100\n" CLOTH, NULL, 1, &it));
+  SAYS("scene.toml:10:");
+  SAYS("`mass` or `density`, not both");
+  EXPECT(OK, selvedge_simulation_new(falling, NULL, 1, &it));
+  EXPECT(NULL_POINTER, selvedge_simulation_body_motion(it, 0, NULL, &state));
+  EXPECT(NULL_POINTER, selvedge_simulation_body_motion(it, 0, &is_free, NULL));
+  EXPECT(NO_SUCH_PART, selvedge_simulation_body_motion(it, 2, &is_free, &state));
+  SAYS("body 2");
+  HOLDS(!is_free && state.mass == 0);
+  EXPECT(NOT_DRIVEN, selvedge_simulation_place_body(it, 0, &pose));
+  for (int step = 0; step < 100; step++) EXPECT(OK, selvedge_simulation_step(it));
+  EXPECT(OK, selvedge_simulation_body_motion(it, 0, &is_free, &state));
+  HOLDS(is_free && state.mass == 0.5 && fabs(state.velocity[2] - (-1 - 9.81 * 0.2)) < 1e-9 && fabs(state.spin[1] - 3) < 1e-9);
+  HOLDS(state.angular_momentum[1] > 0);
+  /* The mesh turns about its centre of mass, which is not at its origin. */
+  bool is_known = false;
+  EXPECT(OK, selvedge_simulation_placement(it, 0, &is_known, &pose));
+  HOLDS(is_known && pose.rotation[1] > 0.2 && fabs(pose.origin[2]) > 0.1);
+  EXPECT(OK, selvedge_simulation_body_motion(it, 1, &is_free, &untouched));
+  HOLDS(!is_free && untouched.mass == 0);
+  EXPECT(OK, selvedge_simulation_free(it));
+  EXPECT(NO_SUCH_SIMULATION, selvedge_simulation_body_motion(it, 0, &is_free, &state));
+}
+
 static void checkpoints(selvedge_simulation *it) {
   const uint8_t *bytes = NULL;
   size_t count = 7;
@@ -287,6 +319,7 @@ int main(void) {
   handles();
   files();
   blocked();
+  free_bodies();
 
   /* One simulation gets all wrong calls after each step, the other none. */
   selvedge_simulation *asked = NULL, *quiet = NULL;

@@ -95,6 +95,16 @@ int main() {
   holds(__LINE__, frame.steps >= 4 && frame.steps <= 8 && frame.needed >= frame.steps);
   expect(__LINE__, SELVEDGE_STATUS_BAD_VALUE, [&] { second.advance(-1); });
   holds(__LINE__, !second.placement(0).has_value());
+  // A ball of 200 g falls.
+  std::string falling = SCENE;
+  falling.replace(falling.find("driven = true"), 13, "mass = 0.2\nspin = [0, 0, 2]");
+  simulation third(falling);
+  third.advance(0.1);
+  const auto motion = third.body_motion(0);
+  holds(__LINE__, motion.has_value() && motion->mass == 0.2 && std::abs(motion->velocity[2] + 0.981) < 1e-9);
+  holds(__LINE__, third.placement(0).has_value() && third.placement(0)->origin[2] < -0.04 && !second.body_motion(0).has_value());
+  expect(__LINE__, SELVEDGE_STATUS_NO_SUCH_PART, [&] { third.body_motion(1); });
+
   selvedge_simulation_free(second.get());
   expect(__LINE__, SELVEDGE_STATUS_NO_SUCH_SIMULATION, [&] { second.step(); });
   return faults == 0 ? 0 : 1;
