@@ -56,6 +56,66 @@ fn json_has_energy_stretch_and_loads_at_every_frame_and_the_slowest_step() {
 }
 
 #[test]
+fn json_the_table_and_written_frames_have_the_motion_of_free_bodies() {
+    let place = Workplace::new();
+    let free = "around = 10\nmass = \"500 g\"\nvelocity = [0, 0, -1]\nspin = [0, 3, 0]";
+    place.write("falling.toml", SHEET.replace("around = 10", free).replace("1 s", "200 ms"));
+    let document = place.json(&["simulate", "falling.toml", "--json", "--output", "out", "--frames", "obj"]);
+    let bodies = document["free_bodies_at_end"].as_array().unwrap();
+    assert_eq!((bodies.len(), &bodies[0]["body"]), (1, &"ball".into()));
+    let number = |name: &str, axis: usize| bodies[0][name][axis].as_f64().unwrap();
+    assert_eq!(bodies[0]["mass"].as_f64(), Some(0.5));
+    // It falls away from the sheet, by the steps' 1/2 g t (t + h).
+    let (t, h) = (0.2, 0.002);
+    assert!((number("velocity", 2) + 1.0 + 9.81 * t).abs() < 1e-9);
+    assert!((number("centre", 2) + t + 0.5 * 9.81 * t * (t + h)).abs() < 1e-9);
+    assert!((number("spin", 1) - 3.0).abs() < 1e-6 && number("angular_momentum", 1) > 0.0);
+    assert!((number("rotation", 1) - (0.5 * 3.0 * t).sin()).abs() < 1e-4 && number("translation", 2) < -0.3);
+
+    let heights = |frame: &str| -> Vec<f64> {
+        let obj = fs::read_to_string(place.path(frame)).unwrap();
+        let vertices = obj.lines().filter_map(|line| line.strip_prefix("v "));
+        vertices
+            .map(|vertex| vertex.split_whitespace().nth(2).unwrap().parse().unwrap())
+            .collect()
+    };
+    let lowest = |frame: &str| heights(frame).into_iter().fold(f64::INFINITY, f64::min);
+    let fallen = lowest("out/falling-00000.obj") - lowest("out/falling-00002.obj");
+    assert!(
+        (fallen + number("centre", 2)).abs() < 0.01,
+        "the ball is in the frames where it is: {fallen}"
+    );
+
+    let table = place.stdout(&["simulate", "falling.toml", "--output", "out"]);
+    assert!(table.contains("free body, at the end"), "{table}");
+    place.write("resting.toml", SHEET.replace("1 s", "20 ms"));
+    let resting = place.json(&["simulate", "resting.toml", "--json"]);
+    assert_eq!(resting["free_bodies_at_end"].as_array().map(Vec::len), Some(0));
+    assert!(!place.stdout(&["simulate", "resting.toml"]).contains("free body"));
+}
+
+#[test]
+fn the_ball_in_the_hammock_rolls_down_and_back_up_and_the_pins_carry_it() {
+    let place = Workplace::new();
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../cloth/scenes/hammock.toml");
+    let text = fs::read_to_string(scene).unwrap();
+    let at = |duration: &str| {
+        place.write("hammock.toml", text.replace("2 s", duration));
+        place.json(&["simulate", "hammock.toml", "--json", "--output", duration])
+    };
+    let (start, middle, end) = (at("20 ms"), at("1 s"), at("2 s"));
+    let along = |document: &serde_json::Value| document["free_bodies_at_end"][0]["centre"][0].as_f64().unwrap();
+    assert!(along(&start) > 0.29, "it starts near the right end: {}", along(&start));
+    assert!(along(&middle) < 0.0, "it rolls past the middle: {}", along(&middle));
+    assert!(along(&end).abs() < 0.3, "it stays in the hammock: {}", along(&end));
+    assert_eq!(end["intersections_at_end"].as_u64(), Some(0));
+    let loads = end["loads"]["on"].as_array().unwrap();
+    let pins = loads.iter().filter(|load| load["on"].as_str().unwrap().starts_with("pins"));
+    let mean: f64 = pins.map(|load| load["mean"].as_f64().unwrap()).sum();
+    assert!(mean > 0.4 * 9.81, "the ropes of a hammock pull more than the weight: {mean}");
+}
+
+#[test]
 fn a_scene_without_a_time_step_runs_by_frames_and_steps_that_are_too_long_are_told_when_they_happen() {
     let place = Workplace::new();
     let limited = SHEET.replace("[8, 8]", "[16, 16]").replace(

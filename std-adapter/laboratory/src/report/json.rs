@@ -162,7 +162,8 @@ pub fn effects_one_by_one(costs: &[crate::study::EffectCost]) -> Value {
 /// Returns a simulation and its recording, for `selvedge simulate`.
 ///
 /// Energies are in J; gravitational energy counts from the scene's origin. Stretch is relative to the length at rest. Loads are
-/// forces in N on bodies and groups, each the mean of the last step or frame. All lists belong to the times in `seconds`.
+/// forces in N on bodies and groups, each the mean of the last step or frame. All lists belong to the times in `seconds`. The
+/// mass, the motion and the placement of free bodies at the end are in SI units; a rotation is a quaternion (x, y, z, w).
 /// Vertices have the numbers of the [mesh in files](selvedge_cloth::MeshInFiles), those of `torn` within their cloth.
 pub fn simulation(simulation: &selvedge_cloth::Simulation, recording: &Recording) -> Value {
     let seconds = recording.wall_seconds.unwrap_or(f64::NAN);
@@ -213,6 +214,7 @@ pub fn simulation(simulation: &selvedge_cloth::Simulation, recording: &Recording
         "edge_stretch": edge_stretch(recording),
         "energy": energy(recording),
         "loads": loads(recording),
+        "free_bodies_at_end": free_bodies(simulation),
         "effects": effects,
         "pairs": pairs.collect::<Vec<_>>(),
         "stages": stages.collect::<Vec<_>>(),
@@ -274,6 +276,24 @@ fn loads(recording: &Recording) -> Value {
         })
     });
     json!({"seconds": measured_seconds(recording), "on": on.collect::<Vec<_>>()})
+}
+
+fn free_bodies(simulation: &selvedge_cloth::Simulation) -> Value {
+    let bodies = simulation.body_names().iter().enumerate();
+    let free = bodies.filter_map(|(body, name)| Some((name, simulation.body_motion(body)?, simulation.placement(body)?)));
+    free.map(|(name, motion, placement)| {
+        json!({
+            "body": name,
+            "mass": motion.mass,
+            "centre": motion.centre.to_array(),
+            "velocity": motion.velocity.to_array(),
+            "spin": motion.spin.to_array(),
+            "angular_momentum": motion.angular_momentum.to_array(),
+            "translation": placement.translation.to_array(),
+            "rotation": placement.rotation.to_array(),
+        })
+    })
+    .collect()
 }
 
 /// Returns cost against size, for `selvedge scaling`.

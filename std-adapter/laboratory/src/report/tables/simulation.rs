@@ -60,6 +60,7 @@ pub fn simulation(simulation: &Simulation, recording: &Recording) -> String {
             text += &table([title, "at the start", "most", "at the end"], rows);
         }
     }
+    text += &free_bodies(simulation);
     for sentence in start_sentences(simulation) {
         text += &format!("\n{sentence}\n");
     }
@@ -98,6 +99,23 @@ pub fn simulation(simulation: &Simulation, recording: &Recording) -> String {
         text += &format!("\nafter {steps} an edge was more than 5 % above its limit{remedy}\n");
     }
     text
+}
+
+/// Returns the motion of free bodies at the end; an empty text without them.
+fn free_bodies(simulation: &Simulation) -> String {
+    let bodies = simulation.body_names().iter().enumerate();
+    let rows = bodies.filter_map(|(body, name)| {
+        let motion = simulation.body_motion(body)?;
+        let numbers = [motion.mass, motion.velocity.length(), motion.spin.length()];
+        let [mass, speed, spin] = numbers.map(three_figures);
+        Some([name.clone(), mass, speed, spin])
+    });
+    let rows: Vec<_> = rows.collect();
+    if rows.is_empty() {
+        return String::new();
+    }
+    let heads = ["free body, at the end", "mass, in kg", "speed, in m/s", "spin, in rad/s"];
+    format!("\n{}", table(heads, rows))
 }
 
 /// Names the frame with the longest edges, and the slowest step or frame.
