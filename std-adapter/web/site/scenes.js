@@ -5,6 +5,7 @@ export const SCENES = [
   { file: "drop.toml", name: "sheet dropped on a ball" },
   { file: "flag.toml", name: "flag in gusty wind" },
   { file: "walker.toml", name: "walker in a shirt" },
+  { file: "hammock.toml", name: "ball in a hammock" },
 ];
 const FILES = { "walker.toml": ["walker.glb", "walker-shirt.ply"] };
 

@@ -304,6 +304,36 @@ impl Simulation {
         Ok(self.cloth.add_force(&vertices, vector(force, "force")?)?)
     }
 
+    /// Returns the placement of a driven or free body, which takes the mesh of the scene to where it is now; undefined for other
+    /// bodies and for one that was moved vertex by vertex.
+    #[wasm_bindgen(unchecked_return_type = "Placement | undefined")]
+    pub fn placement(&self, body: &Text) -> Result<JsValue, Exception> {
+        let placement = self.cloth.placement(self.body(body)?);
+        Ok(placement.map_or(JsValue::UNDEFINED, |Placement { rotation, translation }| {
+            let parts = [
+                ("translation", floats(&translation.to_array())),
+                ("rotation", floats(&rotation.to_array())),
+            ];
+            object(parts).into()
+        }))
+    }
+
+    /// Returns the mass and the present motion of a free body, one with a `mass` or a `density`; undefined for any other body.
+    #[wasm_bindgen(js_name = bodyMotion, unchecked_return_type = "FreeBodyState | undefined")]
+    pub fn body_motion(&self, body: &Text) -> Result<JsValue, Exception> {
+        let motion = self.cloth.body_motion(self.body(body)?);
+        Ok(motion.map_or(JsValue::UNDEFINED, |motion| {
+            let vectors = [
+                ("centre", motion.centre),
+                ("velocity", motion.velocity),
+                ("spin", motion.spin),
+                ("angularMomentum", motion.angular_momentum),
+            ];
+            let vectors = vectors.map(|(name, vector)| (name, floats(&vector.to_array())));
+            object([("mass", motion.mass.into())].into_iter().chain(vectors)).into()
+        }))
+    }
+
     /// Returns the load of the cloth on a body, with torques about a point (default: the origin): the mean over the last step or
     /// `advance`. It is zero before the first step and after `resume`.
     #[wasm_bindgen(js_name = bodyLoad, unchecked_return_type = "BodyLoad")]

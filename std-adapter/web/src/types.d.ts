@@ -58,6 +58,21 @@ export interface Statistics { candidates: number; filtered: number; contacts: nu
 export interface Wrench { force: Float64Array; torque: Float64Array; }
 /** The load of the cloth on a body. */
 export interface BodyLoad { contact: Wrench; friction: Wrench; pins: Wrench; attachments: Wrench; total: Wrench; }
+/** A rotation by a quaternion (x, y, z, w), and then a translation in m. */
+export interface Placement { translation: Float64Array; rotation: Float64Array; }
+/** The mass and the motion of a free body. */
+export interface FreeBodyState {
+  /** In kg, with the mass of cloth that is pinned to the body. */
+  mass: number;
+  /** The centre of mass, in m. */
+  centre: Float64Array;
+  /** Of the centre of mass, in m/s. */
+  velocity: Float64Array;
+  /** The angular velocity, in rad/s. */
+  spin: Float64Array;
+  /** About the centre of mass, in kg m^2/s. */
+  angularMomentum: Float64Array;
+}
 export interface PairVerdicts {
   /** k0, 3 k1, 3 k2, k3 of the signed volume, and the certified bound of the error of each. */
   controlValues: Float64Array;

@@ -129,6 +129,8 @@ const CALLS = [
   ["Simulation", "setWind", [["velocity", "list", [0, 0, 1]]]],
   ["Simulation", "setVelocity", [["vertices", "list", [0, 1]], ["velocity", "list", [0, 0, 1]]]],
   ["Simulation", "addForce", [["vertices", "list", [0, 1]], ["force", "list", [0, 0, 1]]]],
+  ["Simulation", "placement", [["body", "text", "ball"]]],
+  ["Simulation", "bodyMotion", [["body", "text", "ball"]]],
   ["Simulation", "bodyLoad", [["body", "text", "ball"], ["about", "list", [0, 0, 1], true]]],
   ["Simulation", "pinLoad", [["group", "number", 0], ["about", "list", [0, 0, 1], true]]],
   ["Simulation", "attachmentLoad", [["group", "number", 0], ["about", "list", [0, 0, 1], true]]],

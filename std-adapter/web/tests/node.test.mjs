@@ -205,6 +205,25 @@ test("messages are those of Rust and C for the same mistakes", () => {
   for (const [name, call] of Object.entries(mistakes)) assert.throws(call, (error) => error.message === table[name] || assert.fail(`${name}: ${error.message}`));
 });
 
+test("a free body falls, and its motion and placement are read", () => {
+  const text = scene("drop.toml").replace('name = "ball"', 'name = "ball"\nmass = 0.2\nvelocity = [0, 0, 1]\nspin = [3, 0, 0]');
+  const cloth = new Simulation(text);
+  const before = cloth.bodyMotion("ball");
+  assert.equal(before.mass, 0.2);
+  assert.ok(before.angularMomentum[0] > 0 && Math.abs(before.spin[0] - 3) < 1e-12);
+  cloth.advance(1 / 60);
+  const { velocity, centre } = cloth.bodyMotion("ball");
+  assert.ok(Math.abs(velocity[2] - (1 - 9.81 / 60)) < 1e-9);
+  const { translation, rotation } = cloth.placement("ball");
+  assert.ok(centre[2] > before.centre[2] && translation.length === 3 && rotation.length === 4 && rotation[0] > 0);
+  assert.throws(() => cloth.placeBody("ball", [0, 0, 1]), fails("InputError", "cannot be moved by hand"));
+  assert.throws(() => cloth.bodyMotion("none"), fails("InputError", "no body 'none'"));
+  const resting = new Simulation(scene("drop.toml"));
+  assert.deepEqual([resting.bodyMotion("ball"), resting.placement("ball")], [undefined, undefined]);
+  const wrong = () => new Simulation(text.replace("mass = 0.2", "mass = 0.2\ndensity = 100"));
+  assert.throws(wrong, fails("SceneError", "`mass` or `density`, not both"));
+});
+
 test("a body carries the cloth, and a force acts for one frame", () => {
   const cloth = new Simulation(scene("drop.toml"));
   assert.deepEqual([...cloth.bodyLoad("ball").total.force], [0, 0, 0]);
@@ -290,8 +309,8 @@ test("objects are freed by hand, by `using`, and by the garbage collector", () =
   assert.ok(last.start.buffer.byteLength <= memory.byteLength + 2 ** 20);
 });
 
-test("500 steps of five scenes, and the contacts of their motion, are native's to the last bit, at 0.35 of its speed", () => {
-  const names = ["arm-sleeve", "drop", "flag", "twist", "walker"];
+test("500 steps of six scenes, and the contacts of their motion, are native's to the last bit, at 0.35 of its speed", () => {
+  const names = ["arm-sleeve", "drop", "flag", "hammock", "twist", "walker"];
   const folder = mkdtempSync(join(tmpdir(), "selvedge-"));
   const files = names.map((name) => new URL(`${name}.toml`, scenes).pathname);
   const lines = execFileSync(process.env.SELVEDGE_NATIVE, [folder, "500", ...files], { encoding: "utf8" }).trim().split("\n");

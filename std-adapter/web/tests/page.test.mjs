@@ -185,7 +185,7 @@ test("the cloth: it runs, is certified, and an effect that is off costs nothing"
 
 test("the cloth: scenes, a pulled sheet and a moved ball, by pointer and by keyboard", () => visit({}, async (page) => {
   await page.locator("#cloth").scrollIntoViewIfNeeded();
-  for (const name of ["flag.toml", "walker.toml", "drop.toml"]) {
+  for (const name of ["flag.toml", "walker.toml", "hammock.toml", "drop.toml"]) {
     await page.selectOption("#scene", name);
     await until(page, "time", /^0\.000/);
     await page.locator("#one-step").click();

@@ -19,4 +19,5 @@ const cloth = new Simulation("", { "shirt.ply": new Uint8Array() });
 const geometry = new BufferGeometry();
 geometry.setIndex(new BufferAttribute(cloth.triangles, 1));
 geometry.setAttribute("position", new BufferAttribute(Float32Array.from(cloth.positions), 3));
-console.log(first, verdict, time, cloth.effectSeconds["stretch"]);
+const height: number | undefined = cloth.bodyMotion("ball")?.centre[2] ?? cloth.placement("ball")?.translation[2];
+console.log(height, first, verdict, time, cloth.effectSeconds["stretch"]);
