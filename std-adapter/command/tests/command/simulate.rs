@@ -123,7 +123,9 @@ fn a_scene_without_a_time_step_runs_by_frames_and_steps_that_are_too_long_are_to
         "[effects.gravity]\n[effects.strain_limit]\nlimit = 1.0\n[effects.friction]\ncoefficient = 0.5",
     );
     place.write("frames.toml", limited.replace("time_step = \"2 ms\"\n", ""));
-    place.write("long.toml", limited.replace("2 ms", "16 ms"));
+    // It is thrown at the ball, so that no step of this length can keep its limit.
+    let thrown = limited.replace("density = \"200 g/m2\"", "density = \"200 g/m2\"\nvelocity = [0, 0, -20]");
+    place.write("long.toml", thrown.replace("2 ms", "16 ms"));
     let run = |scene: &str| {
         let output = place.run(&["simulate", scene, "--json"]);
         let document: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
