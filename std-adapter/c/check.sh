@@ -76,6 +76,10 @@ try() { # NAME OUTPUT COMMAND...
         cmp "$flown" "$output" || give_up "$* builds a flag with different output"
         grep -q '^500 of 500 states are certified' "$output" || give_up "not every state of the flag is certified"
         ;;
+    hammock)
+        "$folder/program" >"$output"
+        grep -q '^the sheet carries 1.00.. of the ball.s weight; 1500 of 1500 states' "$output" || give_up "the load is not the weight"
+        ;;
     guard)
         "$folder/program" >"$output"
         grep -q '^with the guard: 0 of 100 states' "$output" || give_up "the guard lets states intersect"
@@ -95,7 +99,7 @@ for compiler in gcc clang g++ clang++; do
     *) standards="c11 c17" suffix=c ;;
     esac
     for standard in $standards; do
-        for source in examples/{frames,flag,guard} tests/programs/{refusals,refusals_of_worlds,simulations,fork,fork_simulation}; do
+        for source in examples/{frames,flag,guard,hammock} tests/programs/{refusals,refusals_of_worlds,simulations,fork,fork_simulation}; do
             [ -e "$source.$suffix" ] || continue
             for mode in plain sanitized; do
                 # The older standards are read by the compiler alone.

@@ -261,6 +261,19 @@ fn a_simulator_behind_the_guard_in_c_never_intersects_and_without_it_does() {
 }
 
 #[test]
+fn a_sheet_carries_the_ball_of_an_engine_in_c() {
+    let Some(program) = build(Language::C, "examples/hammock") else {
+        return;
+    };
+    let output = String::from_utf8(succeed(&mut Command::new(program)).stdout).unwrap();
+    let last = output.lines().last().unwrap();
+    let (carried, certified) = last.strip_prefix("the sheet carries ").unwrap().split_once(' ').unwrap();
+    let carried: f64 = carried.parse().unwrap();
+    assert!((carried - 1.0).abs() < 0.01, "{output}");
+    assert_eq!(certified, "of the ball's weight; 1500 of 1500 states are certified");
+}
+
+#[test]
 fn wrong_input_from_c_is_refused_and_changes_nothing() {
     runs(Language::C, "tests/programs/refusals");
     runs(Language::C, "tests/programs/refusals_of_worlds");
