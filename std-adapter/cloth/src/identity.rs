@@ -91,6 +91,12 @@ impl Identify for usize {
     }
 }
 
+impl Identify for bool {
+    fn identify(&self, identity: &mut Identity) {
+        u32::from(*self).identify(identity);
+    }
+}
+
 impl Identify for str {
     fn identify(&self, identity: &mut Identity) {
         self.len().identify(identity);

@@ -169,6 +169,27 @@ impl<'a> Table<'a> {
         }
     }
 
+    /// Reads a list of some of several names.
+    pub(crate) fn choices<T: Copy>(&self, key: &str, choices: &[(&str, T)]) -> Result<Vec<T>, SceneError> {
+        let Some(value) = self.get(key) else {
+            return Ok(Vec::new());
+        };
+        let names = || choices.iter().map(|(choice, _)| *choice);
+        let example = || format!("a list of some of \"{}\"", names().collect::<Vec<_>>().join("\", \""));
+        let DeValue::Array(array) = value.get_ref() else {
+            return Err(self.wrong(key, value, &example()));
+        };
+        let choice = |value: &Spanned<DeValue<'_>>| {
+            let name = value.get_ref().as_str();
+            let found = choices.iter().find(|(choice, _)| Some(*choice) == name);
+            found.map(|(_, choice)| *choice).ok_or_else(|| {
+                let meant = name.map_or_else(String::new, |name| suggestion(name, names()));
+                self.complain(value.span(), format!("`{key}` is {}{meant}", example()))
+            })
+        };
+        array.iter().map(choice).collect()
+    }
+
     /// Reads one line of text. Messages show `example`.
     pub(crate) fn required_text(&self, key: &str, example: &str) -> Result<&'a str, SceneError> {
         self.text(key)?.ok_or_else(|| self.missing(key, example))

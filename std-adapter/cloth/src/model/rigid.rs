@@ -75,6 +75,30 @@ pub(crate) fn vector_of(rotation: DQuat) -> DVec3 {
     }
 }
 
+/// The axes of the scene along which and about which a body can move: 1 for a free axis, 0 for a locked one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Freedom {
+    pub(crate) way: DVec3,
+    pub(crate) turn: DVec3,
+}
+
+impl Freedom {
+    /// All six.
+    pub(crate) const ALL: Self = Self {
+        way: DVec3::ONE,
+        turn: DVec3::ONE,
+    };
+
+    /// Returns the inverse of an inertia for a body that turns about its free axes alone.
+    pub(crate) fn inverse(&self, inertia: &DMat3) -> DMat3 {
+        if self.turn == DVec3::ONE {
+            return inertia.inverse();
+        }
+        let [free, locked] = [self.turn, DVec3::ONE - self.turn].map(DMat3::from_diagonal);
+        free * (free * *inertia * free + locked).inverse() * free
+    }
+}
+
 /// The motion of a rigid body in a step: a way of its centre of mass, and a turn about it.
 #[derive(Clone, Debug)]
 pub(crate) struct RigidMotion {
@@ -163,6 +187,22 @@ mod tests {
             prop_assert!((vector_of(rotation_by(vector)) - vector).length() < 1e-12);
             prop_assert!((vector_of(-rotation_by(vector)) - vector).length() < 1e-12);
         }
+    }
+
+    #[test]
+    fn a_body_with_one_free_axis_has_the_inertia_about_it_alone() {
+        let inertia = DMat3::from_cols(
+            DVec3::new(3.0, 0.5, 0.2),
+            DVec3::new(0.5, 2.0, 0.1),
+            DVec3::new(0.2, 0.1, 4.0),
+        );
+        let door = Freedom {
+            turn: DVec3::Z,
+            ..Freedom::ALL
+        };
+        let spin = door.inverse(&inertia) * DVec3::new(7.0, 8.0, 2.0);
+        assert!(spin.distance(DVec3::Z * 0.5) < 1e-15, "{spin}");
+        assert_eq!(Freedom::ALL.inverse(&inertia), inertia.inverse());
     }
 
     #[test]

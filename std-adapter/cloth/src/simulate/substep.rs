@@ -169,7 +169,7 @@ impl Simulation {
             forces,
         );
         let keeps_momentum = solve.is_inner() && (pieces.may_move(&step) || !solve.bodies.is_empty());
-        let is_held = solve.rows.iter().any(|row| momentum::is_held(row, count));
+        let is_held = solve.bodies.is_any_locked(&are_pressed) || { solve.rows.iter() }.any(|row| momentum::is_held(row, count));
         if keeps_momentum {
             let motion = Motion::new(forced, &state.velocities, history, prediction);
             let pressed = (&is_pressed[..], is_held);

@@ -39,6 +39,8 @@ pub(super) struct Coupled {
     first_slot: usize,
     /// M and the inertia of each body.
     inertia: Vec<(f32, Mat3A)>,
+    /// 1 for each free axis of a body, along and about, and 0 for each locked one.
+    freedom: Vec<[Vec3A; 2]>,
     /// The vertices of cloth that are pinned to bodies, each with its body's first slot and its arm.
     riders: Vec<(u32, usize, Vec3A)>,
     links: Vec<CoupledLink>,
@@ -52,6 +54,10 @@ impl Coupled {
         self.riders.clear();
         bodies.visit_riders(&mut |vertex, slot, arm| self.riders.push((vertex as u32, slot, arm.as_vec3a())));
         self.inertia.clear();
+        let freedom = bodies.all.iter().map(|body| body.freedom);
+        self.freedom.clear();
+        self.freedom
+            .extend(freedom.map(|free| [free.way, free.turn].map(|axes| axes.as_vec3a())));
         let each = bodies.all.iter().map(|body| body.curvature());
         self.inertia.extend(each.map(|(mass, of_turn)| {
             let columns = [of_turn.x_axis, of_turn.y_axis, of_turn.z_axis].map(|column| column.as_vec3a());
@@ -122,6 +128,11 @@ impl Coupled {
                 product[slot + 1] += arm.cross(force);
             }
         }
+        let slots = product[self.first_slot..].as_chunks_mut::<2>().0;
+        for (slots, freedom) in slots.iter_mut().zip(&self.freedom) {
+            slots[0] *= freedom[0];
+            slots[1] *= freedom[1];
+        }
     }
 
     /// Returns the vertices of cloth that are pinned to bodies.
@@ -154,6 +165,14 @@ impl Coupled {
             add(block, [0, 3], &turned);
             add(block, [3, 0], &turned.transpose());
             add(block, [3, 3], &(arm * turned));
+        }
+        for (block, [way, turn]) in blocks.iter_mut().zip(&self.freedom) {
+            let is_locked = |axis: usize| if axis < 3 { way[axis] } else { turn[axis - 3] } == 0.0;
+            for axis in (0..SIX).filter(|&axis| is_locked(axis)) {
+                block[axis] = [0.0; SIX];
+                block.iter_mut().for_each(|row| row[axis] = 0.0);
+                block[axis][axis] = 1.0;
+            }
         }
         blocks
     }
@@ -256,6 +275,7 @@ mod tests {
             let mut coupled = Coupled {
                 first_slot: 1,
                 inertia: vec![(2.0, Mat3A::from_diagonal(selvedge_core::glam::Vec3::new(0.1, 0.2, 0.3)))],
+                freedom: vec![[Vec3A::ONE; 2]],
                 riders: Vec::new(),
                 links: Vec::new(),
             };

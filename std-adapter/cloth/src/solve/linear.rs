@@ -87,6 +87,7 @@ impl Solve {
             vectors.residual[slot] += force.as_vec3a();
             vectors.residual[slot + 1] += arm.cross(force).as_vec3a();
         });
+        self.bodies.lock(&mut vectors.residual);
     }
 
     /// Finds the moves of a Newton step from the residual at `x`, where `of_terms` is the gradient of the terms, and the matrix

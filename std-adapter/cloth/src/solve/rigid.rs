@@ -7,7 +7,7 @@
 //! body's surface: friction there and on the cloth is one force at one point, and makes no angular momentum.
 
 use super::rigid_body::{Balance, RigidBody};
-use crate::model::rigid::{RigidMotion, rotation_by, vector_of};
+use crate::model::rigid::{Freedom, RigidMotion, rotation_by, vector_of};
 use crate::model::step::Carrier;
 use selvedge_core::glam::{DMat3, DVec3, Vec3A};
 
@@ -211,6 +211,21 @@ impl RigidBodies {
         }
     }
 
+    /// Takes away what locked axes take up.
+    pub(super) fn lock(&self, vector: &mut [Vec3A]) {
+        let slots = vector[self.first_slot..].as_chunks_mut::<2>().0;
+        for (body, slots) in self.all.iter().zip(slots) {
+            slots[0] *= body.freedom.way.as_vec3a();
+            slots[1] *= body.freedom.turn.as_vec3a();
+        }
+    }
+
+    /// Returns whether one of the marked bodies has a locked axis.
+    pub(crate) fn is_any_locked(&self, marked: &[bool]) -> bool {
+        let all = self.all.iter().zip(marked);
+        { all }.any(|(body, is_marked)| *is_marked && body.freedom != Freedom::ALL)
+    }
+
     /// Visits the first slot of each body, and its inertia M in N/m.
     pub(super) fn visit_inertia(&self, visit: &mut dyn FnMut(usize, f64)) {
         for (place, body) in self.all.iter().enumerate() {
@@ -245,8 +260,8 @@ impl RigidBodies {
             let (_, arm) = self.place(&touch);
             let body = &mut self.all[touch.body];
             let impulse = impulse * touch.side;
-            let spin = body.inertia_now().inverse() * arm.cross(impulse);
-            body.removed[0] -= impulse / body.motion.mass;
+            let spin = body.freedom.inverse(&body.inertia_now()) * arm.cross(impulse);
+            body.removed[0] -= impulse * body.freedom.way / body.motion.mass;
             body.removed[1] -= spin;
         }
     }

@@ -9,7 +9,7 @@
 //! [vertices](super::prediction), with L in the place of v.
 
 use crate::model::length::shortened;
-use crate::model::rigid::{RigidMotion, RigidState, rotation_by, turned, vector_of};
+use crate::model::rigid::{Freedom, RigidMotion, RigidState, rotation_by, turned, vector_of};
 use crate::world::Free;
 use selvedge_core::glam::{DMat3, DVec3};
 use std::ops::Range;
@@ -29,6 +29,7 @@ pub(crate) struct RigidBody {
     pub(crate) carrier: usize,
     /// The motion so far: where the solve is.
     pub(crate) motion: RigidMotion,
+    pub(super) freedom: Freedom,
     /// The inertia in the axes of the body.
     pub(super) inertia: DMat3,
     /// The rotation since the start of the step.
@@ -73,7 +74,8 @@ impl RigidBody {
         } = free.state;
         let before = &free.before;
         let is_second = step.may_be_second && !free.is_first_order;
-        let change = gravity * h;
+        let freedom = free.freedom;
+        let change = gravity * freedom.way * h;
         let (base, way, rate, base_turn, momentum) = if is_second {
             let way = (velocity * 8.0 - before.velocity * 2.0 + change * 4.0) * (h / 9.0);
             let last_turn = vector_of(rotation * before.rotation.inverse());
@@ -92,7 +94,7 @@ impl RigidBody {
         let inertia_after = |turn: DVec3| turned(&DMat3::from_quat(rotation_by(turn)), &at_start);
         let mut goal_turn = base_turn;
         for _ in 0..ROUNDS {
-            goal_turn = base_turn + inertia_after(goal_turn).inverse() * momentum * rate;
+            goal_turn = base_turn + freedom.inverse(&inertia_after(goal_turn)) * momentum * rate;
         }
         let mut body = Self {
             carrier,
@@ -106,6 +108,7 @@ impl RigidBody {
                 way: base + way,
                 turn: goal_turn,
             },
+            freedom,
             inertia: free.mass.inertia,
             rotated: DMat3::IDENTITY,
             weight: free.mass.mass / (rate * rate),
@@ -242,13 +245,15 @@ impl RigidBody {
     /// Returns what the body yields to a push of 1 N in a direction at an arm, in m/N.
     pub(super) fn compliance(&self, arm: DVec3, direction: DVec3) -> f64 {
         let moment = arm.cross(direction);
-        self.weight.recip() + moment.dot(self.of_turn.inverse() * moment)
+        let along = (direction * self.freedom.way).length_squared();
+        along / self.weight + moment.dot(self.freedom.inverse(&self.of_turn) * moment)
     }
 
     /// Returns what it yields to an impulse, in m/s per N·s.
     pub(super) fn mobility(&self, arm: DVec3, direction: DVec3) -> f64 {
         let moment = arm.cross(direction);
-        self.motion.mass.recip() + moment.dot(self.inertia_now().inverse() * moment)
+        let along = (direction * self.freedom.way).length_squared();
+        along / self.motion.mass + moment.dot(self.freedom.inverse(&self.inertia_now()) * moment)
     }
 }
 

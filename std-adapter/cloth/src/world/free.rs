@@ -5,7 +5,7 @@
 
 use super::placement::Placement;
 use crate::input::{AIR_DENSITY, ANGULAR_SPEED, Field, MASS, SPEED, SceneError, Table, ValueError};
-use crate::model::rigid::{NUMBERS, RigidState};
+use crate::model::rigid::{Freedom, NUMBERS, RigidState};
 use selvedge::Mesh;
 use selvedge_core::glam::{DMat3, DVec3};
 use std::sync::Arc;
@@ -43,6 +43,44 @@ pub struct FreeMotion {
     pub velocity: DVec3,
     /// The angular velocity at the start, in rad/s.
     pub spin: DVec3,
+    /// The axes along which and about which it does not move.
+    pub locked: LockedAxes,
+}
+
+/// The axes of the scene along which, and about which, a [free](FreeMotion) body does not move. A door turns about one axis:
+///
+/// ```
+/// use selvedge_cloth::LockedAxes;
+///
+/// let door = LockedAxes { translation: [true; 3], rotation: [true, true, false] };
+/// assert_ne!(door, LockedAxes::default());
+/// ```
+///
+/// It turns about its centre of mass. Where the certificate moves a body together with what it touches, a lock gives way by that.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LockedAxes {
+    /// Whether the centre of mass keeps its x, y and z.
+    pub translation: [bool; 3],
+    /// Whether it does not turn about the axes x, y and z.
+    pub rotation: [bool; 3],
+}
+
+/// The names of axes in scene files, with their places in `translation` and, after those, in `rotation`.
+const AXES: [(&str, usize); 6] = [
+    ("x", 0),
+    ("y", 1),
+    ("z", 2),
+    ("rotation_x", 3),
+    ("rotation_y", 4),
+    ("rotation_z", 5),
+];
+
+impl LockedAxes {
+    fn freedom(self) -> Freedom {
+        let [way, turn] =
+            [self.translation, self.rotation].map(|locked| DVec3::from(locked.map(|is_locked| f64::from(u8::from(!is_locked)))));
+        Freedom { way, turn }
+    }
 }
 
 crate::identify!(enum BodyMass { 0 => Mass(mass), 1 => Density(density) });
@@ -50,17 +88,20 @@ crate::identify!(FreeMotion {
     mass,
     placement,
     velocity,
-    spin
+    spin,
+    locked
 });
+crate::identify!(LockedAxes { translation, rotation });
 
 const MASS_FIELD: Field = Field::new("mass", MASS, 1e-6, 1e6);
 const DENSITY_FIELD: Field = Field::new("density", AIR_DENSITY, 1e-2, 1e5);
 const VELOCITY: Field = Field::vector("velocity", SPEED, 1e2);
+const LOCKED: &str = "locked";
 const SPIN: Field = Field::vector("spin", ANGULAR_SPEED, 1e3);
 
 impl FreeMotion {
     /// Keys of a table that describes a free motion.
-    pub(super) const KEYS: [&'static str; 4] = [MASS_FIELD.name, DENSITY_FIELD.name, VELOCITY.name, SPIN.name];
+    pub(super) const KEYS: [&'static str; 5] = [MASS_FIELD.name, DENSITY_FIELD.name, VELOCITY.name, SPIN.name, LOCKED];
 
     /// Returns a motion that starts at rest.
     #[must_use]
@@ -70,6 +111,10 @@ impl FreeMotion {
             placement: Placement::at(DVec3::ZERO),
             velocity: DVec3::ZERO,
             spin: DVec3::ZERO,
+            locked: LockedAxes {
+                translation: [false; 3],
+                rotation: [false; 3],
+            },
         }
     }
 
@@ -87,13 +132,23 @@ impl FreeMotion {
                 return Err(table.error(DENSITY_FIELD.name, message));
             }
             (None, None) => {
-                let given = [VELOCITY.name, SPIN.name].into_iter().find(|key| table.has(key));
+                let given = [VELOCITY.name, SPIN.name, LOCKED].into_iter().find(|key| table.has(key));
                 let key = given.unwrap_or(VELOCITY.name);
                 let message = format!("`{key}` is for free bodies: it needs `mass` or `density`");
                 return Err(table.error(key, message));
             }
         };
+        let mut locked = LockedAxes::default();
+        for axis in table.choices(LOCKED, &AXES)? {
+            let axes = if axis < 3 {
+                &mut locked.translation
+            } else {
+                &mut locked.rotation
+            };
+            axes[axis % 3] = true;
+        }
         Ok(Self {
+            locked,
             velocity: table.vector(&VELOCITY)?.unwrap_or_default(),
             spin: table.vector(&SPIN)?.unwrap_or_default(),
             ..Self::new(mass)
@@ -221,8 +276,8 @@ impl RigidMass {
     }
 
     /// Returns the angular velocity in a state, in rad/s.
-    fn spin(&self, state: &RigidState) -> DVec3 {
-        state.turned(&self.inertia).inverse() * state.momentum
+    fn spin(&self, state: &RigidState, freedom: &Freedom) -> DVec3 {
+        freedom.inverse(&state.turned(&self.inertia)) * state.momentum
     }
 }
 
@@ -243,6 +298,7 @@ pub(crate) const KEPT: usize = 2 * NUMBERS + 1;
 #[derive(Clone, Debug)]
 pub(crate) struct Free {
     pub(crate) mass: RigidMass,
+    pub(crate) freedom: Freedom,
     /// The vertices of cloth that are pinned to the body.
     pub(crate) riders: Arc<[u32]>,
     /// Its vertices and those in the axes of the body, from its centre of mass.
@@ -262,16 +318,18 @@ impl Free {
             centre: DVec3::ZERO,
             inertia: DMat3::IDENTITY,
         });
+        let freedom = motion.locked.freedom();
         let placement = motion.placement.checked().unwrap_or(motion.placement);
         let mut state = RigidState {
             rotation: placement.rotation,
             centre: placement.apply(mass.centre),
-            velocity: motion.velocity,
+            velocity: motion.velocity * freedom.way,
             momentum: DVec3::ZERO,
         };
-        state.momentum = state.turned(&mass.inertia) * motion.spin;
+        state.momentum = state.turned(&mass.inertia) * (motion.spin * freedom.turn);
         Self {
             mass,
+            freedom,
             riders: Arc::new([]),
             points: mesh.positions.iter().map(|&point| point - mass.centre).collect(),
             state,
@@ -294,10 +352,10 @@ impl Free {
         let own = self.points.iter().map(|&point| point + shift);
         self.points = own.chain(at.iter().map(|(point, _)| *point - self.mass.centre)).collect();
         self.riders = riders.iter().map(|(vertex, ..)| *vertex).collect();
-        let spin = before.spin(&self.state);
+        let spin = before.spin(&self.state, &self.freedom);
         let arm = self.state.rotation * -shift;
         self.state.centre += arm;
-        self.state.velocity += spin.cross(arm);
+        self.state.velocity += spin.cross(arm) * self.freedom.way;
         self.state.momentum = self.state.turned(&self.mass.inertia) * spin;
         self.before = self.state;
     }
@@ -346,7 +404,7 @@ impl Free {
 
     /// Returns the angular velocity in one of its states, in rad/s.
     pub(crate) fn spin_of(&self, state: &RigidState) -> DVec3 {
-        self.mass.spin(state)
+        self.mass.spin(state, &self.freedom)
     }
 }
 

@@ -24,7 +24,7 @@ use std::ops::Range;
 pub use animation::Animation;
 pub use body::Body;
 pub use cloth::Cloth;
-pub use free::{BodyMass, FreeMotion};
+pub use free::{BodyMass, FreeMotion, LockedAxes};
 pub use keyframes::{Interpolation, Keyframe, KeyframeMotion};
 pub use material::Material;
 pub use motion::BodyMotion;

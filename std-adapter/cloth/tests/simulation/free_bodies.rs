@@ -69,6 +69,31 @@ fn twenty_balls_in_a_sack_are_free_in_every_state_and_come_to_rest() {
 }
 
 #[test]
+fn locked_axes_have_names_in_scene_files_and_other_names_are_refused_with_the_right_ones() {
+    let scene = |locked: &str| {
+        let text = format!(
+            "time_step = \"4 ms\"\nduration = \"0.2 s\"\n[cloth]\nshape = \"sheet\"\ncorner = [0, 0, 5]\n\
+             sides = {{ first = [1, 0, 0], second = [0, 1, 0] }}\ncells = [2, 2]\ndensity = \"100 g/m2\"\n\
+             [[body]]\nname = \"weight\"\nshape = \"ball\"\ncentre = [0, 0, 0]\nradius = \"5 cm\"\nmass = \"1 kg\"\n\
+             velocity = [1, 2, 3]\nspin = [0, 0, \"1 rad/s\"]\nlocked = {locked}\n[effects.gravity]\n[effects.stretch]\nstiffness = \"100 N/m\"\n"
+        );
+        Scene::parse(&text, Path::new("scene.toml"))
+    };
+    let mut simulation = Simulation::new(scene("[\"x\", \"z\", \"rotation_z\"]").unwrap(), 1).unwrap();
+    advance(&mut simulation, 50);
+    let motion = simulation.body_motion(0).unwrap();
+    assert!(
+        motion.velocity.distance(DVec3::Y * 2.0) < 1e-12 && motion.spin == DVec3::ZERO,
+        "{motion:?}"
+    );
+    assert!((motion.centre - DVec3::Y * 0.4).length() < 1e-9, "{}", motion.centre);
+    for wrong in ["[\"rotation-z\"]", "\"x\"", "[1]"] {
+        let error = scene(wrong).unwrap_err().to_string();
+        assert!(error.contains("`locked`") && error.contains("rotation_z"), "{error}");
+    }
+}
+
+#[test]
 fn what_cannot_hold_on_to_a_free_body_is_refused_with_the_remedy() {
     let error = |scene: Scene| Simulation::new(scene, 1).map(drop).unwrap_err().to_string();
     let with = |add: &dyn Fn(&mut Scene)| {

@@ -3,7 +3,9 @@
 use crate::{elastic, grid, jittered, masses, momenta};
 use selvedge_cloth::effects::{AirDrag, BodyContact, Friction, Gravity, PinGroup, Pins, SelfCollision, Thickness};
 use selvedge_cloth::glam::{DQuat, DVec3};
-use selvedge_cloth::{Accuracy, Body, BodyMass, CHECKPOINT_STEPS, Cloth, FreeMotion, Mesh, Placement, Scene, Simulation};
+use selvedge_cloth::{
+    Accuracy, Body, BodyMass, CHECKPOINT_STEPS, Cloth, FreeMotion, LockedAxes, Mesh, Placement, Scene, Simulation,
+};
 
 pub(crate) const G: f64 = 9.81;
 pub(crate) const DENSITY: f64 = 0.15;
@@ -130,6 +132,47 @@ fn a_body_that_tumbles_keeps_its_angular_momentum() {
         let placement = simulation.placement(0).unwrap();
         let vertex = simulation.positions()[simulation.body_vertices(0).unwrap().start];
         assert!(vertex.distance(placement.apply(DVec3::new(-0.05, -0.1, -0.2))) < 1e-12);
+    }
+}
+
+/// What holds a door at its middle has no moment about the hinge. So door and ball keep their angular momentum about it.
+#[test]
+fn a_door_turns_about_its_free_axis_alone_as_much_as_a_ball_pushes_it() {
+    for time_step in [1e-3, 4e-3] {
+        let mut scene = scene(aside(), time_step, 0.0, 0.0);
+        let door = FreeMotion {
+            locked: LockedAxes {
+                translation: [true; 3],
+                rotation: [true, true, false],
+            },
+            ..of_mass(2.0)
+        };
+        scene
+            .bodies
+            .push(cuboid("door", DVec3::ZERO, DVec3::new(0.3, 0.02, 0.4), door));
+        let thrown = FreeMotion {
+            velocity: DVec3::new(0.0, 3.0, 0.2),
+            ..of_mass(0.1)
+        };
+        scene.bodies.push(ball(DVec3::new(0.1, -0.1, 0.0), 0.03, thrown));
+        touch(&mut scene);
+        let mut simulation = Simulation::new(scene, 1).unwrap();
+        run(&mut simulation, 0.1, time_step);
+        let [door, ball] = [0, 1].map(|body| simulation.body_motion(body).unwrap());
+        assert!(
+            door.centre.length() < 1e-15 && door.velocity == DVec3::ZERO,
+            "{}",
+            door.centre
+        );
+        assert!(
+            door.spin.x.abs().max(door.spin.y.abs()) < 1e-12 && door.spin.z > 0.5,
+            "{}",
+            door.spin
+        );
+        let own = ball.centre.cross(ball.velocity * ball.mass) + ball.angular_momentum;
+        let [found, exact] = [door.angular_momentum.z + own.z, 0.1 * 0.1 * 3.0];
+        println!("{time_step}: {found} instead of {exact}, turns by {}", door.spin.z);
+        assert!((found - exact).abs() < 5e-3 * exact, "{time_step}: {found}");
     }
 }
 
