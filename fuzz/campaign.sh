@@ -83,7 +83,11 @@ fi
 # Copies, so that a campaign is not disturbed by changes of its sources.
 for target in "${targets[@]}"; do
     if [ "$target" = npm ]; then
-        cp -r "$package" ../std-adapter/web/tests/border.mjs "$work/programs/"
+        # The program finds its scene beside it, as in std-adapter.
+        mkdir -p "$work/programs"/{web/tests,c/tests/messages}
+        cp -r "$package" "$work/programs/"
+        cp ../std-adapter/web/tests/border.mjs "$work/programs/web/tests/"
+        cp ../std-adapter/c/tests/messages/scene.toml "$work/programs/c/tests/messages/"
     else
         host=${host:-$(rustc +nightly -vV | sed -n 's/^host: //p')}
         cp "${CARGO_TARGET_DIR:-../target}/$host/release/$target" "$work/programs/"
@@ -96,7 +100,7 @@ run_target() { # TARGET SECONDS INPUTS...
     shift 2
     if [ "$target" = npm ]; then
         said=$(mktemp)
-        node "$work/programs/border.mjs" "$work/programs/package" "$seconds" 2>"$said" || status=$?
+        node "$work/programs/web/tests/border.mjs" "$work/programs/package" "$seconds" 2>"$said" || status=$?
         cat "$said"
         [ "$status" = 0 ] || cp "$said" "$work/npm.broken/$(date +%s)"
         rm "$said"
