@@ -181,7 +181,7 @@ fn first_near(pair: &Candidate, [start, guess]: [&[DVec3]; 2], closing: f64, at_
 }
 
 /// The share of its thickness by which a pair slides in a step before its tangent plane may be that at the [guess](at_guess).
-/// What slides less has nearly the same plane there, and is most of what rests.
+/// A pair that slides less has nearly the same plane there: law of the tablecloth.
 const FAST: f64 = 0.1;
 /// The share of its thickness below which a pair is squeezed. It keeps its plane: law of the pinched cloth. A load presses less.
 const SQUEEZED: f64 = 0.95;
@@ -274,7 +274,8 @@ fn is_of_surface(pair: &Candidate, closest: &ClosestPoints, rules: Rules<'_>, po
     cones.contain(vertices, weights, positions, direction)
 }
 
-/// The cosine of the angle by which the direction of two bodies may turn into their cones. What turns farther is another contact.
+/// The cosine of the angle by which the direction of two bodies may turn into their cones. A direction that would turn farther
+/// belongs to another contact, which is nearer: law of the boxes that stand on each other.
 const LEAST_COSINE: f64 = 0.99;
 
 /// Returns the direction of a pair of two bodies, turned a little into the cones of both; `None` if that is not possible. Boxes

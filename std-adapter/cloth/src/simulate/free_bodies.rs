@@ -12,7 +12,7 @@ use crate::world::{Kinematic, Pose};
 use selvedge_core::glam::DVec3;
 use std::ops::Range;
 
-/// What moves free bodies besides contact.
+/// The acceleration of free bodies besides that of contacts, and whether they rest.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OfFreeBodies {
     /// The acceleration, in m/s².

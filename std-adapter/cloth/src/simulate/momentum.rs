@@ -106,7 +106,7 @@ impl<'a> Motion<'a> {
     }
 }
 
-/// What a correction changes.
+/// The part of a motion that a correction changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Correction {
     /// Positions and velocities.
@@ -213,11 +213,11 @@ impl Piece {
     /// Gives the piece the momentum that forces leave it, and the angular momentum about its hinge.
     ///
     /// A vertex has v′ = (x′ − b)/r with the base b and the rate r of its [prediction](Prediction), so that x′ × v′ = b × v′.
-    /// What contacts that started too near have moved is not in v′; so b is x′ − r·v′ here. If velocities alone are corrected, x′
-    /// stays and takes its place. The equation of motion is m(v′ − w)/r = −g with w = (y − b)/r, and the gradient g of inner
-    /// forces has no sum. The angular momentum about a fixed point is L′ = L + h·τ after a step of first order, and L′ = (4L −
-    /// L₋)/3 + ⅔h·τ after one of second order: the same formulas as for v′, with the moment τ of forces from outside. A pinned
-    /// point is at its place at the end of the step, where its force has no moment about it.
+    /// Contacts that started too near also move vertices, and v′ leaves that out. So b is x′ − r·v′ here. If velocities alone are
+    /// corrected, x′ stays and takes the place of b. The equation of motion is m(v′ − w)/r = −g with w = (y − b)/r, and the
+    /// gradient g of inner forces has no sum. The angular momentum about a fixed point is L′ = L + h·τ after a step of first
+    /// order, and L′ = (4L − L₋)/3 + ⅔h·τ after one of second order: the same formulas as for v′, with the moment τ of forces
+    /// from outside. A pinned point is at its place at the end of the step, where its force has no moment about it.
     ///
     /// Bodies that are pressed belong to a piece without pins.
     fn keep_momentum(

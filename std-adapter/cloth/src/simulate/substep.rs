@@ -33,8 +33,8 @@ const REACH: f64 = 1.5;
 /// all shipped scenes.
 const OVER_LIMIT: f64 = 1.02;
 
-/// What happens to an overstretched step. The certificate has held vertices back in it, so that edges are over their limit. Two
-/// shorter steps find the contacts in time.
+/// Says whether an overstretched step is accepted. The certificate has held vertices back in it, so that edges are over their
+/// limit. Two shorter steps find the contacts in time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Overstretched {
     Refused,

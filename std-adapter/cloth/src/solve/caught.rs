@@ -24,7 +24,7 @@ struct Pressed {
     is_caught: bool,
 }
 
-/// What contacts press, by slots.
+/// The vertices and bodies that contacts press, by slots.
 #[derive(Debug, Default)]
 pub(super) struct Caught(FxHashMap<usize, Pressed>);
 

@@ -247,7 +247,7 @@ impl RigidBodies {
         for touch in self.of(touches) {
             let (body, arm) = (&self.all[touch.body], self.place(touch).1);
             mobility += body.mobility(arm, normal);
-            let [speed, spin] = body.removed;
+            let [speed, spin] = body.correction;
             removed += (speed + spin.cross(arm)).dot(normal) * touch.side;
         }
         (mobility, removed)
@@ -261,8 +261,8 @@ impl RigidBodies {
             let body = &mut self.all[touch.body];
             let impulse = impulse * touch.side;
             let spin = body.freedom.inverse(&body.inertia_now()) * arm.cross(impulse);
-            body.removed[0] -= impulse * body.freedom.way / body.motion.mass;
-            body.removed[1] -= spin;
+            body.correction[0] -= impulse * body.freedom.way / body.motion.mass;
+            body.correction[1] -= spin;
         }
     }
 
@@ -304,8 +304,8 @@ impl RigidBodies {
         let pressed = self.all.iter_mut().zip(are_pressed).filter(|(_, is_pressed)| **is_pressed);
         for ((body, _), balance) in pressed.zip(balances) {
             let change = velocity + spin.cross(balance.base - about);
-            body.removed[0] += change * (1.0 - share);
-            body.removed[1] += spin;
+            body.correction[0] += change * (1.0 - share);
+            body.correction[1] += spin;
             if share > 0.0 {
                 body.motion.way += change * (share * h);
                 body.motion.put(x);

@@ -46,9 +46,9 @@ pub(crate) struct RigidBody {
     /// The velocity after gravity, and the angular momentum at the start.
     pub(super) forced: DVec3,
     pub(super) started: DVec3,
-    /// What the velocity and the angular velocity have besides the motion of the step: minus what rows that started too near
-    /// have made, and corrections of momentum.
-    pub(super) removed: [DVec3; 2],
+    /// The velocity and the angular velocity to add to those of the step's motion: corrections of momentum, less the speeds that
+    /// rows which started too near have made.
+    pub(super) correction: [DVec3; 2],
 }
 
 /// The data with which a step begins.
@@ -120,7 +120,7 @@ impl RigidBody {
             momentum,
             forced: velocity + change,
             started: free.state.momentum,
-            removed: [DVec3::ZERO; 2],
+            correction: [DVec3::ZERO; 2],
         };
         body.find_rotation();
         let motion = body.guess(free, step);
@@ -219,7 +219,7 @@ impl RigidBody {
             let [_, torque] = self.gradient();
             ((self.motion.way - self.base) / self.rate, self.momentum + torque * self.rate)
         };
-        let [speed, spin] = self.removed;
+        let [speed, spin] = self.correction;
         RigidState {
             rotation: self.motion.end_rotation(),
             centre: self.motion.end_centre(),

@@ -59,9 +59,9 @@ pub struct FreeMotion {
 /// It turns about its centre of mass. Where the certificate moves a body together with what it touches, a lock gives way by that.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LockedAxes {
-    /// Whether the centre of mass keeps its x, y and z.
+    /// True for each axis, x, y and z, along which the centre of mass does not move.
     pub translation: [bool; 3],
-    /// Whether it does not turn about the axes x, y and z.
+    /// True for each axis, x, y and z, about which the body does not turn.
     pub rotation: [bool; 3],
 }
 
