@@ -22,14 +22,13 @@
 
 use super::crossing::share_to_plane;
 use super::sides::Sides;
-use crate::world::Incidence;
-use selvedge::{Intersection, Topology};
+use selvedge::{Adjacency, Intersection, Topology};
 use selvedge_core::glam::DVec3;
 
 /// The data on the surfaces, whose memory is used again.
 #[derive(Debug)]
 pub(super) struct Contours {
-    edge_triangles: Incidence<u32>,
+    edge_triangles: Adjacency<u32>,
     sides: Sides,
 }
 
@@ -39,7 +38,7 @@ impl Contours {
         let edges = || all.clone().flat_map(|(edges, triangle)| edges.map(|edge| (edge, triangle)));
         let with_edge = || edges().filter(|&(edge, _)| edge != Topology::NO_EDGE);
         Self {
-            edge_triangles: Incidence::new(topology.edges().len(), with_edge),
+            edge_triangles: Adjacency::new(topology.edges().len(), with_edge),
             sides: Sides::new(topology, positions),
         }
     }

@@ -9,24 +9,22 @@
 use super::candidate::Candidate;
 use crate::model::rigid::RigidMotion;
 use crate::model::step::{Carrier, FREE, TimeStep};
+use selvedge::Components;
 use selvedge_core::glam::DVec3;
 
 /// A zone without carrier: it touches two carriers, or one that does not keep its shape.
 pub(super) const TORN: Carrier = FREE - 1;
-/// The value for a vertex that is in no zone.
-const ALONE: u32 = u32::MAX;
 
 /// The zones of one step; at first there are none.
 #[derive(Debug, Default)]
 pub(super) struct ImpactZones {
-    /// For each vertex, another vertex of its zone that is nearer to the root. The root has itself; a vertex in no zone has
-    /// [`ALONE`].
-    parents: Vec<u32>,
-    /// The carrier of each root's zone.
+    zones: Components,
+    /// The carrier of each zone, at its first vertex.
     carriers: Vec<Carrier>,
-    /// The members of all zones.
+    /// The members of all zones, and for each vertex whether it is one.
     members: Vec<u32>,
-    /// The mass and momentum of each root's zone, in the unit of the wanted ways.
+    is_member: Vec<bool>,
+    /// The mass and momentum of each zone, at its first vertex, in the unit of the wanted displacements.
     sums: Vec<(f64, DVec3)>,
     /// The vertex that stands for each one: the first of a free body, or the vertex itself. Empty without free bodies.
     stands_for: Vec<u32>,
@@ -42,8 +40,9 @@ impl ImpactZones {
             body.members()
                 .for_each(|vertex| self.stands_for[vertex] = body.vertices.start as u32);
         }
-        self.parents.clear();
-        self.parents.resize(vertices, ALONE);
+        self.zones = Components::new(vertices);
+        self.is_member.clear();
+        self.is_member.resize(vertices, false);
         self.carriers.clear();
         self.carriers.resize(vertices, FREE);
         self.members.clear();
@@ -60,30 +59,29 @@ impl ImpactZones {
         for vertex in pair.vertices {
             if carriers[vertex as usize] == FREE {
                 let vertex = self.stands_for.get(vertex as usize).copied().unwrap_or(vertex);
-                if self.parents[vertex as usize] == ALONE {
-                    self.parents[vertex as usize] = vertex;
+                if !std::mem::replace(&mut self.is_member[vertex as usize], true) {
                     self.members.push(vertex);
                     has_changed = true;
                 }
-                let root = self.root(vertex);
-                let other = *one.get_or_insert(root);
-                if root != other {
-                    let (low, high) = (root.min(other), root.max(other));
-                    self.parents[high as usize] = low;
+                let first = self.zones.first(vertex);
+                let other = *one.get_or_insert(first);
+                if first != other {
+                    self.zones.join(first, other);
+                    let (low, high) = (first.min(other), first.max(other));
                     self.carriers[low as usize] = common(self.carriers[low as usize], self.carriers[high as usize]);
                     one = Some(low);
                     has_changed = true;
                 }
             }
         }
-        let Some(root) = one else { return has_changed };
-        let own = &mut self.carriers[root as usize];
-        let before = *own;
-        *own = pair
+        let Some(zone) = one else { return has_changed };
+        let carrier = &mut self.carriers[zone as usize];
+        let before = *carrier;
+        *carrier = pair
             .vertices
             .iter()
-            .fold(before, |own, &vertex| common(own, carriers[vertex as usize]));
-        has_changed | (*own != before)
+            .fold(before, |carrier, &vertex| common(carrier, carriers[vertex as usize]));
+        has_changed | (*carrier != before)
     }
 
     /// Moves the members of each zone from the start of the step with its carrier or its mean. A zone with two carriers does not
@@ -98,24 +96,24 @@ impl ImpactZones {
         self.members.sort_unstable();
         let members = std::mem::take(&mut self.members);
         self.sums.clear();
-        self.sums.resize(self.parents.len(), (0.0, DVec3::ZERO));
+        self.sums.resize(positions.len(), (0.0, DVec3::ZERO));
         for &member in &members {
-            let root = self.root(member) as usize;
-            let (mass, way) = match body_of(wanted_bodies, member) {
+            let zone = self.zones.first(member) as usize;
+            let (mass, displacement) = match body_of(wanted_bodies, member) {
                 Some(body) => (wanted_bodies[body].mass, wanted_bodies[body].way),
                 None => {
-                    let way = wanted[member as usize] - step.start[member as usize];
-                    (1.0 / step.inverse_masses[member as usize], way)
+                    let displacement = wanted[member as usize] - step.start[member as usize];
+                    (1.0 / step.inverse_masses[member as usize], displacement)
                 }
             };
-            let (all, momentum) = &mut self.sums[root];
+            let (all, momentum) = &mut self.sums[zone];
             *all += mass;
-            *momentum += way * mass;
+            *momentum += displacement * mass;
         }
         for &member in &members {
-            let root = self.root(member) as usize;
-            let (mass, momentum) = self.sums[root];
-            let carrier = self.carriers[root];
+            let zone = self.zones.first(member) as usize;
+            let (mass, momentum) = self.sums[zone];
+            let carrier = self.carriers[zone];
             let carried = |start: DVec3| match carrier {
                 FREE => start + momentum / mass,
                 TORN => start,
@@ -124,10 +122,10 @@ impl ImpactZones {
                     before.carry(now, start)
                 }
             };
-            let mut own = vec![member as usize];
+            let mut moving = vec![member as usize];
             if let Some(body) = body_of(bodies, member) {
                 let body = &mut bodies[body];
-                own = body.members().collect();
+                moving = body.members().collect();
                 body.way = carried(body.centre) - body.centre;
                 body.turn = match carrier {
                     FREE | TORN => DVec3::ZERO,
@@ -137,22 +135,13 @@ impl ImpactZones {
                     }
                 };
             }
-            for vertex in own {
+            for vertex in moving {
                 let carried = carried(step.start[vertex]);
                 moved[vertex] |= positions[vertex] != carried;
                 positions[vertex] = carried;
             }
         }
         self.members = members;
-    }
-
-    fn root(&mut self, mut vertex: u32) -> u32 {
-        while self.parents[vertex as usize] != vertex {
-            let above = self.parents[self.parents[vertex as usize] as usize];
-            self.parents[vertex as usize] = above;
-            vertex = above;
-        }
-        vertex
     }
 }
 

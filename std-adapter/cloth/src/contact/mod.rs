@@ -14,7 +14,7 @@
 //! | `solver` | contact, in the form that the simulation calls |
 //! | `crossing` | edges and faces that pass through each other |
 //! | `exempt` | pairs without certificate: bodies that were let pass, and what was tangled at the start of the simulation |
-//! | `contours`, `sides`, `incidence` | the directions in which tangled cloth comes apart |
+//! | `contours`, `sides` | the directions in which tangled cloth comes apart |
 //! | `opening` | whether torn cloth may open |
 //! | `untangling` | untangling, in the form that the simulation calls before its first step |
 //! | `report` | counts, times, and reasons why a step failed |

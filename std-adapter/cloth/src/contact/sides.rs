@@ -6,22 +6,21 @@
 //! contour that is nearest to it along edges that are not cut.
 
 use super::crossing::share_to_plane;
-use crate::world::Incidence;
-use selvedge::{Intersection, Topology};
+use selvedge::{Adjacency, Components, Intersection, Topology};
 use selvedge_core::glam::DVec3;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Ends of cut edges distinguish the sides: each is a node of a forest, and the nodes of one side have one root.
+/// Ends of cut edges distinguish the sides: each is a node, and the nodes of one side are connected.
 #[derive(Debug)]
 pub(super) struct Sides {
-    vertex_edges: Incidence<u32>,
+    vertex_edges: Adjacency<u32>,
     /// A third of the area of each vertex's triangles at the start of untangling.
     areas: Vec<f64>,
     /// The node of each edge's first end, which the node of its second end follows; [`NONE`] if the edge is not cut.
     nodes: Vec<u32>,
-    parents: Vec<u32>,
-    /// The area of each root's side.
+    sides: Components,
+    /// The area of each side, at its first node.
     sums: Vec<f64>,
     /// The distance of each vertex from the nearest side, and a node of that side.
     nearest: Vec<(f64, u32)>,
@@ -43,10 +42,10 @@ impl Sides {
         let edges = topology.edges().iter().zip(0..);
         let ends = || edges.clone().flat_map(|(ends, edge)| ends.map(|vertex| (vertex, edge)));
         Self {
-            vertex_edges: Incidence::new(topology.vertex_count(), ends),
+            vertex_edges: Adjacency::new(topology.vertex_count(), ends),
             areas,
             nodes: Vec::new(),
-            parents: Vec::new(),
+            sides: Components::default(),
             sums: Vec::new(),
             nearest: Vec::new(),
             queue: BinaryHeap::new(),
@@ -57,23 +56,23 @@ impl Sides {
     pub(super) fn find(&mut self, topology: &Topology, intersections: &[Intersection], positions: &[DVec3]) {
         self.nodes.clear();
         self.nodes.resize(topology.edges().len(), NONE);
-        self.parents.clear();
         self.nearest.clear();
         self.nearest.resize(positions.len(), (f64::INFINITY, NONE));
+        let mut count = 0;
         for intersection in intersections {
             if let Intersection::EdgeFace { edge, face } = *intersection {
-                self.cut(topology, [edge, face], positions);
+                self.cut(topology, [edge, face], positions, &mut count);
             }
         }
+        self.sides = Components::new(count as usize);
         self.join_along_contours(topology);
         self.spread(topology, positions);
         self.sums.clear();
-        self.sums.resize(self.parents.len(), 0.0);
+        self.sums.resize(count as usize, 0.0);
         for vertex in 0..positions.len() {
             let (_, node) = self.nearest[vertex];
             if node != NONE {
-                let root = self.root(node);
-                self.sums[root as usize] += self.areas[vertex];
+                self.sums[self.sides.first(node) as usize] += self.areas[vertex];
             }
         }
     }
@@ -81,18 +80,17 @@ impl Sides {
     /// Returns how much smaller the side of a cut edge's first end is than that of its second, as a share of both: from −1 to 1.
     pub(super) fn excess(&mut self, edge: u32) -> f64 {
         let node = self.nodes[edge as usize];
-        let [first, second] = [node, node + 1].map(|node| self.root(node) as usize);
+        let [first, second] = [node, node + 1].map(|node| self.sides.first(node) as usize);
         let [first, second] = [self.sums[first], self.sums[second]];
         let share = (second - first) / (first + second);
         if share.is_finite() { share } else { 0.0 }
     }
 
-    /// Cuts the edge at the face: its ends are on two sides.
-    fn cut(&mut self, topology: &Topology, [edge, face]: [u32; 2], positions: &[DVec3]) {
-        let next = self.parents.len() as u32;
+    /// Cuts the edge at the face: its ends are on two sides. `count` is the number of nodes so far.
+    fn cut(&mut self, topology: &Topology, [edge, face]: [u32; 2], positions: &[DVec3], count: &mut u32) {
         if self.nodes[edge as usize] == NONE {
-            self.nodes[edge as usize] = next;
-            self.parents.extend([next, next + 1]);
+            self.nodes[edge as usize] = *count;
+            *count += 2;
         }
         let node = self.nodes[edge as usize];
         let ends = topology.edges()[edge as usize];
@@ -116,8 +114,8 @@ impl Sides {
                 let [ends, others] = [one, other].map(|edge| topology.edges()[edge as usize]);
                 for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                     if ends[i as usize] == others[j as usize] {
-                        self.join(first + i, second + j);
-                        self.join(first + 1 - i, second + 1 - j);
+                        self.sides.join(first + i, second + j);
+                        self.sides.join(first + 1 - i, second + 1 - j);
                     }
                 }
             }
@@ -148,20 +146,6 @@ impl Sides {
             *nearest = (distance, node);
             self.queue.push(Reverse((distance.to_bits(), vertex)));
         }
-    }
-
-    fn join(&mut self, one: u32, other: u32) {
-        let (one, other) = (self.root(one), self.root(other));
-        self.parents[one.max(other) as usize] = one.min(other);
-    }
-
-    fn root(&mut self, mut node: u32) -> u32 {
-        while self.parents[node as usize] != node {
-            let above = self.parents[self.parents[node as usize] as usize];
-            self.parents[node as usize] = above;
-            node = above;
-        }
-        node
     }
 }
 

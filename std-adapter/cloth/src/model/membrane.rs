@@ -1,7 +1,7 @@
 //! The triangles of a cloth and their stretch, as effects in the plane of the cloth use them.
 
 use crate::world::Cloth;
-use crate::world::Incidence;
+use selvedge::Adjacency;
 use selvedge_core::glam::{DVec2, DVec3};
 
 /// The material directions of a triangle of cloth (Baraff and Witkin 1998). Positions xᵢ give the images w_u = Σaᵢxᵢ of a unit of
@@ -83,7 +83,7 @@ fn along([warp, weft]: [DVec3; 2], side: DVec3) -> DVec2 {
 }
 
 /// Returns the triangles of each vertex, with the share of each in the vertex's mass.
-pub(crate) fn triangles_around(cloth: &Cloth) -> Incidence<(u32, f64)> {
+pub(crate) fn triangles_around(cloth: &Cloth) -> Adjacency<(u32, f64)> {
     let mesh = &cloth.mesh;
     let area = |triangle: &[u32; 3]| {
         let [a, b, c] = triangle.map(|v| mesh.positions[v as usize]);
@@ -95,7 +95,7 @@ pub(crate) fn triangles_around(cloth: &Cloth) -> Incidence<(u32, f64)> {
         all.clone()
             .flat_map(|((triangle, &area), index)| triangle.map(|vertex| (vertex, (index, area))))
     };
-    let mut around = Incidence::new(mesh.positions.len(), corners);
+    let mut around = Adjacency::new(mesh.positions.len(), corners);
     // The weight of loose edges, as an area of cloth. A vertex has a sixth of each of the areas summed here, which are twice
     // those of the triangles.
     let mut of_edges = vec![0.0; around.len()];

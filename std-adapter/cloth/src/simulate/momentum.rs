@@ -21,6 +21,7 @@ use crate::solve::Prediction;
 use crate::solve::prediction::History;
 use crate::solve::rigid::RigidBodies;
 use crate::solve::rigid_body::{moments_of_bodies, sums_of_bodies};
+use selvedge::Components;
 use selvedge_core::glam::{DMat3, DVec3};
 
 /// Pins are on a line if none is farther from it than this share of their extent, which exceeds rounding to single precision.
@@ -54,14 +55,13 @@ impl Pieces {
     /// Connects vertices with these inverse masses by `edges`; a vertex without edges is no piece. `rides` says which vertices
     /// are pinned to free bodies.
     pub(super) fn new(inverse_masses: &[f64], rides: impl Fn(usize) -> bool, edges: impl Iterator<Item = [u32; 2]>) -> Self {
-        let mut parents: Vec<u32> = (0..inverse_masses.len() as u32).collect();
-        for edge in edges {
-            let [one, other] = edge.map(|vertex| root(&mut parents, vertex));
-            parents[one.max(other) as usize] = one.min(other);
+        let mut components = Components::new(inverse_masses.len());
+        for [one, other] in edges {
+            components.join(one, other);
         }
-        let mut of_roots = vec![Piece::default(); inverse_masses.len()];
+        let mut pieces = vec![Piece::default(); inverse_masses.len()];
         for (vertex, &inverse_mass) in inverse_masses.iter().enumerate() {
-            let piece = &mut of_roots[root(&mut parents, vertex as u32) as usize];
+            let piece = &mut pieces[components.first(vertex as u32) as usize];
             let list = if inverse_mass > 0.0 {
                 &mut piece.free
             } else if rides(vertex) {
@@ -71,8 +71,8 @@ impl Pieces {
             };
             list.push(vertex as u32);
         }
-        of_roots.retain(|piece| !piece.free.is_empty() && piece.vertices().nth(1).is_some());
-        Self(of_roots)
+        pieces.retain(|piece| !piece.free.is_empty() && piece.vertices().nth(1).is_some());
+        Self(pieces)
     }
 
     /// The vertices of each piece. A vertex that nothing connects is in none.
@@ -88,22 +88,6 @@ pub(super) struct Motion<'a> {
     pub(super) velocities: &'a [DVec3],
     pub(super) history: &'a History,
     pub(super) prediction: &'a Prediction,
-}
-
-impl<'a> Motion<'a> {
-    pub(super) const fn new(
-        forced: &'a [DVec3],
-        velocities: &'a [DVec3],
-        history: &'a History,
-        prediction: &'a Prediction,
-    ) -> Self {
-        Self {
-            forced,
-            velocities,
-            history,
-            prediction,
-        }
-    }
 }
 
 /// The part of a motion that a correction changes.
@@ -169,16 +153,6 @@ pub(super) fn is_held(row: &ContactRow, cloth_vertices: usize) -> bool {
             1 => !sides_of_cloth(),
             _ => false,
         }
-}
-
-/// The smallest vertex known to be connected with this one. Shortens the path to it.
-fn root(parents: &mut [u32], mut vertex: u32) -> u32 {
-    while parents[vertex as usize] != vertex {
-        let next = parents[parents[vertex as usize] as usize];
-        parents[vertex as usize] = next;
-        vertex = next;
-    }
-    vertex
 }
 
 impl Piece {

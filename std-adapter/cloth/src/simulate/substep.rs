@@ -169,9 +169,14 @@ impl Simulation {
             forces,
         );
         let keeps_momentum = solve.is_inner() && (pieces.may_move(&step) || !solve.bodies.is_empty());
+        let motion = Motion {
+            forced,
+            velocities: &state.velocities,
+            history,
+            prediction,
+        };
         let is_held = solve.bodies.is_any_locked(&are_pressed) || { solve.rows.iter() }.any(|row| momentum::is_held(row, count));
         if keeps_momentum {
-            let motion = Motion::new(forced, &state.velocities, history, prediction);
             let pressed = (&is_pressed[..], is_held);
             let with_bodies = (&mut solve.bodies, &are_pressed[..]);
             pieces.keep_momentum(&step, &motion, pressed, Correction::Motion, (x, velocities), with_bodies);
@@ -196,7 +201,6 @@ impl Simulation {
                     .iter_mut()
                     .zip(&*is_moved)
                     .for_each(|(pressed, moved)| *pressed |= *moved);
-                let motion = Motion::new(forced, &state.velocities, history, prediction);
                 let pressed = (&is_pressed[..], is_held);
                 let with_bodies = (&mut solve.bodies, &are_pressed[..]);
                 pieces.keep_momentum(&step, &motion, pressed, Correction::Velocity, (x, velocities), with_bodies);

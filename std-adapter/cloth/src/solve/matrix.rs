@@ -13,8 +13,7 @@
 use super::bands::Bands;
 use super::coupled::Coupled;
 use super::rigid::RigidBodies;
-use crate::world::Incidence;
-use selvedge::parallel;
+use selvedge::{Adjacency, parallel};
 use selvedge_core::glam::{DMat3, DVec3, Mat3A, Vec3, Vec3A};
 
 /// The pairs of corners of a triangle.
@@ -62,14 +61,14 @@ struct Blocks {
 #[derive(Debug, Default)]
 pub struct Matrix {
     /// The vertices that share a triangle with each vertex.
-    neighbours: Incidence<u32>,
+    neighbours: Adjacency<u32>,
     /// The block between a vertex and each of its neighbours, and the part of it that bending has, which is constant.
     blocks: Vec<Mat3A>,
     of_bending: Vec<f32>,
     /// The places of the blocks of each triangle's [`PAIRS`], from the first to the second corner and back.
     places: Vec<[[u32; 2]; 3]>,
     /// The vertices that share a hinge with each vertex, but no triangle, and the number between them.
-    bent: Incidence<(u32, f32)>,
+    bent: Adjacency<(u32, f32)>,
     /// The block of each vertex besides those that the rows of `blocks` and `bent` imply.
     own: Vec<Mat3A>,
     pub(super) links: Vec<Link>,
@@ -135,10 +134,10 @@ impl Matrix {
             }
         }
         Self {
-            neighbours: Incidence::new(vertex_count, || both.iter().map(|&[vertex, other]| (vertex, other))),
+            neighbours: Adjacency::new(vertex_count, || both.iter().map(|&[vertex, other]| (vertex, other))),
             blocks: vec![Mat3A::ZERO; both.len()],
             places: places.as_chunks().0.to_vec(),
-            bent: Incidence::new(vertex_count, || apart.iter().copied()),
+            bent: Adjacency::new(vertex_count, || apart.iter().copied()),
             of_bending,
             own: vec![Mat3A::ZERO; vertex_count],
             diagonal: vec![Mat3A::ZERO; vertex_count],

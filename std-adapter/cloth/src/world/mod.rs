@@ -38,7 +38,6 @@ pub(crate) use free::{Free, KEPT};
 pub(crate) use keyframes::{KEY_TIME, check_key_time};
 pub(crate) use motion::{Carrier, FREE, Pose};
 pub(crate) use runs::runs;
-pub(crate) use selvedge::Adjacency as Incidence;
 #[cfg(test)]
 pub(crate) use shapes::{capsule, sheet, tube};
 

@@ -1,6 +1,6 @@
 //! Rows of loose edges.
 
-use crate::world::Incidence;
+use selvedge::Adjacency;
 
 /// A row of loose edges. No other loose edge starts at an inner vertex.
 #[derive(Debug, PartialEq)]
@@ -14,7 +14,7 @@ pub(crate) struct Run {
 /// Splits edges into rows; each edge is in one row. No two edges may join the same vertices.
 pub(crate) fn runs(edges: &[[u32; 2]], vertex_count: usize) -> Vec<Run> {
     let ends = || (0..).zip(edges).flat_map(|(edge, ends)| ends.map(|vertex| (vertex, edge)));
-    let edges_of = Incidence::<u32>::new(vertex_count, ends);
+    let edges_of = Adjacency::<u32>::new(vertex_count, ends);
     let goes_on = |vertex: u32| edges_of.of(vertex as usize).len() == 2;
     let mut is_taken = vec![false; edges.len()];
     let mut runs = Vec::new();

@@ -1,6 +1,6 @@
 //! The fans of a vertex: its triangles, grouped by edges at the vertex that are not cut.
 
-use crate::world::Incidence;
+use selvedge::Adjacency;
 use selvedge_core::glam::DVec3;
 
 /// The present triangles of a cloth.
@@ -8,7 +8,7 @@ use selvedge_core::glam::DVec3;
 pub(super) struct Fabric {
     pub(super) triangles: Vec<[u32; 3]>,
     /// The triangles of each vertex; the shares are not used.
-    pub(super) around: Incidence<(u32, f64)>,
+    pub(super) around: Adjacency<(u32, f64)>,
     pub(super) rest: Vec<DVec3>,
 }
 
