@@ -17,7 +17,7 @@
 use super::candidate::Candidate;
 use super::candidates::{Candidates, OfContact};
 use super::crossing::{Crossing, CrossingFinder, PairKey};
-use selvedge::{Intersection, PairKind, StepError};
+use selvedge::{Intersection, StepError};
 use selvedge_core::glam::DVec3;
 
 /// The pairs that certificates leave out.
@@ -165,11 +165,7 @@ impl Tangle {
     /// Returns whether the pair has vertices of an edge and a face that meet.
     #[inline]
     pub(super) fn links(&self, pair: &Candidate) -> bool {
-        let of_first = match pair.kind {
-            PairKind::VertexFace => 1,
-            PairKind::EdgeEdge => 2,
-        };
-        let (first, second) = pair.vertices.split_at(of_first);
+        let [first, second] = pair.sides();
         let is_link = |a: u32, b: u32| self.is_linked[b as usize] && self.links.binary_search(&link(a, b)).is_ok();
         let mut linked = first.iter().filter(|&&a| self.is_linked[a as usize]);
         linked.any(|&a| second.iter().any(|&b| is_link(a, b)))

@@ -60,27 +60,27 @@ pub(super) struct Rules<'a> {
 impl Rules<'_> {
     /// Returns whether both sides of a pair have a vertex that a seam holds.
     fn are_sewn(&self, pair: &Candidate) -> bool {
-        sides(pair)
+        pair.sides()
             .into_iter()
             .all(|side| side.iter().any(|&vertex| !self.joined_to(vertex).is_empty()))
     }
 
     /// Returns whether a seam holds a vertex of one side and one of the other side together.
     fn are_joined(&self, pair: &Candidate) -> bool {
-        let [first, second] = sides(pair);
+        let [first, second] = pair.sides();
         let mut joints = first.iter().flat_map(|&vertex| self.joined_to(vertex));
         joints.any(|[_, other]| second.contains(other))
     }
 
     /// Returns whether the first side of a pair is a body's.
     fn is_body_first(&self, pair: &Candidate) -> bool {
-        let [_, second] = sides(pair);
+        let [_, second] = pair.sides();
         pair.data.is_with_body() && second[0] < self.cloth_vertices
     }
 
     /// Returns whether both sides of a pair are of bodies.
     fn are_bodies(&self, pair: &Candidate) -> bool {
-        sides(pair).iter().all(|side| side[0] >= self.cloth_vertices)
+        pair.sides().iter().all(|side| side[0] >= self.cloth_vertices)
     }
 
     /// Returns the joints of a vertex.
@@ -95,15 +95,6 @@ impl Rules<'_> {
 /// which holds its ends at the thickness. Its direction leads anywhere, and at the whole thickness the two press on each other.
 /// Law of the bag: one of irregular triangles trembles by 0.29 m/s at 4 ms with the whole thickness, and by 0.11 with half.
 const OF_JOINED: f64 = 0.5;
-
-/// The vertices of both sides of a pair.
-fn sides(pair: &Candidate) -> [&[u32]; 2] {
-    let of_first = match pair.kind {
-        PairKind::VertexFace => 1,
-        PairKind::EdgeEdge => 2,
-    };
-    pair.vertices.split_at(of_first).into()
-}
 
 /// The distance, in thicknesses, beyond which a pair needs no row at the first guess. A solve moves vertices away from there.
 const ROOM: f64 = 1.25;
@@ -264,7 +255,7 @@ fn near_on_way(
 fn is_of_surface(pair: &Candidate, closest: &ClosestPoints, rules: Rules<'_>, positions: &[DVec3]) -> bool {
     let Rules { cones, .. } = rules;
     if pair.kind == PairKind::EdgeEdge && !pair.data.is_with_body() {
-        let [first, second] = sides(pair);
+        let [first, second] = pair.sides();
         let (of_first, of_second) = closest.weights.split_at(first.len());
         return [(first, of_first), (second, of_second)]
             .into_iter()
@@ -281,7 +272,7 @@ const LEAST_COSINE: f64 = 0.99;
 /// Returns the direction of a pair of two bodies, turned a little into the cones of both; `None` if that is not possible. Boxes
 /// that stand on each other touch where the cones of their corners and edges end, and a tilt by rounding would leave the cones.
 fn of_two_surfaces(pair: &Candidate, closest: &ClosestPoints, rules: Rules<'_>, positions: &[DVec3]) -> Option<DVec3> {
-    let [first, second] = sides(pair);
+    let [first, second] = pair.sides();
     let (of_first, of_second) = closest.weights.split_at(first.len());
     let into = |vertices: &[u32], weights: &[f64], direction: DVec3| {
         if rules.cones.contain(vertices, weights, positions, direction) {
@@ -305,7 +296,7 @@ fn turned_to_surface(pair: &Candidate, closest: &ClosestPoints, rules: Rules<'_>
 /// Returns the vertices and weights of a body's side, or of the second side of two cloths', and the direction from it to the
 /// other side.
 fn side_with_cone<'a>(pair: &'a Candidate, closest: &'a ClosestPoints, rules: Rules<'_>) -> (&'a [u32], &'a [f64], DVec3) {
-    let [first, second] = sides(pair);
+    let [first, second] = pair.sides();
     let (of_first, of_second) = closest.weights.split_at(first.len());
     if rules.is_body_first(pair) {
         (first, of_first, -closest.direction)

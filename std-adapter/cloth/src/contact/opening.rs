@@ -11,7 +11,6 @@ use super::candidate::Candidate;
 use super::pass::is_free;
 use super::separations::Separations;
 use super::solver::{ContactSolver, gap_error};
-use selvedge::PairKind;
 use selvedge_core::glam::DVec3;
 
 impl ContactSolver {
@@ -55,11 +54,7 @@ impl ContactSolver {
 
 /// Returns whether the two sides of a pair had a vertex in common.
 fn were_one(pair: &Candidate, from: &[u32]) -> bool {
-    let vertices = pair.vertices.map(|vertex| from[vertex as usize]);
-    let of_first = match pair.kind {
-        PairKind::VertexFace => 1,
-        PairKind::EdgeEdge => 2,
-    };
-    let (first, second) = vertices.split_at(of_first);
-    first.iter().any(|vertex| second.contains(vertex))
+    let [first, second] = pair.sides();
+    let whole = |vertex: &u32| from[*vertex as usize];
+    first.iter().any(|one| second.iter().any(|other| whole(one) == whole(other)))
 }

@@ -67,6 +67,16 @@ impl<D: Copy> NearPair<D> {
         !is_settled
     }
 
+    /// Returns the vertices of both primitives.
+    #[inline]
+    pub fn sides(&self) -> [&[u32]; 2] {
+        let of_first = match self.kind {
+            PairKind::VertexFace => 1,
+            PairKind::EdgeEdge => 2,
+        };
+        self.vertices.split_at(of_first).into()
+    }
+
     /// Returns the positions of the pair's vertices.
     #[inline(always)]
     pub fn points(&self, positions: &[DVec3]) -> [DVec3; 4] {
