@@ -233,13 +233,10 @@ impl Checkpoint {
     fn read_on(reader: &mut Reader<'_>, sizes: Sizes) -> Option<Self> {
         let [step, blocked_steps] = [reader.u64()?, reader.u64()?];
         let [overstretched_steps, since] = [reader.u64()?, reader.u64()?];
-        let [before, clock] = [reader.f64()?, reader.f64()?];
+        let [before, clock] = reader.numbers()?;
         let mut vectors = || {
-            let vector = |_| {
-                let [x, y, z] = [reader.f64()?, reader.f64()?, reader.f64()?];
-                Some(DVec3::new(x, y, z))
-            };
-            (0..sizes.vertices).map(vector).collect::<Option<_>>()
+            let vectors = (0..sizes.vertices).map(|_| reader.numbers().map(DVec3::from_array));
+            vectors.collect::<Option<_>>()
         };
         let (positions, velocities) = (vectors()?, vectors()?);
         let yielding = reader.bytes(sizes.yielding)?;
@@ -252,7 +249,7 @@ impl Checkpoint {
         };
         let seconds: Option<Vec<_>> = (0..sizes.seconds).map(|_| reader.f64()).collect();
         let placements: Option<Vec<_>> = (0..sizes.placements).map(|_| placement(reader)).collect();
-        let free_bodies: Option<Vec<_>> = (0..sizes.free_bodies).map(|_| free_body(reader)).collect();
+        let free_bodies: Option<Vec<_>> = (0..sizes.free_bodies).map(|_| reader.numbers()).collect();
         let memories: Option<Vec<_>> = (0..sizes.memories).map(|_| reader.f64()).collect();
         Some(Self {
             torn: None,
@@ -314,23 +311,11 @@ fn pair(reader: &mut Reader<'_>) -> Option<PairKey> {
 /// Reads whether there is a placement, and its numbers.
 fn placement(reader: &mut Reader<'_>) -> Option<Option<Placement>> {
     let is_there = flag(reader)?;
-    let mut numbers = [0.0; 7];
-    for number in &mut numbers {
-        *number = reader.f64()?;
-    }
-    let [x, y, z, w, translation @ ..] = numbers;
+    let [x, y, z, w, translation @ ..] = reader.numbers::<7>()?;
     let placement = Placement::new(DQuat::from_xyzw(x, y, z, w), translation.into());
     // To normalise the rotation again would change bits.
     placement.checked().ok()?;
     Some(is_there.then_some(placement))
-}
-
-fn free_body(reader: &mut Reader<'_>) -> Option<[f64; KEPT]> {
-    let mut numbers = [0.0; KEPT];
-    for number in &mut numbers {
-        *number = reader.f64()?;
-    }
-    Some(numbers)
 }
 
 #[cfg(test)]

@@ -208,10 +208,7 @@ impl Simulation {
     pub fn set_velocity(&mut self, vertices: &[u32], velocity: DVec3) -> Result<(), DriveError> {
         const SPEED: Field = Field::vector("velocity", crate::input::SPEED, FASTEST);
         SPEED.check_vector(velocity)?;
-        let cloth = self.made.cloth_vertices;
-        if let Some(&vertex) = vertices.iter().find(|&&vertex| vertex as usize >= cloth) {
-            return Err(DriveError::NoVertex { vertex, vertices: cloth });
-        }
+        self.check_of_cloth(vertices)?;
         for &vertex in vertices {
             if self.made.inverse_masses[vertex as usize] > 0.0 {
                 self.state.velocities[vertex as usize] = velocity;

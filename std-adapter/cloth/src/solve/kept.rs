@@ -59,18 +59,20 @@ impl Solve {
                 2 => RowKey::Smooth(first, second),
                 _ => return None,
             };
-            pushes.push((key, Remembered::from_numbers(numbers(&mut reader)?)));
+            pushes.push((key, Remembered::from_numbers(finite(&mut reader)?)));
         }
         let count = self.multipliers().len();
-        let multipliers = (0..count).map(|_| finite(&mut reader)).collect::<Option<_>>()?;
-        let h = finite(&mut reader)?;
+        let multipliers = (0..count)
+            .map(|_| finite(&mut reader).map(|[number]| number))
+            .collect::<Option<_>>()?;
+        let [h] = finite(&mut reader)?;
         let known = usize::try_from(reader.u64()?).ok()?;
         if known != 0 && known != vertices {
             return None;
         }
         let mut vectors = || {
             (0..known)
-                .map(|_| numbers(&mut reader).map(DVec3::from_array))
+                .map(|_| finite(&mut reader).map(DVec3::from_array))
                 .collect::<Option<Vec<_>>>()
         };
         let (positions, velocities) = (vectors()?, vectors()?);
@@ -103,14 +105,8 @@ impl Solve {
     }
 }
 
-fn finite(reader: &mut Reader<'_>) -> Option<f64> {
-    reader.f64().filter(|number| number.is_finite())
-}
-
-fn numbers<const N: usize>(reader: &mut Reader<'_>) -> Option<[f64; N]> {
-    let mut numbers = [0.0; N];
-    for number in &mut numbers {
-        *number = finite(reader)?;
-    }
-    Some(numbers)
+fn finite<const N: usize>(reader: &mut Reader<'_>) -> Option<[f64; N]> {
+    reader
+        .numbers()
+        .filter(|numbers| numbers.iter().all(|number| number.is_finite()))
 }
