@@ -90,8 +90,6 @@ impl ActingForce {
 pub struct Fabric {
     /// Stretch stiffness of warp and weft, in N/m.
     pub(crate) stretch: Option<[f64; 2]>,
-    /// Stiffness of the angle between warp and weft, in N/m.
-    pub(crate) shear: Option<f64>,
     /// The distance that the cloth keeps from itself, in metres.
     pub(crate) thickness: Option<f64>,
     /// The point at which folds become permanent.

@@ -16,19 +16,6 @@ pub(crate) fn read(table: &Table<'_>, world: &SceneParts<'_>) -> Result<Effects,
     read_known(table, world)
 }
 
-/// Refuses keys that once told an effect how much work to do in a step.
-fn refuse_work(settings: &Table<'_>) -> Result<(), SceneError> {
-    for (name, place) in settings.keys() {
-        if ["sweeps", "levels", "stages"].contains(&name) {
-            let message = format!(
-                "`{name}` is gone: every step is solved until it has converged; choose `accuracy = \"game\"`, \"film\" or \"exact\" at the top of the scene instead"
-            );
-            return Err(settings.complain(place, message));
-        }
-    }
-    Ok(())
-}
-
 /// Reads the effects from a table with other keys as well: that of a cloth.
 pub(crate) fn read_known(table: &Table<'_>, world: &SceneParts<'_>) -> Result<Effects, SceneError> {
     let mut effects = Effects::default();
@@ -36,7 +23,6 @@ pub(crate) fn read_known(table: &Table<'_>, world: &SceneParts<'_>) -> Result<Ef
         let Some(settings) = table.table(name)? else {
             continue;
         };
-        refuse_work(&settings)?;
         settings.expect_keys(registration.keys)?;
         let effect = (registration.read)(&settings, world)?;
         assert_eq!(effect.name(), *name, "the table of effects names each as it names itself");

@@ -1,7 +1,7 @@
 //! Shear: ½k·A·(w_u·w_v)² (Baraff and Witkin 1998), a part of the cloth's [membranes](crate::solve::membranes).
 
 use super::registration::{ActsOn, Effect, Registration};
-use crate::effects::plan::{Fabric, Plan};
+use crate::effects::plan::Plan;
 use crate::input::{Field, MEMBRANE_STIFFNESS, ValueError};
 use crate::world::{Material, SceneParts};
 
@@ -48,10 +48,6 @@ impl Effect for Shear {
 
     fn fabric(&self) -> Vec<(&'static str, String)> {
         vec![("shear stiffness", MEMBRANE_STIFFNESS.written_short(self.stiffness))]
-    }
-
-    fn announce(&self, fabric: &mut Fabric) {
-        fabric.shear = Some(self.stiffness);
     }
 
     fn register(&self, plan: &mut Plan<'_>) {

@@ -61,8 +61,7 @@ fn a_thrown_sheet_never_moves_faster_than_it_was_thrown() {
     assert!(energies[energies.len() - 1] < 0.5 * thrown);
 }
 
-/// The pins have done work, and stop. Motion decays, however many contacts push. Some of it remains, since one sweep of stretch
-/// and one of contacts per step do not converge.
+/// The pins have done work, and stop. Motion decays, however many contacts push.
 #[test]
 fn a_twisted_tube_calms_down_when_its_pins_stop() {
     calms_down(TWISTED);

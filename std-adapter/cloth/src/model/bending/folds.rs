@@ -2,7 +2,7 @@
 //!
 //! A hinge has its own rest value c₀ along the normal n between its triangles, and the energy ½(αD/A)·|C − c₀n|². C is parallel
 //! to n up to stretch, so the energy depends on C·n alone. The forces are −Q·x and (αD/A)·c₀·K·n on the vertices, which sum to
-//! zero and exert no torque. The second part, the loads, is added in each stage of a step, with the normals at its start. Since n
+//! zero and exert no torque. The second part, the loads, is constant in a step, with the normals at its start. Since n
 //! lags behind a rotation, it damps rotation a little.
 //!
 //! **Yield.** C·n/A is a curvature, c₀/A that of the fold at rest. If they differ by more than κ after a step, the fold creeps:
