@@ -108,11 +108,6 @@ impl Preset {
     pub const fn is_reconstructed(self) -> bool {
         matches!(self, Self::TangC2010 | Self::TangC2011)
     }
-
-    /// Returns whether it is one of our own.
-    pub const fn is_ours(self) -> bool {
-        matches!(self, Self::Selvedge | Self::SelvedgeExact)
-    }
 }
 
 /// A name that is not a preset's.

@@ -152,7 +152,7 @@ mod tests {
                 preset,
                 [paper.vertex_face.into(), paper.edge_edge.into(), paper.frames_per_second],
             ),
-            None => row(preset, [30.0, 100.0, if preset.is_ours() { 40.0 } else { 20.0 }]),
+            None => row(preset, [30.0, 100.0, if preset == Preset::Selvedge { 40.0 } else { 20.0 }]),
         });
         Comparison {
             name: "arm".to_owned(),

@@ -11,7 +11,7 @@
 use super::conditions::{irregular, regular};
 use super::forms::Catenary;
 use super::run::Run;
-use super::setting::{G, elastic, membrane, pinned, scene, sheet, speed, vertices_where, weightless};
+use super::setting::{G, elastic, held_strip, middle_of_strip, scene, sheet, speed};
 use super::{ErrorUnit, Law, Outcome, Sample};
 use selvedge_cloth::effects::Wind;
 use selvedge_cloth::glam::DVec3;
@@ -27,26 +27,21 @@ pub(super) const SAIL: Law = Law {
     meshes: &[regular(16), irregular(16), regular(32)],
     remark: "Sails have 15, 60 and 300 g/m², and k = 2 kN/m. The error of the chords falls with the square of their length.",
     simulate: |conditions| {
-        let (cells, stiffness) = (conditions.grid.number, 2e3);
-        let (mut samples, mut scale) = (Vec::new(), 0.0);
+        let (mut samples, mut scale, stiffness) = (Vec::new(), 0.0, 2e3);
         for velocity in [5.0, 10.0, 20.0] {
             let pressure = 0.5 * AIR * velocity * velocity;
             let curve = Catenary::of_length(1.0, |a| 1.0 + pressure * a / stiffness);
             scale = curve.sag();
             for density in [0.015, 0.06, 0.3] {
-                let sides = [DVec3::X, 0.25 * DVec3::Y];
-                let cloth = sheet(DVec3::ZERO, sides, [cells, cells / 4], density, conditions.grid, |_| false)?;
-                let held = pinned(vertices_where(cloth.mesh(), |point| (point.x - 0.5).abs() > 0.5 - 1e-9));
-                let mut scene = weightless(cloth);
-                membrane(&mut scene, stiffness);
-                scene.add(held).add(Wind {
+                let mut scene = held_strip(density, stiffness, conditions.grid)?;
+                scene.add(Wind {
                     velocity: velocity * DVec3::Z,
                     air_density: AIR,
                     ..Wind::default()
                 });
                 let mut run = Run::new(scene, conditions)?;
                 run.advance_to(2.0)?;
-                let middle = run.positions()[(cells / 8 * (cells + 1) + cells / 2) as usize];
+                let middle = run.positions()[middle_of_strip(conditions.grid)];
                 samples.push(Sample {
                     at: velocity,
                     exact: -curve.height(middle.x),

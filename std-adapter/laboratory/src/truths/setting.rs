@@ -83,6 +83,23 @@ pub(super) fn sheet(
     Ok(Cloth::from_mesh(mesh, sides[0], density)?)
 }
 
+/// Makes a weightless strip of 1 m by 0.25 m that is held at its two short sides, with a stiffness in N/m.
+pub(super) fn held_strip(density: f64, stiffness: f64, grid: Grid) -> Result<Scene, Failure> {
+    let cells = [grid.number, grid.number / 4];
+    let cloth = sheet(DVec3::ZERO, [DVec3::X, 0.25 * DVec3::Y], cells, density, grid, |_| false)?;
+    let held = pinned(vertices_where(cloth.mesh(), |point| (point.x - 0.5).abs() > 0.5 - 1e-9));
+    let mut scene = weightless(cloth);
+    membrane(&mut scene, stiffness);
+    scene.add(held);
+    Ok(scene)
+}
+
+/// Returns the vertex in the middle of a [strip](held_strip).
+pub(super) const fn middle_of_strip(grid: Grid) -> usize {
+    let cells = grid.number;
+    (cells / 8 * (cells + 1) + cells / 2) as usize
+}
+
 /// Returns a mesh of [`Cloth::sheet`] whose inner vertices are moved in its plane by up to 0.3 of a cell, except those for which
 /// `stays` holds.
 fn jittered(regular: &Mesh, sides: [DVec3; 2], cells: [u32; 2], stays: impl Fn(DVec3) -> bool) -> Mesh {

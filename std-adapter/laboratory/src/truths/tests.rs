@@ -85,7 +85,6 @@ laws! {
     balloon_speed: [1e-7; 3], 0.0;
     gas: [0.002; 3], 0.0;
     pillow: [0.004; 3], 0.0;
-    #[ignore = "not kept yet: pins bear 10 to 48 % less than the pressure on the disc"]
     half_balloon: [0.01; 3], 0.0;
     sail: [0.004; 3], 0.0;
     air_speed: [1e-7; 3], 0.0;

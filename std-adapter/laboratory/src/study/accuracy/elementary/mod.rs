@@ -110,13 +110,6 @@ pub struct ElementaryRow {
     pub earliest: f64,
 }
 
-impl ElementaryRow {
-    /// Returns whether an answer would let a step pass through a contact.
-    pub const fn is_wrong(&self) -> bool {
-        self.missed > 0 || self.late > 0
-    }
-}
-
 /// Pairs in one format, with their exact answers.
 struct Questions<S: Scalar> {
     name: String,
