@@ -1,7 +1,7 @@
 //! Free rigid bodies: free fall, momenta, weights, friction on a slope, and rest.
 
-use crate::{elastic, grid, jittered, masses, momenta};
-use selvedge_cloth::effects::{AirDrag, BodyContact, Friction, Gravity, PinGroup, Pins, SelfCollision, Thickness};
+use crate::{contact, elastic, masses, momenta, table};
+use selvedge_cloth::effects::{AirDrag, Friction, Gravity, PinGroup, Pins};
 use selvedge_cloth::glam::{DQuat, DVec3};
 use selvedge_cloth::{
     Accuracy, Body, BodyMass, CHECKPOINT_STEPS, Cloth, FreeMotion, LockedAxes, Mesh, Placement, Scene, Simulation,
@@ -68,11 +68,6 @@ pub(crate) fn scene(cloth: Cloth, time_step: f64, gravity: f64, friction: f64) -
     scene
 }
 
-pub(crate) fn touch(scene: &mut Scene) {
-    let thickness = Thickness::new(THICKNESS);
-    scene.add(BodyContact(thickness)).add(SelfCollision(thickness));
-}
-
 pub(crate) fn run(simulation: &mut Simulation, seconds: f64, time_step: f64) {
     (0..(seconds / time_step).round() as u32).for_each(|_| simulation.step().unwrap());
 }
@@ -84,7 +79,7 @@ fn flying(accuracy: Accuracy, time_step: f64, motion: FreeMotion) -> Simulation 
     scene
         .bodies
         .push(cuboid("box", DVec3::ZERO, DVec3::new(0.1, 0.2, 0.4), motion));
-    touch(&mut scene);
+    contact(&mut scene, THICKNESS, 0.0);
     Simulation::new(scene, 1).unwrap()
 }
 
@@ -155,7 +150,7 @@ fn a_door_turns_about_its_free_axis_alone_as_much_as_a_ball_pushes_it() {
             ..of_mass(0.1)
         };
         scene.bodies.push(ball(DVec3::new(0.1, -0.1, 0.0), 0.03, thrown));
-        touch(&mut scene);
+        contact(&mut scene, THICKNESS, 0.0);
         let mut simulation = Simulation::new(scene, 1).unwrap();
         run(&mut simulation, 0.1, time_step);
         let [door, ball] = [0, 1].map(|body| simulation.body_motion(body).unwrap());
@@ -188,7 +183,7 @@ fn a_ball_that_hits_a_free_sheet_keeps_momentum_and_angular_momentum_together_wi
             ..of_mass(0.05)
         };
         scene.bodies.push(ball(DVec3::new(0.05, 0.02, 0.06), 0.05, motion));
-        touch(&mut scene);
+        contact(&mut scene, THICKNESS, 0.0);
         let mut simulation = Simulation::new(scene, 1).unwrap();
         let all = |simulation: &Simulation| {
             let [linear, angular] = momenta(simulation, &of_sheet, DVec3::ZERO);
@@ -224,7 +219,7 @@ fn pins_carry_the_weight_of_a_sheet_and_of_the_ball_that_lies_in_it() {
         scene.add(Pins {
             groups: vec![PinGroup::resting(border)],
         });
-        touch(&mut scene);
+        contact(&mut scene, THICKNESS, 0.0);
         let mut simulation = Simulation::new(scene, 1).unwrap();
         run(&mut simulation, 16.0, time_step);
         let pins = simulation.pin_load(0, DVec3::ZERO).unwrap().force;
@@ -241,23 +236,15 @@ fn pins_carry_the_weight_of_a_sheet_and_of_the_ball_that_lies_in_it() {
     }
 }
 
-/// A table in the plane z = 0, turned about y.
-pub(crate) fn table(angle: f64) -> Body {
-    let mut mesh = jittered(grid([2.0, 2.0], [8, 8]), [8, 8], 0.3);
-    let turn = DQuat::from_rotation_y(angle);
-    mesh.positions.iter_mut().for_each(|point| *point = turn * *point);
-    Body::from_mesh("table", mesh)
-}
-
 #[test]
 fn a_box_rests_on_a_table_that_carries_its_weight() {
     for (mass, time_step) in [(0.1, 4e-3), (10.0, 4e-3), (1.0, 1e-3)] {
         let mut scene = scene(aside(), time_step, G, 0.4);
-        scene.bodies.push(table(0.0));
+        scene.bodies.push(table(8, 0.0));
         scene
             .bodies
             .push(cuboid("box", DVec3::Z * 0.06, DVec3::new(0.2, 0.1, 0.1), of_mass(mass)));
-        touch(&mut scene);
+        contact(&mut scene, THICKNESS, 0.0);
         let mut simulation = Simulation::new(scene, 1).unwrap();
         run(&mut simulation, 1.0, time_step);
         let load = simulation.body_load(0, DVec3::ZERO).unwrap().total().force;
@@ -281,7 +268,7 @@ fn a_box_on_a_slope_slides_by_coulombs_law_or_stays() {
     let up = DVec3::new(angle.sin(), 0.0, angle.cos());
     for (friction, time_step) in [(0.2, 1e-3), (0.2, 4e-3), (0.8, 4e-3)] {
         let mut scene = scene(aside(), time_step, G, friction);
-        scene.bodies.push(table(angle));
+        scene.bodies.push(table(8, angle));
         let mut body = cuboid("box", DVec3::ZERO, DVec3::new(0.2, 0.2, 0.05), of_mass(1.0));
         let turn = DQuat::from_rotation_y(angle);
         let placement = Placement::new(turn, up * (0.025 + THICKNESS) - down * 0.4);
@@ -291,7 +278,7 @@ fn a_box_on_a_slope_slides_by_coulombs_law_or_stays() {
         }
         .into();
         scene.bodies.push(body);
-        touch(&mut scene);
+        contact(&mut scene, THICKNESS, 0.0);
         let mut simulation = Simulation::new(scene, 1).unwrap();
         run(&mut simulation, 0.2, time_step);
         let early = simulation.body_motion(1).unwrap().velocity.dot(down);
@@ -320,7 +307,7 @@ fn two_balls_that_meet_keep_their_momenta_and_do_not_pass_through_each_other() {
             let centre = DVec3::new(x, 0.2 * x, 0.0);
             scene.bodies.push(free(Body::ball(name, centre, 0.05, 16).unwrap(), motion));
         }
-        touch(&mut scene);
+        contact(&mut scene, THICKNESS, 0.0);
         let mut simulation = Simulation::new(scene, 1).unwrap();
         let all = |simulation: &Simulation| {
             let bodies = [0, 1].map(|body| simulation.body_motion(body).unwrap());
@@ -359,8 +346,8 @@ fn falling() -> Scene {
         ..of_mass(0.3)
     };
     scene.bodies.push(ball(DVec3::new(0.02, 0.03, 0.2), 0.05, motion));
-    scene.bodies.push(table(0.0));
-    touch(&mut scene);
+    scene.bodies.push(table(8, 0.0));
+    contact(&mut scene, THICKNESS, 0.0);
     scene
 }
 

@@ -1,8 +1,9 @@
 //! Free bodies and cloth together: ropes with weights, a ball in a sheet, a plate on a tablecloth, and heavy things on light
 //! ones.
 
-use crate::bodies::{G, THICKNESS, aside, ball, cuboid, free, of_mass, run, scene, sheet, table, touch};
+use crate::bodies::{G, THICKNESS, aside, ball, cuboid, free, of_mass, run, scene, sheet};
 use crate::loads::{PACES, Pace};
+use crate::{contact, table};
 use selvedge_cloth::effects::{
     BodyContact, Friction, Gravity, PinGroup, PinMotion, Pins, RopeStretch, Shear, Stretch, Thickness,
 };
@@ -94,7 +95,7 @@ fn tablecloth(acceleration: f64, [from, to]: [f64; 2], pace: Pace) -> f64 {
     let mut scene = scene(cloth, pace.seconds(), G, 0.3);
     // So stiff that waves in it are fast and small.
     scene.add(Stretch::isotropic(5e3)).add(Shear::new(1e3));
-    scene.bodies.push(table(0.0));
+    scene.bodies.push(table(8, 0.0));
     let at = DVec3::Z * (0.01 + 2.1 * THICKNESS);
     scene
         .bodies
@@ -105,7 +106,7 @@ fn tablecloth(acceleration: f64, [from, to]: [f64; 2], pace: Pace) -> f64 {
     scene.add(Pins {
         groups: vec![PinGroup::new(left, PinMotion::Own(BodyMotion::Driven(Placement::default())))],
     });
-    touch(&mut scene);
+    contact(&mut scene, THICKNESS, 0.0);
     let mut simulation = Simulation::new(scene, 1).unwrap();
     pace.run(&mut simulation, 0.2);
     let (mut speed, mut way) = (0.0, 0.0);
@@ -149,7 +150,7 @@ fn sag(mass: f64, accuracy: Accuracy, pace: Pace) -> f64 {
     scene.add(Pins {
         groups: vec![PinGroup::resting(border)],
     });
-    touch(&mut scene);
+    contact(&mut scene, THICKNESS, 0.0);
     let mut simulation = Simulation::new(scene, 1).unwrap();
     pace.run(&mut simulation, 8.0);
     // The mean of the last second, while it still swings.
@@ -183,12 +184,12 @@ fn what_is_a_thousand_times_heavier_rests_on_what_is_light() {
     for pace in PACES {
         for (lower, upper) in [(0.01, 10.0), (10.0, 0.01)] {
             let mut scene = scene(aside(), pace.seconds(), G, 0.4);
-            scene.bodies.push(table(0.0));
+            scene.bodies.push(table(8, 0.0));
             let sides = DVec3::splat(0.1);
             let height = |k: f64| DVec3::Z * (0.05 + 1.1 * THICKNESS + k * (0.1 + 1.1 * THICKNESS));
             scene.bodies.push(cuboid("lower", height(0.0), sides, of_mass(lower)));
             scene.bodies.push(cuboid("upper", height(1.0), sides, of_mass(upper)));
-            touch(&mut scene);
+            contact(&mut scene, THICKNESS, 0.0);
             let mut simulation = Simulation::new(scene, 1).unwrap();
             pace.run(&mut simulation, 2.0);
             let weight = (lower + upper) * G;
@@ -234,7 +235,7 @@ fn a_ball_and_the_sheet_that_is_pinned_to_it_keep_momentum_together() {
         scene.add(Pins {
             groups: vec![PinGroup::new(corner.clone(), PinMotion::Body(0))],
         });
-        touch(&mut scene);
+        contact(&mut scene, THICKNESS, 0.0);
         let mut simulation = Simulation::new(scene, 1).unwrap();
         let mut free_masses = masses.clone();
         corner.iter().for_each(|&vertex| free_masses[vertex as usize] = 0.0);
@@ -284,7 +285,7 @@ fn a_ball_that_bounces_in_a_sheet_gains_no_energy() {
         scene.add(Pins {
             groups: vec![PinGroup::resting(border)],
         });
-        touch(&mut scene);
+        contact(&mut scene, THICKNESS, 0.0);
         let mut simulation = Simulation::new(scene, 1).unwrap();
         let start = simulation.energy().total();
         let mut before = start;

@@ -1,9 +1,8 @@
 //! Loads on bodies, pins and attachments: weights, Coulomb's law on a slope, levers, and the change of the cloth's momentum.
 
-use crate::{elastic, grid, jittered, masses, momenta};
+use crate::{contact, elastic, masses, momenta, table};
 use selvedge_cloth::effects::{
-    AirDrag, AttachmentGroup, Attachments, BodyContact, Friction, Gravity, PinGroup, PinMotion, Pins, RopeStretch, SelfCollision,
-    Thickness,
+    AirDrag, AttachmentGroup, Attachments, BodyContact, Friction, Gravity, PinGroup, PinMotion, Pins, RopeStretch, Thickness,
 };
 use selvedge_cloth::glam::{DQuat, DVec3};
 use selvedge_cloth::{Body, BodyLoad, Cloth, Mesh, Placement, Scene, Simulation, Wrench};
@@ -69,20 +68,6 @@ fn scene(cloth: Cloth, pace: Pace) -> Scene {
     scene
 }
 
-fn touch(scene: &mut Scene, friction: f64) {
-    let thickness = Thickness::new(THICKNESS);
-    scene.add(BodyContact(thickness)).add(SelfCollision(thickness));
-    scene.add(Friction { coefficient: friction });
-}
-
-/// A table in the plane z = 0, turned about y.
-fn table(angle: f64) -> Body {
-    let mut mesh = jittered(grid([2.0, 2.0], [20, 20]), [20, 20], 0.3);
-    let turn = DQuat::from_rotation_y(angle);
-    mesh.positions.iter_mut().for_each(|point| *point = turn * *point);
-    Body::from_mesh("table", mesh)
-}
-
 /// Checks that a vector is as exact as a share of a scale allows.
 pub(super) fn near(what: &str, found: DVec3, exact: DVec3, scale: f64, share: f64) {
     let error = (found - exact).length() / scale;
@@ -94,8 +79,8 @@ pub(super) fn near(what: &str, found: DVec3, exact: DVec3, scale: f64, share: f6
 fn a_table_carries_the_weight_of_a_sheet_and_feels_where_it_lies() {
     for pace in PACES {
         let mut scene = scene(lying(1.2 * THICKNESS), pace);
-        scene.bodies.push(table(0.0));
-        touch(&mut scene, 0.3);
+        scene.bodies.push(table(20, 0.0));
+        contact(&mut scene, THICKNESS, 0.3);
         let mut simulation = Simulation::new(scene, 1).unwrap();
         assert_eq!(
             simulation.body_load(0, DVec3::ZERO),
@@ -129,8 +114,8 @@ fn friction_and_push_on_a_slope_are_the_parts_of_the_weight_along_it_and_across(
         let turn = DQuat::from_rotation_y(angle);
         cloth.positions.iter_mut().for_each(|point| *point = turn * *point);
         let mut scene = scene(Cloth::from_mesh(cloth, turn * DVec3::X, DENSITY).unwrap(), pace);
-        scene.bodies.push(table(angle));
-        touch(&mut scene, 0.5);
+        scene.bodies.push(table(20, angle));
+        contact(&mut scene, THICKNESS, 0.5);
         let mut simulation = Simulation::new(scene, 1).unwrap();
         pace.run(&mut simulation, 1.0);
         let (along, across) = (turn * DVec3::X, turn * DVec3::Z);
@@ -294,7 +279,7 @@ fn drop_on_a_ball(threads: usize) -> Vec<Impulses> {
     scene.add(Pins {
         groups: vec![PinGroup::resting([0, 8, 13])],
     });
-    touch(&mut scene, 0.3);
+    contact(&mut scene, THICKNESS, 0.3);
     let mut simulation = Simulation::new(scene, threads).unwrap();
     let masses = masses(&mesh, DENSITY);
     let step = |_| {

@@ -9,9 +9,9 @@ mod momentum;
 mod rest;
 mod soft_pins;
 
-use selvedge_cloth::effects::{Bend, Shear, Stretch};
-use selvedge_cloth::glam::DVec3;
-use selvedge_cloth::{Mesh, Scene, Simulation};
+use selvedge_cloth::effects::{Bend, BodyContact, Friction, SelfCollision, Shear, Stretch, Thickness};
+use selvedge_cloth::glam::{DQuat, DVec3};
+use selvedge_cloth::{Body, Cloth, Mesh, Scene, Simulation};
 
 /// Returns the mass of each vertex of a mesh with this density, in kg: a third of its triangles'.
 fn masses(mesh: &Mesh, density: f64) -> Vec<f64> {
@@ -39,31 +39,28 @@ fn elastic(scene: &mut Scene, stiffness: f64, bending: f64) {
         .add(Bend::isotropic(bending));
 }
 
-/// Makes a rectangle with these sides in the xy plane, around the origin, in so many cells of two triangles.
-fn grid(sides: [f64; 2], [columns, rows]: [u32; 2]) -> Mesh {
-    let vertex = |row: u32, column: u32| {
-        let share = [
-            f64::from(column) / f64::from(columns) - 0.5,
-            f64::from(row) / f64::from(rows) - 0.5,
-        ];
-        DVec3::new(sides[0] * share[0], sides[1] * share[1], 0.0)
-    };
-    let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| row * (columns + 1) + column));
-    let corners = |at: u32| [[at, at + 1, at + columns + 2], [at, at + columns + 2, at + columns + 1]];
-    Mesh {
-        positions: (0..=rows)
-            .flat_map(|row| (0..=columns).map(move |column| vertex(row, column)))
-            .collect(),
-        triangles: cells.flat_map(corners).collect(),
+/// Adds contact with bodies and of cloth at a thickness in metres, and friction if its coefficient is positive.
+fn contact(scene: &mut Scene, thickness: f64, friction: f64) {
+    let thickness = Thickness::new(thickness);
+    scene.add(BodyContact(thickness)).add(SelfCollision(thickness));
+    if friction > 0.0 {
+        scene.add(Friction { coefficient: friction });
     }
 }
 
-/// Moves the inner vertices of a grid by up to a share of a cell, always in the same way.
-fn jittered(mut grid: Mesh, [columns, rows]: [u32; 2], share: f64) -> Mesh {
-    let cell = [
-        grid.positions[1].x - grid.positions[0].x,
-        grid.positions[columns as usize + 1].y - grid.positions[0].y,
-    ];
+/// Makes a table of 2 m and so many cells a side in the plane z = 0, turned about y.
+fn table(cells: u32, angle: f64) -> Body {
+    let mut mesh = irregular_square(2.0, cells);
+    let turn = DQuat::from_rotation_y(angle);
+    mesh.positions.iter_mut().for_each(|point| *point = turn * *point);
+    Body::from_mesh("table", mesh)
+}
+
+/// Makes a square around the origin in the xy plane, whose inner vertices are moved by up to 0.3 of a cell, always in the same way.
+fn irregular_square(side: f64, cells: u32) -> Mesh {
+    let corner = -0.5 * side * DVec3::new(1.0, 1.0, 0.0);
+    let sheet = Cloth::sheet(corner, [side * DVec3::X, side * DVec3::Y], [cells; 2], 1.0).unwrap();
+    let mut mesh = sheet.mesh().clone();
     let mut seed = 7_u64;
     let mut random = || {
         seed = seed
@@ -71,11 +68,9 @@ fn jittered(mut grid: Mesh, [columns, rows]: [u32; 2], share: f64) -> Mesh {
             .wrapping_add(1_442_695_040_888_963_407);
         (seed >> 33) as f64 / f64::from(1_u32 << 30) - 1.0
     };
-    for row in 1..rows {
-        for column in 1..columns {
-            let at = (row * (columns + 1) + column) as usize;
-            grid.positions[at] += DVec3::new(share * cell[0] * random(), share * cell[1] * random(), 0.0);
-        }
+    for (row, column) in (1..cells).flat_map(|row| (1..cells).map(move |column| (row, column))) {
+        let by = DVec3::new(random(), random(), 0.0);
+        mesh.positions[(row * (cells + 1) + column) as usize] += by * (0.3 * side / f64::from(cells));
     }
-    grid
+    mesh
 }
