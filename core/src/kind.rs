@@ -13,6 +13,9 @@ pub enum PairKind {
 }
 
 impl PairKind {
+    /// Both kinds.
+    pub const ALL: [Self; 2] = [Self::VertexFace, Self::EdgeEdge];
+
     /// Returns `"vertex-face"` or `"edge-edge"`.
     #[must_use]
     pub const fn name(self) -> &'static str {

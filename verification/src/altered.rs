@@ -2,7 +2,6 @@
 
 use crate::generator::{Format, PairCase};
 use selvedge_core::altered::{self, Constants};
-use selvedge_core::elementary::{Impact, Limits};
 #[cfg(doc)]
 use selvedge_core::kernels::coplanarity::MovingTetrahedron;
 #[cfg(doc)]
@@ -39,11 +38,6 @@ impl<F: Factors> Constants for Multiplied<F> {
 
 type Altered<F, S> = altered::Altered<Multiplied<F>, S>;
 
-/// Returns the pair's time of impact, with the constants of its bounds times `F`. A subnormal separation is not raised.
-pub fn time_of_impact<F: Factors, S: Format>(pair: &PairCase<S>, limits: &Limits<S>) -> Impact<S> {
-    altered::time_of_impact::<Multiplied<F>, S>(&pair.pair(), limits)
-}
-
 /// A kernel whose bound has constants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kernel {
@@ -54,9 +48,6 @@ pub enum Kernel {
 }
 
 impl Kernel {
-    /// All kernels that are certified.
-    pub const CERTIFIED: [Self; 2] = [Self::NonCoplanarity, Self::Segment];
-
     /// Returns whether the kernel culls the pair, with its constants times `F`.
     pub fn culls<F: Factors, S: Format>(self, pair: &PairCase<S>) -> bool {
         of_kind!(pair.kind, P => self.on::<P, F, S>(&Altered::points(&pair.pair())))

@@ -28,11 +28,6 @@ impl CertifiedTest {
     ];
 }
 
-/// Returns all certified tests, none of which may cull a pair that touches.
-pub fn certified() -> impl Iterator<Item = CertifiedTest> {
-    CertifiedTest::ALL.into_iter()
-}
-
 pub fn verdict<S: Format>(test: CertifiedTest, case: &PairCase<S>) -> Verdict {
     let pair = &case.pair();
     match test {

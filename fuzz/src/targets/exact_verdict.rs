@@ -13,7 +13,7 @@ pub fn exact_verdict(data: &[u8]) {
         Numbers::Double(case) => check(&case),
     }
     let points = pair::whole(data);
-    for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
+    for kind in PairKind::ALL {
         let small = |position: [i8; 3]| position.map(|x| f64::from(x / 8));
         check(&PairCase::new(kind, points.map(|ends| ends.map(small))));
     }

@@ -45,7 +45,7 @@ fn checked<S: Format>(source: &str, count: u64, random: &mut Random) -> u64 {
 fn chosen<S: Format>(source: &str, index: usize, random: &mut Random) -> (PairCase<S>, Limits<S>) {
     let bytes = random.bytes::<{ Choices::ENOUGH }>();
     let mut choices = Choices::new(&bytes);
-    let kind = [PairKind::VertexFace, PairKind::EdgeEdge][index % 2];
+    let kind = PairKind::ALL[index % 2];
     let case = if source == SOURCES[0] {
         PairCase::<S>::choose_sliding(kind, &mut choices)
     } else {

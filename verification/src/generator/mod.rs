@@ -73,5 +73,5 @@ pub fn meshes<S: Format>() -> impl Strategy<Value = MeshCase<S>> + Clone {
 }
 
 fn any_kind(choices: &mut Choices<'_>) -> PairKind {
-    choices.pick(&[PairKind::VertexFace, PairKind::EdgeEdge])
+    choices.pick(&PairKind::ALL)
 }

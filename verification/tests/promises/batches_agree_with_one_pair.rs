@@ -13,8 +13,6 @@ const TESTS: [(Test, CertifiedTest); 3] = [
     (Test::RelativeBoxes, CertifiedTest::RelativeBoxes),
 ];
 
-const KINDS: [PairKind; 2] = [PairKind::VertexFace, PairKind::EdgeEdge];
-
 /// Generates pairs of one kind. Some have coordinates that are NaN, infinite or huge.
 fn some_pairs<S: Format>(kind: PairKind) -> impl Strategy<Value = Vec<PairCase<S>>> {
     let pair = from_choices(move |choices: &mut Choices<'_>| {
@@ -82,7 +80,7 @@ impl<S: Format> Batch<S> {
 }
 
 fn verdicts_agree<S: Format>() {
-    for kind in KINDS {
+    for kind in PairKind::ALL {
         proptest!(config(250), |(pairs in some_pairs::<S>(kind), scale in 0..24_i32)| {
             let batch = Batch::<S>::new(kind, &pairs);
             for (test, one_by_one) in TESTS {
@@ -126,7 +124,7 @@ fn strays_agree(kind: PairKind) {
 
 #[test]
 fn how_far_pairs_may_stray() {
-    KINDS.into_iter().for_each(strays_agree);
+    PairKind::ALL.into_iter().for_each(strays_agree);
 }
 
 /// All NaNs count as the same.
@@ -151,7 +149,7 @@ fn closest_points_agree(kind: PairKind) {
 
 #[test]
 fn where_pairs_are_closest() {
-    KINDS.into_iter().for_each(closest_points_agree);
+    PairKind::ALL.into_iter().for_each(closest_points_agree);
 }
 
 #[test]

@@ -28,7 +28,7 @@ fn culling<S: Format>(pair: &PairCase<S>, touches: bool) -> Vec<String> {
         }
     }
     if touches {
-        for test in culling::certified() {
+        for test in CertifiedTest::ALL {
             note(culling::verdict(test, pair).is_culled(), &|| format!("{test:?}"));
         }
         for test in BOX_TESTS {
@@ -58,7 +58,7 @@ pub(crate) fn nothing_culls<S: Format>(pair: &PairCase<S>, touches: bool) -> Tes
 /// Makes a pair of the generator, scaled so that differences or products of two or three are subnormal, or so large that overflow
 /// is possible.
 fn at_the_limits<S: Format>(meeting: Meeting, choices: &mut Choices<'_>) -> PairCase<S> {
-    let kind = choices.pick(&[PairKind::VertexFace, PairKind::EdgeEdge]);
+    let kind = choices.pick(&PairKind::ALL);
     let pair = MeetingPair::<S>::choose(kind, meeting, choices).pair();
     let largest = pair.coordinates().map(|x| x.to_f64().abs()).fold(0.0, f64::max);
     if largest == 0.0 {

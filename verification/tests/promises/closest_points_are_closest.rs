@@ -26,7 +26,7 @@ fn on_a_grid(kind: PairKind, [p, q, r, s]: [DVec3; 4]) -> f64 {
 proptest! {
     #[test]
     fn no_point_of_a_grid_is_closer(points in prop::array::uniform4(point())) {
-        for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
+        for kind in PairKind::ALL {
             let closest = ClosestPoints::from_points(kind, points);
             let grid = on_a_grid(kind, points);
             prop_assert!(closest.distance() <= grid + 1e-12);

@@ -75,10 +75,7 @@ fn is_kept(mesh: &MeshCase<f64>, counts: &Cell<[usize; 2]>) -> TestCaseResult {
             detector
                 .candidates(&start, &end, moving, vertex_face, edge_edge)
                 .expect("as before");
-            for (kind, (pairs, all)) in [PairKind::VertexFace, PairKind::EdgeEdge]
-                .into_iter()
-                .zip(pairs.iter_mut().zip(&all_pairs))
-            {
+            for (kind, (pairs, all)) in PairKind::ALL.into_iter().zip(pairs.iter_mut().zip(&all_pairs)) {
                 let mut expected: Vec<_> = all.iter().copied().filter(|&pair| allows(kind, pair)).collect();
                 expected.sort_unstable();
                 pairs.sort_unstable();

@@ -7,8 +7,6 @@ use selvedge_core::elementary::ContactVerdict;
 use selvedge_core::elementary::contact::contact_and_evidence;
 use selvedge_core::kernels::exact::{self, Evidence};
 
-const KINDS: [PairKind; 2] = [PairKind::VertexFace, PairKind::EdgeEdge];
-
 /// Returns the verdict in integers alone, or `None` if a coordinate is not finite.
 fn touches<S: Format>(pair: &PairCase<S>) -> Option<bool> {
     exact::touches(&pair.pair())
@@ -44,7 +42,7 @@ formats!(verdicts_are_the_oracles is agree_with_the_oracle(6_000, pairs_of_any_k
 /// Generates coordinates from 0 to a small number. They give contacts at corners, along edges, at the start and end, and all
 /// kinds of degeneration.
 fn on_a_grid<S: Format>(choices: &mut Choices<'_>) -> PairCase<S> {
-    let (limit, kind) = (choices.pick(&[1_u32, 2, 3, 5, 9]), choices.pick(&KINDS));
+    let (limit, kind) = (choices.pick(&[1_u32, 2, 3, 5, 9]), choices.pick(&PairKind::ALL));
     PairCase::from_coordinates(kind, || S::exact(choices.below(limit + 1).into(), 0))
 }
 
@@ -66,7 +64,7 @@ fn of_bits(kind: PairKind, axes: usize, index: usize) -> PairCase<f64> {
 /// The pairs are all those of points of a square, which are coplanar throughout.
 #[test]
 fn verdicts_are_the_oracles_on_every_pair_in_a_square() {
-    for (kind, index) in KINDS.iter().flat_map(|&k| (0..1 << 16).map(move |i| (k, i))) {
+    for (kind, index) in PairKind::ALL.iter().flat_map(|&k| (0..1 << 16).map(move |i| (k, i))) {
         let pair = of_bits(kind, 2, index);
         let checked = agree_with_the_oracle(&pair);
         assert!(checked.is_ok(), "{checked:?}\n{pair:?}");
@@ -76,7 +74,7 @@ fn verdicts_are_the_oracles_on_every_pair_in_a_square() {
 /// The pairs are every 257th of points of a cube, of 16,777,216 of each kind.
 #[test]
 fn verdicts_are_the_oracles_on_pairs_in_a_cube() {
-    for kind in KINDS {
+    for kind in PairKind::ALL {
         for index in (0..1 << 24).step_by(257) {
             let pair = of_bits(kind, 3, index);
             let checked = agree_with_the_oracle(&pair);

@@ -33,7 +33,7 @@ fn digest<S: Format>(kind: PairKind, count: usize, ask: Question<S>) -> u64 {
 /// Returns the digests of vertex–face pairs in `f32` and `f64`, and of edge–edge pairs.
 fn digests(count: usize, in_f32: Question<f32>, in_f64: Question<f64>) -> String {
     let of_kind = |kind| [digest(kind, count, in_f32), digest(kind, count, in_f64)];
-    let all = [PairKind::VertexFace, PairKind::EdgeEdge].map(of_kind);
+    let all = PairKind::ALL.map(of_kind);
     all.as_flattened()
         .iter()
         .map(|digest| format!("{digest:016x}"))
@@ -81,7 +81,7 @@ fn of_volume<S: Format>(_: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut D
     let largest = volume.largest_by_axis();
     digest.add_number(error_bound_by_magnitudes(largest));
     digest.add(u64::from(is_in_range(largest.largest())));
-    for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
+    for kind in PairKind::ALL {
         digest.add_number(volume.largest_normal(kind));
     }
     digest.add(u64::from(values.one_sign_beyond(bounds)));

@@ -24,7 +24,7 @@ formats!(a_coplanar_pair_is_coplanar is is_coplanar(4000, coplanar_pairs()));
 fn any_bytes_make_a_pair_of_finite_coordinates() {
     let bytes = prop::collection::vec(any::<u8>(), 0..700);
     proptest!(config(256), |(bytes in bytes)| {
-        for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
+        for kind in PairKind::ALL {
             prop_assert!(PairCase::<f32>::from_bytes(kind, &bytes).is_finite());
             prop_assert!(PairCase::<f64>::from_bytes(kind, &bytes).is_finite());
         }

@@ -174,7 +174,7 @@ fn sides_that_touch(case: &Turning, kind: PairKind) -> [Vec<DVec3>; 2] {
 /// the arcs would miss.
 fn contacts_are_found(case: &Turning, count: &Cell<[usize; 3]>) -> TestCaseResult {
     let [first, second] = &case.turns;
-    for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
+    for kind in PairKind::ALL {
         let [own, other] = sides_that_touch(case, kind);
         let size = case
             .points
@@ -211,7 +211,7 @@ fn contacts_are_found(case: &Turning, count: &Cell<[usize; 3]>) -> TestCaseResul
 /// bodies that begin apart and meet.
 fn geometry_is_kept(case: &Turning, environment: Environment, count: &Cell<[usize; 2]>) -> TestCaseResult {
     let motions = case.turns.each_ref().map(Screw::motion);
-    for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
+    for kind in PairKind::ALL {
         let sides = sides_that_touch(case, kind);
         let on = |side: usize, start: &DVec3| (side, *start);
         let starts: Vec<(usize, DVec3)> = (0..2)
@@ -368,7 +368,7 @@ fn comes_near_on_arcs(kind: PairKind, case: &Turning, contacts: &Cell<usize>) ->
 
 #[test]
 fn what_slides_on_arcs_and_is_called_a_contact_comes_near() {
-    for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
+    for kind in PairKind::ALL {
         let contacts = Cell::new(0);
         check(400, sliding_on_arcs(kind), |case| comes_near_on_arcs(kind, case, &contacts));
         assert!(contacts.get() > 40, "{kind:?}: {} contacts", contacts.get());

@@ -30,7 +30,7 @@ impl<S: Format> Simplify for Question<S> {
 
 fn questions<S: Format>() -> impl Strategy<Value = Question<S>> + Clone {
     from_choices(|choices: &mut Choices<'_>| {
-        let kind = choices.pick(&[PairKind::VertexFace, PairKind::EdgeEdge]);
+        let kind = choices.pick(&PairKind::ALL);
         Question {
             choice: choices.word() as u32,
             pair: PairCase::choose(kind, choices),

@@ -22,7 +22,7 @@ struct Question<S: Format> {
 
 impl<S: Format> Question<S> {
     fn choose(choices: &mut Choices<'_>) -> Self {
-        let kind = choices.pick(&[PairKind::VertexFace, PairKind::EdgeEdge]);
+        let kind = choices.pick(&PairKind::ALL);
         let pair = PairCase::choose(kind, choices);
         Self {
             tolerance: tolerance(&pair, choices),
@@ -42,6 +42,10 @@ impl<S: Format> Question<S> {
 
     fn answer(&self) -> (Impact<S>, Work) {
         answer(&self.pair, self.tolerance, self.separation)
+    }
+
+    fn answer_in_sweeps(&self, level: Level) -> Impact<S> {
+        answer_in_sweeps(&self.pair, self.tolerance, self.separation, level)
     }
 }
 
@@ -129,15 +133,9 @@ fn is_not_late<S: Format>(question: &Question<S>) -> TestCaseResult {
 }
 
 fn is_not_late_in_sweeps<S: Format>(question: &Question<S>) -> TestCaseResult {
-    let Question {
-        pair,
-        tolerance,
-        separation,
-    } = question;
-    let in_sweeps = |level| answer_in_sweeps(pair, *tolerance, *separation, level);
-    let impact = in_sweeps(best_level());
+    let impact = question.answer_in_sweeps(best_level());
     for (name, level) in available_levels() {
-        let same = in_sweeps(level);
+        let same = question.answer_in_sweeps(level);
         prop_assert_eq!(format!("{:?}", impact), format!("{:?}", same), "{}", name);
     }
     never_is_late(question, impact)
@@ -209,14 +207,7 @@ fn excludes_only_what_stays_apart<S: Format>(question: &Question<S>) -> TestCase
     let mut excluding = Environment::all();
     excluding.retain(|environment| {
         let (impact, _) = environment.run(question, Question::answer);
-        let in_sweeps = environment.run(question, |question| {
-            let Question {
-                pair,
-                tolerance,
-                separation,
-            } = question;
-            answer_in_sweeps(pair, *tolerance, *separation, best_level())
-        });
+        let in_sweeps = environment.run(question, |question| question.answer_in_sweeps(best_level()));
         impact == Impact::Never || in_sweeps == Impact::Never
     });
     if excluding.is_empty() {
@@ -352,7 +343,7 @@ formats!(comes_near_if_few_rounds_leave_it_undecided is comes_near_after_few_rou
 /// Generates a pair that slides, without a separation or with one that it nearly keeps.
 fn sliding_questions<S: Format>() -> impl Strategy<Value = Question<S>> + Clone {
     from_choices(|choices| {
-        let kind = choices.pick(&[PairKind::VertexFace, PairKind::EdgeEdge]);
+        let kind = choices.pick(&PairKind::ALL);
         let pair = PairCase::choose_sliding(kind, choices);
         let tolerance = Limits::<S>::default().tolerance;
         let nearly = S::exact(1, -choices.pick(&[10, 17, 23, 26]));
@@ -379,7 +370,7 @@ fn pairs_that_slide_take_few_rounds() {
     let mut random = Random(1);
     for case in 0..cases {
         let bytes: [u8; Choices::ENOUGH] = random.bytes();
-        let kind = [PairKind::VertexFace, PairKind::EdgeEdge][case % 2];
+        let kind = PairKind::ALL[case % 2];
         let pair = PairCase::<f64>::choose_sliding(kind, &mut Choices::new(&bytes));
         let (impact, work) = time_of_impact_and_work(&pair.pair(), &Limits::default());
         rounds += work.rounds;

@@ -32,7 +32,7 @@ impl<S: Format> Simplify for Case<S> {
 fn cases<S: Format>() -> impl Strategy<Value = Case<S>> + Clone {
     from_choices(|choices| {
         let alteration = (0..64).map(|_| choices.below(256) as u8).collect();
-        let kind = choices.pick(&[PairKind::VertexFace, PairKind::EdgeEdge]);
+        let kind = choices.pick(&PairKind::ALL);
         let slides = choices.once_in(2);
         let pair = if slides {
             PairCase::choose_sliding(kind, choices)

@@ -174,7 +174,7 @@ impl Cull {
             }
         }
         let summary = StepSummary::from_pipeline(self.pipeline, &pipeline);
-        let candidates = [PairKind::VertexFace, PairKind::EdgeEdge].map(|kind| pipeline.candidates(kind));
+        let candidates = PairKind::ALL.map(|kind| pipeline.candidates(kind));
         self.report(summary, &fastest, pipeline.topology(), pipeline.contacts(), candidates)
     }
 

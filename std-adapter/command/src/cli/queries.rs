@@ -64,8 +64,7 @@ fn method_help() -> String {
 
 fn kind_parser() -> impl clap::builder::TypedValueParser<Value = PairKind> {
     use clap::builder::{PossibleValuesParser, TypedValueParser};
-    PossibleValuesParser::new([PairKind::VertexFace, PairKind::EdgeEdge].map(PairKind::name))
-        .try_map(|name| name.parse::<PairKind>())
+    PossibleValuesParser::new(PairKind::ALL.map(PairKind::name)).try_map(|name| name.parse::<PairKind>())
 }
 
 impl Queries {
@@ -117,7 +116,7 @@ impl Queries {
         mut queries: impl FnMut(&QueryFile) -> Result<Vec<Query<S>>, Failure>,
     ) -> Result<Vec<QueryResult>, Failure> {
         let mut by_kind = Vec::new();
-        for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
+        for kind in PairKind::ALL {
             let mut of_kind = Vec::new();
             for file in files.iter().filter(|file| file.kind == kind) {
                 of_kind.extend(queries(file)?);

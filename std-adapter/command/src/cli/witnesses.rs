@@ -31,7 +31,7 @@ impl<S: Scalar> Step<'_, S> {
             out.write_all(&index.to_le_bytes())?;
         }
         let mut never = 0;
-        for (kind, pairs) in [PairKind::VertexFace, PairKind::EdgeEdge].into_iter().zip(self.pairs) {
+        for (kind, pairs) in PairKind::ALL.into_iter().zip(self.pairs) {
             for &pair in pairs {
                 let vertices = self.topology.vertices_of(kind, pair);
                 let motions = vertices.map(|vertex| {

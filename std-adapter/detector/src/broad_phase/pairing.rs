@@ -30,7 +30,7 @@ impl<'a> Pairing<'a> {
 
     /// Returns both kinds of pairs of a mesh with itself.
     pub(crate) fn all_within(mesh: &'a Hierarchies) -> [Self; 2] {
-        [PairKind::VertexFace, PairKind::EdgeEdge].map(|kind| Self::within(kind, mesh))
+        PairKind::ALL.map(|kind| Self::within(kind, mesh))
     }
 
     /// Returns the pairs of two meshes: vertices of the first and faces of the second, the other way round, and edges of both.

@@ -157,7 +157,7 @@ impl MeshEngine {
             self.statistics = StepStatistics::default();
             return true;
         }
-        let vertices = [PairKind::VertexFace, PairKind::EdgeEdge].into_iter().flat_map(|kind| {
+        let vertices = PairKind::ALL.into_iter().flat_map(|kind| {
             let pairs = followed.open[kind as usize].iter();
             pairs.flat_map(move |&pair| topology.vertices_of(kind, pair))
         });
@@ -182,7 +182,7 @@ impl MeshEngine {
         pairs: [&[[u32; 2]]; 2],
     ) -> Result<(), StepError> {
         let topology = self.broad_phase.hierarchies.topology();
-        for (kind, pairs) in [PairKind::VertexFace, PairKind::EdgeEdge].into_iter().zip(pairs) {
+        for (kind, pairs) in PairKind::ALL.into_iter().zip(pairs) {
             pairs.iter().try_for_each(|&pair| check_pair(topology, kind, pair))?;
         }
         threads.run(|| {

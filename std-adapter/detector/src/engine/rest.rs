@@ -173,7 +173,7 @@ impl RestSearch<'_> {
             }
             // All four pairs have the same volume.
             drop_never_coplanar(&step, PairKind::EdgeEdge, 0, &mut own.indices, &mut own.rows, &mut own.masks);
-            for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
+            for kind in PairKind::ALL {
                 near.clear();
                 for &[index, _] in &own.indices {
                     if let Some(pairs) = own.hinges[index as usize].pairs(topology) {

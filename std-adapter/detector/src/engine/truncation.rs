@@ -88,7 +88,7 @@ impl Held<'_> {
 impl Held<'_> {
     /// Replaces `open` by the candidates that move and have a vertex whose share changed in this round.
     fn find_open(&self, topology: &Topology, end: &[DVec3], candidates: &[Vec<[u32; 2]>; 2], open: &mut [Vec<[u32; 2]>; 2]) {
-        for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
+        for kind in PairKind::ALL {
             let open = &mut open[kind as usize];
             open.clear();
             open.extend(candidates[kind as usize].iter().filter(|&&pair| {

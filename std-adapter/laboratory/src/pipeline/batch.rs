@@ -114,7 +114,7 @@ impl<S: Scalar> Batch<S> {
 
     /// Drops the pairs that `test` culls, sixteen at a time.
     fn drop_culled_by_lanes(&mut self, step: &StepInput<'_, S>, test: impl BatchTest<S>) {
-        for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
+        for kind in PairKind::ALL {
             let pairs = match kind {
                 PairKind::VertexFace => &mut self.vertex_face,
                 PairKind::EdgeEdge => &mut self.edge_edge,

@@ -16,7 +16,7 @@ use std::io::{self, Write};
 pub fn contacts_csv<S: Scalar>(topology: &Topology, contacts: &[Contact<S>], out: impl Write) -> io::Result<()> {
     let mut writer = Writer::from_writer(out);
     writer.write_record(["kind", "i0", "i1", "i2", "i3", "time"])?;
-    for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
+    for kind in PairKind::ALL {
         for contact in contacts.iter().filter(|contact| contact.kind == kind) {
             let vertices = topology.vertices_of(kind, contact.pair);
             // The time is written as an `f64`: the shortest text of an `f32`, read as an `f64`, may be later than the contact.

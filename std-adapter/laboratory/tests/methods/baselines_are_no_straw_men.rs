@@ -18,7 +18,7 @@ fn any_pairs(kind: PairKind) -> impl Strategy<Value = PairCase<f64>> + Clone {
 
 /// Runs a method on pairs of either kind, and gives `is_allowed` the truth and the answer.
 fn compare(cases: u32, asked: fn(&PrimitivePair<f64>) -> bool, is_allowed: fn(truth: bool, answer: bool) -> bool) {
-    for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
+    for kind in PairKind::ALL {
         check(cases, any_pairs(kind), |pair| {
             let (truth, answer) = (collides(&pair.question()).is_some(), asked(&pair.pair()));
             prop_assert!(is_allowed(truth, answer), "{truth}, answered {answer}");

@@ -34,8 +34,7 @@ fn agrees<S: Format>(
 }
 
 fn baselines_agree<S: Format>() {
-    let kinds = [PairKind::VertexFace, PairKind::EdgeEdge];
-    kinds.into_iter().for_each(baselines_agree_on::<S>);
+    PairKind::ALL.into_iter().for_each(baselines_agree_on::<S>);
 }
 
 formats!(baselines_agree);

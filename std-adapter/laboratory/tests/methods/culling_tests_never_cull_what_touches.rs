@@ -52,7 +52,7 @@ fn nine_directions_are_exact_where_sums_are() {
         [0, 1, -1],
     ];
     let small = from_choices(|choices| {
-        let kind = choices.pick(&[PairKind::VertexFace, PairKind::EdgeEdge]);
+        let kind = choices.pick(&PairKind::ALL);
         let limit = choices.pick(&[2, 5, 100]);
         PairCase::<f64>::from_coordinates(kind, || choices.within(limit) as f64)
     });

@@ -6,7 +6,7 @@ use selvedge::PairKind;
 /// Returns each method's answers to queries, one table for each kind of pair.
 pub fn queries(scalar: &str, results: &[QueryResult]) -> String {
     let mut text = String::new();
-    for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
+    for kind in PairKind::ALL {
         let of_kind: Vec<_> = results.iter().filter(|result| result.kind == kind).collect();
         let Some(first) = of_kind.first() else {
             continue;
