@@ -3,9 +3,9 @@
 use super::contours::Contours;
 use super::solver::ContactSolver;
 use crate::model::step::FREE;
+use crate::model::triangle_edges::is_closed;
 use selvedge::Topology;
 use selvedge_core::glam::DVec3;
-use std::collections::BTreeSet;
 
 /// The directions in which tangled cloth comes apart.
 #[derive(Debug)]
@@ -61,17 +61,18 @@ impl Untangler {
     }
 }
 
-/// See [`Untangler`]: a body is closed if it has each edge once in either direction.
+/// See [`Untangler`].
 fn outward(triangles: &[[u32; 3]], positions: &[DVec3]) -> f64 {
-    let edges = || triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
-    let all: BTreeSet<[u32; 2]> = edges().collect();
-    let is_closed = all.len() == 3 * triangles.len() && edges().all(|[a, b]| all.contains(&[b, a]));
     let volume = |triangle: &[u32; 3]| {
         let [a, b, c] = triangle.map(|vertex| positions[vertex as usize]);
         a.cross(b).dot(c)
     };
     let volume: f64 = triangles.iter().map(volume).sum();
-    if is_closed && volume != 0.0 { volume.signum() } else { 0.0 }
+    if is_closed(triangles) && volume != 0.0 {
+        volume.signum()
+    } else {
+        0.0
+    }
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! The lengths of a mesh's edges, over those at rest.
 
+use super::triangle_edges::{edges_of, once_each};
 use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
 
@@ -11,15 +12,11 @@ impl Lengths {
     /// Finds the edges of a mesh at rest, which may become `limit` times as long.
     pub(crate) fn new(mesh: &Mesh, limit: f64) -> Self {
         let Mesh { positions, triangles } = mesh;
-        let ends = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
-        let mut edges: Vec<[u32; 2]> = ends.map(|[a, b]| [a.min(b), a.max(b)]).collect();
-        edges.sort_unstable();
-        edges.dedup();
         let longest = |edge: [u32; 2]| {
             let [a, b] = edge.map(|vertex| positions[vertex as usize]);
             (edge, (a.distance_squared(b) * limit * limit).recip())
         };
-        Self(edges.into_iter().map(longest).collect())
+        Self(once_each(edges_of(triangles)).into_iter().map(longest).collect())
     }
 
     /// Returns the largest ratio of a length to its limit.

@@ -9,3 +9,4 @@ pub(crate) mod rigid;
 pub(crate) mod step;
 pub(crate) mod stitches;
 pub(crate) mod tearing;
+pub(crate) mod triangle_edges;

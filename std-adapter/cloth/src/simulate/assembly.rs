@@ -9,6 +9,7 @@ use crate::contact::smooth_body::SmoothBody;
 use crate::effects::plan::{ActingForce, Entry, OfCloths, Plan};
 use crate::model::step::{Carrier, FREE, Memory, MovedAnchor};
 use crate::model::tearing::Tearable;
+use crate::model::triangle_edges::edges_of;
 use crate::scene::{Scene, append};
 use crate::solve::{Solve, Term};
 use crate::world::{Cloth, Kinematic};
@@ -125,7 +126,7 @@ impl Assembly {
             contact.sew(terms.iter().flat_map(|entry| entry.action.joints()));
         }
         let joints: Vec<[u32; 2]> = terms.iter().flat_map(|entry| entry.action.joints()).collect();
-        let edges = edges(&triangles[..cloth_triangles])
+        let edges = edges_of(&triangles[..cloth_triangles])
             .chain(loose_edges.iter().copied())
             .chain(joints);
         let (mean_edge, cloth) = (mean_length(edges.clone(), &rest), &triangles[..cloth_triangles]);
@@ -208,11 +209,6 @@ fn extend_to_ties(row: &mut Vec<u32>, ties: &[[u32; 2]]) {
     if let Some(other) = row.first().and_then(|&end| partner(end, row)) {
         row.insert(0, other);
     }
-}
-
-/// Returns the edges of triangles: an inner edge twice.
-fn edges(triangles: &[[u32; 3]]) -> impl Iterator<Item = [u32; 2]> + Clone {
-    triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]])
 }
 
 /// Returns the mean length of edges, in metres.

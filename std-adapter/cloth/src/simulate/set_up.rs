@@ -7,13 +7,13 @@ use super::loads::Loads;
 use super::measures::EffectTime;
 use super::simulation::{Simulation, Work};
 use super::state::State;
-use super::tangled::{Tangled, UntanglingProgress};
+use super::tangled::UntanglingProgress;
 use super::tearing::Tearing;
 use crate::model::step::FREE;
 use crate::scene::{Scene, TangledStart};
 use crate::world::{Cloth, FileNumbering, Kinematic, Pose};
+use selvedge::Threads;
 use selvedge::parallel::Workers;
-use selvedge::{Mesh, Threads};
 use selvedge_core::glam::DVec3;
 
 impl Simulation {
@@ -48,27 +48,6 @@ impl Simulation {
             ..
         } = &scene;
         let (time_step, tangled_start) = (*time_step, *tangled_start);
-        if let Some(contact) = &mut made.contact {
-            state.begin_anew(contact, time_step);
-            let found = contact.tolerate(&state.positions)?;
-            if !found.is_empty() && tangled_start == TangledStart::Refuse {
-                let mesh = Mesh::new(state.positions, made.triangles);
-                let numbered = FileNumbering::new(cloths.iter().map(|cloth| cloth.file.clone())).numbered(
-                    &mesh,
-                    &made.loose_edges,
-                    &made.vertices_of_cloths,
-                );
-                return Err(SetupError::Tangled(Box::new(Tangled {
-                    pinned: Tangled::pinned_of(&found, &made.carriers[..made.cloth_vertices]),
-                    crossings: found,
-                    numbers_in_files: numbered.number_of,
-                    mesh,
-                    cloth_triangles: made.cloth_triangles,
-                    body_names: bodies.iter().map(|body| body.name.clone()).collect(),
-                    untangled: None,
-                })));
-            }
-        }
         let spacing = cloths.iter().map(mesh_spacing).fold(f64::INFINITY, f64::min);
         let effects = made.effects.iter().map(|&name| EffectTime { name, seconds: 0.0 }).collect();
         let mut simulation = Self {
@@ -94,6 +73,10 @@ impl Simulation {
             tearing: (!made.tearable.is_empty()).then(|| Box::new(Tearing::new(scene))),
             made,
         };
+        let crossings = simulation.begin_contact()?;
+        if tangled_start == TangledStart::Refuse && !crossings.is_empty() {
+            return Err(simulation.tangled(crossings, None));
+        }
         if tangled_start == TangledStart::Untangle && !simulation.is_apart() {
             let untangled = simulation.untangle(spacing, tell);
             simulation.check_untangled(untangled)?;

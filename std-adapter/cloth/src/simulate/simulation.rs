@@ -14,6 +14,7 @@ use crate::contact::{ContactCounts, ContactSeconds, Crossing, ProximityPair};
 use crate::effects::GRAVITY;
 use crate::model::energy::{Configuration, Energy, StoredEnergy};
 use crate::model::step::Release;
+use crate::model::triangle_edges::{edges_of, once_each};
 use crate::scene::{OnBlocked, TangledStart};
 use crate::solve::SolveCounts;
 use crate::world::{FileNumbering, Kinematic, MeshInFiles, Pose};
@@ -214,12 +215,8 @@ impl Simulation {
     /// Returns the stretch of all cloths together, loose edges included. Finds the edges again, in O(n log n) time.
     #[must_use]
     pub fn edge_stretch(&self) -> EdgeStretch {
-        let cloth = self.made.triangles[..self.made.cloth_triangles].iter();
-        let ends = cloth.flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
-        let loose = self.made.loose_edges.iter().map(|&[a, b]| (a, b));
-        let mut edges: Vec<[u32; 2]> = ends.chain(loose).map(|(a, b)| [a.min(b), a.max(b)]).collect();
-        edges.sort_unstable();
-        edges.dedup();
+        let of_triangles = edges_of(&self.made.triangles[..self.made.cloth_triangles]);
+        let edges = once_each(of_triangles.chain(self.made.loose_edges.iter().copied()));
         let length = |all: &[DVec3], [a, b]: [u32; 2]| all[a as usize].distance(all[b as usize]);
         let stretch = |&edge: &[u32; 2]| length(&self.state.positions, edge) / length(&self.made.rest, edge);
         let mut all: Vec<f64> = edges.iter().map(stretch).collect();

@@ -15,6 +15,7 @@ use super::errors::SetupError;
 use super::simulation::Simulation;
 use super::substep::Overstretched;
 use super::tangled::{Tangled, Untangled, UntanglingEnd, UntanglingProgress};
+use crate::contact::Crossing;
 use selvedge::clock::Clock;
 use selvedge_core::glam::DVec3;
 
@@ -39,27 +40,39 @@ impl Simulation {
         self.made.contact.as_ref().is_none_or(|contact| contact.exempt().is_empty())
     }
 
+    /// Starts contact at the present positions, and returns what meets.
+    pub(super) fn begin_contact(&mut self) -> Result<Vec<Crossing>, SetupError> {
+        let Some(contact) = &mut self.made.contact else {
+            return Ok(Vec::new());
+        };
+        self.state.begin_anew(contact, self.time_step);
+        Ok(contact.tolerate(&self.state.positions)?)
+    }
+
     /// Checks the state after untangling like any start.
     pub(super) fn check_untangled(&mut self, untangled: Untangled) -> Result<(), SetupError> {
-        let Some(contact) = &mut self.made.contact else {
-            return Ok(());
-        };
-        contact.end_untangling(&self.state.positions);
-        self.state.begin_anew(contact, self.time_step);
-        let crossings = contact.tolerate(&self.state.positions)?;
-        if crossings.is_empty() {
-            self.untangled = Some(untangled);
-            return Ok(());
+        if let Some(contact) = &mut self.made.contact {
+            contact.end_untangling(&self.state.positions);
         }
-        Err(SetupError::Tangled(Box::new(Tangled {
+        let crossings = self.begin_contact()?;
+        if !crossings.is_empty() {
+            return Err(self.tangled(crossings, Some(untangled)));
+        }
+        self.untangled = Some(untangled);
+        Ok(())
+    }
+
+    /// Returns the error that some edges and faces meet, perhaps after untangling.
+    pub(super) fn tangled(&self, crossings: Vec<Crossing>, untangled: Option<Untangled>) -> SetupError {
+        SetupError::Tangled(Box::new(Tangled {
             pinned: Tangled::pinned_of(&crossings, &self.made.carriers[..self.made.cloth_vertices]),
             crossings,
             numbers_in_files: self.mesh_in_files().number_of,
             mesh: self.mesh(),
             cloth_triangles: self.made.cloth_triangles,
             body_names: self.body_names.clone(),
-            untangled: Some(untangled),
-        })))
+            untangled,
+        }))
     }
 
     /// Untangles; the caller checks the result.

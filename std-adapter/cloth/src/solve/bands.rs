@@ -4,7 +4,7 @@
 //! iterations as the rope has vertices; its band needs one.
 
 use super::matrix::Matrix;
-use selvedge_core::glam::{DMat3, DVec3, Mat3A, Vec3A};
+use selvedge_core::glam::{DMat3, DVec3, Vec3A};
 
 const NONE: u32 = u32::MAX;
 
@@ -110,7 +110,7 @@ impl BandFactors {
         }
         for k in 0..bands.vertices.len() {
             let vertex = bands.vertices[k] as usize;
-            let mut own = double(&matrix.beside_ropes[vertex]) + bands.own[k];
+            let mut own = matrix.beside_ropes[vertex].as_dmat3() + bands.own[k];
             if k >= 2 {
                 let above = bands.between(k - 2, 2, matrix);
                 self.lower[1][k] = above.transpose() * self.inverse[k - 2];
@@ -156,8 +156,4 @@ impl BandFactors {
             image[bands.vertices[k] as usize] = value.as_vec3a();
         }
     }
-}
-
-fn double(block: &Mat3A) -> DMat3 {
-    DMat3::from_cols(block.x_axis.as_dvec3(), block.y_axis.as_dvec3(), block.z_axis.as_dvec3())
 }

@@ -146,7 +146,7 @@ impl Coupled {
             .map(|(mass, of_turn)| {
                 let mut block = [[0.0; SIX]; SIX];
                 add(&mut block, [0, 0], &DMat3::from_diagonal(DVec3::splat(f64::from(*mass))));
-                add(&mut block, [3, 3], &double(of_turn));
+                add(&mut block, [3, 3], &of_turn.as_dmat3());
                 block
             })
             .collect();
@@ -158,7 +158,7 @@ impl Coupled {
         });
         for (slot, arm, stiffness) in riders.chain(arms) {
             let block = &mut blocks[(slot - self.first_slot) / 2];
-            let (stiffness, arm) = (double(stiffness), cross(arm.as_dvec3()));
+            let (stiffness, arm) = (stiffness.as_dmat3(), cross(arm.as_dvec3()));
             // move + turn × arm = move − arm × turn.
             let turned = stiffness * -arm;
             add(block, [0, 0], &stiffness);
@@ -176,10 +176,6 @@ impl Coupled {
         }
         blocks
     }
-}
-
-fn double(m: &Mat3A) -> DMat3 {
-    DMat3::from_cols(m.x_axis.as_dvec3(), m.y_axis.as_dvec3(), m.z_axis.as_dvec3())
 }
 
 /// Adds a matrix at a row and a column.

@@ -189,7 +189,7 @@ impl Matrix {
     /// Adds the stiffness `stiffness`, in N/m, of the point Σ w·x. Vertices of bodies do not take part. The stiffness must be
     /// symmetric and positive semidefinite.
     pub fn add(&mut self, vertices: &[u32], weights: &[f64], stiffness: DMat3) {
-        self.add_link(vertices, weights, single(&stiffness));
+        self.add_link(vertices, weights, Mat3A::from(stiffness.as_mat3()));
     }
 
     /// Adds a link; up to four vertices take part.
@@ -202,7 +202,7 @@ impl Matrix {
 
     /// Adds a link of a rope, also to the [bands](Bands).
     pub(super) fn add_of_rope(&mut self, vertices: &[u32], weights: &[f64], stiffness: DMat3) {
-        let of_ropes = self.link(vertices, weights, single(&stiffness));
+        let of_ropes = self.link(vertices, weights, Mat3A::from(stiffness.as_mat3()));
         self.of_ropes.extend(of_ropes);
         self.bands.add(vertices, weights, stiffness);
     }
@@ -212,7 +212,7 @@ impl Matrix {
         if self.bands.have(vertices) {
             self.add_of_rope(vertices, weights, stiffness);
         } else {
-            self.add_late(vertices, weights, single(&stiffness));
+            self.add_late(vertices, weights, Mat3A::from(stiffness.as_mat3()));
         }
     }
 
@@ -425,10 +425,6 @@ impl Matrix {
         }
         all.max(0.5 * fastest)
     }
-}
-
-fn single(m: &DMat3) -> Mat3A {
-    Mat3A::from_cols(m.x_axis.as_vec3a(), m.y_axis.as_vec3a(), m.z_axis.as_vec3a())
 }
 
 /// The sum of products, added in order in double precision.

@@ -15,6 +15,7 @@ use super::matrix::{Matrix, PAIRS};
 use super::term::{Prediction, Renewed, Term};
 use crate::model::energy::{Configuration, StoredEnergy};
 use crate::model::step::TimeStep;
+use crate::model::triangle_edges::{edges_of, undirected};
 use crate::world::Cloth;
 use selvedge_core::glam::{DVec3, Mat3A, Vec3A};
 use std::fmt::Debug;
@@ -55,18 +56,18 @@ pub(crate) struct Walls<F> {
 
 impl<F> Walls<F> {
     pub(crate) fn new(filling: F, cloth: &Cloth, first_vertex: u32, first_triangle: usize) -> Self {
-        let triangles = cloth.mesh.triangles.iter();
         let first = first_vertex as usize;
-        let mut edges: Vec<[u32; 2]> = { triangles.clone() }
-            .flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]])
-            .map(|[a, b]| [a.min(b), a.max(b)])
-            .collect();
+        let triangles = &cloth.mesh.triangles;
+        let mut edges: Vec<_> = edges_of(triangles).map(undirected).collect();
         edges.sort_unstable();
         let open = edges.chunk_by(|one, other| one == other).filter(|same| same.len() == 1);
         Self {
             filling,
             border: open.flat_map(|same| same[0]).map(|vertex| vertex + first_vertex).collect(),
-            triangles: triangles.map(|corners| corners.map(|vertex| vertex + first_vertex)).collect(),
+            triangles: triangles
+                .iter()
+                .map(|corners| corners.map(|vertex| vertex + first_vertex))
+                .collect(),
             first_triangle,
             vertices: [first, first + cloth.mesh.positions.len()],
             gas: Gas::Pressure(0.0),

@@ -8,6 +8,7 @@ use crate::identity::{Identify, Identity};
 use crate::input::{
     AREA_DENSITY, Count, Field, LARGEST_COORDINATE, LENGTH, LINEAR_DENSITY, RATIO, SPEED, ValueError, suggestion,
 };
+use crate::model::triangle_edges::{edges_of, undirected};
 use selvedge::{Mesh, Topology, TopologyError};
 use selvedge_core::glam::DVec3;
 use std::borrow::Cow;
@@ -466,9 +467,7 @@ fn check_loose_edges(mesh: &Mesh, loose_edges: &[[u32; 2]]) -> Result<(), ValueE
         let message = format!("loose edge {edge} of the cloth {what}");
         Err(ValueError::new("shape", message))
     };
-    let sorted = |[a, b]: [u32; 2]| [a.min(b), a.max(b)];
-    let of_triangles = mesh.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
-    let mut joined: HashSet<[u32; 2]> = of_triangles.map(sorted).collect();
+    let mut joined: HashSet<[u32; 2]> = edges_of(&mesh.triangles).map(undirected).collect();
     for (edge, &ends) in loose_edges.iter().enumerate() {
         let [from, to] = ends.map(|vertex| mesh.positions[vertex as usize]);
         if !(from.distance(to) >= SMALLEST_EDGE) {
@@ -477,7 +476,7 @@ fn check_loose_edges(mesh: &Mesh, loose_edges: &[[u32; 2]]) -> Result<(), ValueE
                 &format!("is shorter than {SMALLEST_EDGE:e} metres; are the units metres?"),
             );
         }
-        if !joined.insert(sorted(ends)) {
+        if !joined.insert(undirected(ends)) {
             return wrong(edge, "joins two vertices that a triangle or another loose edge joins already");
         }
     }

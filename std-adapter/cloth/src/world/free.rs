@@ -6,6 +6,7 @@
 use super::placement::Placement;
 use crate::input::{AIR_DENSITY, ANGULAR_SPEED, Field, MASS, SPEED, SceneError, Table, ValueError};
 use crate::model::rigid::{Freedom, NUMBERS, RigidState};
+use crate::model::triangle_edges::is_closed;
 use selvedge::Mesh;
 use selvedge_core::glam::{DMat3, DVec3};
 use std::sync::Arc;
@@ -279,16 +280,6 @@ impl RigidMass {
     fn spin(&self, state: &RigidState, freedom: &Freedom) -> DVec3 {
         freedom.inverse(&state.turned(&self.inertia)) * state.momentum
     }
-}
-
-/// Returns whether each edge has two triangles that face the same way.
-fn is_closed(triangles: &[[u32; 3]]) -> bool {
-    let edges = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
-    let mut there: Vec<[u32; 2]> = edges.clone().collect();
-    let mut back: Vec<[u32; 2]> = edges.map(|[a, b]| [b, a]).collect();
-    there.sort_unstable();
-    back.sort_unstable();
-    !there.is_empty() && there == back && there.windows(2).all(|two| two[0] != two[1])
 }
 
 /// The numbers of a body that change from step to step: two states, and the order of the next step.

@@ -58,45 +58,32 @@ pub(crate) fn cloth_of_file(table: &Table<'_>, with_loose_edges: bool) -> Result
         let at_rest = read_whole(table, "rest_file", &table.folder().join(rest), &options)?.positions;
         read.set_rest(table, "rest_file", at_rest)?;
     }
-    let Placed {
-        mut mesh,
-        mut loose_edges,
-        rest,
-        mut file,
-    } = read.placed(table)?;
-    if with_loose_edges && loose_edges.is_empty() {
+    let mut placed = read.placed(table)?;
+    let is_without_loose_edges = placed.loose_edges.is_empty();
+    if with_loose_edges && is_without_loose_edges {
         let message =
             "`linear_density` is for edges that belong to no triangle (lines `l` of an OBJ file), but the file has none";
         return Err(table.error("file", message.to_owned()));
     }
-    let is_whole = with_loose_edges || loose_edges.is_empty();
     if !with_loose_edges {
-        file.loose_edges.clear();
+        placed.file.loose_edges.clear();
     }
-    let mut left_out = 0;
-    if is_whole && !(mesh.triangles.is_empty() && loose_edges.is_empty()) {
-        left_out = leave_out_isolated(&mut mesh, &mut loose_edges, &mut file);
-    }
-    let rest = rest
-        .map(|rest| of_cloth(table, &rest, &file, mesh.positions.len()))
-        .transpose()?;
-    Ok(ClothMesh {
-        mesh,
-        loose_edges,
-        rest,
-        left_out,
-        file,
-    })
+    let is_whole = with_loose_edges || is_without_loose_edges;
+    let is_empty = placed.mesh.triangles.is_empty() && is_without_loose_edges;
+    let left_out = if is_whole && !is_empty {
+        placed.leave_out_isolated()
+    } else {
+        0
+    };
+    placed.of_cloth(table, left_out)
 }
 
 /// Returns a cloth's mesh from code. All its vertices keep their numbers, so none may be isolated.
 pub(crate) fn cloth_of_code(table: &Table<'_>, given: &NamedMesh) -> Result<ClothMesh, SceneError> {
+    let placed = Read::of_code(table, given)?.placed(table)?;
     let Placed {
-        mesh,
-        loose_edges,
-        rest,
-        file,
-    } = Read::of_code(table, given)?.placed(table)?;
+        mesh, loose_edges, file, ..
+    } = &placed;
     let mut is_used = vec![false; mesh.positions.len()];
     let named = mesh.triangles.as_flattened().iter().chain(loose_edges.as_flattened());
     named.for_each(|&vertex| is_used[vertex as usize] = true);
@@ -106,38 +93,7 @@ pub(crate) fn cloth_of_code(table: &Table<'_>, given: &NamedMesh) -> Result<Clot
         let message = format!("vertex {vertex} of the mesh belongs to no face and no edge; leave such vertices out");
         return Err(table.error("mesh", message));
     }
-    let rest = rest
-        .map(|rest| of_cloth(table, &rest, &file, mesh.positions.len()))
-        .transpose()?;
-    Ok(ClothMesh {
-        mesh,
-        loose_edges,
-        rest,
-        left_out: 0,
-        file,
-    })
-}
-
-/// Returns the positions at rest of a cloth's vertices from those of its file. Vertices that `weld` merges must be near each
-/// other at rest too.
-fn of_cloth(table: &Table<'_>, rest: &[DVec3], file: &FileMesh, vertices: usize) -> Result<Vec<DVec3>, SceneError> {
-    let tolerance = table.number(&WELD)?.unwrap_or(0.0);
-    let mut of_cloth = vec![None; vertices];
-    for (vertex, (&position, &own)) in rest.iter().zip(&file.vertex_of).enumerate() {
-        // Vertices that the cloth does not have are `LEFT_OUT`.
-        match of_cloth.get_mut(own as usize) {
-            Some(Some(first)) if position.distance(*first) > tolerance => {
-                let message = format!(
-                    "`weld` merges the vertex {vertex} with another one that is {} away in the shape at rest: sew them with [effects.seams] instead",
-                    LENGTH.written(position.distance(*first))
-                );
-                return Err(table.error(WELD.name, message));
-            }
-            Some(place @ None) => *place = Some(position),
-            _ => {}
-        }
-    }
-    Ok(of_cloth.into_iter().flatten().collect())
+    placed.of_cloth(table, 0)
 }
 
 /// A mesh as a file or code has it.
@@ -218,15 +174,66 @@ impl Read {
             file.renumber(&welded.vertex_of);
             mesh = welded.mesh;
         }
-        if is_part {
-            leave_out_isolated(&mut mesh, &mut loose_edges, &mut file);
-        }
-        check(&mesh).map_err(wrong)?;
-        Ok(Placed {
+        let mut placed = Placed {
             mesh,
             loose_edges,
             rest,
             file,
+        };
+        if is_part {
+            placed.leave_out_isolated();
+        }
+        check(&placed.mesh).map_err(wrong)?;
+        Ok(placed)
+    }
+}
+
+impl Placed {
+    /// Removes isolated vertices and renumbers the others in their order. Returns the number of removed vertices.
+    fn leave_out_isolated(&mut self) -> usize {
+        let Self { mesh, loose_edges, .. } = self;
+        let mut number = vec![LEFT_OUT; mesh.positions.len()];
+        let named = mesh.triangles.as_flattened().iter().chain(loose_edges.as_flattened());
+        named.for_each(|&vertex| number[vertex as usize] = 0);
+        let used = number.iter_mut().filter(|number| **number == 0);
+        used.zip(0..).for_each(|(number, new)| *number = new);
+        let kept = mesh.positions.iter().zip(&number).filter(|(_, number)| **number != LEFT_OUT);
+        let kept: Vec<DVec3> = kept.map(|(&position, _)| position).collect();
+        let left_out = mesh.positions.len() - kept.len();
+        mesh.positions = kept;
+        let triangles = mesh.triangles.as_flattened_mut().iter_mut();
+        let all = triangles.chain(loose_edges.as_flattened_mut());
+        all.for_each(|vertex| *vertex = number[*vertex as usize]);
+        self.file.renumber(&number);
+        left_out
+    }
+
+    /// Returns this as a cloth's mesh, of whose vertices `left_out` are already removed. Vertices that `weld` merges must be near
+    /// each other at rest too.
+    fn of_cloth(self, table: &Table<'_>, left_out: usize) -> Result<ClothMesh, SceneError> {
+        let tolerance = table.number(&WELD)?.unwrap_or(0.0);
+        let mut of_cloth = vec![None; self.mesh.positions.len()];
+        let own = self.file.vertex_of.iter();
+        for (vertex, (&position, &own)) in self.rest.iter().flatten().zip(own).enumerate() {
+            // Vertices that the cloth does not have are `LEFT_OUT`.
+            match of_cloth.get_mut(own as usize) {
+                Some(Some(first)) if position.distance(*first) > tolerance => {
+                    let message = format!(
+                        "`weld` merges the vertex {vertex} with another one that is {} away in the shape at rest: sew them with [effects.seams] instead",
+                        LENGTH.written(position.distance(*first))
+                    );
+                    return Err(table.error(WELD.name, message));
+                }
+                Some(place @ None) => *place = Some(position),
+                _ => {}
+            }
+        }
+        Ok(ClothMesh {
+            mesh: self.mesh,
+            loose_edges: self.loose_edges,
+            rest: self.rest.map(|_| of_cloth.into_iter().flatten().collect()),
+            left_out,
+            file: self.file,
         })
     }
 }
@@ -296,27 +303,6 @@ pub(super) fn place(placement: &DAffine3, positions: &mut [DVec3]) {
     }
 }
 
-/// Removes isolated vertices and renumbers the others in their order. Returns the number of removed vertices.
-fn leave_out_isolated(mesh: &mut Mesh, loose_edges: &mut [[u32; 2]], file: &mut FileMesh) -> usize {
-    let mut number = vec![LEFT_OUT; mesh.positions.len()];
-    let named = mesh.triangles.as_flattened().iter().chain(loose_edges.as_flattened());
-    named.for_each(|&vertex| number[vertex as usize] = 0);
-    let used = number.iter_mut().filter(|number| **number == 0);
-    used.zip(0..).for_each(|(number, new)| *number = new);
-    let kept = mesh.positions.iter().zip(&number).filter(|(_, number)| **number != LEFT_OUT);
-    let kept: Vec<DVec3> = kept.map(|(&position, _)| position).collect();
-    let left_out = mesh.positions.len() - kept.len();
-    mesh.positions = kept;
-    let all = mesh
-        .triangles
-        .as_flattened_mut()
-        .iter_mut()
-        .chain(loose_edges.as_flattened_mut());
-    all.for_each(|vertex| *vertex = number[*vertex as usize]);
-    file.renumber(&number);
-    left_out
-}
-
 fn path(table: &Table<'_>) -> Result<PathBuf, SceneError> {
     let Some(file) = table.text("file")? else {
         let message = "shape \"file\" needs `file`, such as \"shirt.obj\"".to_owned();
@@ -331,12 +317,17 @@ mod tests {
 
     #[test]
     fn isolated_vertices_are_left_out_and_the_others_keep_their_order() {
-        let mut mesh = Mesh::new((0..7).map(|x| DVec3::X * f64::from(x)).collect(), vec![[6, 1, 4]]);
-        let mut loose = [[2, 6]];
-        let mut file = FileMesh::new(&mesh, &loose);
-        assert_eq!(leave_out_isolated(&mut mesh, &mut loose, &mut file), 3);
-        assert_eq!(file.vertex_of, [LEFT_OUT, 0, 1, LEFT_OUT, 2, LEFT_OUT, 3]);
-        assert_eq!(mesh.positions, [1.0, 2.0, 4.0, 6.0].map(|x| DVec3::X * x));
-        assert_eq!((mesh.triangles, loose), (vec![[3, 0, 2]], [[1, 3]]));
+        let mesh = Mesh::new((0..7).map(|x| DVec3::X * f64::from(x)).collect(), vec![[6, 1, 4]]);
+        let loose_edges = vec![[2, 6]];
+        let mut placed = Placed {
+            file: FileMesh::new(&mesh, &loose_edges),
+            mesh,
+            loose_edges,
+            rest: None,
+        };
+        assert_eq!(placed.leave_out_isolated(), 3);
+        assert_eq!(placed.file.vertex_of, [LEFT_OUT, 0, 1, LEFT_OUT, 2, LEFT_OUT, 3]);
+        assert_eq!(placed.mesh.positions, [1.0, 2.0, 4.0, 6.0].map(|x| DVec3::X * x));
+        assert_eq!((placed.mesh.triangles, placed.loose_edges), (vec![[3, 0, 2]], vec![[1, 3]]));
     }
 }

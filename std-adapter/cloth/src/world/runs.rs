@@ -83,12 +83,9 @@ impl Run {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::triangle_edges::undirected;
     use proptest::prelude::*;
     use std::collections::BTreeSet;
-
-    fn sorted([a, b]: [u32; 2]) -> [u32; 2] {
-        [a.min(b), a.max(b)]
-    }
 
     proptest! {
         #[test]
@@ -102,11 +99,11 @@ mod tests {
                 for row in run.pieces().into_iter().chain(run.rows_of_joints()) {
                     prop_assert_eq!(row.iter().collect::<BTreeSet<_>>().len(), row.len());
                 }
-                found.extend(run.pieces().iter().flat_map(|row| row.windows(2).map(|two| sorted([two[0], two[1]])).collect::<Vec<_>>()));
+                found.extend(run.pieces().iter().flat_map(|row| row.windows(2).map(|two| undirected([two[0], two[1]])).collect::<Vec<_>>()));
                 joints.extend(run.rows_of_joints().iter().flat_map(|row| row[1..row.len() - 1].to_vec()));
             }
             found.sort_unstable();
-            let mut expected: Vec<_> = edges.iter().copied().map(sorted).collect();
+            let mut expected: Vec<_> = edges.iter().copied().map(undirected).collect();
             expected.sort_unstable();
             prop_assert_eq!(found, expected);
             joints.sort_unstable();
