@@ -32,15 +32,15 @@ pub(super) struct OfPair {
 pub(super) struct Aim(f32);
 
 impl Aim {
-    pub(super) const fn asked(thickness: f64) -> Self {
+    pub(super) const fn requested(thickness: f64) -> Self {
         Self(-(thickness as f32))
     }
 
-    pub(super) const fn own(thickness: f64) -> Self {
+    pub(super) const fn computed(thickness: f64) -> Self {
         Self(thickness as f32)
     }
 
-    pub(super) fn is_own(self) -> bool {
+    pub(super) fn is_computed(self) -> bool {
         self.0 > 0.0
     }
 
@@ -134,7 +134,7 @@ mod tests {
             let end = [0, 1, 2, 3].map(|k| start[k] + moves[k] * 0.3);
             let kind = if is_edge { PairKind::EdgeEdge } else { PairKind::VertexFace };
             let of_pair = OfPair {
-                aim: Aim::asked(0.0),
+                aim: Aim::requested(0.0),
                 body: FREE,
             };
             let mut pair = Candidate::new(kind, [0, 0], [0, 1, 2, 3], of_pair);

@@ -157,7 +157,7 @@ impl Interest for OfContact {
         }
         let asked = self.settings.of_vertices(body != FREE, vertices[0], vertices[3])?;
         Some(OfPair {
-            aim: Aim::asked(asked.thickness),
+            aim: Aim::requested(asked.thickness),
             body,
         })
     }

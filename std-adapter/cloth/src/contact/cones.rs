@@ -18,7 +18,7 @@
 //! **A contact at rest goes on.** Taut cloth lies along faces of a body's mesh. An edge beside such a face has a cone that ends
 //! at the face's normal, and the cloth lies there. Such a contact would come and go from step to step, and the cloth would
 //! tremble: an irregular bag around two balls moved by 14 cm/s (law of the bag). So a contact that pushed in the last step pushes
-//! on. Its direction [turns into the cone](Cones::turn_into), to the normal of a face beside it. So it does not push obliquely.
+//! on. Its direction [turns into the cone](NormalCones::turn_into), to the normal of a face beside it. So it does not push obliquely.
 //!
 //! **Cloth against cloth.** Oblique pushes make layers that lie on each other slide and tremble. But a fold lies beside itself,
 //! and cones on both sides would drop the pairs that keep it open, since the way along the cloth leads through the fold. So the
@@ -38,7 +38,7 @@ const NONE: u32 = u32::MAX;
 
 /// The edges that leave each vertex of a mesh, with the faces beside them.
 #[derive(Debug, Default)]
-pub(super) struct Cones {
+pub(super) struct NormalCones {
     /// The index of the first spoke of each vertex, and the end of all spokes.
     first: Vec<u32>,
     spokes: Vec<Spoke>,
@@ -51,7 +51,7 @@ struct Spoke {
     opposite: [u32; 2],
 }
 
-impl Cones {
+impl NormalCones {
     /// Finds the spokes of all vertices.
     pub(super) fn new(topology: &Topology) -> Self {
         let mut sides: Vec<[u32; 3]> = Vec::new();
@@ -96,8 +96,8 @@ impl Cones {
 
     /// Returns whether a direction is in the normal cone at the point with these weights of these vertices.
     pub(super) fn contain(&self, vertices: &[u32], weights: &[f64], positions: &[DVec3], direction: DVec3) -> bool {
-        self.all_ways(vertices, weights, positions, |way| {
-            direction.dot(way) <= TOLERANCE * length(way)
+        self.all_tangents(vertices, weights, positions, |tangent| {
+            direction.dot(tangent) <= TOLERANCE * length(tangent)
         })
     }
 
@@ -106,19 +106,25 @@ impl Cones {
     /// there.
     pub(super) fn turn_into(&self, vertices: &[u32], weights: &[f64], positions: &[DVec3], direction: DVec3) -> Option<DVec3> {
         let mut turned = direction;
-        self.all_ways(vertices, weights, positions, |way| {
-            turned -= way * (turned.dot(way).max(0.0) / way.length_squared());
+        self.all_tangents(vertices, weights, positions, |tangent| {
+            turned -= tangent * (turned.dot(tangent).max(0.0) / tangent.length_squared());
             true
         });
         let turned = turned.normalize_or_zero();
-        let is_flat = self.all_ways(vertices, weights, positions, |way| {
-            turned.dot(way) >= -TOLERANCE * length(way)
+        let is_flat = self.all_tangents(vertices, weights, positions, |tangent| {
+            turned.dot(tangent) >= -TOLERANCE * length(tangent)
         });
         (!is_flat && self.contain(vertices, weights, positions, turned)).then_some(turned)
     }
 
     /// Returns whether something is true of all ways along the surface from the point with these weights of these vertices.
-    fn all_ways(&self, vertices: &[u32], weights: &[f64], positions: &[DVec3], mut is_true: impl FnMut(DVec3) -> bool) -> bool {
+    fn all_tangents(
+        &self,
+        vertices: &[u32],
+        weights: &[f64],
+        positions: &[DVec3],
+        mut is_true: impl FnMut(DVec3) -> bool,
+    ) -> bool {
         let mut on = [NONE; 3];
         let mut count = 0;
         for (&vertex, &weight) in vertices.iter().zip(weights) {
@@ -136,8 +142,8 @@ impl Cones {
                 let beside = self.of(from).iter().filter(|spoke| spoke.to == to);
                 let mut opposite = beside.flat_map(|spoke| spoke.opposite).filter(|&vertex| vertex != NONE);
                 opposite.all(|vertex| {
-                    let way = at(vertex) - at(from);
-                    is_true(way - edge * (way.dot(edge) / squared))
+                    let tangent = at(vertex) - at(from);
+                    is_true(tangent - edge * (tangent.dot(edge) / squared))
                 })
             }
             _ => true,
@@ -150,12 +156,12 @@ mod tests {
     use super::*;
 
     /// Two triangles beside the edge from 0 to 1, with these other corners.
-    fn ridge(left: DVec3, right: DVec3) -> (Cones, Vec<DVec3>) {
+    fn ridge(left: DVec3, right: DVec3) -> (NormalCones, Vec<DVec3>) {
         let topology = Topology::new(4, vec![[0, 1, 2], [1, 0, 3]]).unwrap();
-        (Cones::new(&topology), vec![DVec3::ZERO, DVec3::Y, left, right])
+        (NormalCones::new(&topology), vec![DVec3::ZERO, DVec3::Y, left, right])
     }
 
-    fn contains(ridge: &(Cones, Vec<DVec3>), direction: DVec3) -> [bool; 2] {
+    fn contains(ridge: &(NormalCones, Vec<DVec3>), direction: DVec3) -> [bool; 2] {
         let (cones, positions) = ridge;
         let direction = direction.normalize();
         let contain = |weights: &[f64]| cones.contain(&[0, 1, 2], weights, positions, direction);
@@ -178,7 +184,7 @@ mod tests {
 
     #[test]
     fn a_direction_turns_into_a_cone_and_stays_there_and_a_flat_or_concave_edge_has_none() {
-        let turn = |(cones, positions): &(Cones, Vec<DVec3>), direction: DVec3| {
+        let turn = |(cones, positions): &(NormalCones, Vec<DVec3>), direction: DVec3| {
             cones.turn_into(&[0, 1, 2], &[0.5, 0.5, 0.0], positions, direction.normalize())
         };
         let convex = ridge(DVec3::new(-1.0, 0.5, -1.0), DVec3::new(1.0, 0.5, -1.0));
@@ -199,12 +205,12 @@ mod tests {
     #[test]
     fn an_open_edge_has_a_half_space_and_three_faces_are_all_asked() {
         let open = Topology::new(3, vec![[0, 1, 2]]).unwrap();
-        let cones = Cones::new(&open);
+        let cones = NormalCones::new(&open);
         let positions = [DVec3::ZERO, DVec3::Y, DVec3::new(1.0, 0.5, 0.0)];
         let contain = |direction: DVec3| cones.contain(&[0, 1, 2], &[0.5, 0.5, 0.0], &positions, direction.normalize());
         assert!(contain(-DVec3::X) && contain(DVec3::Z) && !contain(DVec3::new(0.1, 0.0, 1.0)));
         let three = Topology::new(5, vec![[0, 1, 2], [0, 1, 3], [1, 0, 4]]).unwrap();
-        let cones = Cones::new(&three);
+        let cones = NormalCones::new(&three);
         let at = |x: f64, z: f64| DVec3::new(x, 0.5, z);
         for last in [at(0.0, 1.0), at(-1.0, 0.2)] {
             let positions = [DVec3::ZERO, DVec3::Y, at(-1.0, -1.0), at(1.0, -1.0), last];

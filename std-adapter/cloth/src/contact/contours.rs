@@ -43,19 +43,19 @@ impl Contours {
         }
     }
 
-    /// Replaces `ways` by the direction in which each vertex should move; it has no unit, and is longer than one where the pull
+    /// Replaces `directions` by the direction in which each vertex should move; it has no unit, and is longer than one where the pull
     /// is strong. `outward` returns the sign of the normals that point outwards, 1 or −1, for a vertex of a closed body, and 0
     /// for others.
-    pub(super) fn find_ways(
+    pub(super) fn find_directions(
         &mut self,
         topology: &Topology,
         intersections: &[Intersection],
         positions: &[DVec3],
         outward: impl Fn(u32) -> f64,
-        ways: &mut [DVec3],
+        directions: &mut [DVec3],
     ) {
         self.sides.find(topology, intersections, positions);
-        ways.fill(DVec3::ZERO);
+        directions.fill(DVec3::ZERO);
         let at = |vertex: u32| positions[vertex as usize];
         for intersection in intersections {
             // Neighbours that touch make no contour: contact pushes them apart.
@@ -96,10 +96,10 @@ impl Contours {
             }
             let share = share_to_plane(segment, triangle);
             for (vertex, weight) in ends.into_iter().zip([1.0 - share, share]) {
-                ways[vertex as usize] += pulls[0] * weight;
+                directions[vertex as usize] += pulls[0] * weight;
             }
             for (vertex, weight) in corners.into_iter().zip(weights(segment[0].lerp(segment[1], share), triangle)) {
-                ways[vertex as usize] += pulls[1] * weight;
+                directions[vertex as usize] += pulls[1] * weight;
             }
         }
     }
@@ -168,19 +168,19 @@ mod tests {
     }
 
     #[test]
-    fn ways_are_the_negative_gradient_of_the_contours_length() {
+    fn directions_are_the_negative_gradient_of_the_contours_length() {
         let mesh = crossed();
         let topology = mesh.topology().unwrap();
         let found = intersections(&topology, &mesh.positions);
         assert!(found.len() > 8 && length(&topology, &mesh.positions) > 0.5);
         let mut contours = Contours::new(&topology, &mesh.positions);
-        let mut ways = vec![DVec3::ZERO; mesh.positions.len()];
+        let mut directions = vec![DVec3::ZERO; mesh.positions.len()];
         // The bodies count as open here: no side pushes.
         let mut along = |positions: &[DVec3]| {
-            contours.find_ways(&topology, &found, positions, |_| f64::MIN_POSITIVE, &mut ways);
-            ways.clone()
+            contours.find_directions(&topology, &found, positions, |_| f64::MIN_POSITIVE, &mut directions);
+            directions.clone()
         };
-        let ways = along(&mesh.positions);
+        let directions = along(&mesh.positions);
         let step = 1e-6;
         for vertex in 0..mesh.positions.len() {
             for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
@@ -191,9 +191,9 @@ mod tests {
                 };
                 let slope = (at(step) - at(-step)) / (2.0 * step);
                 assert!(
-                    (slope + ways[vertex].dot(axis)).abs() < 1e-6,
+                    (slope + directions[vertex].dot(axis)).abs() < 1e-6,
                     "{vertex}: {slope}, {}",
-                    ways[vertex]
+                    directions[vertex]
                 );
             }
         }

@@ -100,7 +100,7 @@ impl ImpactZones {
         for &member in &members {
             let zone = self.zones.first(member) as usize;
             let (mass, displacement) = match body_of(wanted_bodies, member) {
-                Some(body) => (wanted_bodies[body].mass, wanted_bodies[body].way),
+                Some(body) => (wanted_bodies[body].mass, wanted_bodies[body].displacement),
                 None => {
                     let displacement = wanted[member as usize] - step.start[member as usize];
                     (1.0 / step.inverse_masses[member as usize], displacement)
@@ -126,7 +126,7 @@ impl ImpactZones {
             if let Some(body) = body_of(bodies, member) {
                 let body = &mut bodies[body];
                 moving = body.members().collect();
-                body.way = carried(body.centre) - body.centre;
+                body.displacement = carried(body.centre) - body.centre;
                 body.turn = match carrier {
                     FREE | TORN => DVec3::ZERO,
                     carrier => {
@@ -172,7 +172,7 @@ mod tests {
             [0, 1],
             vertices,
             OfPair {
-                aim: Aim::asked(0.0),
+                aim: Aim::requested(0.0),
                 body: FREE,
             },
         )
@@ -215,7 +215,7 @@ mod tests {
 
     #[test]
     fn a_zone_moves_as_its_mean_and_as_its_carrier_and_not_at_all_where_two_pull() {
-        let along = |ways: [f64; 8]| ways.map(|way| DVec3::Z * way);
+        let along = |heights: [f64; 8]| heights.map(|height| DVec3::Z * height);
         assert_eq!(carried(&[])[..8], along([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]));
         assert_eq!(carried(&[[0, 1, 2, 3]])[..8], along([1.5, 1.5, 1.5, 1.5, 4.0, 5.0, 6.0, 7.0]));
         assert_eq!(carried(&[[0, 1, 2, 3], [4, 5, 6, 7], [1, 2, 4, 5]])[..8], along([3.5; 8]));

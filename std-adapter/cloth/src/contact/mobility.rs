@@ -36,8 +36,8 @@ mod tests {
         ) {
             let mobility = mobility(&inverse_masses, [0, 1, 2, 3], weights);
             for (inverse_mass, weight) in inverse_masses.into_iter().zip(weights) {
-                let way = inverse_mass * weight / mobility;
-                prop_assert!(inverse_mass * weight == 0.0 || way.abs() <= 2.0, "{way}");
+                let share = inverse_mass * weight / mobility;
+                prop_assert!(inverse_mass * weight == 0.0 || share.abs() <= 2.0, "{share}");
             }
         }
 

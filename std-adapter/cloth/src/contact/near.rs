@@ -13,7 +13,7 @@
 
 use super::PairKey;
 use super::candidate::{Aim, Candidate};
-use super::cones::Cones;
+use super::cones::NormalCones;
 use super::exempt::Exempt;
 use super::neighbours::{are_neighbours, at_rest};
 use super::settings::{ContactSettings, MARGIN, Thickness};
@@ -41,7 +41,7 @@ pub struct ProximityPair {
 
 /// The rules by which pairs become contacts.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Rules<'a> {
+pub(super) struct ContactRules<'a> {
     pub(super) settings: &'a ContactSettings,
     /// The tangled pairs, which are not pushed.
     pub(super) exempt: &'a Exempt,
@@ -52,12 +52,12 @@ pub(super) struct Rules<'a> {
     /// The vertices that seams hold together, in both orders.
     pub(super) joints: &'a [[u32; 2]],
     /// The normal cones of surfaces.
-    pub(super) cones: &'a Cones,
+    pub(super) cones: &'a NormalCones,
     /// The number of the cloth's vertices; bodies' vertices come after them.
     pub(super) cloth_vertices: u32,
 }
 
-impl Rules<'_> {
+impl ContactRules<'_> {
     /// Returns whether both sides of a pair have a vertex that a seam holds.
     fn are_sewn(&self, pair: &Candidate) -> bool {
         pair.sides()
@@ -112,7 +112,7 @@ pub(crate) type GoesOn<'a> = &'a dyn Fn(PairKey, [u32; 4], f64) -> bool;
 /// not keep apart at the first guess, with room to spare, and where everything but contact leads.
 pub(super) fn visit_near(
     pairs: &mut [Candidate],
-    rules: Rules<'_>,
+    rules: ContactRules<'_>,
     step: &TimeStep<'_>,
     [guess, goal]: [&[DVec3]; 2],
     goes_on: GoesOn<'_>,
@@ -141,7 +141,7 @@ pub(super) fn visit_near(
         if gap > wide.max(aim + closing) + 0.25 * closing {
             continue;
         }
-        if let Some((near, distance)) = near_on_way(pair, rules, [step.start, guess], closing, goes_on) {
+        if let Some((near, distance)) = near_on_path(pair, rules, [step.start, guess], closing, goes_on) {
             visit(pair, near, distance);
         }
     }
@@ -203,14 +203,14 @@ fn at_guess(pair: &Candidate, [start, guess]: [&[DVec3]; 2], at_start: ClosestPo
 }
 
 /// Returns the pair with its distance at the start of the step, if it is a contact on the way to the first guess.
-fn near_on_way(
+fn near_on_path(
     pair: &mut Candidate,
-    rules: Rules<'_>,
-    way: [&[DVec3]; 2],
+    rules: ContactRules<'_>,
+    path: [&[DVec3]; 2],
     closing: f64,
     goes_on: GoesOn<'_>,
 ) -> Option<(ProximityPair, f64)> {
-    let [start, _] = way;
+    let [start, _] = path;
     let mut closest = pair.closest(start);
     pair.refresh(closest.direction, start, rules.error);
     let (mut distance, aim) = (closest.distance(), pair.data.aim.length());
@@ -221,13 +221,13 @@ fn near_on_way(
         if !pair.data.is_with_body() {
             return None;
         }
-        closest = first_near(pair, way, closing, closest)?;
+        closest = first_near(pair, path, closing, closest)?;
     }
     if pair.data.is_with_body() && closing > FAST * aim {
-        closest = at_guess(pair, way, closest).unwrap_or(closest);
+        closest = at_guess(pair, path, closest).unwrap_or(closest);
     }
-    if !pair.data.aim.is_own() {
-        pair.data.aim = Aim::own(thickness_of(pair, rules)?);
+    if !pair.data.aim.is_computed() {
+        pair.data.aim = Aim::computed(thickness_of(pair, rules)?);
     }
     let mut normal = closest.direction;
     if rules.are_bodies(pair) {
@@ -252,14 +252,14 @@ fn near_on_way(
 /// Returns whether a contact is one of [surfaces](super::cones), and not only of faces and edges of theirs: the point of a body
 /// is the closest point of its surface. Between cloth and cloth this rule holds for the face that a vertex meets. Edges push
 /// where they cross. Where an end of an edge is closest, its vertex and the other edge's face push.
-fn is_of_surface(pair: &Candidate, closest: &ClosestPoints, rules: Rules<'_>, positions: &[DVec3]) -> bool {
-    let Rules { cones, .. } = rules;
+fn is_of_surface(pair: &Candidate, closest: &ClosestPoints, rules: ContactRules<'_>, positions: &[DVec3]) -> bool {
+    let ContactRules { cones, .. } = rules;
     if pair.kind == PairKind::EdgeEdge && !pair.data.is_with_body() {
         let [first, second] = pair.sides();
         let (of_first, of_second) = closest.weights.split_at(first.len());
         return [(first, of_first), (second, of_second)]
             .into_iter()
-            .all(|(edge, weights)| Cones::are_all(weights) || !cones.is_beside_a_face(edge));
+            .all(|(edge, weights)| NormalCones::are_all(weights) || !cones.is_beside_a_face(edge));
     }
     let (vertices, weights, direction) = side_with_cone(pair, closest, rules);
     cones.contain(vertices, weights, positions, direction)
@@ -271,7 +271,7 @@ const LEAST_COSINE: f64 = 0.99;
 
 /// Returns the direction of a pair of two bodies, turned a little into the cones of both; `None` if that is not possible. Boxes
 /// that stand on each other touch where the cones of their corners and edges end, and a tilt by rounding would leave the cones.
-fn of_two_surfaces(pair: &Candidate, closest: &ClosestPoints, rules: Rules<'_>, positions: &[DVec3]) -> Option<DVec3> {
+fn of_two_surfaces(pair: &Candidate, closest: &ClosestPoints, rules: ContactRules<'_>, positions: &[DVec3]) -> Option<DVec3> {
     let [first, second] = pair.sides();
     let (of_first, of_second) = closest.weights.split_at(first.len());
     let into = |vertices: &[u32], weights: &[f64], direction: DVec3| {
@@ -287,7 +287,7 @@ fn of_two_surfaces(pair: &Candidate, closest: &ClosestPoints, rules: Rules<'_>, 
 }
 
 /// Returns the direction of a pair with a body, turned into the cone of the body's side; `None` if that is not possible.
-fn turned_to_surface(pair: &Candidate, closest: &ClosestPoints, rules: Rules<'_>, positions: &[DVec3]) -> Option<DVec3> {
+fn turned_to_surface(pair: &Candidate, closest: &ClosestPoints, rules: ContactRules<'_>, positions: &[DVec3]) -> Option<DVec3> {
     let (vertices, weights, direction) = side_with_cone(pair, closest, rules);
     let turned = rules.cones.turn_into(vertices, weights, positions, direction)?;
     Some(if rules.is_body_first(pair) { -turned } else { turned })
@@ -295,7 +295,7 @@ fn turned_to_surface(pair: &Candidate, closest: &ClosestPoints, rules: Rules<'_>
 
 /// Returns the vertices and weights of a body's side, or of the second side of two cloths', and the direction from it to the
 /// other side.
-fn side_with_cone<'a>(pair: &'a Candidate, closest: &'a ClosestPoints, rules: Rules<'_>) -> (&'a [u32], &'a [f64], DVec3) {
+fn side_with_cone<'a>(pair: &'a Candidate, closest: &'a ClosestPoints, rules: ContactRules<'_>) -> (&'a [u32], &'a [f64], DVec3) {
     let [first, second] = pair.sides();
     let (of_first, of_second) = closest.weights.split_at(first.len());
     if rules.is_body_first(pair) {
@@ -306,8 +306,8 @@ fn side_with_cone<'a>(pair: &'a Candidate, closest: &'a ClosestPoints, rules: Ru
 }
 
 /// The thickness that a pair can have: the requested one, except for neighbours in one cloth.
-fn thickness_of(pair: &Candidate, rules: Rules<'_>) -> Option<f64> {
-    let Rules {
+fn thickness_of(pair: &Candidate, rules: ContactRules<'_>) -> Option<f64> {
+    let ContactRules {
         settings, exempt, rest, ..
     } = rules;
     let asked = settings.of(pair)?;

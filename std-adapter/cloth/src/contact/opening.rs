@@ -8,7 +8,7 @@
 //!   of the tear are apart as well, and certified from there on like any other pair.
 
 use super::candidate::Candidate;
-use super::pass::is_free;
+use super::pass::keeps_separation;
 use super::separations::Separations;
 use super::solver::{ContactSolver, gap_error};
 use selvedge_core::glam::DVec3;
@@ -26,7 +26,7 @@ impl ContactSolver {
             if moves(pair)
                 && !were_one(pair, from)
                 && let Some(separation) = separations.of(pair)
-                && !is_free(pair, [closed, open], separation, error)
+                && !keeps_separation(pair, [closed, open], separation, error)
             {
                 found.extend(pair.vertices);
             }

@@ -182,7 +182,7 @@ impl ContactSolver {
             if pair.stays_apart(end, separation, *error) {
                 continue;
             }
-            if !is_free(pair, [start, end], separation, *error) {
+            if !keeps_separation(pair, [start, end], separation, *error) {
                 still_open.push(index);
             }
         }
@@ -310,7 +310,7 @@ impl<'a> Unsettled<'a> {
         for ((place, separation), closest) in self.pairs.drain(..).zip(closest) {
             let pair = &mut all[place];
             let is_free = pair.keeps_apart_along(closest.direction, path, separation, error)
-                || is_free_by_time(pair, path, separation, error);
+                || keeps_separation_by_time(pair, path, separation, error);
             if !is_free {
                 tell(place);
             }
@@ -319,12 +319,12 @@ impl<'a> Unsettled<'a> {
 }
 
 /// Returns whether the pair keeps its separation, or a reduced one if it starts nearer.
-pub(super) fn is_free(pair: &mut Candidate, path: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> bool {
-    pair.keeps_apart(path, separation, error) || is_free_by_time(pair, path, separation, error)
+pub(super) fn keeps_separation(pair: &mut Candidate, path: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> bool {
+    pair.keeps_apart(path, separation, error) || keeps_separation_by_time(pair, path, separation, error)
 }
 
-/// The result of [`is_free`] for a pair that no direction keeps apart by its separation.
-fn is_free_by_time(pair: &mut Candidate, path: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> bool {
+/// The result of [`keeps_separation`] for a pair that no direction keeps apart by its separation.
+fn keeps_separation_by_time(pair: &mut Candidate, path: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> bool {
     if time_of_impact_of(pair, path, separation).is_none() {
         return true;
     }

@@ -91,11 +91,11 @@ impl Active {
         if !(missing > 0.0 && mobility > 0.0) {
             return true;
         }
-        let way = self.direction * (missing / mobility);
+        let push = self.direction * (missing / mobility);
         for (vertex, weight) in vertices.into_iter().zip(weights) {
             let inverse_mass = step.inverse_masses[vertex];
             if inverse_mass > 0.0 && weight != 0.0 {
-                positions[vertex] += way * (weight * inverse_mass);
+                positions[vertex] += push * (weight * inverse_mass);
                 moved[vertex] = true;
             }
         }
@@ -143,7 +143,7 @@ mod tests {
             prop_assume!(kept > 1e-3);
             let inverse_masses = [0, 1, 2, 3].map(|corner| if corner == fixed { 0.0 } else { 1.0 + corner as f64 });
             let step = TimeStep { time: 0.0, h: 1.0, start: &start, inverse_masses: &inverse_masses, poses: &[], motions: &[] };
-            let pair = Candidate::new(kind, [0, 0], [0, 1, 2, 3], OfPair { aim: Aim::asked(0.0), body: FREE });
+            let pair = Candidate::new(kind, [0, 0], [0, 1, 2, 3], OfPair { aim: Aim::requested(0.0), body: FREE });
             let mut relaxation = Relaxation::default();
             relaxation.add(&pair, kept, &step);
             relaxation.add(&pair, kept, &step);

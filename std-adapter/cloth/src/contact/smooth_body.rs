@@ -36,19 +36,19 @@ impl SmoothBody {
 /// Returns the vector to a point from the nearest point of an axis.
 #[inline(always)]
 pub(crate) fn from_axis([from, to]: [DVec3; 2], point: DVec3) -> DVec3 {
-    let (axis, way) = (to - from, point - from);
+    let (axis, offset) = (to - from, point - from);
     let squared = axis.length_squared();
     if squared > 0.0 {
-        way - axis * (way.dot(axis) / squared).clamp(0.0, 1.0)
+        offset - axis * (offset.dot(axis) / squared).clamp(0.0, 1.0)
     } else {
-        way
+        offset
     }
 }
 
 /// Returns the direction of length one away from an axis, and the distance.
 #[inline(always)]
 pub(crate) fn away(axis: [DVec3; 2], point: DVec3) -> (DVec3, f64) {
-    let way = from_axis(axis, point);
-    let distance = length(way);
-    (if distance > 0.0 { way / distance } else { DVec3::ZERO }, distance)
+    let offset = from_axis(axis, point);
+    let distance = length(offset);
+    (if distance > 0.0 { offset / distance } else { DVec3::ZERO }, distance)
 }

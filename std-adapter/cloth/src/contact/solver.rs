@@ -2,11 +2,11 @@
 
 use super::candidate::{Candidate, time_of_impact_of};
 use super::candidates::{Candidates, candidates};
-use super::cones::Cones;
+use super::cones::NormalCones;
 use super::crossing::{Crossing, PairKey};
 use super::exempt::{Exempt, Tangle};
 use super::impact_zones::ImpactZones;
-use super::near::{GoesOn, ProximityPair, Rules, visit_near};
+use super::near::{ContactRules, GoesOn, ProximityPair, visit_near};
 use super::relaxation::Relaxation;
 use super::report::{ContactCounts, ContactSeconds};
 use super::settings::ContactSettings;
@@ -31,7 +31,7 @@ pub(crate) struct ContactSolver {
     pub(super) error: GapError<f64>,
     pub(super) level: Level,
     /// The normal cones of surfaces.
-    cones: Cones,
+    cones: NormalCones,
     cloth_vertices: u32,
     /// The vertices that seams hold together, in both orders.
     joints: Vec<[u32; 2]>,
@@ -60,7 +60,7 @@ impl ContactSolver {
         time_step: f64,
     ) -> Self {
         Self {
-            cones: Cones::new(&topology),
+            cones: NormalCones::new(&topology),
             cloth_vertices: cloth_vertices as u32,
             joints: Vec::new(),
             candidates: candidates(&mut settings, topology, rest, carriers, (cloth_vertices, are_free), time_step),
@@ -161,8 +161,8 @@ impl ContactSolver {
     }
 
     /// The candidates, and the rules by which they become contacts.
-    fn parts(&mut self) -> (&mut [Candidate], Rules<'_>) {
-        let rules = Rules {
+    fn parts(&mut self) -> (&mut [Candidate], ContactRules<'_>) {
+        let rules = ContactRules {
             settings: &self.settings,
             exempt: &self.exempt,
             rest: &self.rest,

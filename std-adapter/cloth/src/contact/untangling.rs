@@ -48,8 +48,8 @@ impl ContactSolver {
 }
 
 impl Untangler {
-    /// Replaces `ways` by the direction in which each vertex should move; see [`Contours::find_ways`].
-    pub(crate) fn find_ways(&mut self, contact: &ContactSolver, positions: &[DVec3], ways: &mut [DVec3]) {
+    /// Replaces `directions` by the direction in which each vertex should move; see [`Contours::find_directions`].
+    pub(crate) fn find_directions(&mut self, contact: &ContactSolver, positions: &[DVec3], directions: &mut [DVec3]) {
         let interest = contact.candidates.interest();
         let topology: &Topology = interest.topology();
         let outward = |vertex: u32| match interest.body(vertex) {
@@ -57,7 +57,7 @@ impl Untangler {
             body => self.outward[body as usize],
         };
         self.contours
-            .find_ways(topology, contact.exempt.intersections(), positions, outward, ways);
+            .find_directions(topology, contact.exempt.intersections(), positions, outward, directions);
     }
 }
 

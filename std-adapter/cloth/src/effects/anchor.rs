@@ -25,12 +25,12 @@ impl Anchor {
             return Self::On([0; 3], [0.0; 3]);
         };
         let [a, b, c] = corners(triangle);
-        let ([first, second], way) = ([b - a, c - a], point - a);
+        let ([first, second], offset) = ([b - a, c - a], point - a);
         let normal = first.cross(second);
         let area = normal.length_squared();
         let share = |side: DVec3| if area > 0.0 { side.dot(normal) / area } else { 0.0 };
-        let shares = [share(way.cross(second)), share(first.cross(way))];
-        Self::On(*triangle, [shares[0], shares[1], way.dot(normal.normalize_or_zero())])
+        let shares = [share(offset.cross(second)), share(first.cross(offset))];
+        Self::On(*triangle, [shares[0], shares[1], offset.dot(normal.normalize_or_zero())])
     }
 
     /// Returns a vertex of the body that it is on.
@@ -42,7 +42,7 @@ impl Anchor {
     }
 
     /// Returns the position at the end of a step, where bodies are then.
-    pub(super) fn at(&self, step: &TimeStep<'_>, positions: &[DVec3]) -> DVec3 {
+    pub(super) fn end_position(&self, step: &TimeStep<'_>, positions: &[DVec3]) -> DVec3 {
         match *self {
             Self::Carried(carrier, point) => step.poses[carrier as usize][1].apply(point),
             Self::On(triangle, [u, v, height]) => {

@@ -10,7 +10,7 @@
 use super::anchor::Anchor;
 use super::pins::PinMotion;
 use super::registration::{Effect, Registration, Scope};
-use super::selection::{check_body, check_vertices, keys, placed, read_motion, read_vertices};
+use super::selection::{check_body, check_vertices, group_keys, placed, read_motion, read_vertices};
 use crate::effects::plan::Plan;
 use crate::input::{FORCE, Field, LENGTH, ValueError};
 use crate::model::step::{Memory, Release, TimeStep};
@@ -26,7 +26,7 @@ pub(super) const REGISTRATION: Registration = Registration::new(&["group"], |tab
     let mut attachments = Attachments::default();
     let mut taken = vec![false; world.cloth_vertices()];
     for table in table.tables("group")? {
-        table.expect_keys(&keys(&[LIMIT.name, GIVE.name]))?;
+        table.expect_keys(&group_keys(&[LIMIT.name, GIVE.name]))?;
         let mut group = AttachmentGroup::resting(read_vertices(&table, world)?, table.required_number(&LIMIT)?);
         group.motion = read_motion(&table, world)?;
         group.give = table.number(&GIVE)?.unwrap_or(group.give);
@@ -187,7 +187,7 @@ impl Attachment {
 impl Springs for Holding {
     fn springs(&self, step: &TimeStep<'_>, x: &[DVec3], springs: &mut Vec<Spring>) {
         let holding = self.0.iter().filter(|held| held.released.is_none());
-        springs.extend(holding.map(|held| held.spring(held.anchor.at(step, x))));
+        springs.extend(holding.map(|held| held.spring(held.anchor.end_position(step, x))));
     }
 
     fn settled(&self) -> Vec<Spring> {
@@ -199,7 +199,7 @@ impl Springs for Holding {
 impl Memory for Holding {
     fn settle(&mut self, step: &TimeStep<'_>, positions: &[DVec3]) {
         for held in self.0.iter_mut().filter(|held| held.released.is_none()) {
-            held.last = held.anchor.at(step, positions);
+            held.last = held.anchor.end_position(step, positions);
             if held.last.distance(positions[held.vertex as usize]) > held.give {
                 held.released = Some(step.time);
             }

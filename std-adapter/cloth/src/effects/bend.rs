@@ -82,7 +82,7 @@ impl Effect for Bend {
 
     fn register(&self, plan: &mut Plan<'_>) {
         let hinges = hinges(plan.scene.cloth, |of_warp| self.along(of_warp));
-        let folds = plan.fabric().folds.map(|when| (when, plan.scene.cloth.copied_as_made()));
+        let folds = plan.fabric().folds.map(|when| (when, plan.scene.cloth.sources_as_made()));
         let folds = folds.as_ref().map(|(when, copied)| (*when, copied.as_slice()));
         plan.add_bending(&hinges, folds);
     }

@@ -202,7 +202,7 @@ impl<'a> Called<'a> {
         Wrong {
             name,
             cloth: cloth.filter(|&cloth| self.own[cloth].get(name).is_some()),
-            error: error.of(&of),
+            error: error.with_owner(&of),
         }
     }
 

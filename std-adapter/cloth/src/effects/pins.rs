@@ -4,7 +4,7 @@
 pub use super::selection::PinMotion;
 
 use super::registration::{Effect, Registration, Scope};
-use super::selection::{check_body, check_vertices, keys, placed, read_motion, read_vertices};
+use super::selection::{check_body, check_vertices, group_keys, placed, read_motion, read_vertices};
 use super::soft_pins::{OfGroup, SoftPins};
 use crate::effects::plan::Plan;
 use crate::input::{Field, MEMBRANE_STIFFNESS, RATIO, ValueError};
@@ -19,7 +19,7 @@ pub(super) const REGISTRATION: Registration = Registration::new(&["group"], |tab
     let mut pins = Pins::default();
     let mut taken = Taken::new(world);
     for table in table.tables("group")? {
-        table.expect_keys(&keys(&[STIFFNESS.name, WEIGHT.name]))?;
+        table.expect_keys(&group_keys(&[STIFFNESS.name, WEIGHT.name]))?;
         let group = PinGroup {
             stiffness: table.number(&STIFFNESS)?,
             weights: table.numbers(&WEIGHT)?.unwrap_or_default(),
@@ -59,7 +59,7 @@ impl Pins {
         let is_driven = matches!(&group.motion, PinMotion::Own(BodyMotion::Driven(_)));
         group.check_softness()?;
         for (place, &vertex) in group.vertices.iter().enumerate() {
-            if group.soft(place).is_some() {
+            if group.soft_stiffness(place).is_some() {
                 continue;
             }
             let before = taken.0[vertex as usize].replace(index);
@@ -129,7 +129,7 @@ impl PinGroup {
     }
 
     /// Returns the stiffness of a soft pin, by its place in the group: zero if the vertex is free, and `None` if the pin is hard.
-    pub(super) fn soft(&self, place: usize) -> Option<f64> {
+    pub(super) fn soft_stiffness(&self, place: usize) -> Option<f64> {
         let weight = self.weights.get(place).copied().unwrap_or(1.0);
         match self.stiffness {
             Some(stiffness) => Some(stiffness * weight),
@@ -175,7 +175,7 @@ impl PinGroup {
                         let message = format!("pins cannot follow '{name}', which deforms; give them a motion of their own");
                         Err(ValueError::new("follow", message))
                     }
-                    BodyMotion::Free(_) if (0..self.vertices.len()).any(|place| self.soft(place).is_some()) => {
+                    BodyMotion::Free(_) if (0..self.vertices.len()).any(|place| self.soft_stiffness(place).is_some()) => {
                         let name = &world.bodies[body].name;
                         let message = format!(
                             "soft pins cannot follow '{name}', which moves freely (it has a mass): leave out `stiffness` and \
@@ -221,9 +221,9 @@ impl Effect for Pins {
         for (index, group) in self.groups.iter().enumerate() {
             let (mut moved, mut hard, mut pins) = (Vec::new(), Vec::new(), Vec::new());
             for (place, vertex) in plan.scene.numbered(&group.vertices).into_iter().enumerate() {
-                let soft = group.soft(place);
-                moved.push(if soft.is_none() { vertex } else { NO_VERTEX });
-                match soft {
+                let stiffness = group.soft_stiffness(place);
+                moved.push(if stiffness.is_none() { vertex } else { NO_VERTEX });
+                match stiffness {
                     None => hard.push(vertex),
                     Some(stiffness) if stiffness > 0.0 => pins.push((place as u32, vertex, stiffness)),
                     Some(_) => {}

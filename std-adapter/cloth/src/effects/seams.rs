@@ -113,7 +113,7 @@ impl Seam {
     }
 
     /// Checks that the closed seam leaves contact its thickness, and that it does not close too fast.
-    fn check_ways(&self, shapes: [&[DVec3]; 2], thickness: f64) -> Result<(), ValueError> {
+    fn check_shapes(&self, shapes: [&[DVec3]; 2], thickness: f64) -> Result<(), ValueError> {
         let gap = self.gap.unwrap_or(thickness);
         if gap < thickness {
             let [gap, thickness] = [gap, thickness].map(|length| LENGTH.written(length));
@@ -202,7 +202,7 @@ impl Effect for Seams {
     fn check_fabrics(&self, world: &SceneParts<'_>, fabrics: &[Fabric]) -> Result<(), ValueError> {
         let (rest, start) = (rest_of(world), start_of(world));
         let mut seams = self.seams.iter();
-        seams.try_for_each(|seam| seam.check_ways([&rest, &start], thickness(seam, world, fabrics)))
+        seams.try_for_each(|seam| seam.check_shapes([&rest, &start], thickness(seam, world, fabrics)))
     }
 
     fn register(&self, plan: &mut Plan<'_>) {
@@ -221,7 +221,7 @@ impl Effect for Seams {
                 gap,
                 closing: seam.closing,
             };
-            plan.ties.extend(sewing.tie());
+            plan.ties.extend(sewing.tied_vertices());
             plan.add_term(Stitches::new(sewing));
         }
     }

@@ -11,7 +11,7 @@ const CENTRE: Field = Field::vector("centre", LENGTH, LARGEST_COORDINATE);
 const RADIUS: Field = Field::new("radius", LENGTH, 1e-6, LARGEST_COORDINATE);
 
 /// The keys that select vertices; a table has exactly one of them.
-pub(super) const WAYS: [&str; 4] = ["part", "vertices", "box", "ball"];
+pub(super) const SELECTORS: [&str; 4] = ["part", "vertices", "box", "ball"];
 
 /// The motion of a group of vertices.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,30 +25,30 @@ pub enum PinMotion {
 crate::identify!(enum PinMotion { 0 => Body(body), 1 => Own(motion) });
 
 /// Returns the key that selects the vertices.
-fn way(table: &Table<'_>) -> &'static str {
-    WAYS.into_iter().rev().find(|way| table.has(way)).unwrap_or(WAYS[0])
+fn selector(table: &Table<'_>) -> &'static str {
+    SELECTORS.into_iter().rev().find(|key| table.has(key)).unwrap_or(SELECTORS[0])
 }
 
 /// Returns the keys of a group's table: the common ones and `own`.
-pub(super) fn keys<'a>(own: &[&'a str]) -> Vec<&'a str> {
-    [&WAYS[..], &["cloth", "follow"], &BodyMotion::KEYS, own].concat()
+pub(super) fn group_keys<'a>(own: &[&'a str]) -> Vec<&'a str> {
+    [&SELECTORS[..], &["cloth", "follow"], &BodyMotion::KEYS, own].concat()
 }
 
 /// Adds the place to an error about a group.
 pub(super) fn placed(table: &Table<'_>, error: ValueError) -> SceneError {
     match error.field {
-        "vertices" => table.error(way(table), error.message),
+        "vertices" => table.error(selector(table), error.message),
         _ => table.placed(&error),
     }
 }
 
 /// Reads the vertices, which exactly one of `part`, `vertices`, `box` and `ball` selects.
 pub(super) fn read_vertices(table: &Table<'_>, world: &SceneParts<'_>) -> Result<Vec<u32>, SceneError> {
-    if WAYS.into_iter().filter(|way| table.has(way)).count() != 1 {
+    if SELECTORS.into_iter().filter(|key| table.has(key)).count() != 1 {
         let message = "a group needs exactly one of `part`, `vertices`, `box` and `ball`".to_owned();
         return Err(table.error("part", message));
     }
-    match way(table) {
+    match selector(table) {
         "box" => within(table, world, in_box(&table.required_table("box")?)?),
         "ball" => within(table, world, in_ball(&table.required_table("ball")?)?),
         _ => of_cloth(table, world),

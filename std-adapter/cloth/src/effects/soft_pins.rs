@@ -109,7 +109,7 @@ impl SoftPin {
 
 impl Springs for SoftPins {
     fn springs(&self, step: &TimeStep<'_>, _: &[DVec3], springs: &mut Vec<Spring>) {
-        springs.extend(self.0.iter().map(|pin| pin.spring(pin.anchor.at(step))));
+        springs.extend(self.0.iter().map(|pin| pin.spring(pin.anchor.end_position(step))));
     }
 
     fn settled(&self) -> Vec<Spring> {
@@ -120,7 +120,7 @@ impl Springs for SoftPins {
 impl Memory for SoftPins {
     fn settle(&mut self, step: &TimeStep<'_>, _: &[DVec3]) {
         for SoftPin { anchor, .. } in &mut self.0 {
-            anchor.place = anchor.at(step);
+            anchor.place = anchor.end_position(step);
         }
     }
 

@@ -13,7 +13,7 @@
 //! A [`StrainLimit`](super::StrainLimit) of L keeps loads below k·(L − 1). A strength above that is never reached.
 
 use super::registration::{Effect, Registration};
-use super::selection::{WAYS, check_vertices, placed, read_vertices};
+use super::selection::{SELECTORS, check_vertices, placed, read_vertices};
 use crate::effects::plan::Plan;
 use crate::input::{Field, MEMBRANE_STIFFNESS, ValueError};
 use crate::model::tearing::Tearable;
@@ -27,7 +27,7 @@ pub(super) const REGISTRATION: Registration = Registration::new(&["strength", "p
         perforations: Vec::new(),
     };
     for table in table.tables("perforation")? {
-        table.expect_keys(&[&WAYS[..], &["cloth", STRENGTH.name]].concat())?;
+        table.expect_keys(&[&SELECTORS[..], &["cloth", STRENGTH.name]].concat())?;
         let perforation = Perforation {
             vertices: read_vertices(&table, world)?,
             strength: table.required_number(&STRENGTH)?,

@@ -21,7 +21,7 @@ pub struct SceneError {
 const LONGEST: usize = 600;
 
 /// Replaces control characters and shortens endless lists.
-fn readable(message: String) -> String {
+fn printable(message: String) -> String {
     if message.len() <= LONGEST && !message.chars().any(char::is_control) {
         message
     } else {
@@ -39,7 +39,7 @@ impl SceneError {
         Self {
             path: path.to_owned(),
             place: Some((line, column)),
-            message: readable(message),
+            message: printable(message),
         }
     }
 
@@ -47,7 +47,7 @@ impl SceneError {
         Self {
             path: path.to_owned(),
             place: None,
-            message: readable(message),
+            message: printable(message),
         }
     }
 }

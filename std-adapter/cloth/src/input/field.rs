@@ -25,7 +25,7 @@ impl ValueError {
         }
     }
 
-    pub(crate) fn of(self, of: &str) -> Self {
+    pub(crate) fn with_owner(self, of: &str) -> Self {
         Self {
             of: of.to_owned(),
             ..self

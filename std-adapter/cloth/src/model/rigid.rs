@@ -78,28 +78,28 @@ pub(crate) fn vector_of(rotation: DQuat) -> DVec3 {
 /// The axes of the scene along which and about which a body can move: 1 for a free axis, 0 for a locked one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Freedom {
-    pub(crate) way: DVec3,
-    pub(crate) turn: DVec3,
+    pub(crate) translation: DVec3,
+    pub(crate) rotation: DVec3,
 }
 
 impl Freedom {
     /// All six.
     pub(crate) const ALL: Self = Self {
-        way: DVec3::ONE,
-        turn: DVec3::ONE,
+        translation: DVec3::ONE,
+        rotation: DVec3::ONE,
     };
 
     /// Returns the inverse of an inertia for a body that turns about its free axes alone.
-    pub(crate) fn inverse(&self, inertia: &DMat3) -> DMat3 {
-        if self.turn == DVec3::ONE {
+    pub(crate) fn inverse_inertia(&self, inertia: &DMat3) -> DMat3 {
+        if self.rotation == DVec3::ONE {
             return inertia.inverse();
         }
-        let [free, locked] = [self.turn, DVec3::ONE - self.turn].map(DMat3::from_diagonal);
+        let [free, locked] = [self.rotation, DVec3::ONE - self.rotation].map(DMat3::from_diagonal);
         free * (free * *inertia * free + locked).inverse() * free
     }
 }
 
-/// The motion of a rigid body in a step: a way of its centre of mass, and a turn about it.
+/// The motion of a rigid body in a step: a displacement of its centre of mass, and a turn about it.
 #[derive(Clone, Debug)]
 pub(crate) struct RigidMotion {
     /// The body's vertices, as the scene numbers them.
@@ -113,15 +113,15 @@ pub(crate) struct RigidMotion {
     /// The start of the step.
     pub(crate) rotation: DQuat,
     pub(crate) centre: DVec3,
-    /// The way of the centre of mass in m, and the vector of the turn in radians.
-    pub(crate) way: DVec3,
+    /// The displacement of the centre of mass in m, and the vector of the turn in radians.
+    pub(crate) displacement: DVec3,
     pub(crate) turn: DVec3,
 }
 
 impl RigidMotion {
     /// Returns whether another motion of the same body leads to the same place.
     pub(crate) fn leads_where(&self, other: &Self) -> bool {
-        self.way == other.way && self.turn == other.turn
+        self.displacement == other.displacement && self.turn == other.turn
     }
 
     /// Returns the rotation since rest at the end of the step.
@@ -135,7 +135,7 @@ impl RigidMotion {
 
     /// Returns the centre of mass at the end of the step.
     pub(crate) fn end_centre(&self) -> DVec3 {
-        self.centre + self.way
+        self.centre + self.displacement
     }
 
     /// Returns all vertices that move with the body: its own, and those of cloth that are pinned to it.
@@ -150,7 +150,7 @@ impl RigidMotion {
     }
 
     /// Returns the vertices of cloth that are pinned to the body, and where they are in its axes.
-    pub(crate) fn pinned(&self) -> impl Iterator<Item = (usize, DVec3)> + use<'_> {
+    pub(crate) fn rider_points(&self) -> impl Iterator<Item = (usize, DVec3)> + use<'_> {
         let points = self.points[self.vertices.len()..].iter();
         { self.riders.iter() }
             .zip(points)
@@ -168,7 +168,7 @@ impl RigidMotion {
     /// Returns the motion that lies so far between this one and another one of the same body.
     pub(crate) fn between(&self, other: &Self, share: f64) -> Self {
         Self {
-            way: self.way.lerp(other.way, share),
+            displacement: self.displacement.lerp(other.displacement, share),
             turn: self.turn.lerp(other.turn, share),
             ..self.clone()
         }
@@ -197,12 +197,12 @@ mod tests {
             DVec3::new(0.2, 0.1, 4.0),
         );
         let door = Freedom {
-            turn: DVec3::Z,
+            rotation: DVec3::Z,
             ..Freedom::ALL
         };
-        let spin = door.inverse(&inertia) * DVec3::new(7.0, 8.0, 2.0);
+        let spin = door.inverse_inertia(&inertia) * DVec3::new(7.0, 8.0, 2.0);
         assert!(spin.distance(DVec3::Z * 0.5) < 1e-15, "{spin}");
-        assert_eq!(Freedom::ALL.inverse(&inertia), inertia.inverse());
+        assert_eq!(Freedom::ALL.inverse_inertia(&inertia), inertia.inverse());
     }
 
     #[test]
@@ -215,7 +215,7 @@ mod tests {
             mass: 1.0,
             rotation: DQuat::IDENTITY,
             centre: DVec3::Z,
-            way: DVec3::Z,
+            displacement: DVec3::Z,
             turn: DVec3::ZERO,
         };
         let mut positions = [DVec3::ZERO; 4];
@@ -226,12 +226,12 @@ mod tests {
         );
         let quarter = RigidMotion {
             turn: DVec3::Z * std::f64::consts::FRAC_PI_2,
-            way: DVec3::ZERO,
+            displacement: DVec3::ZERO,
             ..motion.clone()
         };
         motion.between(&quarter, 1.0).put(&mut positions);
         assert!(positions[1].distance(DVec3::new(0.0, 1.0, 1.0)) < 1e-15);
         let half = motion.between(&quarter, 0.5);
-        assert_eq!((half.way, half.turn), (DVec3::Z * 0.5, quarter.turn * 0.5));
+        assert_eq!((half.displacement, half.turn), (DVec3::Z * 0.5, quarter.turn * 0.5));
     }
 }

@@ -112,7 +112,7 @@ pub(crate) struct MovedAnchor {
 
 impl MovedAnchor {
     /// Returns the place at the end of a step. It stays where it is if that body deforms, as pinned vertices do.
-    pub(crate) fn at(&self, step: &TimeStep<'_>) -> DVec3 {
+    pub(crate) fn end_position(&self, step: &TimeStep<'_>) -> DVec3 {
         let carrier = self.carrier as usize;
         let at = step.motions[carrier].point(&step.poses[carrier][1], self.index, self.rest);
         at.unwrap_or(self.place)

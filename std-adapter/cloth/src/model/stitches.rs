@@ -60,13 +60,13 @@ fn shares(row: &[u32], rest: &[DVec3]) -> Vec<f64> {
     let steps = row
         .windows(2)
         .map(|two| rest[two[0] as usize].distance(rest[two[1] as usize]));
-    let ways = steps.scan(0.0, |way, step| {
-        *way += step;
-        Some(*way)
+    let lengths = steps.scan(0.0, |length, step| {
+        *length += step;
+        Some(*length)
     });
-    let ways: Vec<f64> = std::iter::once(0.0).chain(ways).collect();
-    let all = ways[ways.len() - 1];
-    ways.into_iter().map(|way| way / all).collect()
+    let lengths: Vec<f64> = std::iter::once(0.0).chain(lengths).collect();
+    let all = lengths[lengths.len() - 1];
+    lengths.into_iter().map(|length| length / all).collect()
 }
 
 /// The distance of two vertices that are tied without a gap, in metres.
@@ -86,11 +86,11 @@ impl Sewing {
     /// Returns whether the seam joins two single vertices without a gap, and is closed at the end of a step.
     pub(crate) fn is_closed_tie(&self, step: &TimeStep<'_>) -> bool {
         let is_closed = |(_, start): &(Stitch, f64)| length_at_end(step, *start, self.gap, self.closing) <= TIED;
-        self.tie().is_some() && self.stitches.iter().all(is_closed)
+        self.tied_vertices().is_some() && self.stitches.iter().all(is_closed)
     }
 
     /// Returns the two vertices, if the seam joins only these.
-    pub(crate) fn tie(&self) -> Option<[u32; 2]> {
+    pub(crate) fn tied_vertices(&self) -> Option<[u32; 2]> {
         match self.stitches.as_slice() {
             &[
                 (

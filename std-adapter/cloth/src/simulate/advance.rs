@@ -56,7 +56,7 @@ impl Simulation {
         match self.frame {
             None => self.step(),
             Some(seconds) => self
-                .steps_of_frame(seconds, MOST_STEPS, &mut |_| ControlFlow::Continue(()))
+                .run_frame(seconds, MOST_STEPS, &mut |_| ControlFlow::Continue(()))
                 .map(drop),
         }
     }
@@ -65,7 +65,7 @@ impl Simulation {
     ///
     /// # Errors
     /// Returns the errors of [`step`](Self::step).
-    pub(super) fn steps_of_frame(
+    pub(super) fn run_frame(
         &mut self,
         seconds: f64,
         most: u32,
@@ -113,7 +113,7 @@ impl Simulation {
                 driven.begin(clock, seconds, [&self.state.positions, &self.carried], own);
             }
         }
-        if let Some(too_fast) = self.too_fast() {
+        if let Some(too_fast) = self.first_too_fast() {
             self.threads = threads;
             return Err(too_fast);
         }

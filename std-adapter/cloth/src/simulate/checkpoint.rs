@@ -38,7 +38,7 @@ pub(super) struct TornCloth {
 impl TornCloth {
     /// Returns whether it is that cloth, perhaps torn. If copies count as their originals its triangles are the same, and they
     /// and its loose edges have all vertices.
-    pub(super) fn is_of(&self, cloth: &Cloth) -> bool {
+    pub(super) fn is_torn_from(&self, cloth: &Cloth) -> bool {
         let made = cloth.vertices_as_made();
         let are_before = (made..).zip(&self.copied).all(|(copy, &vertex)| (vertex as usize) < copy);
         let as_made = |mut vertex: u32| {
@@ -133,7 +133,7 @@ pub(super) struct Checkpoint {
 
 /// The lengths of the lists in a checkpoint of the scene.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Sizes {
+pub(super) struct ListLengths {
     pub(super) vertices: usize,
     pub(super) yielding: usize,
     pub(super) seconds: usize,
@@ -215,8 +215,8 @@ impl Checkpoint {
     }
 
     /// Reads all but the tears.
-    pub(super) fn read(mut reader: Reader<'_>, sizes: Sizes) -> Result<Self, CheckpointError> {
-        let checkpoint = Self::read_on(&mut reader, sizes).ok_or(CheckpointError::Damaged)?;
+    pub(super) fn read(mut reader: Reader<'_>, lengths: ListLengths) -> Result<Self, CheckpointError> {
+        let checkpoint = Self::read_on(&mut reader, lengths).ok_or(CheckpointError::Damaged)?;
         let state = &checkpoint.state;
         let all = state.positions.iter().chain(&state.velocities);
         let of_bodies = checkpoint.free_bodies.as_flattened().iter();
@@ -230,16 +230,16 @@ impl Checkpoint {
         }
     }
 
-    fn read_on(reader: &mut Reader<'_>, sizes: Sizes) -> Option<Self> {
+    fn read_on(reader: &mut Reader<'_>, lengths: ListLengths) -> Option<Self> {
         let [step, blocked_steps] = [reader.u64()?, reader.u64()?];
         let [overstretched_steps, since] = [reader.u64()?, reader.u64()?];
         let [before, clock] = reader.numbers()?;
         let mut vectors = || {
-            let vectors = (0..sizes.vertices).map(|_| reader.numbers().map(DVec3::from_array));
+            let vectors = (0..lengths.vertices).map(|_| reader.numbers().map(DVec3::from_array));
             vectors.collect::<Option<_>>()
         };
         let (positions, velocities) = (vectors()?, vectors()?);
-        let yielding = reader.bytes(sizes.yielding)?;
+        let yielding = reader.bytes(lengths.yielding)?;
         let parting = match flag(reader)? {
             true => {
                 let count = reader.u64()?;
@@ -247,10 +247,10 @@ impl Checkpoint {
             }
             false => None,
         };
-        let seconds: Option<Vec<_>> = (0..sizes.seconds).map(|_| reader.f64()).collect();
-        let placements: Option<Vec<_>> = (0..sizes.placements).map(|_| placement(reader)).collect();
-        let free_bodies: Option<Vec<_>> = (0..sizes.free_bodies).map(|_| reader.numbers()).collect();
-        let memories: Option<Vec<_>> = (0..sizes.memories).map(|_| reader.f64()).collect();
+        let seconds: Option<Vec<_>> = (0..lengths.seconds).map(|_| reader.f64()).collect();
+        let placements: Option<Vec<_>> = (0..lengths.placements).map(|_| placement(reader)).collect();
+        let free_bodies: Option<Vec<_>> = (0..lengths.free_bodies).map(|_| reader.numbers()).collect();
+        let memories: Option<Vec<_>> = (0..lengths.memories).map(|_| reader.f64()).collect();
         Some(Self {
             torn: None,
             state: State {
@@ -322,7 +322,7 @@ fn placement(reader: &mut Reader<'_>) -> Option<Option<Placement>> {
 mod tests {
     use super::*;
 
-    const SIZES: Sizes = Sizes {
+    const LENGTHS: ListLengths = ListLengths {
         vertices: 2,
         yielding: 2,
         seconds: 1,
@@ -384,7 +384,7 @@ mod tests {
         let (torn, reader) = Checkpoint::begin(bytes, fingerprint, Some(&[2]))?;
         Ok(Checkpoint {
             torn,
-            ..Checkpoint::read(reader, SIZES)?
+            ..Checkpoint::read(reader, LENGTHS)?
         })
     }
 
@@ -397,7 +397,7 @@ mod tests {
         };
         let bytes = whole.write(7);
         let (torn, reader) = Checkpoint::begin(&bytes, 7, None).unwrap();
-        assert!(torn.is_none() && Checkpoint::read(reader, SIZES) == Ok(whole));
+        assert!(torn.is_none() && Checkpoint::read(reader, LENGTHS) == Ok(whole));
     }
 
     #[test]
@@ -421,7 +421,7 @@ mod tests {
         let torn = |copied: &[u32], triangles: [[u32; 3]; 2]| {
             let triangles = triangles.to_vec();
             let copied = copied.to_vec();
-            TornCloth { copied, triangles }.is_of(&cloth)
+            TornCloth { copied, triangles }.is_torn_from(&cloth)
         };
         assert_eq!(cloth.mesh().triangles, [[0, 1, 3], [0, 3, 2]]);
         assert!(torn(&[], [[0, 1, 3], [0, 3, 2]]));

@@ -67,7 +67,7 @@ pub enum DriveError {
 }
 
 /// The largest component of a force on a vertex.
-const STRONGEST: Field = Field::vector("force", FORCE, 1e6);
+const FORCE_ON_VERTEX: Field = Field::vector("force", FORCE, 1e6);
 
 impl Simulation {
     /// Moves a [driven](crate::BodyMotion::Driven) body to another placement in the next step. A step in which a vertex would be
@@ -132,7 +132,7 @@ impl Simulation {
     /// # Errors
     /// Returns an error if the scene has no wind, or the velocity is not allowed.
     pub fn set_wind(&mut self, velocity: DVec3) -> Result<(), DriveError> {
-        Wind::check_velocity(velocity).map_err(|error| error.of("wind"))?;
+        Wind::check_velocity(velocity).map_err(|error| error.with_owner("wind"))?;
         // Each of several cloths has its own wind.
         let terms = self.made.solve.terms.iter_mut();
         let taken = terms.map(|term| term.action.set_wind(velocity));
@@ -170,7 +170,7 @@ impl Simulation {
     /// added.
     pub fn add_force(&mut self, vertices: &[u32], force: DVec3) -> Result<(), DriveError> {
         self.check_of_cloth(vertices)?;
-        STRONGEST.check_vector(force)?;
+        FORCE_ON_VERTEX.check_vector(force)?;
         self.added_forces.0.extend(vertices.iter().map(|&vertex| (vertex, force)));
         Ok(())
     }
@@ -185,7 +185,7 @@ impl Simulation {
             return Err(DriveError::ForceCount { expected, found });
         }
         self.check_of_cloth(vertices)?;
-        forces.iter().try_for_each(|&force| STRONGEST.check_vector(force))?;
+        forces.iter().try_for_each(|&force| FORCE_ON_VERTEX.check_vector(force))?;
         self.added_forces
             .0
             .extend(vertices.iter().zip(forces).map(|(&vertex, &force)| (vertex, force)));
@@ -219,7 +219,7 @@ impl Simulation {
 
     /// Returns the first body or group of pins that the caller moves faster than [`FASTEST_VERTEX`] in the step that begins.
     /// Drops all goals then.
-    pub(super) fn too_fast(&mut self) -> Option<Blocked> {
+    pub(super) fn first_too_fast(&mut self) -> Option<Blocked> {
         let Assembly { motions, carriers, .. } = &self.made;
         let driven = (0_u32..)
             .zip(motions)

@@ -110,7 +110,7 @@ impl Simulation {
         tell: &mut (dyn FnMut(FrameProgress) -> ControlFlow<()> + Send),
     ) -> Result<FrameSteps, FrameError> {
         SECONDS.check(seconds)?;
-        Ok(self.steps_of_frame(seconds, most, tell)?)
+        Ok(self.run_frame(seconds, most, tell)?)
     }
 
     /// Returns how many steps a frame of so many seconds needs: see the [module](self).

@@ -5,7 +5,7 @@ use crate::contact::smooth_body::SmoothBody;
 use crate::model::rigid::RigidMotion;
 use crate::model::step::Carrier;
 use crate::solve::Solve;
-use crate::solve::prediction::History;
+use crate::solve::prediction::MotionHistory;
 use crate::solve::rigid::{OnBody, RigidBodies};
 use crate::solve::rigid_body::{RigidBody, StepOfBody};
 use crate::world::{Kinematic, Pose};
@@ -25,7 +25,7 @@ pub(super) struct OfFreeBodies {
 pub(super) fn begin(
     solve: &mut Solve,
     (motions, body_vertices, of_bodies): (&[Kinematic], &[Range<usize>], OfFreeBodies),
-    (h, history): (f64, &History),
+    (h, history): (f64, &MotionHistory),
     cloth_vertices: usize,
     poses: &mut [[Pose; 2]],
 ) {
@@ -33,7 +33,7 @@ pub(super) fn begin(
         h,
         gravity: of_bodies.gravity,
         may_be_second: solve.accuracy.is_of_second_order() && history.was_as_long_as(h),
-        before: history.step_before(),
+        before: history.last_step_seconds(),
     };
     let free = motions.iter().zip(body_vertices).enumerate();
     let free = free.filter_map(|(carrier, (motion, vertices))| Some((carrier, motion.free()?, vertices)));
@@ -53,10 +53,15 @@ pub(super) fn put(bodies: &RigidBodies, guess: &mut [DVec3], goal: &mut [DVec3])
 fn set_poses(bodies: &RigidBodies, poses: &mut [[Pose; 2]]) {
     for body in &bodies.all {
         let pose = poses[body.carrier][0];
-        let RigidMotion { centre, way, turn, .. } = body.motion;
+        let RigidMotion {
+            centre,
+            displacement,
+            turn,
+            ..
+        } = body.motion;
         let (axis, angle) = (turn.normalize_or(DVec3::Z), turn.length());
-        poses[body.carrier] =
-            [(0.0, DVec3::ZERO), (angle, way)].map(|(angle, way)| pose.about(centre).turned_and_moved(axis, angle, way));
+        poses[body.carrier] = [(0.0, DVec3::ZERO), (angle, displacement)]
+            .map(|(angle, displacement)| pose.about(centre).turned_and_moved(axis, angle, displacement));
     }
 }
 
@@ -106,10 +111,10 @@ pub(super) fn settle(solve: &mut Solve, h: f64, x: &mut [DVec3]) -> Vec<bool> {
     }
     bodies.send(&are_pressed, x);
     for body in &mut bodies.all {
-        let way = limited(body.motion.way, FASTEST * h);
-        if way != body.motion.way {
+        let displacement = limited(body.motion.displacement, FASTEST * h);
+        if displacement != body.motion.displacement {
             body.place(RigidMotion {
-                way,
+                displacement,
                 ..body.motion.clone()
             });
             body.motion.put(x);

@@ -253,7 +253,7 @@ impl Loads {
     fn measure_contacts(&mut self, solved: &Solved<'_>) {
         let (h, x) = (solved.step.h, solved.x);
         solved.solve.visit_pushes(h, x, &mut |row, forces| {
-            for (body, point, side) in solved.sides(row).into_iter().flatten() {
+            for (body, point, side) in solved.body_sides(row).into_iter().flatten() {
                 let [push, friction] = forces.map(|force| force * side);
                 let load = &mut self.next.bodies[body];
                 load.contact.add(Wrench::at(point, push), 1.0);
@@ -338,7 +338,7 @@ impl Loads {
 
 impl Solved<'_> {
     /// Returns the bodies of a row, each with the point of what it meets, and the sign of its own side.
-    fn sides(&self, row: &ContactRow) -> [Option<(usize, DVec3, f64)>; 2] {
+    fn body_sides(&self, row: &ContactRow) -> [Option<(usize, DVec3, f64)>; 2] {
         if let RowKey::Smooth(vertex, index) = row.key {
             let body = self.smooth_bodies[index as usize].carrier;
             return [Some((body, self.x[vertex as usize], -1.0)), None];

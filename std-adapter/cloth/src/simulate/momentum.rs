@@ -18,7 +18,7 @@
 use crate::model::step::TimeStep;
 use crate::solve::ContactRow;
 use crate::solve::Prediction;
-use crate::solve::prediction::History;
+use crate::solve::prediction::MotionHistory;
 use crate::solve::rigid::RigidBodies;
 use crate::solve::rigid_body::{moments_of_bodies, sums_of_bodies};
 use selvedge::Components;
@@ -86,7 +86,7 @@ pub(super) struct Motion<'a> {
     /// The velocities after forces, and those at the start, in m/s.
     pub(super) forced: &'a [DVec3],
     pub(super) velocities: &'a [DVec3],
-    pub(super) history: &'a History,
+    pub(super) history: &'a MotionHistory,
     pub(super) prediction: &'a Prediction,
 }
 
@@ -162,15 +162,15 @@ impl Piece {
             return Some(Hinge::CentreOfMass);
         };
         let first = start[*first as usize];
-        let ways = || others.iter().map(|&pin| start[pin as usize] - first);
-        let Some(farthest) = ways().max_by(|a, b| a.length_squared().total_cmp(&b.length_squared())) else {
+        let offsets = || others.iter().map(|&pin| start[pin as usize] - first);
+        let Some(farthest) = offsets().max_by(|a, b| a.length_squared().total_cmp(&b.length_squared())) else {
             return Some(Hinge::Point(first));
         };
         let Some(axis) = farthest.try_normalize() else {
             return Some(Hinge::Point(first));
         };
         let allowed = STRAIGHT * farthest.length();
-        let is_straight = ways().all(|way| way.cross(axis).length() <= allowed);
+        let is_straight = offsets().all(|offset| offset.cross(axis).length() <= allowed);
         is_straight.then_some(Hinge::Axis(first, axis))
     }
 
@@ -326,7 +326,7 @@ mod tests {
             let motion = Motion {
                 forced,
                 velocities: forced,
-                history: &History::default(),
+                history: &MotionHistory::default(),
                 prediction: &prediction,
             };
             let mut x = x.clone();

@@ -1,6 +1,6 @@
 //! Checkpoints: out of a simulation, and back into one.
 
-use super::checkpoint::{Checkpoint, CheckpointError, Sizes};
+use super::checkpoint::{Checkpoint, CheckpointError, ListLengths};
 use super::simulation::Simulation;
 use crate::model::step::Memory;
 use crate::world::{Driven, Free, Kinematic};
@@ -20,7 +20,7 @@ impl Simulation {
             placements: self.driven().map(|driven| driven.placement).collect(),
             free_bodies: self.free().map(Free::numbers).collect(),
             torn: self.torn_cloths(),
-            memories: self.remembered(),
+            memories: self.memory_numbers(),
             kept: self.made.solve.write_kept(&self.work.substep.history),
             ..Checkpoint::default()
         };
@@ -49,9 +49,9 @@ impl Simulation {
                 retorn.made.rest.len(),
                 retorn.made.memories().flat_map(Memory::numbers).count(),
             ],
-            None => [self.state.positions.len(), self.remembered().len()],
+            None => [self.state.positions.len(), self.memory_numbers().len()],
         };
-        let sizes = Sizes {
+        let lengths = ListLengths {
             vertices,
             yielding: self.made.contact.as_ref().map_or(0, |c| c.exempt().yielding.len()),
             seconds: self.seconds().len(),
@@ -59,7 +59,7 @@ impl Simulation {
             free_bodies: self.free().count(),
             memories,
         };
-        let checkpoint = Checkpoint::read(reader, sizes)?;
+        let checkpoint = Checkpoint::read(reader, lengths)?;
         let contact = match &mut torn {
             Some((retorn, _)) => &mut retorn.made.contact,
             None => &mut self.made.contact,
@@ -117,11 +117,11 @@ impl Simulation {
     }
 
     /// Returns the memories of all terms, one after the other.
-    pub(super) fn remembered(&self) -> Vec<f64> {
+    pub(super) fn memory_numbers(&self) -> Vec<f64> {
         self.made.memories().flat_map(Memory::numbers).collect()
     }
 
-    /// Restores memories that [`remembered`](Self::remembered) returned.
+    /// Restores memories that [`memory_numbers`](Self::memory_numbers) returned.
     pub(super) fn recall(&mut self, mut numbers: &[f64]) {
         for entry in &mut self.made.solve.terms {
             if let Some(memory) = entry.action.memory_mut() {

@@ -33,8 +33,8 @@ impl State {
     /// Makes contact discard all data but the state; steps of `h` seconds are expected to follow, straight ahead. So a simulation
     /// that continues from here, and one that is resumed here, are alike.
     pub(super) fn begin_anew(&self, contact: &mut ContactSolver, h: f64) {
-        let ways = self.positions.iter().zip(&self.velocities);
-        let end: Vec<_> = ways
+        let moves = self.positions.iter().zip(&self.velocities);
+        let end: Vec<_> = moves
             .map(|(&position, &velocity)| position + limited(velocity, FASTEST) * h)
             .collect();
         contact.refresh(&self.positions, &end, h);

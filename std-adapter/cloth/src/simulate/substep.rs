@@ -18,7 +18,7 @@ use crate::effects::plan::ActingForce;
 use crate::model::length::turned_into_plane;
 use crate::model::rigid::RigidMotion;
 use crate::model::step::{Carrier, FREE, TimeStep};
-use crate::solve::prediction::{self, History};
+use crate::solve::prediction::{self, MotionHistory};
 use crate::solve::rigid::RigidBodies;
 use crate::solve::{ContactRow, Prediction, RowKey, Solve};
 use crate::world::put_kinematic;
@@ -44,7 +44,7 @@ pub(super) enum Overstretched {
 /// Buffers of a substep, and the motion before it.
 #[derive(Debug, Default)]
 pub(super) struct SubstepWork {
-    pub(super) history: History,
+    pub(super) history: MotionHistory,
     prediction: Prediction,
     forced: Vec<DVec3>,
     /// The positions of kinematic vertices at the end of the step.

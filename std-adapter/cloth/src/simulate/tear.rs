@@ -43,7 +43,7 @@ impl Simulation {
     pub fn copied_vertices(&self, cloth: usize) -> &[u32] {
         let tearing = self.tearing.as_ref();
         let torn = tearing.and_then(|tearing| tearing.scene.cloths.get(cloth));
-        torn.map_or(&[], Cloth::copied)
+        torn.map_or(&[], Cloth::copy_sources)
     }
 
     /// Tears edges that are loaded above their strength, unless pairs are exempt from certificates.
@@ -186,7 +186,7 @@ impl Simulation {
     pub(super) fn torn_cloths(&self) -> Option<(Vec<TornCloth>, Vec<TornEdge>)> {
         let tearing = self.tearing.as_ref()?;
         let of = |cloth: &Cloth| TornCloth {
-            copied: cloth.copied().to_vec(),
+            copied: cloth.copy_sources().to_vec(),
             triangles: cloth.mesh.triangles.clone(),
         };
         Some((tearing.scene.cloths.iter().map(of).collect(), tearing.torn.clone()))
@@ -209,7 +209,7 @@ impl Simulation {
         let mut cloths = whole.clone();
         let mut from = Vec::new();
         for ((cloth, torn), first) in cloths.iter_mut().zip(torn).zip(numbering.first_of_cloths) {
-            if !torn.is_of(cloth) {
+            if !torn.is_torn_from(cloth) {
                 return Err(CheckpointError::Damaged);
             }
             cloth

@@ -84,7 +84,7 @@ impl Tearing {
                     .chain(copied.iter().copied())
                     .map(|own| first + own),
             );
-            let all = [cloth.copied(), copied].concat();
+            let all = [cloth.copy_sources(), copied].concat();
             let triangles = std::mem::take(&mut cloth.mesh.triangles);
             cloth.tear(all, triangles).ok()?;
         }

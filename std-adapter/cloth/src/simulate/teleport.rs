@@ -94,7 +94,7 @@ impl Simulation {
     /// cloth or a body would meet something there.
     pub fn teleport(&mut self, bodies: &[usize], cloths: &[usize], by: Placement) -> Result<(), TeleportError> {
         let by = by.checked()?;
-        let moved = self.moved_by(bodies, cloths)?;
+        let moved = self.find_moved(bodies, cloths)?;
         let mut placements = Vec::new();
         let mut positions = self.state.positions.clone();
         for (vertex, position) in positions.iter_mut().enumerate() {
@@ -184,7 +184,7 @@ impl Simulation {
     }
 
     /// Finds what moves with the bodies and cloths.
-    fn moved_by(&mut self, bodies: &[usize], cloths: &[usize]) -> Result<Moved, TeleportError> {
+    fn find_moved(&mut self, bodies: &[usize], cloths: &[usize]) -> Result<Moved, TeleportError> {
         for &body in bodies {
             self.driven_body(body)?;
         }

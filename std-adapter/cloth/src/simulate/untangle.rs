@@ -84,7 +84,7 @@ impl Simulation {
         let velocities = self.state.velocities.clone();
         let start = self.state.positions.clone();
         let times = self.effects.clone();
-        let remembered = self.remembered();
+        let memories = self.memory_numbers();
         let crossings = self.crossings().len();
         let threads = std::mem::take(&mut self.threads);
         let (mut steps, mut end) = threads.run(|| self.pull_apart(REACH * spacing, tell));
@@ -114,7 +114,7 @@ impl Simulation {
         self.made.of_free_bodies.rest = false;
         self.state.velocities = velocities;
         // No joint breaks, and no fold stays, before the first step.
-        self.recall(&remembered);
+        self.recall(&memories);
         let moved = start.iter().zip(&self.state.positions);
         Untangled {
             crossings,
@@ -129,7 +129,7 @@ impl Simulation {
 
     /// Makes the steps of untangling. Returns their number and the reason why they ended.
     fn pull_apart(&mut self, reach: f64, tell: &mut (dyn FnMut(UntanglingProgress) + Send)) -> (u32, UntanglingEnd) {
-        let mut ways = vec![DVec3::ZERO; self.state.positions.len()];
+        let mut directions = vec![DVec3::ZERO; self.state.positions.len()];
         let Some(contact) = &self.made.contact else {
             return (0, UntanglingEnd::Free);
         };
@@ -170,8 +170,8 @@ impl Simulation {
                 break UntanglingEnd::Free;
             };
             contact.set_pushes(!is_tangled);
-            untangler.find_ways(contact, &self.state.positions, &mut ways);
-            if !self.lead(&ways, reach) {
+            untangler.find_directions(contact, &self.state.positions, &mut directions);
+            if !self.lead(&directions, reach) {
                 break if is_tangled {
                     UntanglingEnd::Stuck
                 } else {
@@ -184,12 +184,12 @@ impl Simulation {
 
     /// Makes a step that moves vertices along their ways, by at most `reach`, or by less if that is not possible. Returns false
     /// if no step is possible.
-    fn lead(&mut self, ways: &[DVec3], mut reach: f64) -> bool {
+    fn lead(&mut self, directions: &[DVec3], mut reach: f64) -> bool {
         let h = self.time_step;
         for _ in 0..TRIES {
-            for (velocity, way) in self.state.velocities.iter_mut().zip(ways) {
+            for (velocity, direction) in self.state.velocities.iter_mut().zip(directions) {
                 // The move is small where the pull is small, and the full reach where it is large.
-                *velocity = *way * (reach / (1.0 + way.length_squared()).sqrt() / h);
+                *velocity = *direction * (reach / (1.0 + direction.length_squared()).sqrt() / h);
             }
             if self.attempt(h, 0.0, Overstretched::Accepted).is_ok() {
                 if let Some(contact) = &mut self.made.contact {

@@ -26,9 +26,9 @@ struct Pressed {
 
 /// The vertices and bodies that contacts press, by slots.
 #[derive(Debug, Default)]
-pub(super) struct Caught(FxHashMap<usize, Pressed>);
+pub(super) struct CarriedLoads(FxHashMap<usize, Pressed>);
 
-impl Caught {
+impl CarriedLoads {
     /// Finds what is caught by the rows that pushed in the last step, or are pressed where everything else leads.
     pub(super) fn new(rows: &[ContactRow], bodies: &RigidBodies, goal: &[DVec3]) -> Self {
         let mut pressed: FxHashMap<usize, Pressed> = FxHashMap::default();

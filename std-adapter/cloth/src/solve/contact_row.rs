@@ -443,16 +443,16 @@ impl ContactRow {
     /// the whole way in N, and the way in m.
     pub(super) fn along(&self, x: &[DVec3], moves: &[Vec3A], bodies: &RigidBodies) -> Along {
         let moved = self.moved(moves, bodies);
-        let way = moved.dot(self.normal);
+        let apart = moved.dot(self.normal);
         let push = self.push - self.stiffness * self.gap(x);
-        let fall = self.stiffness * way;
+        let fall = self.stiffness * apart;
         let mut along = Along {
             slope: 0.0,
-            bend: if self.is_active { -fall * way } else { 0.0 },
-            piece: (push > 0.0 || push - fall > 0.0).then_some([push, fall, way]),
+            bend: if self.is_active { -fall * apart } else { 0.0 },
+            piece: (push > 0.0 || push - fall > 0.0).then_some([push, fall, apart]),
         };
         if self.is_active && self.bound > 0.0 {
-            along.slope = -self.forces(x, true).grip.dot(moved - self.normal * way);
+            along.slope = -self.forces(x, true).grip.dot(moved - self.normal * apart);
         }
         along
     }

@@ -15,7 +15,7 @@ type Block = [[f64; SIX]; SIX];
 
 /// A body's side of a contact.
 #[derive(Clone, Copy, Debug)]
-struct Arm {
+struct BodySide {
     slot: usize,
     side: f32,
     arm: Vec3A,
@@ -26,11 +26,11 @@ type Weighted = ([u32; 4], [f32; 4]);
 
 /// A contact with one or two bodies.
 #[derive(Clone, Copy, Debug)]
-struct CoupledLink {
+struct BodyLink {
     /// The free vertices of cloth, if there are any.
     cloth: Option<Weighted>,
     stiffness: Mat3A,
-    arms: [Option<Arm>; 2],
+    sides: [Option<BodySide>; 2],
 }
 
 /// The part of the matrix that bodies have.
@@ -43,7 +43,7 @@ pub(super) struct Coupled {
     freedom: Vec<[Vec3A; 2]>,
     /// The vertices of cloth that are pinned to bodies, each with its body's first slot and its arm.
     riders: Vec<(u32, usize, Vec3A)>,
-    links: Vec<CoupledLink>,
+    links: Vec<BodyLink>,
 }
 
 impl Coupled {
@@ -57,7 +57,7 @@ impl Coupled {
         let freedom = bodies.all.iter().map(|body| body.freedom);
         self.freedom.clear();
         self.freedom
-            .extend(freedom.map(|free| [free.way, free.turn].map(|axes| axes.as_vec3a())));
+            .extend(freedom.map(|free| [free.translation, free.rotation].map(|axes| axes.as_vec3a())));
         let each = bodies.all.iter().map(|body| body.curvature());
         self.inertia.extend(each.map(|(mass, of_turn)| {
             let columns = [of_turn.x_axis, of_turn.y_axis, of_turn.z_axis].map(|column| column.as_vec3a());
@@ -71,15 +71,15 @@ impl Coupled {
 
     /// Adds a contact with up to two bodies, each with its first slot, its side and its arm.
     pub(super) fn add(&mut self, cloth: Option<Weighted>, stiffness: Mat3A, touches: &[(usize, f64, DVec3)]) {
-        let mut arms = [None; 2];
-        for (own, &(slot, side, arm)) in arms.iter_mut().zip(touches) {
-            *own = Some(Arm {
+        let mut sides = [None; 2];
+        for (own, &(slot, side, arm)) in sides.iter_mut().zip(touches) {
+            *own = Some(BodySide {
                 slot,
                 side: side as f32,
                 arm: arm.as_vec3a(),
             });
         }
-        self.links.push(CoupledLink { cloth, stiffness, arms });
+        self.links.push(BodyLink { cloth, stiffness, sides });
     }
 
     /// Removes all contacts.
@@ -113,7 +113,7 @@ impl Coupled {
                     image += moves[vertices[k] as usize] * weights[k];
                 }
             }
-            for Arm { slot, side, arm } in link.arms.iter().flatten() {
+            for BodySide { slot, side, arm } in link.sides.iter().flatten() {
                 image += (moves[*slot] + moves[slot + 1].cross(*arm)) * *side;
             }
             let force = link.stiffness * image;
@@ -122,7 +122,7 @@ impl Coupled {
                     product[vertices[k] as usize] += force * weights[k];
                 }
             }
-            for Arm { slot, side, arm } in link.arms.iter().flatten() {
+            for BodySide { slot, side, arm } in link.sides.iter().flatten() {
                 let force = force * *side;
                 product[*slot] += force;
                 product[slot + 1] += arm.cross(force);
@@ -153,8 +153,8 @@ impl Coupled {
         let riders = self.riders.iter();
         let riders = riders.map(|(vertex, slot, arm)| (slot, arm, &diagonal[*vertex as usize]));
         let arms = self.links.iter().flat_map(|link| {
-            let arms = link.arms.iter().flatten();
-            arms.map(|Arm { slot, arm, .. }| (slot, arm, &link.stiffness))
+            let arms = link.sides.iter().flatten();
+            arms.map(|BodySide { slot, arm, .. }| (slot, arm, &link.stiffness))
         });
         for (slot, arm, stiffness) in riders.chain(arms) {
             let block = &mut blocks[(slot - self.first_slot) / 2];
@@ -166,8 +166,8 @@ impl Coupled {
             add(block, [3, 0], &turned.transpose());
             add(block, [3, 3], &(arm * turned));
         }
-        for (block, [way, turn]) in blocks.iter_mut().zip(&self.freedom) {
-            let is_locked = |axis: usize| if axis < 3 { way[axis] } else { turn[axis - 3] } == 0.0;
+        for (block, [translation, rotation]) in blocks.iter_mut().zip(&self.freedom) {
+            let is_locked = |axis: usize| if axis < 3 { translation[axis] } else { rotation[axis - 3] } == 0.0;
             for axis in (0..SIX).filter(|&axis| is_locked(axis)) {
                 block[axis] = [0.0; SIX];
                 block.iter_mut().for_each(|row| row[axis] = 0.0);
@@ -209,8 +209,8 @@ impl BodyFactors {
         let mut sum = 0.0;
         for (place, factor) in self.factors.iter().enumerate() {
             let slot = self.first_slot + 2 * place;
-            let [way, turn] = [residual[slot], residual[slot + 1]].map(|own| own.as_dvec3().to_array());
-            let mut own = [way[0], way[1], way[2], turn[0], turn[1], turn[2]];
+            let [displacement, turn] = [residual[slot], residual[slot + 1]].map(|own| own.as_dvec3().to_array());
+            let mut own = [displacement[0], displacement[1], displacement[2], turn[0], turn[1], turn[2]];
             for row in 0..SIX {
                 for k in 0..row {
                     own[row] -= factor[row][k] * own[k];

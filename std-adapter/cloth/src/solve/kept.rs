@@ -3,7 +3,7 @@
 
 use super::Solve;
 use super::contact_row::{Remembered, RowKey};
-use super::prediction::History;
+use super::prediction::MotionHistory;
 use selvedge::PairKind;
 use selvedge_core::glam::DVec3;
 use selvedge_files::bytes::Reader;
@@ -13,7 +13,7 @@ use selvedge_files::bytes::Reader;
 pub(crate) struct Kept {
     pushes: Vec<(RowKey, Remembered)>,
     multipliers: Vec<f64>,
-    history: History,
+    history: MotionHistory,
 }
 
 impl Solve {
@@ -23,7 +23,7 @@ impl Solve {
     }
 
     /// Writes what the solve keeps.
-    pub(crate) fn write_kept(&self, history: &History) -> Vec<u8> {
+    pub(crate) fn write_kept(&self, history: &MotionHistory) -> Vec<u8> {
         let mut bytes = Vec::new();
         let mut pushes: Vec<_> = self.pushes.iter().collect();
         pushes.sort_unstable_by_key(|(key, _)| **key);
@@ -83,7 +83,7 @@ impl Solve {
         Some(Kept {
             pushes,
             multipliers,
-            history: History {
+            history: MotionHistory {
                 positions,
                 velocities,
                 h,
@@ -93,7 +93,7 @@ impl Solve {
     }
 
     /// Continues with what another solve has kept.
-    pub(crate) fn keep(&mut self, kept: Kept, history: &mut History) {
+    pub(crate) fn keep(&mut self, kept: Kept, history: &mut MotionHistory) {
         self.pushes = kept.pushes.into_iter().collect();
         let mut numbers = &kept.multipliers[..];
         for entry in &mut self.terms {

@@ -16,7 +16,7 @@
 //! | [`newton`], [`tolerance`] | the loop, and its end |
 //! | [`linear`], [`matrix`], [`preconditioner`], [`bands`], [`coupled`] | the linear problem of a Newton step |
 //! | [`contact_row`] | contact and friction |
-//! | [`rigid`], [`rigid_body`], [`caught`] | free rigid bodies: six unknowns each; what they press against something |
+//! | [`rigid`], [`rigid_body`], [`carried_loads`] | free rigid bodies: six unknowns each; what they press against something |
 //! | [`membranes`], [`bending`], [`ropes`], [`stitches`], [`springs`], [`walls`], [`air`] | the terms |
 //! | [`loads`] | the forces on bodies, pins and attachments |
 //! | [`kept`] | what goes on from step to step, for checkpoints |
@@ -25,7 +25,7 @@
 //! Sums run in a fixed order, so that the result has the same bits on any number of threads.
 
 mod bands;
-mod caught;
+mod carried_loads;
 mod constants;
 mod contact_row;
 mod coupled;
@@ -62,7 +62,7 @@ pub(crate) use tolerance::Outcome;
 use crate::contact::PairKey;
 use crate::effects::plan::Entry;
 use crate::model::step::TimeStep;
-use caught::Caught;
+use carried_loads::CarriedLoads;
 use constants::{GIVE, STIFFER_THAN_BODIES, STIFFER_THAN_CLOTH};
 use contact_row::Remembered;
 use preconditioner::Preconditioner;
@@ -222,8 +222,8 @@ impl Solve {
 /// Returns κ of a row, in N/m; zero if neither side moves.
 ///
 /// It is stiffer than the vertices by a factor, and stiff enough that the load of the last step presses it by a small share of
-/// its thickness alone. What is [caught] is at least as stiff as the body that it carries.
-fn row_stiffness(row: &ContactRow, matrix: &Matrix, bodies: &RigidBodies, caught: &Caught) -> f64 {
+/// its thickness alone. What is [caught](carried_loads) is at least as stiff as the body that it carries.
+fn row_stiffness(row: &ContactRow, matrix: &Matrix, bodies: &RigidBodies, loads: &CarriedLoads) -> f64 {
     let compliance = matrix.compliance(&row.vertices, &row.weights, row.normal) + bodies.compliance(row.touches, row.normal);
     if !(compliance > 0.0) {
         return 0.0;
@@ -233,6 +233,6 @@ fn row_stiffness(row: &ContactRow, matrix: &Matrix, bodies: &RigidBodies, caught
     } else {
         STIFFER_THAN_CLOTH
     };
-    let least = (row.push / (GIVE * row.thickness)).max(caught.least_stiffness(row, bodies));
+    let least = (row.push / (GIVE * row.thickness)).max(loads.least_stiffness(row, bodies));
     (stiffer / compliance).max(least)
 }

@@ -14,7 +14,7 @@
 //! **Not finished** after the most Newton steps is not a failure. Multipliers go on in the next step, and the certificate guards
 //! the state. A cloth that buckles goes down from a saddle of the energy, which takes many steps, and none of them is wrong.
 
-use super::caught::Caught;
+use super::carried_loads::CarriedLoads;
 use super::constants::{MOST_HALVINGS, MOST_NEWTON_STEPS, NEARLY_LINEAR, SLOWEST_CHANGE, SMALL_CHANGE};
 use super::contact_row::ContactRow;
 use super::linear::{Linear, Vectors};
@@ -169,9 +169,9 @@ impl Solve {
             *energy = gradient(&mut self.terms, &self.bodies, prediction, x, slope);
         }
         let (matrix, bodies) = (&self.matrix, &self.bodies);
-        let caught = Caught::new(&self.rows, bodies, &prediction.goal);
+        let loads = CarriedLoads::new(&self.rows, bodies, &prediction.goal);
         self.rows.retain_mut(|row| {
-            row.stiffness = row_stiffness(row, matrix, bodies, &caught);
+            row.stiffness = row_stiffness(row, matrix, bodies, &loads);
             row.stiffness > 0.0
         });
     }
@@ -232,7 +232,7 @@ impl Solve {
             let pushes = work
                 .pieces
                 .iter()
-                .map(|[push, fall, way]| (push - fall * share).max(0.0) * way);
+                .map(|[push, fall, offset]| (push - fall * share).max(0.0) * offset);
             slope + share * bend - pushes.sum::<f64>()
         };
         if at(1.0) <= 0.0 {
@@ -309,9 +309,9 @@ fn gradient(
     gradient.clear();
     let mut energy = 0.0;
     for ((x, goal), mass) in x.iter().zip(goal).zip(masses) {
-        let way = *x - *goal;
-        gradient.push(way * *mass);
-        energy += 0.5 * mass * way.length_squared();
+        let offset = *x - *goal;
+        gradient.push(offset * *mass);
+        energy += 0.5 * mass * offset.length_squared();
     }
     energy += bodies.begin_gradient(gradient);
     let (of_cloth, _) = gradient.split_at_mut(bodies.first_slot);

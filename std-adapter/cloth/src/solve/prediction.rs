@@ -29,7 +29,7 @@ const EQUAL: f64 = 1e-9;
 
 /// The motion before the present step.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct History {
+pub(crate) struct MotionHistory {
     /// The positions and velocities one step before; empty before the second step.
     pub(crate) positions: Vec<DVec3>,
     pub(crate) velocities: Vec<DVec3>,
@@ -39,7 +39,7 @@ pub(crate) struct History {
     pub(crate) is_first_order: Vec<bool>,
 }
 
-impl History {
+impl MotionHistory {
     pub(crate) fn forget(&mut self) {
         self.positions.clear();
         self.velocities.clear();
@@ -54,7 +54,7 @@ impl History {
     }
 
     /// Returns the length of the last step in seconds, if it is known.
-    pub(crate) fn step_before(&self) -> Option<f64> {
+    pub(crate) fn last_step_seconds(&self) -> Option<f64> {
         self.is_known().then_some(self.h)
     }
 
@@ -80,7 +80,7 @@ impl History {
 /// The prediction of one vertex: its base, the way from there without drag, k·r for a drag of the rate k, and the rate r.
 struct Own {
     base: DVec3,
-    way: DVec3,
+    displacement: DVec3,
     slowing: f64,
     rate: f64,
 }
@@ -91,7 +91,7 @@ struct Own {
 pub(crate) fn predict(
     prediction: &mut Prediction,
     step: &TimeStep<'_>,
-    history: &History,
+    history: &MotionHistory,
     [velocities, forced]: [&[DVec3]; 2],
     (drag, may_be_second): (&[f64], bool),
     ends: &[DVec3],
@@ -126,20 +126,20 @@ pub(crate) fn predict(
             let change = forced[vertex] - v;
             Own {
                 base: (x * 4.0 - before) / 3.0,
-                way: (v * 8.0 - v_before * 2.0 + change * 4.0) * (h / 9.0),
+                displacement: (v * 8.0 - v_before * 2.0 + change * 4.0) * (h / 9.0),
                 slowing: slowing * 2.0 / 3.0,
                 rate: h * 2.0 / 3.0,
             }
         } else {
             Own {
                 base: x,
-                way: forced[vertex] * h,
+                displacement: forced[vertex] * h,
                 slowing,
                 rate: h,
             }
         };
         // Drag pulls towards the base: m/r²·(|x − base − way|² + k·r·|x − base|²)/2.
-        goal.push(own.base + own.way / (1.0 + own.slowing));
+        goal.push(own.base + own.displacement / (1.0 + own.slowing));
         masses.push(mass * (h / own.rate).powi(2) * (1.0 + own.slowing));
         base.push(own.base);
         rate.push(own.rate);
@@ -151,7 +151,7 @@ pub(crate) fn predict(
 pub(crate) fn guess(
     x: &mut Vec<DVec3>,
     step: &TimeStep<'_>,
-    history: &History,
+    history: &MotionHistory,
     [velocities, forced]: [&[DVec3]; 2],
     ends: &[DVec3],
     count: usize,
@@ -197,8 +197,8 @@ pub(crate) fn hold_pressed(rows: &[ContactRow], step: &TimeStep<'_>, x: &mut [DV
             if !row.is_at_bound() {
                 x[vertex] = start + drift;
             } else if row.is_with_body {
-                let way = x[vertex] - start - drift;
-                x[vertex] -= row.normal * way.dot(row.normal);
+                let displacement = x[vertex] - start - drift;
+                x[vertex] -= row.normal * displacement.dot(row.normal);
             }
         }
     }

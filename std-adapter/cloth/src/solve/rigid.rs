@@ -112,7 +112,7 @@ impl RigidBodies {
     pub(super) fn of_smooth(&self, touches: [u32; 2]) -> Option<(DVec3, Option<DVec3>)> {
         let touch = self.of(touches).first()?;
         let body = &self.all[touch.body];
-        let drift = body.rotated * touch.arm - touch.arm + body.motion.way;
+        let drift = body.rotated * touch.arm - touch.arm + body.motion.displacement;
         let on_axis = touch.axis.map(|axis| body.motion.end_centre() + body.rotated * axis);
         Some((drift, on_axis))
     }
@@ -148,8 +148,8 @@ impl RigidBodies {
     pub(super) fn advance(&mut self, before: &[RigidMotion], moves: &[Vec3A], share: f64) {
         let moves = moves[self.first_slot..].as_chunks::<2>().0;
         for ((body, before), moves) in self.all.iter_mut().zip(before).zip(moves) {
-            let [way, turn] = moves.map(|own| own.as_dvec3() * share);
-            body.motion.way = before.way + way;
+            let [displacement, turn] = moves.map(|own| own.as_dvec3() * share);
+            body.motion.displacement = before.displacement + displacement;
             body.motion.turn = vector_of(rotation_by(turn) * rotation_by(before.turn));
             body.find_rotation();
         }
@@ -192,8 +192,8 @@ impl RigidBodies {
         let mut sum = DVec3::ZERO;
         for touch in self.of(touches) {
             let (slot, arm) = self.place(touch);
-            let [way, turn] = [moves[slot], moves[slot + 1]].map(|own| own.as_dvec3());
-            sum += (way + turn.cross(arm)) * touch.side;
+            let [displacement, turn] = [moves[slot], moves[slot + 1]].map(|own| own.as_dvec3());
+            sum += (displacement + turn.cross(arm)) * touch.side;
         }
         sum
     }
@@ -215,8 +215,8 @@ impl RigidBodies {
     pub(super) fn lock(&self, vector: &mut [Vec3A]) {
         let slots = vector[self.first_slot..].as_chunks_mut::<2>().0;
         for (body, slots) in self.all.iter().zip(slots) {
-            slots[0] *= body.freedom.way.as_vec3a();
-            slots[1] *= body.freedom.turn.as_vec3a();
+            slots[0] *= body.freedom.translation.as_vec3a();
+            slots[1] *= body.freedom.rotation.as_vec3a();
         }
     }
 
@@ -260,8 +260,8 @@ impl RigidBodies {
             let (_, arm) = self.place(&touch);
             let body = &mut self.all[touch.body];
             let impulse = impulse * touch.side;
-            let spin = body.freedom.inverse(&body.inertia_now()) * arm.cross(impulse);
-            body.correction[0] -= impulse * body.freedom.way / body.motion.mass;
+            let spin = body.freedom.inverse_inertia(&body.inertia_now()) * arm.cross(impulse);
+            body.correction[0] -= impulse * body.freedom.translation / body.motion.mass;
             body.correction[1] -= spin;
         }
     }
@@ -270,7 +270,7 @@ impl RigidBodies {
     pub(super) fn visit_riders(&self, visit: &mut dyn FnMut(usize, usize, DVec3)) {
         for (place, body) in self.all.iter().enumerate() {
             let rotation = DMat3::from_quat(body.motion.end_rotation());
-            for (vertex, point) in body.motion.pinned() {
+            for (vertex, point) in body.motion.rider_points() {
                 visit(vertex, self.first_slot + 2 * place, rotation * point);
             }
         }
@@ -307,7 +307,7 @@ impl RigidBodies {
             body.correction[0] += change * (1.0 - share);
             body.correction[1] += spin;
             if share > 0.0 {
-                body.motion.way += change * (share * h);
+                body.motion.displacement += change * (share * h);
                 body.motion.put(x);
             }
         }
@@ -323,17 +323,21 @@ impl RigidBodies {
         let mut sums = [0.0; 2];
         let moves = moves[self.first_slot..].as_chunks::<2>().0;
         for ((body, moves), guess) in self.all.iter().zip(moves).zip(guess) {
-            let square = |way: DVec3, turn: DVec3| body.weight * way.length_squared() + turn.dot(body.of_turn * turn);
-            let [way, turn] = moves.map(|own| own.as_dvec3());
-            sums[0] += square(way, turn);
-            sums[1] += square(body.motion.way - guess.way, body.motion.turn - guess.turn);
+            let square =
+                |displacement: DVec3, turn: DVec3| body.weight * displacement.length_squared() + turn.dot(body.of_turn * turn);
+            let [displacement, turn] = moves.map(|own| own.as_dvec3());
+            sums[0] += square(displacement, turn);
+            sums[1] += square(body.motion.displacement - guess.displacement, body.motion.turn - guess.turn);
         }
         sums
     }
 
     /// Returns the square of the longest way of a centre of mass from its base.
     pub(super) fn farthest_squared(&self) -> f64 {
-        let each = self.all.iter().map(|body| (body.motion.way - body.base).length_squared());
+        let each = self
+            .all
+            .iter()
+            .map(|body| (body.motion.displacement - body.base).length_squared());
         each.fold(0.0, f64::max)
     }
 

@@ -75,14 +75,14 @@ impl RigidBody {
         let before = &free.before;
         let is_second = step.may_be_second && !free.is_first_order;
         let freedom = free.freedom;
-        let change = gravity * freedom.way * h;
-        let (base, way, rate, base_turn, momentum) = if is_second {
-            let way = (velocity * 8.0 - before.velocity * 2.0 + change * 4.0) * (h / 9.0);
+        let change = gravity * freedom.translation * h;
+        let (base, displacement, rate, base_turn, momentum) = if is_second {
+            let displacement = (velocity * 8.0 - before.velocity * 2.0 + change * 4.0) * (h / 9.0);
             let last_turn = vector_of(rotation * before.rotation.inverse());
             let base = (centre - before.centre) / 3.0;
             (
                 base,
-                way,
+                displacement,
                 h * 2.0 / 3.0,
                 last_turn / 3.0,
                 (momentum * 4.0 - before.momentum) / 3.0,
@@ -94,7 +94,7 @@ impl RigidBody {
         let inertia_after = |turn: DVec3| turned(&DMat3::from_quat(rotation_by(turn)), &at_start);
         let mut goal_turn = base_turn;
         for _ in 0..ROUNDS {
-            goal_turn = base_turn + freedom.inverse(&inertia_after(goal_turn)) * momentum * rate;
+            goal_turn = base_turn + freedom.inverse_inertia(&inertia_after(goal_turn)) * momentum * rate;
         }
         let mut body = Self {
             carrier,
@@ -105,14 +105,14 @@ impl RigidBody {
                 mass: free.mass.mass,
                 rotation,
                 centre,
-                way: base + way,
+                displacement: base + displacement,
                 turn: goal_turn,
             },
             freedom,
             inertia: free.mass.inertia,
             rotated: DMat3::IDENTITY,
             weight: free.mass.mass / (rate * rate),
-            goal: base + way,
+            goal: base + displacement,
             base,
             rate,
             goal_turn,
@@ -133,7 +133,7 @@ impl RigidBody {
     pub(super) fn guess(&self, free: &Free, StepOfBody { h, before, .. }: StepOfBody) -> RigidMotion {
         let Some(last) = before else {
             return RigidMotion {
-                way: free.state.velocity * h,
+                displacement: free.state.velocity * h,
                 ..self.motion.clone()
             };
         };
@@ -141,7 +141,7 @@ impl RigidBody {
         let acceleration = shortened(acceleration, FOLLOWED);
         let change = free.spin_of(&free.state) - free.spin_of(&free.before);
         RigidMotion {
-            way: (free.state.velocity + acceleration * h) * h,
+            displacement: (free.state.velocity + acceleration * h) * h,
             turn: self.goal_turn + change * (h / last * h),
             ..self.motion.clone()
         }
@@ -150,7 +150,7 @@ impl RigidBody {
     /// The goal, where everything but contact leads.
     pub(crate) fn goal(&self) -> RigidMotion {
         RigidMotion {
-            way: self.goal,
+            displacement: self.goal,
             turn: self.goal_turn,
             ..self.motion.clone()
         }
@@ -193,15 +193,15 @@ impl RigidBody {
 
     /// Returns the gradient of inertia, for both slots.
     pub(super) fn gradient(&self) -> [DVec3; 2] {
-        let of_way = (self.motion.way - self.goal) * self.weight;
+        let of_displacement = (self.motion.displacement - self.goal) * self.weight;
         let of_turn = self.inverse_jacobian().transpose() * (self.of_turn * (self.motion.turn - self.goal_turn));
-        [of_way, of_turn]
+        [of_displacement, of_turn]
     }
 
     /// Returns the energy of inertia, in J.
     pub(super) fn energy(&self) -> f64 {
-        let (way, turn) = (self.motion.way - self.goal, self.motion.turn - self.goal_turn);
-        0.5 * self.weight * way.length_squared() + 0.5 * turn.dot(self.of_turn * turn)
+        let (displacement, turn) = (self.motion.displacement - self.goal, self.motion.turn - self.goal_turn);
+        0.5 * self.weight * displacement.length_squared() + 0.5 * turn.dot(self.of_turn * turn)
     }
 
     /// Returns M, and the second derivative for the slot of the turn.
@@ -214,10 +214,13 @@ impl RigidBody {
     pub(crate) fn end(&self, h: f64, is_pressed: bool) -> RigidState {
         let inertia = self.inertia_now();
         let (velocity, momentum) = if is_pressed {
-            (self.motion.way / h, inertia * self.motion.turn / h)
+            (self.motion.displacement / h, inertia * self.motion.turn / h)
         } else {
             let [_, torque] = self.gradient();
-            ((self.motion.way - self.base) / self.rate, self.momentum + torque * self.rate)
+            (
+                (self.motion.displacement - self.base) / self.rate,
+                self.momentum + torque * self.rate,
+            )
         };
         let [speed, spin] = self.correction;
         RigidState {
@@ -245,15 +248,15 @@ impl RigidBody {
     /// Returns what the body yields to a push of 1 N in a direction at an arm, in m/N.
     pub(super) fn compliance(&self, arm: DVec3, direction: DVec3) -> f64 {
         let moment = arm.cross(direction);
-        let along = (direction * self.freedom.way).length_squared();
-        along / self.weight + moment.dot(self.freedom.inverse(&self.of_turn) * moment)
+        let along = (direction * self.freedom.translation).length_squared();
+        along / self.weight + moment.dot(self.freedom.inverse_inertia(&self.of_turn) * moment)
     }
 
     /// Returns what it yields to an impulse, in m/s per N·s.
     pub(super) fn mobility(&self, arm: DVec3, direction: DVec3) -> f64 {
         let moment = arm.cross(direction);
-        let along = (direction * self.freedom.way).length_squared();
-        along / self.motion.mass + moment.dot(self.freedom.inverse(&self.inertia_now()) * moment)
+        let along = (direction * self.freedom.translation).length_squared();
+        along / self.motion.mass + moment.dot(self.freedom.inverse_inertia(&self.inertia_now()) * moment)
     }
 }
 

@@ -119,7 +119,7 @@ impl Ropes {
 }
 
 impl Edge {
-    fn along(&self, x: &[DVec3]) -> DVec3 {
+    fn offset(&self, x: &[DVec3]) -> DVec3 {
         let [from, to] = self.vertices.map(|vertex| x[vertex as usize]);
         to - from
     }
@@ -163,7 +163,7 @@ impl Term for Ropes {
     fn gradient(&mut self, x: &[DVec3], gradient: &mut [DVec3]) -> f64 {
         let mut energy = 0.0;
         for edge in self.edges.iter().filter(|_| self.stretch.is_some()) {
-            let along = edge.along(x);
+            let along = edge.offset(x);
             let now = length(along);
             let over = now - edge.length;
             energy += 0.5 * edge.stiffness * over * over;
@@ -186,7 +186,7 @@ impl Term for Ropes {
 
     fn curvature(&mut self, x: &[DVec3], matrix: &mut Matrix) {
         for edge in self.edges.iter().filter(|_| self.stretch.is_some()) {
-            let along = edge.along(x);
+            let along = edge.offset(x);
             let now = length(along);
             if now > SHORTEST * edge.length {
                 let direction = along / now;
@@ -223,7 +223,7 @@ impl Term for Ropes {
 
     fn energy(&self, now: &Configuration<'_>, _: usize) -> Vec<(usize, StoredEnergy)> {
         let x = now.positions;
-        let over = |edge: &Edge| (edge.along(x).length() - edge.length).powi(2) / edge.length;
+        let over = |edge: &Edge| (edge.offset(x).length() - edge.length).powi(2) / edge.length;
         let stretch = self.stretch.map(|(effect, axial)| {
             let all: f64 = self.edges.iter().map(over).sum();
             (effect, StoredEnergy::Elastic(0.5 * axial * all))

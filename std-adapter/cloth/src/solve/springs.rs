@@ -25,8 +25,8 @@ pub(crate) struct Spring {
 impl Spring {
     /// Returns the way from the anchor to the vertex, in m, and the stored energy, in J.
     fn stretched(&self, x: &[DVec3]) -> (DVec3, f64) {
-        let way = x[self.vertex as usize] - self.anchor;
-        (way, 0.5 * self.stiffness * way.length_squared())
+        let offset = x[self.vertex as usize] - self.anchor;
+        (offset, 0.5 * self.stiffness * offset.length_squared())
     }
 }
 
@@ -64,8 +64,8 @@ impl<S: Springs> Term for Held<S> {
     fn gradient(&mut self, x: &[DVec3], gradient: &mut [DVec3]) -> f64 {
         let mut energy = 0.0;
         for spring in &self.springs {
-            let (way, stored) = spring.stretched(x);
-            gradient[spring.vertex as usize] += way * spring.stiffness;
+            let (offset, stored) = spring.stretched(x);
+            gradient[spring.vertex as usize] += offset * spring.stiffness;
             energy += stored;
         }
         energy

@@ -69,7 +69,7 @@ struct Jumps {
     /// The speed, in m/s.
     speed: (f64, f64, usize),
     /// The length of a jump at one instant, in metres.
-    way: (f64, f64, usize),
+    length: (f64, f64, usize),
 }
 
 impl Animation {
@@ -98,9 +98,9 @@ impl Animation {
             let numbers = frame.iter().flat_map(|position| position.to_array());
             numbers.for_each(|number| fingerprint.take(&number.to_le_bytes()));
             if let Some(before) = index.checked_sub(1) {
-                let (way, vertex) = longest_way(&frames[before], frame);
+                let (length, vertex) = longest_move(&frames[before], frame);
                 let time = before as f64 / frames_per_second;
-                jumps.speed = larger(jumps.speed, (way * frames_per_second, time, vertex));
+                jumps.speed = larger(jumps.speed, (length * frames_per_second, time, vertex));
             }
         }
         let length = (frames.len() - 1) as f64 / frames_per_second;
@@ -128,16 +128,16 @@ impl Animation {
             if figure.has_steps() && key > first {
                 std::mem::swap(&mut before, &mut at);
                 figure.positions_at(key.next_down(), &mut at);
-                jumps.of_way(&before, &at, last_key - first, key - last_key);
+                jumps.take_speed(&before, &at, last_key - first, key - last_key);
                 std::mem::swap(&mut before, &mut at);
                 figure.positions_at(key, &mut at);
-                let (way, vertex) = longest_way(&before, &at);
-                jumps.way = larger(jumps.way, (way, key - first, vertex));
+                let (length, vertex) = longest_move(&before, &at);
+                jumps.length = larger(jumps.length, (length, key - first, vertex));
             } else {
                 std::mem::swap(&mut before, &mut at);
                 figure.positions_at(key, &mut at);
                 if key > first {
-                    jumps.of_way(&before, &at, last_key - first, key - last_key);
+                    jumps.take_speed(&before, &at, last_key - first, key - last_key);
                 }
             }
             check_reach(&at, || format!("the figure at {key} s"))?;
@@ -204,8 +204,8 @@ impl Animation {
                 match frames.get(before + 1).filter(|_| share > 0.0) {
                     None => positions.extend_from_slice(&frames[before]),
                     Some(after) => {
-                        let ways = frames[before].iter().zip(after);
-                        positions.extend(ways.map(|(&from, &to)| from + (to - from) * share));
+                        let moves = frames[before].iter().zip(after);
+                        positions.extend(moves.map(|(&from, &to)| from + (to - from) * share));
                     }
                 }
             }
@@ -227,8 +227,8 @@ impl Animation {
             let message = format!("the animation has {} vertices, but it moves {vertices}", self.source.vertices);
             return Err(ValueError::new("animation", message));
         }
-        let Jumps { speed, way } = self.source.jumps;
-        let fastest = larger(speed, (way.0 / time_step, way.1, way.2));
+        let Jumps { speed, length } = self.source.jumps;
+        let fastest = larger(speed, (length.0 / time_step, length.1, length.2));
         let (speed, time, vertex) = fastest;
         if speed > FASTEST_VERTEX {
             let unit = [("cm", 1e-2), ("mm", 1e-3), ("um", 1e-6)]
@@ -265,16 +265,16 @@ impl fmt::Debug for Animation {
 
 impl Jumps {
     /// Takes a motion of all vertices in `seconds` into account.
-    fn of_way(&mut self, from: &[DVec3], to: &[DVec3], begin: f64, seconds: f64) {
-        let (way, vertex) = longest_way(from, to);
-        self.speed = larger(self.speed, (way / seconds, begin, vertex));
+    fn take_speed(&mut self, from: &[DVec3], to: &[DVec3], begin: f64, seconds: f64) {
+        let (length, vertex) = longest_move(from, to);
+        self.speed = larger(self.speed, (length / seconds, begin, vertex));
     }
 }
 
-fn longest_way(from: &[DVec3], to: &[DVec3]) -> (f64, usize) {
-    let ways = from.iter().zip(to).map(|(from, to)| from.distance(*to)).enumerate();
-    let longest = ways.max_by(|a, b| a.1.total_cmp(&b.1));
-    longest.map_or((0.0, 0), |(vertex, way)| (way, vertex))
+fn longest_move(from: &[DVec3], to: &[DVec3]) -> (f64, usize) {
+    let moves = from.iter().zip(to).map(|(from, to)| from.distance(*to)).enumerate();
+    let longest = moves.max_by(|a, b| a.1.total_cmp(&b.1));
+    longest.map_or((0.0, 0), |(vertex, length)| (length, vertex))
 }
 
 fn larger(a: (f64, f64, usize), b: (f64, f64, usize)) -> (f64, f64, usize) {

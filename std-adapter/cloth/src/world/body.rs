@@ -75,7 +75,7 @@ impl Body {
     pub fn capsule(name: &str, [from, to]: [DVec3; 2], radius: f64, around: u32) -> Result<Self, ValueError> {
         let checked = FROM.check_vector(from).and(TO.check_vector(to));
         let checked = checked.and(RADIUS.check(radius)).and(AROUND.check(around));
-        checked.map_err(|error| error.of(name))?;
+        checked.map_err(|error| error.with_owner(name))?;
         Ok(Self {
             capsule: Some(([from, to], radius)),
             ..Self::from_mesh(name, shapes::capsule([from, to], radius, around))
@@ -87,7 +87,7 @@ impl Body {
     /// # Errors
     /// Returns an error if a number is out of range.
     pub fn ball(name: &str, centre: DVec3, radius: f64, around: u32) -> Result<Self, ValueError> {
-        CENTRE.check_vector(centre).map_err(|error| error.of(name))?;
+        CENTRE.check_vector(centre).map_err(|error| error.with_owner(name))?;
         Self::capsule(name, [centre; 2], radius, around)
     }
 
@@ -114,7 +114,7 @@ impl Body {
 
     pub(crate) fn check(&self, time_step: f64) -> Result<(), ValueError> {
         let checked = shapes::check(&self.mesh).and_then(|()| self.check_motion(time_step));
-        checked.map_err(|error| error.of(&self.name))
+        checked.map_err(|error| error.with_owner(&self.name))
     }
 
     fn check_motion(&self, time_step: f64) -> Result<(), ValueError> {
@@ -186,7 +186,7 @@ impl Body {
             _ => BodyMotion::read(table, time_step)?,
         };
         let checked = body.check_motion(time_step);
-        checked.map_err(|error| table.placed(&error.of(name)))?;
+        checked.map_err(|error| table.placed(&error.with_owner(name)))?;
         Ok(body)
     }
 

@@ -265,7 +265,7 @@ impl Cloth {
     /// Checks the public fields.
     pub(crate) fn check(&self) -> Result<(), ValueError> {
         let checked = self.check_densities().and(VELOCITY.check_vector(self.velocity));
-        checked.map_err(|error| error.of(&self.name))
+        checked.map_err(|error| error.with_owner(&self.name))
     }
 
     /// Checks the density of triangles and of loose edges, as far as the cloth has them.
@@ -346,12 +346,12 @@ impl Cloth {
 
     /// Returns the source vertex of each copy, in the order of the copies, which are the last vertices. A source may be a copy
     /// itself.
-    pub(crate) fn copied(&self) -> &[u32] {
+    pub(crate) fn copy_sources(&self) -> &[u32] {
         &self.copied
     }
 
     /// Returns the vertices of the whole cloth from which the copies stem.
-    pub(crate) fn copied_as_made(&self) -> Vec<u32> {
+    pub(crate) fn sources_as_made(&self) -> Vec<u32> {
         self.copied.iter().map(|&vertex| self.as_made(vertex)).collect()
     }
 

@@ -294,7 +294,7 @@ impl Driven {
     /// Returns a bound on the speed in m/s of its points in the step that [began](Self::begin). `positions` are those of the
     /// points that a rigid motion moves.
     pub(crate) fn speed(&self, positions: impl Iterator<Item = DVec3>) -> f64 {
-        let way = match &self.leg {
+        let length = match &self.leg {
             Leg::Rigid { from, to, .. } if from == to => 0.0,
             Leg::Rigid { axis, angle, from, to } => {
                 let arm = |point: DVec3| axis.cross(point - from.translation).length();
@@ -302,11 +302,11 @@ impl Driven {
                 from.translation.distance(to.translation) + angle.abs() * longest
             }
             Leg::Points { from, to, .. } => {
-                let ways = from.iter().zip(to).map(|(from, to)| from.distance(*to));
-                ways.fold(0.0, f64::max)
+                let lengths = from.iter().zip(to).map(|(from, to)| from.distance(*to));
+                lengths.fold(0.0, f64::max)
             }
         };
-        way / (self.clock[1] - self.clock[0])
+        length / (self.clock[1] - self.clock[0])
     }
 
     /// Drops the goal, and stays at a placement, or where the points are.
@@ -327,7 +327,7 @@ impl Driven {
         self.placement = match &self.leg {
             Leg::Rigid { to, .. } if has_arrived => Some(*to),
             Leg::Rigid { axis, angle, from, to } => {
-                Some(from.on(*axis, share * angle, share * (to.translation - from.translation)))
+                Some(from.turned_and_moved(*axis, share * angle, share * (to.translation - from.translation)))
             }
             Leg::Points { then, .. } if has_arrived => *then,
             Leg::Points { .. } => None,
@@ -339,7 +339,7 @@ impl Driven {
             let share = self.share(clock);
             for ((&vertex, from), to) in self.vertices.iter().zip(from).zip(to) {
                 if let Some(position) = positions.get_mut(vertex as usize) {
-                    *position = on_way([*from, *to], share);
+                    *position = on_path([*from, *to], share);
                 }
             }
         }
@@ -349,7 +349,7 @@ impl Driven {
     fn point(&self, share: f64, index: usize) -> Option<DVec3> {
         match &self.leg {
             Leg::Rigid { .. } => None,
-            Leg::Points { from, to, .. } => Some(on_way([*from.get(index)?, *to.get(index)?], share)),
+            Leg::Points { from, to, .. } => Some(on_path([*from.get(index)?, *to.get(index)?], share)),
         }
     }
 
@@ -357,8 +357,8 @@ impl Driven {
         let share = self.share(clock);
         match &self.leg {
             Leg::Rigid { axis, angle, from, to } => {
-                let way = to.translation - from.translation;
-                Pose::standing(*from).turned_and_moved(*axis, share * angle, share * way)
+                let displacement = to.translation - from.translation;
+                Pose::standing(*from).turned_and_moved(*axis, share * angle, share * displacement)
             }
             Leg::Points { from, to, .. } if from == to => Pose::deformed(0.0),
             Leg::Points { .. } => Pose::deformed(share),
@@ -377,6 +377,6 @@ impl Driven {
 }
 
 /// Returns the point at a share of the way, and exactly its end there.
-fn on_way([from, to]: [DVec3; 2], share: f64) -> DVec3 {
+fn on_path([from, to]: [DVec3; 2], share: f64) -> DVec3 {
     if share < 1.0 { from + (to - from) * share } else { to }
 }

@@ -78,9 +78,9 @@ const AXES: [(&str, usize); 6] = [
 
 impl LockedAxes {
     fn freedom(self) -> Freedom {
-        let [way, turn] =
+        let [translation, rotation] =
             [self.translation, self.rotation].map(|locked| DVec3::from(locked.map(|is_locked| f64::from(u8::from(!is_locked)))));
-        Freedom { way, turn }
+        Freedom { translation, rotation }
     }
 }
 
@@ -278,7 +278,7 @@ impl RigidMass {
 
     /// Returns the angular velocity in a state, in rad/s.
     fn spin(&self, state: &RigidState, freedom: &Freedom) -> DVec3 {
-        freedom.inverse(&state.turned(&self.inertia)) * state.momentum
+        freedom.inverse_inertia(&state.turned(&self.inertia)) * state.momentum
     }
 }
 
@@ -314,10 +314,10 @@ impl Free {
         let mut state = RigidState {
             rotation: placement.rotation,
             centre: placement.apply(mass.centre),
-            velocity: motion.velocity * freedom.way,
+            velocity: motion.velocity * freedom.translation,
             momentum: DVec3::ZERO,
         };
-        state.momentum = state.turned(&mass.inertia) * (motion.spin * freedom.turn);
+        state.momentum = state.turned(&mass.inertia) * (motion.spin * freedom.rotation);
         Self {
             mass,
             freedom,
@@ -346,7 +346,7 @@ impl Free {
         let spin = before.spin(&self.state, &self.freedom);
         let arm = self.state.rotation * -shift;
         self.state.centre += arm;
-        self.state.velocity += spin.cross(arm) * self.freedom.way;
+        self.state.velocity += spin.cross(arm) * self.freedom.translation;
         self.state.momentum = self.state.turned(&self.mass.inertia) * spin;
         self.before = self.state;
     }

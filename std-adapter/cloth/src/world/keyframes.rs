@@ -146,9 +146,9 @@ impl Segment {
         let back = 1.0 - s;
         std::array::from_fn(|k| {
             let [m, n] = self.velocities.map(|velocities| self.seconds * velocities[k]);
-            let way = self.to[k] - self.from[k];
+            let change = self.to[k] - self.from[k];
             // The ends are exact, and an even motion stays even.
-            self.from[k] + s * way + s * back * (back * (m - way) - s * (n - way))
+            self.from[k] + s * change + s * back * (back * (m - change) - s * (n - change))
         })
     }
 
@@ -348,20 +348,20 @@ impl KeyframeMotion {
     /// Returns the velocity of a spline at a keyframe; `only` is that of a motion with two keyframes.
     fn velocity_at(&self, place: usize, only: [f64; 4]) -> [f64; 4] {
         let keys = &self.keyframes;
-        let way = |before: usize| {
+        let span = |before: usize| {
             let [a, b] = [&keys[before], &keys[before + 1]];
             let (from, to, seconds) = (a.values(), b.values(), b.time - a.time);
             (seconds, std::array::from_fn::<f64, 4, _>(|k| (to[k] - from[k]) / seconds))
         };
         let last = keys.len() - 1;
-        let (is_end, ways) = match place {
+        let (is_end, spans) = match place {
             _ if last == 1 => return only,
-            0 => (true, [way(0), way(1)]),
-            _ if place == last => (true, [way(last - 1), way(last - 2)]),
-            _ => (false, [way(place - 1), way(place)]),
+            0 => (true, [span(0), span(1)]),
+            _ if place == last => (true, [span(last - 1), span(last - 2)]),
+            _ => (false, [span(place - 1), span(place)]),
         };
         let joined = if is_end { at_end } else { between };
-        let [(near, a), (far, b)] = ways;
+        let [(near, a), (far, b)] = spans;
         std::array::from_fn(|k| joined([near, far], [a[k], b[k]]))
     }
 

@@ -80,7 +80,7 @@ impl Placement {
         (along.normalize_or(DVec3::Z), 2.0 * atan2(along.length(), turn.w))
     }
 
-    pub(super) fn on(&self, axis: DVec3, angle: f64, translation: DVec3) -> Self {
+    pub(super) fn turned_and_moved(&self, axis: DVec3, angle: f64, translation: DVec3) -> Self {
         let [sine, cosine] = [sin(0.5 * angle), cos(0.5 * angle)];
         let turn = DQuat::from_xyzw(axis.x * sine, axis.y * sine, axis.z * sine, cosine);
         Self {
@@ -101,7 +101,7 @@ mod tests {
             let to = Placement::new(DQuat::from_rotation_y(angle) * from.rotation, DVec3::Y);
             let (axis, turn) = from.turn_to(&to);
             assert!((0.0..=std::f64::consts::PI + 1e-12).contains(&turn));
-            let there = from.on(axis, turn, to.translation - from.translation);
+            let there = from.turned_and_moved(axis, turn, to.translation - from.translation);
             let point = DVec3::new(0.3, -0.5, 0.7);
             assert!(there.apply(point).distance(to.apply(point)) < 1e-14, "{angle}");
         }

@@ -284,7 +284,7 @@ pub(super) fn placement(table: &Table<'_>) -> Result<DAffine3, SceneError> {
     if let Some(rotation) = table.table("rotation")? {
         rotation.expect_keys(&[AXIS.name, KEY_ANGLE.name])?;
         let axis = unit_axis(rotation.required_vector(&AXIS)?).map_err(|error| rotation.placed(&error))?;
-        placement = Placement::default().on(axis, rotation.required_number(&KEY_ANGLE)?, placement.translation);
+        placement = Placement::default().turned_and_moved(axis, rotation.required_number(&KEY_ANGLE)?, placement.translation);
     }
     let Placement { rotation, translation } = placement;
     Ok(DAffine3::from_scale_rotation_translation(

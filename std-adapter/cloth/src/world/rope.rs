@@ -57,12 +57,12 @@ fn along(points: &[DVec3], segments: u32) -> Vec<DVec3> {
     let whole: f64 = lengths.iter().sum();
     let (mut leg, mut before) = (0, 0.0);
     let at = |k: u32| {
-        let way = whole * f64::from(k) / f64::from(segments);
-        while leg + 1 < lengths.len() && way > before + lengths[leg] {
+        let along = whole * f64::from(k) / f64::from(segments);
+        while leg + 1 < lengths.len() && along > before + lengths[leg] {
             before += lengths[leg];
             leg += 1;
         }
-        points[leg].lerp(points[leg + 1], ((way - before) / lengths[leg]).min(1.0))
+        points[leg].lerp(points[leg + 1], ((along - before) / lengths[leg]).min(1.0))
     };
     (0..=segments).map(at).collect()
 }

@@ -86,14 +86,14 @@ impl Fan {
     }
 
     fn velocity(&self, at: DVec3) -> DVec3 {
-        let way = at - self.at;
+        let offset = at - self.at;
         let direction = self.velocity.normalize_or_zero();
-        let along = way.dot(direction);
+        let along = offset.dot(direction);
         if !(along >= 0.0) {
             return DVec3::ZERO;
         }
         let width = self.radius + SPREADING * along;
-        let across = (way - direction * along).length_squared();
+        let across = (offset - direction * along).length_squared();
         self.velocity * (self.radius / width * exp2(-across / (width * width)))
     }
 }

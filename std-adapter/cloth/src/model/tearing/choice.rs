@@ -66,11 +66,11 @@ impl Tearable {
         let Some(&middle) = one.iter().find(|end| other.contains(end)) else {
             return false;
         };
-        let way = |edge: [u32; 2]| {
+        let outward = |edge: [u32; 2]| {
             let far = if edge[0] == middle { edge[1] } else { edge[0] };
             self.fabric.rest[far as usize] - self.fabric.rest[middle as usize]
         };
-        way(one).dot(way(other)) < 0.0
+        outward(one).dot(outward(other)) < 0.0
     }
 
     /// Returns the tear along these edges, if it splits one of their ends.

@@ -41,12 +41,12 @@ pub(crate) fn open(
         let own = &mut moves[first..];
         let mass = |vertex: u32| inverse_masses[vertex as usize].recip();
         let all: f64 = own.iter().map(|&(vertex, _)| mass(vertex)).sum();
-        let middle: DVec3 = own.iter().map(|&(vertex, way)| way * mass(vertex)).sum::<DVec3>() / all;
+        let middle: DVec3 = own.iter().map(|&(vertex, move_by)| move_by * mass(vertex)).sum::<DVec3>() / all;
         own.iter_mut()
-            .for_each(|(_, way)| *way = (*way - middle) * (share * shortest));
+            .for_each(|(_, move_by)| *move_by = (*move_by - middle) * (share * shortest));
     }
-    for (vertex, way) in moves {
-        positions[vertex as usize] += way;
+    for (vertex, move_by) in moves {
+        positions[vertex as usize] += move_by;
     }
 }
 
