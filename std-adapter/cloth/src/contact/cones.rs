@@ -18,7 +18,8 @@
 //! **A contact at rest goes on.** Taut cloth lies along faces of a body's mesh. An edge beside such a face has a cone that ends
 //! at the face's normal, and the cloth lies there. Such a contact would come and go from step to step, and the cloth would
 //! tremble: an irregular bag around two balls moved by 14 cm/s (law of the bag). So a contact that pushed in the last step pushes
-//! on. Its direction [turns into the cone](NormalCones::turn_into), to the normal of a face beside it. So it does not push obliquely.
+//! on. Its direction [turns into the cone](NormalCones::turn_into), to the normal of a face beside it. So it does not push
+//! obliquely.
 //!
 //! **Cloth against cloth.** Oblique pushes make layers that lie on each other slide and tremble. But a fold lies beside itself,
 //! and cones on both sides would drop the pairs that keep it open, since the way along the cloth leads through the fold. So the

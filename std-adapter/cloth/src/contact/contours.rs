@@ -43,9 +43,9 @@ impl Contours {
         }
     }
 
-    /// Replaces `directions` by the direction in which each vertex should move; it has no unit, and is longer than one where the pull
-    /// is strong. `outward` returns the sign of the normals that point outwards, 1 or −1, for a vertex of a closed body, and 0
-    /// for others.
+    /// Replaces `directions` by the direction in which each vertex should move; it has no unit, and is longer than one where the
+    /// pull is strong. `outward` returns the sign of the normals that point outwards, 1 or −1, for a vertex of a closed body, and
+    /// 0 for others.
     pub(super) fn find_directions(
         &mut self,
         topology: &Topology,

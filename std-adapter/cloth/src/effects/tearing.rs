@@ -7,8 +7,8 @@
 //! nothing tears.
 //!
 //! **Cost.** Each step computes the tension of each triangle and the load of each edge. A step after which something tears
-//! rebuilds everything that depends on the mesh: terms, the matrix, candidates. While a tear waits, each twentieth step does so as
-//! well.
+//! rebuilds everything that depends on the mesh: terms, the matrix, candidates. While a tear waits, each twentieth step does so
+//! as well.
 //!
 //! A [`StrainLimit`](super::StrainLimit) of L keeps loads below k·(L − 1). A strength above that is never reached.
 

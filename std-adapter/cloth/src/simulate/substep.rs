@@ -92,8 +92,7 @@ impl Simulation {
         } = made;
         let Work { poses, substep, .. } = work;
         let count = *cloth_vertices;
-        let clock = state.clock;
-        let times = [clock, clock + ticks];
+        let times = [state.clock, state.clock + ticks];
         poses.clear();
         poses.extend({ motions.iter() }.map(|motion| times.map(|time| motion.pose(time))));
         let SubstepWork {
@@ -107,7 +106,7 @@ impl Simulation {
             velocities,
         } = substep;
         ends.clone_from(&state.positions);
-        put_kinematic(motions, carriers, carried, clock + ticks, ends);
+        put_kinematic(motions, carriers, carried, times[1], ends);
         let order = (&drag[..], solve.accuracy.is_of_second_order());
         let bodies = (&motions[..], &body_vertices[..], *of_free_bodies);
         free_bodies::begin(solve, bodies, (h, history), count, poses);
@@ -197,10 +196,9 @@ impl Simulation {
             free_bodies::hold(&mut solve.bodies, certified, &mut are_pressed);
             let may_be_held = |body: Carrier| !solve.bodies.has(body);
             if keeps_momentum && !is_held && is_moved.contains(&true) && !contact.meets(is_moved, may_be_held) {
-                is_pressed
-                    .iter_mut()
-                    .zip(&*is_moved)
-                    .for_each(|(pressed, moved)| *pressed |= *moved);
+                for (pressed, moved) in is_pressed.iter_mut().zip(&*is_moved) {
+                    *pressed |= *moved;
+                }
                 let pressed = (&is_pressed[..], is_held);
                 let with_bodies = (&mut solve.bodies, &are_pressed[..]);
                 pieces.keep_momentum(&step, &motion, pressed, Correction::Velocity, (x, velocities), with_bodies);
@@ -212,10 +210,9 @@ impl Simulation {
                 memory.settle(&step, x);
             }
         }
+        let are_first_order = is_pressed.iter().zip(&*is_moved).map(|(pressed, moved)| *pressed || *moved);
         history.is_first_order.clear();
-        history
-            .is_first_order
-            .extend(is_pressed.iter().zip(&*is_moved).map(|(pressed, moved)| *pressed || *moved));
+        history.is_first_order.extend(are_first_order);
         history.record(&state.positions, &state.velocities, h);
         free_bodies::accept(motions, &solve.bodies, h, &are_pressed, velocities);
         std::mem::swap(&mut state.velocities, velocities);

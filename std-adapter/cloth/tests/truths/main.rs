@@ -56,7 +56,7 @@ fn table(cells: u32, angle: f64) -> Body {
     Body::from_mesh("table", mesh)
 }
 
-/// Makes a square around the origin in the xy plane, whose inner vertices are moved by up to 0.3 of a cell, always in the same way.
+/// Makes a square around the origin in the xy plane, whose inner vertices are moved by up to 0.3 of a cell, always alike.
 fn irregular_square(side: f64, cells: u32) -> Mesh {
     let corner = -0.5 * side * DVec3::new(1.0, 1.0, 0.0);
     let sheet = Cloth::sheet(corner, [side * DVec3::X, side * DVec3::Y], [cells; 2], 1.0).unwrap();
