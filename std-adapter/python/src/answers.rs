@@ -24,9 +24,7 @@ const fn number(kind: PairKind) -> u8 {
 }
 
 pub(crate) fn kind_of(number: u8) -> Option<PairKind> {
-    PairKind::ALL
-        .into_iter()
-        .find(|&kind| self::number(kind) == number)
+    PairKind::ALL.into_iter().find(|&kind| self::number(kind) == number)
 }
 
 /// Makes an array of one dimension.
