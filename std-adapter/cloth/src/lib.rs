@@ -66,8 +66,8 @@ pub use simulate::{
 };
 pub use solve::{Accuracy, SolveCounts};
 pub use world::{
-    Animation, Body, BodyMass, BodyMotion, Cloth, FreeMotion, Interpolation, Keyframe, KeyframeMotion, LockedAxes, Material,
-    MeshInFiles, Placement, sleeve,
+    Animation, Body, BodyMass, BodyMotion, BroughtBody, Cloth, FreeMotion, Interpolation, Keyframe, KeyframeMotion, LockedAxes,
+    Material, MeshInFiles, Placement, sleeve,
 };
 
 /// The scene of the paper's sleeve on a bending arm, as text for [`Scene::parse`].

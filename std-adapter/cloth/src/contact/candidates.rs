@@ -51,7 +51,7 @@ pub(super) struct OfContact {
     carriers: Vec<Carrier>,
     /// The number of the cloth's vertices; bodies' vertices come after them.
     cloth_vertices: usize,
-    /// True for each body that the solve moves.
+    /// True for each body that the solve alone moves: not for proxies, since their engine keeps bodies apart.
     are_free: Vec<bool>,
     /// The neighbours, if they have a thickness of their own.
     neighbours: Option<Arc<Neighbours>>,

@@ -41,6 +41,7 @@ impl Simulation {
     pub fn step(&mut self) -> Result<(), Blocked> {
         let h = self.time_step;
         self.drive(h, |simulation| {
+            simulation.leave_proxies(1);
             let clock = simulation.whole_step(h)?;
             simulation.state.since += 1;
             Ok(clock)
@@ -77,6 +78,7 @@ impl Simulation {
             needed = simulation.steps_needed(seconds);
             let steps = needed.min(most).max(1);
             let h = seconds / f64::from(steps);
+            simulation.leave_proxies(steps);
             let mut of_frame = BodyClock::Went;
             while done < steps {
                 if matches!(simulation.whole_step(h)?, BodyClock::Waited) {
@@ -113,7 +115,8 @@ impl Simulation {
                 driven.begin(clock, seconds, [&self.state.positions, &self.carried], own);
             }
         }
-        if let Some(too_fast) = self.first_too_fast() {
+        if let Some(too_fast) = self.first_too_fast().or_else(|| self.begin_proxies(seconds)) {
+            self.drop_goals();
             self.threads = threads;
             return Err(too_fast);
         }
@@ -141,6 +144,7 @@ impl Simulation {
         for driven in self.made.motions.iter_mut().filter_map(Kinematic::driven_mut) {
             driven.end(clock, has_arrived);
         }
+        self.end_proxies();
         self.threads = threads;
         result.map(drop)
     }

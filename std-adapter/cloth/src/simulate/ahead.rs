@@ -39,18 +39,19 @@ fn follow_anchors(
 }
 
 impl Ahead {
-    /// Returns the speed of each vertex relative to `mean`: of cloth as it is, and of bodies, pins and anchors the largest on
-    /// their way through a frame of so many seconds.
+    /// Returns the speed of each vertex relative to `mean`: of cloth and free bodies as it is, and of other bodies, pins and
+    /// anchors the largest on their way through a frame of so many seconds.
     pub(super) fn speeds(&mut self, state: &State, made: &mut Assembly, carried: &[DVec3], seconds: f64, mean: DVec3) -> &[f64] {
         let Self { speeds, from, to } = self;
         let mut anchors = made.anchors();
         let Assembly { carriers, motions, .. } = made;
-        let of_cloth = |(velocity, carrier): (&DVec3, &Carrier)| match *carrier {
-            FREE => (*velocity - mean).length(),
+        let is_free = |carrier: Carrier| motions.get(carrier as usize).is_some_and(Kinematic::is_free);
+        let of_what_is_solved = |(velocity, carrier): (&DVec3, &Carrier)| match *carrier {
+            carrier if carrier == FREE || is_free(carrier) => (*velocity - mean).length(),
             _ => 0.0,
         };
         speeds.clear();
-        speeds.extend(state.velocities.iter().zip(&*carriers).map(of_cloth));
+        speeds.extend(state.velocities.iter().zip(&*carriers).map(of_what_is_solved));
         from.clone_from(&state.positions);
         let between = seconds / f64::from(PLACES);
         for place in 1..=PLACES {

@@ -117,7 +117,7 @@ impl Assembly {
                 topology,
                 rest,
                 &carriers,
-                (cloth_vertices, &are_free),
+                (cloth_vertices, &without_engine(&motions[..scene.bodies.len()])),
                 time_step,
             ))
         });
@@ -175,6 +175,12 @@ impl Assembly {
     pub(super) fn memories_mut(&mut self) -> impl Iterator<Item = &mut dyn Memory> {
         self.solve.terms.iter_mut().filter_map(|entry| entry.action.memory_mut())
     }
+}
+
+/// Returns for each body whether the solve alone moves it.
+fn without_engine(bodies: &[Kinematic]) -> Vec<bool> {
+    let is_proxy = |body: &Kinematic| body.free().is_some_and(|free| free.proxy.is_some());
+    bodies.iter().map(|body| body.is_free() && !is_proxy(body)).collect()
 }
 
 /// Gives free bodies the vertices of cloth that are pinned to them. `carriers` are those of the cloths' vertices.

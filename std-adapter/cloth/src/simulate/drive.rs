@@ -6,7 +6,7 @@ use super::simulation::Simulation;
 use super::state::FASTEST;
 use crate::effects::Wind;
 use crate::input::{FORCE, Field, LARGEST_COORDINATE, LENGTH, ValueError};
-use crate::world::{Driven, FASTEST_VERTEX, Kinematic, Placement};
+use crate::world::{Driven, FASTEST_VERTEX, Placement};
 use selvedge_core::glam::DVec3;
 
 /// A motion or a force that cannot be set; nothing has changed.
@@ -33,6 +33,12 @@ pub enum DriveError {
     NotDriven {
         /// A description of the body or the pins.
         what: String,
+    },
+    /// The body is not a proxy.
+    #[error("the body '{name}' is not a proxy: make it one (`proxy = true` beside its `mass`, `FreeMotion::proxy` in code)")]
+    NoProxy {
+        /// The name of the body.
+        name: String,
     },
     /// The number of positions differs from the number of vertices.
     #[error("{found} positions were given for {expected} vertices")]
@@ -218,8 +224,7 @@ impl Simulation {
     }
 
     /// Returns the first body or group of pins that the caller moves faster than [`FASTEST_VERTEX`] in the step that begins.
-    /// Drops all goals then.
-    pub(super) fn first_too_fast(&mut self) -> Option<Blocked> {
+    pub(super) fn first_too_fast(&self) -> Option<Blocked> {
         let Assembly { motions, carriers, .. } = &self.made;
         let driven = (0_u32..)
             .zip(motions)
@@ -242,12 +247,21 @@ impl Simulation {
                 format!("the group {} of pins", group.unwrap_or_default())
             }
         };
-        self.added_forces.0.clear();
-        for driven in self.made.motions.iter_mut().filter_map(Kinematic::driven_mut) {
-            driven.stand(driven.placement);
-        }
         let (time, speed) = (self.time(), Some(speed));
         Some(Blocked { time, what, body, speed })
+    }
+
+    /// Drops what the caller has set for the step that begins.
+    pub(super) fn drop_goals(&mut self) {
+        self.added_forces.0.clear();
+        for motion in &mut self.made.motions {
+            if let Some(driven) = motion.driven_mut() {
+                driven.stand(driven.placement);
+            }
+            if let Some(proxy) = motion.free_mut().and_then(|free| free.proxy.as_mut()) {
+                proxy.forget_goal();
+            }
+        }
     }
 
     pub(super) fn driven_body(&mut self, body: usize) -> Result<&mut Driven, DriveError> {

@@ -21,6 +21,7 @@ mod growth;
 mod loads;
 mod measures;
 mod momentum;
+mod proxies;
 mod read_bodies;
 mod read_loads;
 mod resume;

@@ -18,7 +18,7 @@ impl Simulation {
             state: self.state.clone(),
             seconds: self.seconds(),
             placements: self.driven().map(|driven| driven.placement).collect(),
-            free_bodies: self.free().map(Free::numbers).collect(),
+            free_bodies: self.free_bodies().map(|(_, free)| free.numbers()).collect(),
             torn: self.torn_cloths(),
             memories: self.memory_numbers(),
             kept: self.made.solve.write_kept(&self.work.substep.history),
@@ -56,7 +56,7 @@ impl Simulation {
             yielding: self.made.contact.as_ref().map_or(0, |c| c.exempt().yielding.len()),
             seconds: self.seconds().len(),
             placements: self.driven().count(),
-            free_bodies: self.free().count(),
+            free_bodies: self.free_bodies().count(),
             memories,
         };
         let checkpoint = Checkpoint::read(reader, lengths)?;
@@ -137,7 +137,9 @@ impl Simulation {
         self.made.motions.iter().filter_map(Kinematic::driven)
     }
 
-    fn free(&self) -> impl Iterator<Item = &Free> {
-        self.made.motions.iter().filter_map(Kinematic::free)
+    /// Returns the free bodies with their numbers.
+    pub(super) fn free_bodies(&self) -> impl Iterator<Item = (usize, &Free)> {
+        let motions = self.made.motions.iter().enumerate();
+        motions.filter_map(|(body, motion)| Some((body, motion.free()?)))
     }
 }

@@ -247,7 +247,13 @@ impl Simulation {
         for (effect, stored) in forces.chain(terms) {
             energy.add(self.effects[effect].name, stored);
         }
-        for free in self.made.motions.iter().filter_map(Kinematic::free) {
+        for free in self
+            .made
+            .motions
+            .iter()
+            .filter_map(Kinematic::free)
+            .filter(|free| free.proxy.is_none())
+        {
             energy.kinetic += free.kinetic_energy();
             if self.made.of_free_bodies.gravity != DVec3::ZERO {
                 let of_weight = -free.mass.mass * self.made.of_free_bodies.gravity.dot(free.state.centre);

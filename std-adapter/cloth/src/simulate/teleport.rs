@@ -57,8 +57,8 @@ struct Moved {
 }
 
 impl Simulation {
-    /// Moves [driven](crate::BodyMotion::Driven) bodies elsewhere at once, and with them their pins and the cloth that hangs on
-    /// them. A game uses it for a figure that teleports, or for a world whose origin moves.
+    /// Moves [driven](crate::BodyMotion::Driven) and [free](crate::BodyMotion::Free) bodies elsewhere at once, and with them
+    /// their pins and the cloth that hangs on them. A game uses it for a figure that teleports, or for a world whose origin moves.
     ///
     /// It is no step: no time passes, nothing is swept on the way, and the cloth does not feel it. `by` is applied to positions
     /// in the world: they are rotated about the origin, then translated. Velocities turn along, so that they stay the same
@@ -90,8 +90,8 @@ impl Simulation {
     /// ```
     ///
     /// # Errors
-    /// Returns an error, and changes nothing, if a number is wrong, a body is not driven, something else holds the cloth, or the
-    /// cloth or a body would meet something there.
+    /// Returns an error, and changes nothing, if a number is wrong, a body is neither driven nor free, something else holds the
+    /// cloth, or the cloth or a body would meet something there.
     pub fn teleport(&mut self, bodies: &[usize], cloths: &[usize], by: Placement) -> Result<(), TeleportError> {
         let by = by.checked()?;
         let moved = self.find_moved(bodies, cloths)?;
@@ -116,6 +116,17 @@ impl Simulation {
                 }
             }
         }
+        let mut free_bodies = Vec::new();
+        for (body, free) in self.free_bodies().filter(|(body, _)| moved.motions[*body]) {
+            let mut free = free.clone();
+            free.teleport(&by);
+            let own = self.made.body_vertices[body].clone();
+            let members = own.chain(free.riders.iter().map(|&rider| rider as usize));
+            members
+                .zip(free.positions())
+                .for_each(|(vertex, position)| positions[vertex] = position);
+            free_bodies.push((body, free));
+        }
         let is_far = |position: &&DVec3| !position.abs().cmple(DVec3::splat(LARGEST_COORDINATE)).all();
         if let Some(far) = positions.iter().find(is_far) {
             let message = format!("a vertex would be at {far}, which is not within {LARGEST_COORDINATE} metres");
@@ -123,6 +134,11 @@ impl Simulation {
         }
         self.check_room(&mut positions)?;
         self.arrive(&moved, &placements, &by);
+        for (body, moved) in free_bodies {
+            if let Some(free) = self.made.motions[body].free_mut() {
+                *free = moved;
+            }
+        }
         Ok(())
     }
 
@@ -186,7 +202,9 @@ impl Simulation {
     /// Finds what moves with the bodies and cloths.
     fn find_moved(&mut self, bodies: &[usize], cloths: &[usize]) -> Result<Moved, TeleportError> {
         for &body in bodies {
-            self.driven_body(body)?;
+            if self.body_motion(body).is_none() {
+                self.driven_body(body)?;
+            }
         }
         let made = &self.made;
         let count = made.vertices_of_cloths.len();

@@ -43,7 +43,7 @@ pub(crate) struct RigidBody {
     pub(super) goal_turn: DVec3,
     pub(super) of_turn: DMat3,
     pub(super) momentum: DVec3,
-    /// The velocity after gravity, and the angular momentum at the start.
+    /// The velocity and the angular momentum after gravity and what drives a proxy.
     pub(super) forced: DVec3,
     pub(super) started: DVec3,
     /// The velocity and the angular velocity to add to those of the step's motion: corrections of momentum, less the speeds that
@@ -65,7 +65,11 @@ pub(crate) struct StepOfBody {
 impl RigidBody {
     /// Makes a body at its first guess.
     pub(crate) fn new(carrier: usize, vertices: Range<usize>, free: &Free, step: StepOfBody) -> Self {
-        let StepOfBody { h, gravity, .. } = step;
+        let h = step.h;
+        let [acceleration, torque] = match &free.proxy {
+            Some(proxy) => proxy.driven,
+            None => [step.gravity, DVec3::ZERO],
+        };
         let RigidState {
             rotation,
             centre,
@@ -75,7 +79,8 @@ impl RigidBody {
         let before = &free.before;
         let is_second = step.may_be_second && !free.is_first_order;
         let freedom = free.freedom;
-        let change = gravity * freedom.translation * h;
+        let change = acceleration * freedom.translation * h;
+        let momentum = momentum + torque * h;
         let (base, displacement, rate, base_turn, momentum) = if is_second {
             let displacement = (velocity * 8.0 - before.velocity * 2.0 + change * 4.0) * (h / 9.0);
             let last_turn = vector_of(rotation * before.rotation.inverse());
@@ -85,7 +90,7 @@ impl RigidBody {
                 displacement,
                 h * 2.0 / 3.0,
                 last_turn / 3.0,
-                (momentum * 4.0 - before.momentum) / 3.0,
+                (momentum * 4.0 - before.momentum - torque * (2.0 * h)) / 3.0,
             )
         } else {
             (DVec3::ZERO, (velocity + change) * h, h, DVec3::ZERO, momentum)
@@ -119,7 +124,7 @@ impl RigidBody {
             of_turn: inertia_after(goal_turn) * (rate * rate).recip(),
             momentum,
             forced: velocity + change,
-            started: free.state.momentum,
+            started: free.state.momentum + torque * h,
             correction: [DVec3::ZERO; 2],
         };
         body.find_rotation();

@@ -6,6 +6,7 @@ mod coupled;
 mod limits;
 mod loads;
 mod momentum;
+mod proxies;
 mod rest;
 mod soft_pins;
 
