@@ -71,7 +71,7 @@ impl Free {
     }
 }
 
-/// Joins the riders of a body, each with its position, velocity and mass, with the engine's part of it, which has another velocity
+/// Joins the riders of a body, each with its position, velocity and mass, with the part of the engine, which has another velocity
 /// and a spin, as if they stuck together. Returns the velocity of the common centre of mass, and the angular momentum about it.
 /// The same for accelerations: it then returns that of the common centre, and the torque about it.
 fn joined(
