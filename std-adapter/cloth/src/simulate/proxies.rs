@@ -74,8 +74,8 @@ impl Simulation {
         Some(Wrench { force, torque })
     }
 
-    /// Lets proxies begin a frame of so many seconds. Returns the first whose body was brought too far for that time; then nothing
-    /// moves, and what was brought is forgotten.
+    /// Lets proxies begin a frame of so many seconds. Returns the first whose body was brought too far for that time; then
+    /// nothing moves, and what was brought is forgotten.
     pub(super) fn begin_proxies(&mut self, seconds: f64) -> Option<Blocked> {
         for body in 0..self.body_names.len() {
             let gravity = self.made.of_free_bodies.gravity;

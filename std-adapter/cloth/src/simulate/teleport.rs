@@ -58,7 +58,8 @@ struct Moved {
 
 impl Simulation {
     /// Moves [driven](crate::BodyMotion::Driven) and [free](crate::BodyMotion::Free) bodies elsewhere at once, and with them
-    /// their pins and the cloth that hangs on them. A game uses it for a figure that teleports, or for a world with another origin.
+    /// their pins and the cloth that hangs on them. A game uses it for a figure that teleports, or where its world gets another
+    /// origin.
     ///
     /// It is no step: no time passes, nothing is swept on the way, and the cloth does not feel it. `by` is applied to positions
     /// in the world: they are rotated about the origin, then translated. Velocities turn along, so that they stay the same

@@ -1,18 +1,18 @@
 //! Proxies: free bodies that stand for those of another physics engine.
 //!
-//! **A frame.** The engine moves its body first, with the load of the cloth's last frame. Then the cloth's frame begins: the proxy
-//! starts where its last frame has ended, with the acceleration that the engine has given the body, and at the velocity which
-//! leads to where the engine has brought it. It yields to the cloth as a free body of the engine's mass does. The engine takes
-//! over where the proxy ends, and the load as an impulse.
+//! **A frame.** The engine moves its body first, with the load of the cloth's last frame. Then the cloth's frame begins: the
+//! proxy starts where its last frame has ended, with the acceleration that the engine has given the body, and at the velocity
+//! which leads to where the engine has brought it. It yields to the cloth as a free body of the engine's mass does. The engine
+//! takes over where the proxy ends, and the load as an impulse.
 //!
-//! So a load is implicit in the motion that answers it. For a body on a spring k with the frame T this is x' = x + v·T − k·x'·T²/m,
-//! which is stable for any k, and cloth of any mass may hang on the body. With the load of the last frame instead, a body lighter
-//! than half of its cloth is thrown off, and one on a taut sheet bounces ever higher.
+//! So a load is implicit in the motion that answers it. For a body on a spring k with the frame T this is x' = x + v·T −
+//! k·x'·T²/m, which is stable for any k, and cloth of any mass may hang on the body. With the load of the last frame instead, a
+//! body lighter than half of its cloth is thrown off, and one on a taut sheet bounces ever higher.
 //!
 //! **What the engine holds.** On the ground, the engine stops what the load moves, and the proxy would sink by the load's
 //! displacement d in each frame. The engine's velocity tells: what it differs from the last one with load and gravity is the
-//! engine's reaction, which moves the body by up to c in the frame. The reaction takes back the part of d along c, at most |c|. In
-//! free flight c vanishes. The same for rotations.
+//! engine's reaction, which moves the body by up to c in the frame. The reaction takes back the part of d along c, at most |c|.
+//! In free flight c vanishes. The same for rotations.
 
 use super::placement::Placement;
 use super::rigid_mass::RigidMass;
@@ -58,7 +58,7 @@ pub(crate) struct Proxy {
     /// The impulse of the load in the last frame, and its moment about the centre of mass.
     pub(super) impulses: [DVec3; 2],
     pub(super) frame: Frame,
-    /// The acceleration of the centre of mass of all that moves with the proxy, and the torque about it, that are not the cloth's.
+    /// The acceleration of the centre of mass of all that moves with the proxy, and the torque about it, without those by cloth.
     pub(crate) driven: [DVec3; 2],
 }
 

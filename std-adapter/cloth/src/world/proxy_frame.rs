@@ -7,8 +7,8 @@ use crate::model::rigid::RigidState;
 use selvedge_core::glam::DVec3;
 
 impl Free {
-    /// Begins a frame of a proxy of so many seconds. Returns the state at the mean velocity and the mean spin that lead to its goal;
-    /// `None` unless it is a proxy.
+    /// Begins a frame of a proxy of so many seconds. Returns the state at the mean velocity and the mean spin that lead to its
+    /// goal; `None` unless it is a proxy.
     pub(crate) fn begin_frame(&mut self, seconds: f64, gravity: DVec3) -> Option<RigidState> {
         let at = self.placement();
         let [velocity, spin] = self.proxy.as_mut()?.begin(seconds, at, gravity);
@@ -19,8 +19,8 @@ impl Free {
         })
     }
 
-    /// Lets a proxy leave in a frame of so many equal steps, the last of which took `last_step` seconds. `moving` has the positions
-    /// and the velocities of all vertices.
+    /// Lets a proxy leave in a frame of so many equal steps. The last step took `last_step` seconds. The last argument has the
+    /// positions and the velocities of all vertices.
     pub(crate) fn leave(&mut self, steps: u32, last_step: Option<f64>, [positions, velocities]: [&[DVec3]; 2]) {
         let Some(proxy) = &mut self.proxy else { return };
         let Frame {
