@@ -4,7 +4,7 @@ use crate::error::tell;
 use crate::place::{Place, Places};
 use crate::seen::write;
 use crate::shape::{RenderMeshError, Shape, positions_of, triangles_of};
-use crate::{SelvedgeError, SelvedgeProblem};
+use crate::{EngineBody, SelvedgeError, SelvedgeProblem};
 use bevy_asset::{Assets, RenderAssetUsages};
 use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
@@ -66,6 +66,8 @@ pub struct ClothSimulation {
     /// The number of torn edges when this list was made.
     torn: usize,
     normals: Vec<DVec3>,
+    /// The seconds of the last fixed step, if the cloth has made it.
+    advanced: Option<f64>,
     told: BTreeMap<Part, SelvedgeError>,
 }
 
@@ -102,6 +104,7 @@ impl ClothSimulation {
             vertices: None,
             torn: 0,
             normals: Vec::new(),
+            advanced: None,
             told: BTreeMap::new(),
         }
     }
@@ -109,7 +112,8 @@ impl ClothSimulation {
     /// Lets a body of the scene, given by its index, follow an entity. Its `BodyMotion` becomes [`Driven`](BodyMotion::Driven),
     /// from the entity's place at the start.
     ///
-    /// In a fixed step it moves to the place of the entity at a constant rate, and rotates the short way about the entity's
+    /// If the entity is a body of a physics engine with an [`EngineBody`](crate::EngineBody), cloth pushes it. Otherwise the body
+    /// moves in a fixed step to the place of the entity at a constant rate, and rotates the short way about the entity's
     /// origin. An entity that jumps is a problem, and the cloth rests until it is back: call [`teleport`](Self::teleport). If the
     /// entity loses its `Transform` or is despawned, the body stays where it is.
     #[must_use]
@@ -179,6 +183,24 @@ impl ClothSimulation {
     /// Returns the tubes of ropes, laces and fringes, by the index of their cloth.
     pub(crate) fn tubes(&self) -> &[(usize, Tubes)] {
         &self.tubes
+    }
+
+    /// Returns the entities that bodies follow.
+    #[cfg(any(feature = "avian", feature = "rapier"))]
+    pub(crate) fn leading_entities(&self) -> impl Iterator<Item = Entity> {
+        self.leaders.values().copied()
+    }
+
+    /// Returns the bodies that cloth pushes in a physics engine, with their entities.
+    pub(crate) fn pushed(&self) -> impl Iterator<Item = (usize, Entity)> {
+        let simulation = self.simulation();
+        let leaders = self.leaders.iter().map(|(&body, &entity)| (body, entity));
+        leaders.filter(move |(body, _)| simulation.is_some_and(|simulation| simulation.proxy_load(*body).is_some()))
+    }
+
+    /// Returns the seconds of the last fixed step, if the cloth has made it.
+    pub(crate) const fn advanced(&self) -> Option<f64> {
+        self.advanced
     }
 
     pub(crate) const fn followers(&self) -> &BTreeMap<usize, Entity> {
@@ -282,6 +304,7 @@ fn joined(mesh: &Mesh) -> Result<selvedge::Mesh, RenderMeshError> {
 pub(crate) fn step_cloths(
     mut cloths: Query<'_, '_, (Entity, &mut ClothSimulation, Option<&Mesh3d>)>,
     places: Places<'_, '_>,
+    engine_bodies: Query<'_, '_, &EngineBody>,
     time: Res<'_, Time<Fixed>>,
     mut meshes: ResMut<'_, Assets<Mesh>>,
     mut problems: MessageWriter<'_, SelvedgeProblem>,
@@ -289,7 +312,7 @@ pub(crate) fn step_cloths(
     let fixed = time.timestep().as_secs_f64();
     for (entity, mut cloth, seen) in &mut cloths {
         let mut met = Met::new();
-        let leading = cloth.leading(&places, &mut met);
+        let leading = cloth.leading(&places, &engine_bodies, &mut met);
         cloth.advance(&leading, fixed, &mut met);
         if let (Some(_), Some(seen)) = (cloth.simulation(), seen) {
             let written = places.of(entity).and_then(|place| match meshes.get_mut(&seen.0) {
@@ -306,12 +329,15 @@ pub(crate) fn step_cloths(
     }
 }
 
+/// The placements of entities that bodies follow, and their bodies in a physics engine.
+type Leading = BTreeMap<usize, (Placement, Option<EngineBody>)>;
+
 /// The attempts of a fixed step and their results.
 type Met = BTreeMap<Part, Result<(), SelvedgeError>>;
 
 impl ClothSimulation {
-    fn leading(&self, places: &Places<'_, '_>, met: &mut Met) -> BTreeMap<usize, Placement> {
-        let mut leading = BTreeMap::new();
+    fn leading(&self, places: &Places<'_, '_>, engine_bodies: &Query<'_, '_, &EngineBody>, met: &mut Met) -> Leading {
+        let mut leading = Leading::new();
         for (&body, &leader) in &self.leaders {
             let place = places.of(leader).and_then(|place| {
                 let is_unscaled = place.has_form_of(&Place {
@@ -326,7 +352,11 @@ impl ClothSimulation {
             });
             let result = place.map(|place| {
                 let (rotation, translation) = place.pose();
-                leading.insert(body, Placement { rotation, translation });
+                let engine_body = engine_bodies.get(leader).ok().copied();
+                // An engine may know the mass only after its next step.
+                if engine_body.is_none_or(|engine_body| engine_body.mass > 0.0) {
+                    leading.insert(body, (Placement { rotation, translation }, engine_body));
+                }
             });
             met.insert(Part::Body(body), result);
         }
@@ -334,7 +364,8 @@ impl ClothSimulation {
     }
 
     /// Runs through a fixed step of this many seconds.
-    fn advance(&mut self, leading: &BTreeMap<usize, Placement>, fixed: f64, met: &mut Met) {
+    fn advance(&mut self, leading: &Leading, fixed: f64, met: &mut Met) {
+        self.advanced = None;
         if matches!(self.state, State::Planned(_)) && leading.len() == self.leaders.len() {
             let result = self.start(leading);
             met.insert(Part::Whole, result);
@@ -342,8 +373,12 @@ impl ClothSimulation {
         let State::Running(simulation) = &mut self.state else {
             return;
         };
-        for (&body, &goal) in leading {
-            if let Err(error) = simulation.place_body(body, goal) {
+        for (&body, &(goal, engine_body)) in leading {
+            let led = match engine_body.filter(|_| simulation.proxy_load(body).is_some()) {
+                Some(engine_body) => simulation.bring_body(body, engine_body.brought(goal)),
+                None => simulation.place_body(body, goal),
+            };
+            if let Err(error) = led {
                 met.insert(Part::Body(body), Err(SelvedgeError::Lead(error)));
             }
         }
@@ -364,19 +399,23 @@ impl ClothSimulation {
                 return;
             }
         };
+        self.advanced = Some(fixed);
         met.insert(Part::TimeStep, frame);
     }
 
-    fn start(&mut self, leading: &BTreeMap<usize, Placement>) -> Result<(), SelvedgeError> {
+    fn start(&mut self, leading: &Leading) -> Result<(), SelvedgeError> {
         let State::Planned(mut scene) = std::mem::replace(&mut self.state, State::Ended(None)) else {
             return Ok(());
         };
         let bodies = scene.bodies.len();
-        for (&body, &placement) in leading {
+        for (&body, &(placement, engine_body)) in leading {
             let Some(own) = scene.bodies.get_mut(body) else {
                 return Err(SelvedgeError::NoBody { body, bodies });
             };
-            own.motion = BodyMotion::Driven(placement);
+            own.motion = match engine_body {
+                Some(engine_body) => engine_body.proxy(placement).into(),
+                None => BodyMotion::Driven(placement),
+            };
         }
         let tubes = (0..scene.cloths.len()).filter_map(|cloth| Some((cloth, Tubes::from_scene(&scene, cloth)?)));
         self.tubes = tubes.collect();

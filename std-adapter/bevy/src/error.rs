@@ -82,6 +82,14 @@ pub enum SelvedgeError {
         /// The number of steps that the cloth needs.
         needed: u32,
     },
+    /// The physics engine does not make the fixed step, so that cloth pushes its bodies too much or too little.
+    #[error("the engine's step is {}, but the fixed step is {cloth} s: make them the same, such as by `TimestepMode::Fixed`", .engine.map_or_else(|| "not fixed".to_owned(), |engine| format!("{engine} s")))]
+    EngineStep {
+        /// The engine's step in seconds, if it is fixed.
+        engine: Option<f64>,
+        /// The fixed step in seconds.
+        cloth: f64,
+    },
     /// The rendered mesh does not match the cloth.
     #[error(
         "its Mesh3d has {seen} vertices, but the cloth has {cloth}: give it the mesh that the cloth was made of, or `mesh_of`"

@@ -1,9 +1,9 @@
-//! Entities that follow the free bodies of cloth.
+//! Entities that follow the free bodies of cloth, and bodies of a physics engine that cloth pushes.
 
 use crate::cloth::ClothSimulation;
 use crate::error::tell;
 use crate::place::{Place, Places};
-use crate::{SelvedgeError, SelvedgeProblem};
+use crate::{EngineBody, SelvedgeError, SelvedgeProblem};
 use bevy_ecs::change_detection::DetectChangesMut;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::message::MessageWriter;
@@ -31,17 +31,33 @@ fn within(parent: Option<Place>, placement: Placement, scale: Vec3) -> Option<Tr
     (transform.translation.is_finite() && transform.rotation.is_finite()).then_some(transform)
 }
 
-/// Moves the entities that follow free bodies to where these are.
+/// Moves the entities that follow free bodies to where these are, and those of bodies of an engine to where cloth has pushed
+/// them. Writes its impulses.
 pub(crate) fn show_bodies(
     mut cloths: Query<'_, '_, (Entity, &mut ClothSimulation)>,
     mut transforms: ParamSet<'_, '_, (Places<'_, '_>, Query<'_, '_, &'static mut Transform>)>,
+    mut engine_bodies: Query<'_, '_, &mut EngineBody>,
     mut problems: MessageWriter<'_, SelvedgeProblem>,
 ) {
+    for mut pushed in &mut engine_bodies {
+        (pushed.impulse, pushed.angular_impulse) = (Vec3::ZERO, Vec3::ZERO);
+    }
     for (entity, mut cloth) in &mut cloths {
         let Some(simulation) = cloth.simulation() else { continue };
         let bodies = simulation.body_names().len();
         let mut results = Vec::new();
-        for (&body, &follower) in cloth.followers() {
+        let moved = cloth.advanced().map(|seconds| (seconds, cloth.pushed()));
+        for (seconds, (body, entity)) in moved
+            .into_iter()
+            .flat_map(|(seconds, pushed)| pushed.map(move |it| (seconds, it)))
+        {
+            if let (Ok(mut pushed), Some(load)) = (engine_bodies.get_mut(entity), simulation.proxy_load(body)) {
+                pushed.push(load, seconds);
+            }
+        }
+        let followers = cloth.followers().iter().map(|(&body, &follower)| (body, follower));
+        let pushed = cloth.pushed().filter(|_| cloth.advanced().is_some());
+        for (body, follower) in followers.chain(pushed) {
             let placement = match simulation.body_motion(body).and(simulation.placement(body)) {
                 Some(placement) => Ok(placement),
                 None if body < bodies => Err(SelvedgeError::NotFree { body }),

@@ -5,23 +5,33 @@
 //!
 //! ```text
 //! Transforms, meshes ──▶ place, shape ──▶ collisions: bodies of a World ──▶ CollisionContact
-//!                                     └─▶ cloth: bodies of a Simulation ──▶ meshes; ropes as tubes; Transforms of free bodies
+//!                                     └─▶ cloth: bodies of a Simulation ──▶ meshes; ropes as tubes; Transforms of free bodies, and of bodies of an engine
 //! ```
 
+#[cfg(feature = "avian")]
+mod avian;
 mod body;
 mod cloth;
 mod collisions;
+mod engine_body;
 mod error;
 mod free;
 mod place;
+#[cfg(feature = "rapier")]
+mod rapier;
 mod ropes;
 mod seen;
 mod shape;
 
+#[cfg(feature = "avian")]
+pub use avian::AvianBridge;
 pub use body::{CollisionBody, CollisionGroups, CollisionMesh};
 pub use cloth::{ClothMeshError, ClothSimulation, body_of_mesh, cloth_of_mesh, mesh_of, mesh_of_cloths};
 pub use collisions::{CollisionContact, CollisionSettings};
+pub use engine_body::EngineBody;
 pub use error::{SelvedgeError, SelvedgeProblem};
+#[cfg(feature = "rapier")]
+pub use rapier::RapierBridge;
 pub use ropes::RopesOf;
 pub use selvedge;
 pub use selvedge::core::elementary::Limits;

@@ -3,6 +3,7 @@
 mod bodies;
 mod cloth;
 mod contacts;
+mod engine_bodies;
 mod free;
 mod loads;
 mod problems;
@@ -10,6 +11,9 @@ mod teleports;
 
 #[path = "../../example/src/figure.rs"]
 mod figure;
+#[allow(dead_code, reason = "the examples use the rest")]
+#[path = "../../examples/scenes/mod.rs"]
+mod scenes;
 
 use bevy_app::{App, FixedLast, TaskPoolPlugin};
 use bevy_asset::{AssetPlugin, Assets, Handle, RenderAssetUsages};
