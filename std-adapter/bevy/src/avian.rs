@@ -10,8 +10,9 @@ use bevy_ecs::entity::Entity;
 use bevy_ecs::schedule::IntoScheduleConfigs;
 use bevy_ecs::system::{Commands, Query};
 
-/// Lets cloth push the dynamic bodies of Avian that its bodies [follow](ClothSimulation::led_by), and lets it follow all others. Add
-/// it beside [`SelvedgePlugin`](crate::SelvedgePlugin) and Avian's `PhysicsPlugins`, which run in `FixedPostUpdate` by default.
+/// Lets cloth push the dynamic bodies of Avian that its bodies [follow](ClothSimulation::led_by), and lets it follow all others.
+/// Add it beside [`SelvedgePlugin`](crate::SelvedgePlugin) and Avian's `PhysicsPlugins`, which run in `FixedPostUpdate` by
+/// default.
 ///
 /// A body that cloth may push never sleeps. See [`EngineBody`].
 #[derive(Clone, Copy, Debug, Default)]

@@ -4,14 +4,15 @@ use bevy_ecs::component::Component;
 use bevy_math::Vec3;
 use selvedge_cloth::{BodyMass, BroughtBody, FreeMotion, LockedAxes, Placement, Wrench, glam::DVec3};
 
-/// The rigid body of an entity in a physics engine. Cloth whose body [follows](crate::ClothSimulation::led_by) the entity pushes it.
+/// The rigid body of an entity in a physics engine. Cloth whose body [follows](crate::ClothSimulation::led_by) the entity pushes
+/// it.
 ///
-/// The features `avian` and `rapier` have plugins that write and read this component: `AvianBridge` and `RapierBridge`. For another
-/// engine, two systems do it in `FixedPostUpdate`. One runs before [`SelvedgeSystems::Cloth`](crate::SelvedgeSystems::Cloth), after
-/// the engine's step of the same length, and writes the mass and the motion. The other one runs after it, and adds
-/// [`impulse`](Self::impulse) and [`angular_impulse`](Self::angular_impulse) to the momenta of the engine's body at once. In
-/// between the plugin has moved the `Transform` of the entity to where the cloth has left the body; the engine has to go on from
-/// there.
+/// The features `avian` and `rapier` have plugins that write and read this component: `AvianBridge` and `RapierBridge`. For
+/// another engine, two systems do it in `FixedPostUpdate`. One runs before
+/// [`SelvedgeSystems::Cloth`](crate::SelvedgeSystems::Cloth), after the engine's step of the same length, and writes the mass and
+/// the motion. The other one runs after it, and adds [`impulse`](Self::impulse) and [`angular_impulse`](Self::angular_impulse) to
+/// the momenta of the engine's body at once. In between the plugin has moved the `Transform` of the entity to where the cloth has
+/// left the body; the engine has to go on from there.
 ///
 /// The entity needs the component, with a mass, when the simulation starts. The scene's body must have the shape of the engine's
 /// body: its centre of mass and its inertia come from its mesh. The engine's gravity is that of the scene. See

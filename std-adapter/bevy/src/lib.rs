@@ -4,8 +4,8 @@
 //! message. A [`ClothSimulation`] moves the mesh of its entity. The readme explains the schedule.
 //!
 //! ```text
-//! Transforms, meshes ──▶ place, shape ──▶ collisions: bodies of a World ──▶ CollisionContact
-//!                                     └─▶ cloth: bodies of a Simulation ──▶ meshes; ropes as tubes; Transforms of free bodies, and of bodies of an engine
+//! Transforms, meshes ──▶ place, shape ──▶ collisions: bodies of a World ──▶ CollisionContact └─▶ cloth: bodies of a Simulation
+//! ──▶ meshes; ropes as tubes; Transforms of free bodies, and of bodies of an engine
 //! ```
 
 #[cfg(feature = "avian")]

@@ -9,9 +9,9 @@ use bevy_ecs::system::{Commands, Local, Query, Res};
 use bevy_rapier3d::prelude::{ExternalImpulse, LockedAxes, ReadMassProperties, RigidBody, Sleeping, TimestepMode, Velocity};
 use bevy_time::{Fixed, Time};
 
-/// Lets cloth push the dynamic bodies of Rapier that its bodies [follow](ClothSimulation::led_by), and lets it follow all others. Add
-/// it beside [`SelvedgePlugin`](crate::SelvedgePlugin) and `RapierPhysicsPlugin::in_fixed_schedule`, with a `TimestepMode::Fixed` of
-/// the fixed time step; another step is reported.
+/// Lets cloth push the dynamic bodies of Rapier that its bodies [follow](ClothSimulation::led_by), and lets it follow all others.
+/// Add it beside [`SelvedgePlugin`](crate::SelvedgePlugin) and `RapierPhysicsPlugin::in_fixed_schedule`, with a
+/// `TimestepMode::Fixed` of the fixed time step; another step is reported.
 ///
 /// A body that cloth may push never sleeps. See [`EngineBody`].
 #[derive(Clone, Copy, Debug, Default)]

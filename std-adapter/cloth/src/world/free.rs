@@ -254,7 +254,7 @@ impl Free {
             };
         }
         if let Some(proxy) = &mut self.proxy {
-            proxy.turn(by.rotation);
+            proxy.rotate(by.rotation);
         }
     }
 

@@ -51,7 +51,7 @@ pub(crate) struct Proxy {
     /// The masses of the cloth's vertices that are pinned to it, in kg.
     pub(super) rider_masses: Vec<f64>,
     brought: Option<BroughtBody>,
-    /// The way and the turn by which the load has moved it in the last frame.
+    /// The displacement and the rotation by which the load has moved it in the last frame.
     yielded: [DVec3; 2],
     /// The velocity and the spin of the engine's body at the end of the last frame, with the load.
     expected: [DVec3; 2],
@@ -159,10 +159,10 @@ impl Proxy {
         ];
         let inertia_at = |rotation: DQuat| turned(&DMat3::from_quat(rotation), &self.own.inertia);
         let inertia = inertia_at(at.rotation);
-        let [way, turn] = frame.accelerations.map(|acceleration| acceleration * frame.seconds);
+        let [gained, gained_spin] = frame.accelerations.map(|acceleration| acceleration * frame.seconds);
         let [velocity_before, spin_before] = frame.leaves;
-        let impulse = (velocity - velocity_before - way) * self.own.mass;
-        let moment = inertia * (spin - turn) - inertia_at(frame.from) * spin_before;
+        let impulse = (velocity - velocity_before - gained) * self.own.mass;
+        let moment = inertia * (spin - gained_spin) - inertia_at(frame.from) * spin_before;
         self.impulses = [impulse, moment];
         self.expected = [
             frame.brought[0] + impulse / self.own.mass,
@@ -183,7 +183,7 @@ impl Proxy {
     }
 
     /// Rotates all that it knows of the last frame, and forgets where the engine has brought the body.
-    pub(super) fn turn(&mut self, by: DQuat) {
+    pub(super) fn rotate(&mut self, by: DQuat) {
         self.brought = None;
         for vector in [&mut self.yielded, &mut self.expected, &mut self.impulses]
             .into_iter()

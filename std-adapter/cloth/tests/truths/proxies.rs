@@ -1,8 +1,8 @@
 //! Proxies: bodies of another engine that yield to cloth.
 
-use crate::bodies::{DENSITY, G, THICKNESS, ball, of_mass, scene, sheet, touch};
+use crate::bodies::{DENSITY, G, THICKNESS, ball, of_mass, scene, sheet};
 use crate::loads::{PACES, Pace};
-use crate::{masses, momenta};
+use crate::{contact, masses, momenta};
 use selvedge_cloth::effects::{BodyContact, Gravity, PinGroup, PinMotion, Pins, RopeStretch, Thickness};
 use selvedge_cloth::glam::{DQuat, DVec3};
 use selvedge_cloth::{BroughtBody, CHECKPOINT_STEPS, Cloth, DriveError, FreeMotion, Placement, Scene, Simulation};
@@ -92,7 +92,7 @@ fn near(cloth: Cloth, engine: &Engine, pace: Pace, pins: Vec<u32>) -> Simulation
             groups: vec![PinGroup::resting(pins)],
         });
     }
-    touch(&mut scene);
+    contact(&mut scene, THICKNESS, 0.0);
     Simulation::new(scene, 1).unwrap()
 }
 
@@ -313,7 +313,7 @@ fn a_body_that_is_no_proxy_or_is_brought_too_far_is_refused() {
 
     let mut scene = scene(sheet(0.3, 4, 0.2), 4e-3, G, 0.3);
     scene.bodies.push(ball(DVec3::ZERO, 0.05, of_mass(1.0)));
-    touch(&mut scene);
+    contact(&mut scene, THICKNESS, 0.0);
     let mut simulation = Simulation::new(scene, 1).unwrap();
     let error = simulation.bring_body(0, to).unwrap_err();
     assert_eq!(error, DriveError::NoProxy { name: "ball".to_owned() });
