@@ -175,7 +175,7 @@ enum selvedge_status
    */
   SELVEDGE_STATUS_NO_SUCH_PART = 29,
   /**
-   * A body or a group of pins cannot be moved: its scene does not say that it is driven.
+   * A body or a group of pins cannot be moved: its scene does not say that it is driven, or a proxy.
    */
   SELVEDGE_STATUS_NOT_DRIVEN = 30,
   /**

@@ -292,6 +292,24 @@ typedef struct selvedge_free_body_state {
   double angular_momentum[3];
 } selvedge_free_body_state;
 
+/**
+ * Where another physics engine has brought a body.
+ */
+typedef struct selvedge_brought_body {
+  /**
+   * The placement of the body's mesh.
+   */
+  selvedge_pose placement;
+  /**
+   * The velocity of the centre of mass, in m/s.
+   */
+  double velocity[3];
+  /**
+   * The angular velocity, in rad/s.
+   */
+  double spin[3];
+} selvedge_brought_body;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -511,13 +529,13 @@ selvedge_status selvedge_simulation_place_body(struct selvedge_simulation *simul
                                                const selvedge_pose *placement);
 
 /**
- * Moves driven bodies elsewhere at once, and with them their pins and the cloth that hangs on them, for a figure that teleports.
- * No time passes, and nothing is swept on the way. `by` is applied to positions in the world: they are rotated about the origin,
- * then translated. Velocities turn along. Cloth moves if it is pinned or attached to one of the bodies, or if it belongs to one
- * of `cloths`, such as a garment without pins. Bodies and cloths have their numbers in the scene.
+ * Moves driven and free bodies elsewhere at once, and with them their pins and the cloth that hangs on them, for a figure that
+ * teleports. No time passes, and nothing is swept on the way. `by` is applied to positions in the world: they are rotated about
+ * the origin, then translated. Velocities turn along. Cloth moves if it is pinned or attached to one of the bodies, or if it
+ * belongs to one of `cloths`, such as a garment without pins. Bodies and cloths have their numbers in the scene.
  *
- * On an error nothing has changed. SELVEDGE_STATUS_NOT_DRIVEN means that a body is not driven, or that something that stays
- * holds the cloth as well, SELVEDGE_STATUS_BLOCKED that there is no room.
+ * On an error nothing has changed. SELVEDGE_STATUS_NOT_DRIVEN means that a body is neither driven nor free, or that something
+ * that stays holds the cloth as well, SELVEDGE_STATUS_BLOCKED that there is no room.
  *
  * The caller promises:
  * `bodies` points to `body_count` numbers, `cloths` to `cloth_count`, `by` to one entry. Lists may be NULL if they have no
@@ -678,6 +696,35 @@ selvedge_status selvedge_simulation_body_motion(const struct selvedge_simulation
                                                 size_t body,
                                                 bool *is_free,
                                                 struct selvedge_free_body_state *state);
+
+/**
+ * Says where another physics engine has brought the body of a proxy, a free body with `proxy = true` in the scene, in the time
+ * of the next selvedge_simulation_advance or selvedge_simulation_step. In that time the proxy goes there, and yields to cloth on
+ * the way by the mass of the body. Without a call it stays, and yields.
+ *
+ * Afterwards move the engine's body to selvedge_simulation_placement, and add selvedge_simulation_proxy_load, times the length
+ * of the frame, to its momentum. Both steps must have the same length. SELVEDGE_STATUS_NOT_DRIVEN means that the body is not a
+ * proxy.
+ *
+ * The caller promises:
+ * `to` points to one entry.
+ */
+selvedge_status selvedge_simulation_bring_body(struct selvedge_simulation *simulation,
+                                               size_t body,
+                                               const struct selvedge_brought_body *to);
+
+/**
+ * Returns the mean force of cloth and ropes on a proxy in the last selvedge_simulation_step or selvedge_simulation_advance, with
+ * the mean torque about its centre of mass. Cloth that is pinned to it is part of the load. `*is_proxy` is false for other
+ * bodies; `*load` then stays unchanged.
+ *
+ * The caller promises:
+ * `is_proxy` and `load` point to one entry each.
+ */
+selvedge_status selvedge_simulation_proxy_load(const struct selvedge_simulation *simulation,
+                                               size_t body,
+                                               bool *is_proxy,
+                                               struct selvedge_wrench *load);
 
 /**
  * Returns the state of the simulation as bytes. Motions that were set for the next step and the wind are not included. The call

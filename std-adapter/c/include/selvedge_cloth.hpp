@@ -167,8 +167,21 @@ class simulation {
     return is_free ? std::optional<selvedge_free_body_state>(state) : std::nullopt;
   }
 
-  /// Moves driven bodies, their pins and the cloth that hangs on them, and other cloths, elsewhere at once, without a step. `by`
-  /// is applied to positions in the world.
+  /// Says where another engine has brought the body of a proxy in the time of the next step or frame. The proxy goes there, and
+  /// yields to cloth on the way. Then give the engine's body its `placement` and the impulse of its `proxy_load`.
+  void bring_body(std::size_t body, const selvedge_brought_body &to) { check(selvedge_simulation_bring_body(get(), body, &to)); }
+
+  /// Returns the mean load on a proxy in the last step or frame, with the torque about its centre of mass; none for any other
+  /// body.
+  std::optional<selvedge_wrench> proxy_load(std::size_t body) const {
+    bool is_proxy = false;
+    selvedge_wrench load{};
+    check(selvedge_simulation_proxy_load(get(), body, &is_proxy, &load));
+    return is_proxy ? std::optional<selvedge_wrench>(load) : std::nullopt;
+  }
+
+  /// Moves driven and free bodies, their pins and the cloth that hangs on them, and other cloths, elsewhere at once, without a
+  /// step. `by` is applied to positions in the world.
   void teleport(const std::vector<std::size_t> &bodies, const selvedge_pose &by, const std::vector<std::size_t> &cloths = {}) {
     check(selvedge_simulation_teleport(get(), bodies.data(), bodies.size(), cloths.data(), cloths.size(), &by));
   }

@@ -69,7 +69,7 @@ pub enum Status {
     Blocked = 28,
     /// The scene has no such cloth, body, group of pins or wind.
     NoSuchPart = 29,
-    /// A body or a group of pins cannot be moved: its scene does not say that it is driven.
+    /// A body or a group of pins cannot be moved: its scene does not say that it is driven, or a proxy.
     NotDriven = 30,
     /// A position or a velocity is not finite or out of its range.
     BadValue = 31,

@@ -15,7 +15,7 @@ impl From<DriveError> for Failure {
             DriveError::NoBody { .. } | DriveError::NoPins { .. } | DriveError::NoVertex { .. } | DriveError::NoWind => {
                 Status::NoSuchPart
             }
-            DriveError::NotDriven { .. } => Status::NotDriven,
+            DriveError::NotDriven { .. } | DriveError::NoProxy { .. } => Status::NotDriven,
             DriveError::VertexCount { .. } | DriveError::ForceCount { .. } => Status::WrongLength,
             DriveError::Value(_) => Status::BadValue,
         };
@@ -65,13 +65,13 @@ pub unsafe extern "C" fn selvedge_simulation_place_body(
     })
 }
 
-/// Moves driven bodies elsewhere at once, and with them their pins and the cloth that hangs on them, for a figure that teleports.
-/// No time passes, and nothing is swept on the way. `by` is applied to positions in the world: they are rotated about the origin,
-/// then translated. Velocities turn along. Cloth moves if it is pinned or attached to one of the bodies, or if it belongs to one
-/// of `cloths`, such as a garment without pins. Bodies and cloths have their numbers in the scene.
+/// Moves driven and free bodies elsewhere at once, and with them their pins and the cloth that hangs on them, for a figure that
+/// teleports. No time passes, and nothing is swept on the way. `by` is applied to positions in the world: they are rotated about
+/// the origin, then translated. Velocities turn along. Cloth moves if it is pinned or attached to one of the bodies, or if it
+/// belongs to one of `cloths`, such as a garment without pins. Bodies and cloths have their numbers in the scene.
 ///
-/// On an error nothing has changed. SELVEDGE_STATUS_NOT_DRIVEN means that a body is not driven, or that something that stays
-/// holds the cloth as well, SELVEDGE_STATUS_BLOCKED that there is no room.
+/// On an error nothing has changed. SELVEDGE_STATUS_NOT_DRIVEN means that a body is neither driven nor free, or that something
+/// that stays holds the cloth as well, SELVEDGE_STATUS_BLOCKED that there is no room.
 ///
 /// # Safety
 /// `bodies` points to `body_count` numbers, `cloths` to `cloth_count`, `by` to one entry. Lists may be NULL if they have no

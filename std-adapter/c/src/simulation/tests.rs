@@ -11,7 +11,7 @@ use super::state::*;
 use crate::status::{Status, selvedge_last_error};
 use crate::world::steps::PoseRow;
 use selvedge_cloth::glam::DVec3;
-use selvedge_cloth::{Placement, Scene, Simulation, vertex_normals};
+use selvedge_cloth::{BroughtBody, Placement, Scene, Simulation, vertex_normals};
 use std::ffi::{CStr, CString};
 use std::path::Path;
 use std::ptr;
@@ -339,6 +339,67 @@ fn a_free_body_moves_as_in_rust_bit_for_bit() {
     }
     assert!(simulation.body_load(0, DVec3::ZERO).unwrap().total().force.length() > 0.0);
     assert_eq!(selvedge_simulation_free(handle), Status::Ok);
+}
+
+#[test]
+fn a_body_of_another_engine_yields_as_in_rust_bit_for_bit() {
+    let text = SCENE
+        .to_str()
+        .unwrap()
+        .replacen("driven = true", "mass = 0.05\nproxy = true", 1);
+    let scene = Scene::parse(&text, Path::new("scene.toml")).unwrap();
+    let mut simulation = Simulation::new(scene, 1).unwrap();
+    let text = CString::new(text).unwrap();
+    let mut handle = ptr::null_mut();
+    // SAFETY: the text ends with a zero, and there is a place for the handle.
+    let status = unsafe { selvedge_simulation_new(text.as_ptr(), ptr::null(), 2, &raw mut handle) };
+    assert_eq!(status, Status::Ok);
+    let seconds = 1.0 / 60.0;
+    let (mut velocity, spin) = (DVec3::Z, DVec3::new(0.5, 1.0, 2.0));
+    let mut pushes = 0;
+    for _ in 0..20 {
+        let at = simulation.placement(0).unwrap();
+        let turn = selvedge_cloth::glam::DQuat::from_scaled_axis(spin * seconds);
+        let placement = Placement::new(turn * at.rotation, at.translation + velocity * seconds);
+        let (to, row) = brought(placement, velocity, spin);
+        simulation.bring_body(0, to).unwrap();
+        // SAFETY: there is one entry.
+        let status = unsafe { selvedge_simulation_bring_body(handle, 0, &raw const row) };
+        assert_eq!(status, Status::Ok);
+        simulation.advance(seconds).unwrap();
+        // SAFETY: NULL is allowed.
+        let status = unsafe { selvedge_simulation_advance(handle, seconds, 64, ptr::null_mut()) };
+        assert_eq!(status, Status::Ok);
+        are_alike(handle, &simulation);
+        let (mut is_proxy, mut load) = (false, WrenchRow::default());
+        // SAFETY: there is one entry for each.
+        let status = unsafe { selvedge_simulation_proxy_load(handle, 0, &raw mut is_proxy, &raw mut load) };
+        assert_eq!((status, is_proxy), (Status::Ok, true));
+        let known = simulation.proxy_load(0).unwrap();
+        assert_eq!(load, known.into());
+        velocity += known.force * (seconds / 0.05);
+        pushes += u32::from(known.force.z < 0.0 && known.torque.length() > 0.0);
+    }
+    assert!(pushes > 5, "the ball meets the sheet in {pushes} frames");
+    assert_eq!(selvedge_simulation_free(handle), Status::Ok);
+}
+
+/// Returns for Rust and for C where an engine has brought a body.
+fn brought(placement: Placement, velocity: DVec3, spin: DVec3) -> (BroughtBody, BroughtBodyRow) {
+    let to = BroughtBody {
+        placement,
+        velocity,
+        spin,
+    };
+    let row = BroughtBodyRow {
+        placement: PoseRow {
+            rotation: placement.rotation.to_array(),
+            origin: placement.translation.to_array(),
+        },
+        velocity: velocity.to_array(),
+        spin: spin.to_array(),
+    };
+    (to, row)
 }
 
 #[test]

@@ -10,6 +10,7 @@ use crate::settings::*;
 use crate::simulation::checkpoint::*;
 use crate::simulation::counts::*;
 use crate::simulation::lead::*;
+use crate::simulation::motion::*;
 use crate::simulation::run::*;
 use crate::status::Status;
 use crate::world::steps::PoseRow;
@@ -17,7 +18,7 @@ use selvedge::core::elementary::Limits;
 use selvedge::{CollisionDetector, CollisionFilter, Criterion, Topology};
 use selvedge_cloth::files::mesh;
 use selvedge_cloth::glam::{DQuat, DVec3};
-use selvedge_cloth::{Placement, Scene, Simulation};
+use selvedge_cloth::{BroughtBody, Placement, Scene, Simulation};
 use std::collections::BTreeMap;
 use std::ffi::CString;
 use std::fmt::Display;
@@ -225,6 +226,20 @@ fn motions(messages: &mut Messages) {
         place(0, nowhere)
     });
     messages.of("a rotation of zero", rust.place_body(0, zero), || place(0, zero));
+    let brought = BroughtBody {
+        placement: Placement::default(),
+        velocity: DVec3::ZERO,
+        spin: DVec3::ZERO,
+    };
+    messages.of("a body that is not a proxy", rust.bring_body(0, brought), || {
+        let to = BroughtBodyRow {
+            placement: pose(brought.placement),
+            velocity: [0.0; 3],
+            spin: [0.0; 3],
+        };
+        // SAFETY: there is one entry.
+        unsafe { selvedge_simulation_bring_body(c, 0, &raw const to) }
+    });
     let few = [DVec3::ZERO; 2];
     let numbers = [0.0; 6];
     messages.of("too few positions of a body", rust.move_body(0, &few), || {

@@ -269,8 +269,8 @@ fn a_sheet_carries_the_ball_of_an_engine_in_c() {
     let last = output.lines().last().unwrap();
     let (carried, certified) = last.strip_prefix("the sheet carries ").unwrap().split_once(' ').unwrap();
     let carried: f64 = carried.parse().unwrap();
-    assert!((carried - 1.0).abs() < 0.01, "{output}");
-    assert_eq!(certified, "of the ball's weight; 1500 of 1500 states are certified");
+    assert!((carried - 1.0).abs() < 1e-3, "{output}");
+    assert_eq!(certified, "of the ball's weight; 600 of 600 states are certified");
 }
 
 #[test]

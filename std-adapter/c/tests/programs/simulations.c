@@ -227,6 +227,58 @@ static void free_bodies(void) {
   EXPECT(NO_SUCH_SIMULATION, selvedge_simulation_body_motion(it, 0, &is_free, &state));
 }
 
+/* A ball of another engine below a sheet, which rises by a centimetre in each step of 2 ms until it meets the sheet. */
+static void proxies(void) {
+  static const char rising[] = HEAD BALL "mass = 0.1\nproxy = true\n" REST "driven = true\n" CLOTH
+                               "[effects.body_contact]\nthickness = 0.005\n";
+  selvedge_simulation *it = NULL;
+  selvedge_brought_body to = {{{0, 0, 0, 1}, {0, 0, 0}}, {0, 0, 5}, {0, 0, 0}}, wrong = to;
+  selvedge_wrench load = {0}, untouched = {0};
+  selvedge_pose pose = {{0, 0, 0, 1}, {0, 0, 0}};
+  bool is_proxy = false, is_known = false;
+  EXPECT(OK, selvedge_simulation_new(rising, NULL, 1, &it));
+  EXPECT(NULL_POINTER, selvedge_simulation_bring_body(it, 0, NULL));
+  EXPECT(NO_SUCH_PART, selvedge_simulation_bring_body(it, 2, &to));
+  EXPECT(NOT_DRIVEN, selvedge_simulation_bring_body(it, 1, &to));
+  SAYS("proxy = true");
+  wrong.spin[2] = (double)NAN;
+  EXPECT(BAD_VALUE, selvedge_simulation_bring_body(it, 0, &wrong));
+  SAYS("spin");
+  wrong = to;
+  wrong.placement.rotation[3] = 0;
+  EXPECT(BAD_VALUE, selvedge_simulation_bring_body(it, 0, &wrong));
+  EXPECT(NOT_DRIVEN, selvedge_simulation_place_body(it, 0, &pose));
+  EXPECT(NULL_POINTER, selvedge_simulation_proxy_load(it, 0, NULL, &load));
+  EXPECT(NULL_POINTER, selvedge_simulation_proxy_load(it, 0, &is_proxy, NULL));
+  EXPECT(NO_SUCH_PART, selvedge_simulation_proxy_load(it, 2, &is_proxy, &load));
+  SAYS("body 2");
+  EXPECT(OK, selvedge_simulation_proxy_load(it, 1, &is_proxy, &untouched));
+  HOLDS(!is_proxy && untouched.force[2] == 0);
+  double momentum = 0;
+  for (int step = 0; step < 20; step++) {
+    to.placement = pose;
+    to.placement.origin[2] += 0.002 * to.velocity[2];
+    EXPECT(OK, selvedge_simulation_bring_body(it, 0, &to));
+    EXPECT(OK, selvedge_simulation_step(it));
+    EXPECT(OK, selvedge_simulation_placement(it, 0, &is_known, &pose));
+    EXPECT(OK, selvedge_simulation_proxy_load(it, 0, &is_proxy, &load));
+    HOLDS(is_known && is_proxy);
+    to.velocity[2] += 0.002 * load.force[2] / 0.1;
+    momentum += 0.002 * load.force[2];
+  }
+  HOLDS(momentum < -0.01 && to.velocity[2] < 4.9 && pose.origin[2] > 0.1);
+  /* A metre in a step is beyond 100 m/s. Then nothing moves. */
+  selvedge_pose after = pose;
+  to.placement.origin[2] += 1;
+  EXPECT(OK, selvedge_simulation_bring_body(it, 0, &to));
+  EXPECT(BLOCKED, selvedge_simulation_step(it));
+  SAYS("'ball'");
+  EXPECT(OK, selvedge_simulation_placement(it, 0, &is_known, &after));
+  HOLDS(after.origin[2] == pose.origin[2]);
+  EXPECT(OK, selvedge_simulation_free(it));
+  EXPECT(NO_SUCH_SIMULATION, selvedge_simulation_bring_body(it, 0, &to));
+}
+
 static void checkpoints(selvedge_simulation *it) {
   const uint8_t *bytes = NULL;
   size_t count = 7;
@@ -320,6 +372,7 @@ int main(void) {
   files();
   blocked();
   free_bodies();
+  proxies();
 
   /* One simulation gets all wrong calls after each step, the other none. */
   selvedge_simulation *asked = NULL, *quiet = NULL;

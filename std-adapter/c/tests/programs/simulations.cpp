@@ -105,6 +105,20 @@ int main() {
   holds(__LINE__, third.placement(0).has_value() && third.placement(0)->origin[2] < -0.04 && !second.body_motion(0).has_value());
   expect(__LINE__, SELVEDGE_STATUS_NO_SUCH_PART, [&] { third.body_motion(1); });
 
+  // Another engine holds that ball, and the sheet above sinks on it.
+  std::string held = SCENE;
+  held.replace(held.find("driven = true"), 13, "mass = 0.2\nproxy = true");
+  simulation fourth(held);
+  expect(__LINE__, SELVEDGE_STATUS_BAD_VALUE, [&] { fourth.bring_body(0, {{{0, 0, 0, 1}, {0, 0, 0}}, {NAN, 0, 0}, {}}); });
+  expect(__LINE__, SELVEDGE_STATUS_NOT_DRIVEN, [&] { third.bring_body(0, {{{0, 0, 0, 1}, {0, 0, 0}}, {}, {}}); });
+  for (int number = 0; number < 40; number++) {
+    fourth.bring_body(0, {*fourth.placement(0), {}, {}});
+    fourth.advance(1.0 / 60);
+  }
+  const auto load = fourth.proxy_load(0);
+  holds(__LINE__, load.has_value() && load->force[2] < 0 && !third.proxy_load(0).has_value());
+  expect(__LINE__, SELVEDGE_STATUS_NO_SUCH_PART, [&] { fourth.proxy_load(1); });
+
   selvedge_simulation_free(second.get());
   expect(__LINE__, SELVEDGE_STATUS_NO_SUCH_SIMULATION, [&] { second.step(); });
   return faults == 0 ? 0 : 1;
