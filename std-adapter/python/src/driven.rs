@@ -4,7 +4,8 @@ use crate::arrays::{Frames, indices, with_frames};
 use crate::errors::InputError;
 use numpy::PyUntypedArrayMethods;
 use pyo3::prelude::*;
-use selvedge_cloth::glam::DVec3;
+use selvedge_cloth::glam::{DQuat, DVec3};
+use selvedge_cloth::{BroughtBody, Placement};
 
 /// A body or a cloth, by its name or by its index.
 #[derive(FromPyObject)]
@@ -19,6 +20,10 @@ impl Body {
             Self::Name(name) => named("body", name, names),
             Self::Index(index) => numbered("body", *index, names),
         }
+    }
+
+    pub(crate) fn indices(bodies: &[Self], names: &[String]) -> PyResult<Vec<usize>> {
+        bodies.iter().map(|body| body.index(names)).collect()
     }
 }
 
@@ -36,6 +41,10 @@ impl Cloth {
             Self::Index(index) => numbered("cloth", *index, names),
         }
     }
+
+    pub(crate) fn indices(cloths: &[Self], names: &[String]) -> PyResult<Vec<usize>> {
+        cloths.iter().map(|cloth| cloth.index(names)).collect()
+    }
 }
 
 fn named(what: &str, name: &str, names: &[String]) -> PyResult<usize> {
@@ -48,6 +57,19 @@ fn numbered(what: &str, index: usize, names: &[String]) -> PyResult<usize> {
     (index < count)
         .then_some(index)
         .ok_or_else(|| InputError::new_err(format!("there is no {what} {index}; the scene has {count}")))
+}
+
+/// A placement: a quaternion (x, y, z, w), then a translation.
+pub(crate) fn placement(translation: [f64; 3], rotation: [f64; 4]) -> Placement {
+    Placement::new(DQuat::from_array(rotation), translation.into())
+}
+
+pub(crate) fn brought_to(placement: Placement, velocity: [f64; 3], spin: [f64; 3]) -> BroughtBody {
+    BroughtBody {
+        placement,
+        velocity: velocity.into(),
+        spin: spin.into(),
+    }
 }
 
 /// Converts positions of either format to those of the simulation.

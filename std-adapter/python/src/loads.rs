@@ -20,7 +20,7 @@ pub(crate) fn vector(py: Python<'_>, vector: DVec3) -> Bound<'_, PyAny> {
     column(py, vector.to_array().to_vec())
 }
 
-fn wrench(py: Python<'_>, wrench: Wrench) -> PyResult<Bound<'_, PyAny>> {
+pub(crate) fn wrench(py: Python<'_>, wrench: Wrench) -> PyResult<Bound<'_, PyAny>> {
     class(py, "Wrench")?.call1((vector(py, wrench.force), vector(py, wrench.torque)))
 }
 

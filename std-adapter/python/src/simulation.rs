@@ -2,7 +2,7 @@
 
 use crate::answers::{self, class, rows, show_crossings, show_near_pairs, show_released, show_torn_edges, show_untangled};
 use crate::call::{Length, interruptible};
-use crate::driven::{Body, Cloth, copied, whole_numbers};
+use crate::driven::{Body, Cloth, brought_to, copied, placement, whole_numbers};
 use crate::errors::{self, BlockedError, CheckpointError, InputError};
 use crate::loads;
 use crate::scenes;
@@ -10,8 +10,8 @@ use crate::simulated::{Call, Simulation};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyBytes, PyDict, PySlice, PyType};
-use selvedge_cloth::glam::{DQuat, DVec3};
-use selvedge_cloth::{FrameError, Placement, Scene, SceneContext, vertex_normals};
+use selvedge_cloth::glam::DVec3;
+use selvedge_cloth::{FrameError, Scene, SceneContext, vertex_normals};
 use std::ops::{ControlFlow, Range};
 use std::path::PathBuf;
 
@@ -177,15 +177,24 @@ impl Simulation {
     #[doc = crate::stub!("Simulation.place_body")]
     #[pyo3(signature = (body, translation=[0.0; 3], rotation=[0.0, 0.0, 0.0, 1.0]))]
     fn place_body(&self, body: Body, translation: [f64; 3], rotation: [f64; 4]) -> PyResult<()> {
-        let mut simulation = self.simulation()?;
         let body = body.index(&self.of_scene.body_names)?;
-        let placement = Placement {
-            rotation: DQuat::from_array(rotation),
-            translation: translation.into(),
-        };
-        simulation
-            .place_body(body, placement)
-            .map_err(|error| errors::of_driving(&error))
+        let placed = self.simulation()?.place_body(body, placement(translation, rotation));
+        placed.map_err(|error| errors::of_driving(&error))
+    }
+
+    #[doc = crate::stub!("Simulation.bring_body")]
+    fn bring_body(
+        &self,
+        body: Body,
+        translation: [f64; 3],
+        rotation: [f64; 4],
+        velocity: [f64; 3],
+        spin: [f64; 3],
+    ) -> PyResult<()> {
+        let body = body.index(&self.of_scene.body_names)?;
+        let to = brought_to(placement(translation, rotation), velocity, spin);
+        let brought = self.simulation()?.bring_body(body, to);
+        brought.map_err(|error| errors::of_driving(&error))
     }
 
     #[doc = crate::stub!("Simulation.teleport")]
@@ -198,21 +207,10 @@ impl Simulation {
         rotation: [f64; 4],
         cloths: Vec<Cloth>,
     ) -> PyResult<()> {
-        let names = &self.of_scene;
-        let bodies: Vec<usize> = bodies
-            .iter()
-            .map(|body| body.index(&names.body_names))
-            .collect::<PyResult<_>>()?;
-        let cloths: Vec<usize> = cloths
-            .iter()
-            .map(|cloth| cloth.index(&names.cloth_names))
-            .collect::<PyResult<_>>()?;
-        let by = Placement {
-            rotation: DQuat::from_array(rotation),
-            translation: translation.into(),
-        };
+        let bodies = Body::indices(&bodies, &self.of_scene.body_names)?;
+        let cloths = Cloth::indices(&cloths, &self.of_scene.cloth_names)?;
         let mut simulation = self.simulation()?;
-        let teleported = simulation.teleport(&bodies, &cloths, by);
+        let teleported = simulation.teleport(&bodies, &cloths, placement(translation, rotation));
         teleported.map_err(|error| errors::of_teleport(&error))?;
         self.show(py, &simulation)
     }
@@ -230,14 +228,18 @@ impl Simulation {
         loads::of_free_body(py, &*self.simulation()?, body)
     }
 
+    #[doc = crate::stub!("Simulation.proxy_load")]
+    fn proxy_load<'py>(&self, py: Python<'py>, body: Body) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let load = self.simulation()?.proxy_load(body.index(&self.of_scene.body_names)?);
+        load.map(|load| loads::wrench(py, load)).transpose()
+    }
+
     #[doc = crate::stub!("Simulation.move_body")]
     fn move_body(&self, body: Body, positions: &Bound<'_, PyAny>) -> PyResult<()> {
         let positions = copied(positions)?;
-        let mut simulation = self.simulation()?;
         let body = body.index(&self.of_scene.body_names)?;
-        simulation
-            .move_body(body, &positions)
-            .map_err(|error| errors::of_driving(&error))
+        let moved = self.simulation()?.move_body(body, &positions);
+        moved.map_err(|error| errors::of_driving(&error))
     }
 
     #[doc = crate::stub!("Simulation.move_pins")]
@@ -293,8 +295,7 @@ impl Simulation {
     #[doc = crate::stub!("Simulation.velocities")]
     #[getter]
     fn velocities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let simulation = self.simulation()?;
-        rows(py, simulation.velocities().iter().map(DVec3::to_array).collect())
+        rows(py, self.simulation()?.velocities().iter().map(DVec3::to_array).collect())
     }
 
     #[doc = crate::stub!("Simulation.normals")]
@@ -309,8 +310,7 @@ impl Simulation {
     #[doc = crate::stub!("Simulation.near_pairs")]
     #[getter]
     fn near_pairs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let pairs: Vec<_> = self.simulation()?.near_pairs().collect();
-        show_near_pairs(py, &pairs)
+        show_near_pairs(py, &self.simulation()?.near_pairs().collect::<Vec<_>>())
     }
 
     #[doc = crate::stub!("Simulation.crossings")]

@@ -1,9 +1,9 @@
-"""Free rigid bodies: those of arrays, their motion, and what is wrong with them."""
+"""Free rigid bodies: those of arrays, their motion, those of another engine, and what is wrong with them."""
 
 import numpy as np
 import pytest
 
-from selvedge import FreeBodyState, Simulation, errors
+from selvedge import FreeBodyState, Simulation, Wrench, errors
 
 SIDES = np.array([0.1, 0.2, 0.3])
 DENSITY = 500.0
@@ -132,9 +132,77 @@ def test_a_wrong_free_body_is_named_by_its_field(motion: dict, message: str):
 
 def test_a_free_body_cannot_be_moved_by_hand_nor_held_softly():
     simulation = Simulation.from_dict(scene(box(mass=1)))
-    for action in (lambda: simulation.place_body("box"), lambda: simulation.teleport(["box"], [0, 0, 1])):
-        with pytest.raises(errors.InputError, match="cannot be moved by hand"):
-            action()
+    with pytest.raises(errors.InputError, match="cannot be moved by hand"):
+        simulation.place_body("box")
     soft = {"group": [{"cloth": "sheet", "vertices": [0], "follow": "box", "stiffness": 10}]}
     with pytest.raises(errors.SceneError, match="soft pins cannot follow 'box', which moves freely"):
         Simulation.from_dict(scene(box(mass=1), pins=soft))
+
+
+def test_a_free_body_teleports_and_keeps_its_motion():
+    simulation = Simulation.from_dict(scene(box(mass=1, velocity=[0, 0, 1], spin=[0, 0, 2])))
+    before = simulation.body_motion("box")
+    half_turn = [1, 0, 0, 0]
+    simulation.teleport(["box"], [3, 0, 0], half_turn)
+    after = simulation.body_motion("box")
+    np.testing.assert_allclose(after.centre, before.centre + [3, 0, 0], atol=1e-12)
+    np.testing.assert_allclose([after.velocity, after.spin], [[0, 0, -1], [0, 0, -2]], atol=1e-12)
+
+
+class Engine:
+    """An engine with a ball that does not turn. It knows gravity alone."""
+
+    def __init__(self, simulation: Simulation, mass: float) -> None:
+        self.simulation, self.mass = simulation, mass
+        self.translation, self.rotation, self.velocity = np.zeros(3), [0, 0, 0, 1], np.zeros(3)
+
+    def advance(self, seconds: float) -> None:
+        self.velocity = self.velocity - [0, 0, GRAVITY * seconds]
+        self.translation = self.translation + self.velocity * seconds
+        self.simulation.bring_body("ball", self.translation, self.rotation, self.velocity, [0, 0, 0])
+        self.simulation.advance(seconds)
+        self.translation, self.rotation = self.simulation.placement("ball")
+        self.velocity = self.velocity + self.simulation.proxy_load("ball").force * (seconds / self.mass)
+
+
+# The sheet weighs 24 g.
+@pytest.mark.parametrize("mass", [0.02, 0.2])
+def test_a_ball_of_another_engine_rests_in_a_held_sheet_and_feels_its_weight(mass: float):
+    ball = {"name": "ball", "shape": "ball", "centre": [0, 0, 0.06], "radius": 0.05, "around": 16, "mass": mass, "proxy": True}
+    pins = {"group": [{"part": part} for part in ("left", "right", "bottom", "top")]}
+    simulation = Simulation.from_dict(scene(ball, height=0.0, pins=pins, gravity={}, shear={"stiffness": 80}, friction={"coefficient": 0.3}))
+    engine = Engine(simulation, mass)
+    for _ in range(240):
+        engine.advance(1 / 60)
+    load, before = simulation.proxy_load("ball"), np.array(engine.translation)
+    assert isinstance(load, Wrench)
+    np.testing.assert_allclose(load.force, [0, 0, mass * GRAVITY], atol=1e-3 * mass * GRAVITY)
+    for _ in range(60):
+        engine.advance(1 / 60)
+    assert np.linalg.norm(engine.translation - before) < 1e-4
+    assert simulation.is_certified
+
+
+def test_what_cannot_be_brought_is_refused_and_named():
+    simulation = Simulation.from_dict(scene(box(mass=1, proxy=True)))
+    nowhere = [0, 0, 0]
+    for action in (simulation.place_body, lambda body: simulation.teleport([body], [np.nan, 0, 0])):
+        with pytest.raises(errors.InputError):
+            action("box")
+    with pytest.raises(errors.InputError, match="velocity"):
+        simulation.bring_body("box", nowhere, [0, 0, 0, 1], [0, 0, np.nan], nowhere)
+    with pytest.raises(errors.InputError, match="spin"):
+        simulation.bring_body("box", nowhere, [0, 0, 0, 1], nowhere, [1e9, 0, 0])
+    with pytest.raises(errors.InputError, match="there is no body 'bax'"):
+        simulation.bring_body("bax", nowhere, [0, 0, 0, 1], nowhere, nowhere)
+    with pytest.raises(errors.InputError, match="there is no body 1"):
+        simulation.proxy_load(1)
+    simulation.bring_body("box", [1, 0, 0], [0, 0, 0, 1], nowhere, nowhere)
+    with pytest.raises(errors.BlockedError, match="'box'.* 500 m/s"):
+        simulation.step()
+    assert not simulation.positions[simulation.body_vertices("box")].mean(axis=0).any(), "nothing has moved"
+
+    other = Simulation.from_dict(scene(box(mass=1)))
+    assert other.proxy_load("box") is None
+    with pytest.raises(errors.InputError, match="the body 'box' is not a proxy"):
+        other.bring_body("box", nowhere, [0, 0, 0, 1], nowhere, nowhere)

@@ -302,6 +302,20 @@ class Simulation:
         and then translated. It rotates the short way. If it leaves the cloth no room, it stops on its way or the step fails, depending on
         the scene's ``on_blocked``."""
 
+    def bring_body(
+        self,
+        body: str | int,
+        translation: Sequence[float] | NDArray[np.floating[Any]],
+        rotation: Sequence[float] | NDArray[np.floating[Any]],
+        velocity: Sequence[float] | NDArray[np.floating[Any]],
+        spin: Sequence[float] | NDArray[np.floating[Any]],
+    ) -> None:
+        """Says where another physics engine has brought the body of a proxy, a free body with ``proxy``, in the time of the next call of
+        :meth:`advance` or of the next step: the placement of its mesh as in :meth:`place_body`, the velocity of its centre of mass in m/s
+        and its angular velocity in rad/s. The proxy goes there, and yields to cloth on the way by its mass. Without a call it stays, and
+        yields. Afterwards move the engine's body to :meth:`placement`, and add the impulse of :meth:`proxy_load` to it. Both steps must
+        have the same length. With a ``count``, :meth:`step` brings the body in its first step alone."""
+
     def teleport(
         self,
         bodies: Sequence[str | int],
@@ -310,9 +324,9 @@ class Simulation:
         *,
         cloths: Sequence[str | int] = ...,
     ) -> None:
-        """Moves driven bodies elsewhere at once, with their pins and the cloth that hangs on them, as for a figure that teleports. No time
-        passes. Positions in the world are rotated about the origin, then translated; velocities turn along. ``cloths`` move as well, such as a
-        garment without pins. On an error nothing has changed."""
+        """Moves driven and free bodies elsewhere at once, with their pins and the cloth that hangs on them, as for a figure that teleports.
+        No time passes. Positions in the world are rotated about the origin, then translated; velocities turn along. ``cloths`` move as well,
+        such as a garment without pins. On an error nothing has changed."""
 
     def placement(self, body: str | int) -> tuple[list[float], list[float]] | None:
         """Returns the translation and rotation of a driven or free body; None for other bodies and for one that was moved vertex by vertex.
@@ -344,6 +358,10 @@ class Simulation:
         """The load of cloth and ropes on a body at the end of the last step, with torques about the point ``about``; or the mean over the
         last frame (``mean``): the last :meth:`advance`, or the last step of :meth:`step`. It is zero before the first step and after
         :meth:`resume`."""
+
+    def proxy_load(self, body: str | int) -> Wrench | None:
+        """The mean force of cloth and ropes on a proxy in the last :meth:`advance` or step, with the mean torque about its centre of mass;
+        None for any other body. Cloth that is pinned to it is part of the load. See :meth:`bring_body`."""
 
     def pin_load(
         self, group: int, about: Sequence[float] | NDArray[np.floating[Any]] = ..., *, mean: bool = False
