@@ -7,7 +7,9 @@ use crate::scene::{range, scene_of};
 use crate::values::{Exception, Files, Positions, floats, object, take_positions, view, whole_numbers};
 use js_sys::Float64Array;
 use selvedge_cloth::glam::{DQuat, DVec3};
-use selvedge_cloth::{Blocked, DriveError, FrameError, Placement, SetupError, Simulation as Cloth, Wrench, vertex_normals};
+use selvedge_cloth::{
+    Blocked, BroughtBody, DriveError, FrameError, Placement, SetupError, Simulation as Cloth, Wrench, vertex_normals,
+};
 use wasm_bindgen::{JsValue, prelude::wasm_bindgen};
 
 /// A simulation of cloth. Each state is certified free of intersections, with the same bits as in native programs. SI units.
@@ -248,9 +250,42 @@ impl Simulation {
         Ok(self.cloth.place_body(body, placement)?)
     }
 
-    /// Moves driven bodies, their pins and the cloth that hangs on them elsewhere at once, without a step: positions in the world
-    /// are rotated by a quaternion (x, y, z, w), and then translated. `cloths` names further cloths that move along, such as a
-    /// garment without pins.
+    /// Says where another physics engine has brought the body of a proxy, a free body with `proxy = true`, in the time of the
+    /// next `advance` or step: the placement of its mesh as in `placeBody`, the velocity of its centre of mass in m/s, and its
+    /// angular velocity in rad/s. The proxy goes there, and yields to cloth on the way by its mass. Without a call it stays, and
+    /// yields.
+    ///
+    /// Afterwards move the engine's body to `placement`, and add the impulse of `proxyLoad` to it. Both steps must have the same
+    /// length.
+    #[wasm_bindgen(js_name = bringBody)]
+    pub fn bring_body(
+        &mut self,
+        body: &Text,
+        translation: &Numbers,
+        rotation: Numbers,
+        velocity: &Numbers,
+        spin: &Numbers,
+    ) -> Result<(), Exception> {
+        let body = self.body(body)?;
+        let to = BroughtBody {
+            placement: placement(translation, Some(rotation))?,
+            velocity: vector(velocity, "velocity")?,
+            spin: vector(spin, "spin")?,
+        };
+        Ok(self.cloth.bring_body(body, to)?)
+    }
+
+    /// Returns the mean load on a proxy in the last step or `advance`, with the torque about its centre of mass; undefined for
+    /// any other body. Cloth that is pinned to it is part of the load.
+    #[wasm_bindgen(js_name = proxyLoad, unchecked_return_type = "Wrench | undefined")]
+    pub fn proxy_load(&self, body: &Text) -> Result<JsValue, Exception> {
+        let load = self.cloth.proxy_load(self.body(body)?);
+        Ok(load.map_or(JsValue::UNDEFINED, wrench))
+    }
+
+    /// Moves driven and free bodies, their pins and the cloth that hangs on them elsewhere at once, without a step: positions in
+    /// the world are rotated by a quaternion (x, y, z, w), and then translated. `cloths` names further cloths that move along,
+    /// such as a garment without pins.
     ///
     /// Throws an `InputError`, and changes nothing, if something else holds the cloth or there is no room.
     pub fn teleport(

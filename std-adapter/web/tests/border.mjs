@@ -11,8 +11,17 @@ const EXCEPTIONS = new Set([
   "InputError", "SceneError", "TangledError", "BlockedError", "CheckpointError", "MeshError", "TooManyPairsError", "TooMuchMemoryError",
 ]);
 
-/** A small scene with all that can be driven. */
-const SCENE = readFileSync(new URL("../../c/tests/messages/scene.toml", import.meta.url), "utf8");
+/** A small scene with all that can be driven, and with a body of another engine. */
+const SCENE = `${readFileSync(new URL("../../c/tests/messages/scene.toml", import.meta.url), "utf8")}
+[[body]]
+name = "box"
+shape = "ball"
+centre = [0.05, 0.05, -0.3]
+radius = 0.05
+around = 6
+mass = 0.1
+proxy = true
+`;
 
 const TRIANGLES = [0, 1, 2, 3, 4, 5];
 const START = [-5, -5, 0, 5, -5, 0, 0, 5, 0, 0, 0, 1, 1, 0, 1.1, 0, 1, 1.2];
@@ -123,6 +132,7 @@ const CALLS = [
   ["Simulation", "normals", []],
   ["Simulation", "bodyVertices", [["body", "text", "ball"]]],
   ["Simulation", "placeBody", [["body", "text", "ball"], ["translation", "list", [0, 0, -1e-3]], ["rotation", "list", [0, 0, 0, 1], true]]],
+  ["Simulation", "bringBody", [["body", "text", "box"], ["translation", "list", [0, 0, 1e-3]], ["rotation", "list", [0, 0, 0, 1]], ["velocity", "list", [0, 0, 0.1]], ["spin", "list", [0, 0, 1]]]],
   ["Simulation", "teleport", [["bodies", "texts", ["ball"]], ["translation", "list", [0, 0, 1]], ["rotation", "list", [0, 0, 0, 1], true], ["cloths", "texts", ["cloth"], true]]],
   ["Simulation", "moveBody", [["body", "text", "ball"], ["positions", "list", START]]],
   ["Simulation", "movePins", [["group", "number", 0], ["positions", "list", [0, 0, 0, 0, 0.05, 0, 0, 0.1, 0]]]],
@@ -131,6 +141,7 @@ const CALLS = [
   ["Simulation", "addForce", [["vertices", "list", [0, 1]], ["force", "list", [0, 0, 1]]]],
   ["Simulation", "placement", [["body", "text", "ball"]]],
   ["Simulation", "bodyMotion", [["body", "text", "ball"]]],
+  ["Simulation", "proxyLoad", [["body", "text", "box"]]],
   ["Simulation", "bodyLoad", [["body", "text", "ball"], ["about", "list", [0, 0, 1], true]]],
   ["Simulation", "pinLoad", [["group", "number", 0], ["about", "list", [0, 0, 1], true]]],
   ["Simulation", "attachmentLoad", [["group", "number", 0], ["about", "list", [0, 0, 1], true]]],

@@ -173,6 +173,7 @@ test("messages are those of Rust and C for the same mistakes", () => {
     "a checkpoint that is none": () => cloth().resume(new Uint8Array(64)),
     "a coordinate that is not a number": () => detector().contacts(start, wrong(16, NaN)),
     "a frame of two seconds": () => cloth().advance(2),
+    "a body that is not a proxy": () => cloth().bringBody("ball", [0, 0, 0], [0, 0, 0, 1], [0, 0, 0], [0, 0, 0]),
     "a mesh file with a wrong number": () => readMesh("a.obj", new TextEncoder().encode("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")),
     "a negative separation": () => detector().setLimits({ separation: -1, tolerance: 0 }),
     "a number out of its range": changed("density = 0.15", "density = -1"),
@@ -222,6 +223,37 @@ test("a free body falls, and its motion and placement are read", () => {
   assert.deepEqual([resting.bodyMotion("ball"), resting.placement("ball")], [undefined, undefined]);
   const wrong = () => new Simulation(text.replace("mass = 0.2", "mass = 0.2\ndensity = 100"));
   assert.throws(wrong, fails("SceneError", "`mass` or `density`, not both"));
+});
+
+test("a ball of another engine rests in a sheet and feels its weight", () => {
+  const [mass, seconds] = [0.02, 1 / 60];
+  const cloth = new Simulation(`
+cloth = { shape = "sheet", corner = [-0.2, -0.2, 0], sides = { first = [0.4, 0, 0], second = [0, 0.4, 0] }, cells = [8, 8], density = 0.15 }
+body = [{ name = "ball", shape = "ball", centre = [0, 0, 0.06], radius = 0.05, around = 16, mass = ${mass}, proxy = true }, { name = "rest", shape = "ball", centre = [0, 0, -1], radius = 0.05 }]
+effects.gravity = {}
+effects.stretch = { stiffness = 400 }
+effects.shear = { stiffness = 80 }
+effects.body_contact = { thickness = 0.002 }
+effects.friction = { coefficient = 0.3 }
+effects.pins = { group = [{ part = "left" }, { part = "right" }, { part = "bottom" }, { part = "top" }] }
+`);
+  // An engine that knows gravity alone, with a ball that does not turn and is lighter than the sheet.
+  let [translation, rotation, velocity] = [[0, 0, 0], [0, 0, 0, 1], [0, 0, 0]];
+  for (let frame = 0; frame < 240; frame++) {
+    velocity[2] -= 9.81 * seconds;
+    translation = translation.map((at, axis) => at + velocity[axis] * seconds);
+    cloth.bringBody("ball", translation, rotation, velocity, [0, 0, 0]);
+    cloth.advance(seconds);
+    ({ translation, rotation } = cloth.placement("ball"));
+    const { force } = cloth.proxyLoad("ball");
+    velocity = velocity.map((speed, axis) => speed + (force[axis] * seconds) / mass);
+  }
+  assert.ok(Math.abs(cloth.proxyLoad("ball").force[2] / (mass * 9.81) - 1) < 1e-3, String(cloth.proxyLoad("ball").force));
+  assert.ok(Math.hypot(...velocity) < 0.2 && cloth.isCertified);
+  assert.equal(cloth.proxyLoad("rest"), undefined);
+  assert.throws(() => cloth.bringBody("ball", [0, 0, 0], [0, 0, 0, 1], [0, 0, NaN], [0, 0, 0]), fails("InputError", "velocity"));
+  assert.throws(() => cloth.bringBody("ball", [0, 0, 0], [0, 0, 0], [0, 0, 0], [0, 0, 0]), fails("InputError", "rotation must have four numbers"));
+  assert.throws(() => cloth.bringBody("none", [0, 0, 0], [0, 0, 0, 1], [0, 0, 0], [0, 0, 0]), fails("InputError", "no body 'none'"));
 });
 
 test("a body carries the cloth, and a force acts for one frame", () => {
