@@ -15,9 +15,9 @@
 of_coordinates = 64; #! core/src/kernels/gap.rs: roundoffs(largest, 64) * largest + largest.splat(L::Scalar::UNDERFLOW)
 #~ core/src/separation/gap.rs: S::from_f64(1.0 + 1.0 / 1_048_576.0)
 #~ core/src/kernels/gap.rs: separation * (slack * slack) + error
-#~ core/src/separation/gap.rs: let bound = gap(kind, points, direction) / slack() - error.0;
+#~ core/src/kernels/gap.rs: gap / slack - error
 #~ core/src/kernels/gap.rs: slack.greater(direction.dot(direction))
-#~ core/src/separation/gap.rs: let gap = gap / slack();
+#~ core/src/kernels/gap.rs: let gap = gap / slack;
 #~ core/src/separation/gap.rs: const LARGEST_GAP: f64 = 1_267_650_600_228_229_401_496_703_205_376.0;
 sigma = 1 + 1b-20;
 eta = 1b@eta@;

@@ -1,9 +1,10 @@
-(* The time of impact with a separation, along directions: each round keeps the pair farther apart than the separation
+(* The time of impact with a separation: each round keeps the pair farther apart than the separation
    from its moment to the time that it gives, and so does a chain of rounds. *)
 From Coq Require Import Reals ZArith Lra Lia Bool List Psatz.
 From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic Geometry Machine Nearness Corners Least Directions Held DirectionsBeyond.
-From Selvedge Require Expressions Errors Bounds Apart Advancing AdvanceBeyond Certificates.
+From Selvedge Require Expressions Errors Bounds Apart Advancing AdvanceBeyond Certificates Volume VolumeSteps VolumeBeyond
+  Separated.
 Import ListNotations.
 Open Scope R_scope.
 
@@ -19,53 +20,40 @@ Definition curving_mask pairs := let b := barred pairs in fold_left (fun m pair 
     (middle 1 1 2 0 pair) (Sum (b 1%nat) (b 2%nat)))) pairs Advancing.everywhere.
 Definition held_until_the_end pairs := held_until 0 (barred pairs 0) pairs (Constant (Small 2)).
 Definition held_for_the_pair pairs := held_mask 0 (barred pairs 0) 0 pairs (are_in_range pairs).
-(* The proofs of one round by directions, for one kind of pairs. *)
+Definition margins pairs := VolumeBeyond.margins_beyond pairs (Input (Moment 0)).
+Definition volume_throughout pairs := VolumeSteps.all_positive (VolumeBeyond.margins_beyond pairs (Constant (Small 0))).
+Definition volume_to_the_end pairs := VolumeSteps.all_positive (margins pairs).
+Definition volume_until pairs := VolumeSteps.clipped_until (Input (Moment 0)) (margins pairs).
+(* The proofs of one round, for one kind of pairs. *)
 Record proofs := Proofs { is_in_range : mask; by_held : mask; until_held : number; by_turning : mask; by_curving :
-  mask }.
+  mask; by_volume_throughout : mask; by_volume_to_the_end : mask; until_volume : number }.
 Definition for_corners pairs := Proofs (are_in_range pairs) (held_for_the_pair pairs) (held_until_the_end pairs)
-  (turning_mask pairs) (curving_mask pairs).
+  (turning_mask pairs) (curving_mask pairs) (volume_throughout pairs) (volume_to_the_end pairs) (volume_until pairs).
 Module VF := AdvanceBeyond.a_vertex_and_a_face.
 Module EE := AdvanceBeyond.two_edges.
-Definition of_a_vertex_and_a_face := Proofs VF.in_range VF.held VF.until_held VF.turning VF.curving.
-Definition of_two_edges := Proofs EE.in_range EE.held EE.until_held EE.turning EE.curving.
-(* The traced terms are these. *)
+Definition of_a_vertex_and_a_face := Proofs VF.in_range VF.held VF.until_held VF.turning VF.curving VF.volume_throughout
+  VF.volume_to_the_end VF.until_volume.
+Definition of_two_edges := Proofs EE.in_range EE.held EE.until_held EE.turning EE.curving EE.volume_throughout
+  EE.volume_to_the_end EE.until_volume.
+(* The traced terms are these. The margins of the volume have names, which the terms after them have not to unfold. *)
+Lemma margins_of_a_vertex_and_a_face : (VF.margin_0, VF.margin_1, VF.margin_2, VF.margin_3) = margins vertex_face.
+Proof. vm_compute. reflexivity. Qed.
+Lemma margins_of_two_edges : (EE.margin_0, EE.margin_1, EE.margin_2, EE.margin_3) = margins edge_edge.
+Proof. vm_compute. reflexivity. Qed.
+Opaque VF.margin_0 VF.margin_1 VF.margin_2 VF.margin_3 EE.margin_0 EE.margin_1 EE.margin_2 EE.margin_3.
+Lemma same_proofs a b c d e g h i a' b' c' d' e' g' h' i' : a = a' -> b = b' -> c = c' -> d = d' -> e = e' -> g = g' ->
+  h = h' -> i = i' -> Proofs a b c d e g h i = Proofs a' b' c' d' e' g' h' i'.
+Proof. now intros -> -> -> -> -> -> -> ->. Qed.
 Theorem traced_terms : of_a_vertex_and_a_face = for_corners vertex_face /\ of_two_edges = for_corners edge_edge.
-Proof. split; vm_compute; reflexivity. Qed.
+Proof.
+  split; apply same_proofs; try (unfold volume_to_the_end, volume_until; first [rewrite <- margins_of_a_vertex_and_a_face |
+    rewrite <- margins_of_two_edges]; lazy; reflexivity); vm_compute; reflexivity.
+Qed.
 
 (* Some direction is ahead of all corners at a time, by more than s times its length. *)
 Definition ahead s pairs given t := exists w : Expressions.axis -> R, forall pair,
   In pair pairs -> s * norm w < sum3 (fun a => w a * exactly_at given pair a t).
-(* The length of a sum is at most that of its parts. *)
 Definition point_of (w : Expressions.axis -> R) := Point (w Expressions.X) (w Expressions.Y) (w Expressions.Z_).
-Lemma norm_sum v w : norm (fun a => v a + w a) <= norm v + norm w.
-Proof.
-  pose proof (norm_pos v) as V0. pose proof (norm_pos w) as W0. pose proof (squared_pos v) as sv.
-  pose proof (squared_pos w) as sw.
-  assert (vv : norm v * norm v = squared v) by (apply sqrt_sqrt; exact sv).
-  assert (ww : norm w * norm w = squared w) by (apply sqrt_sqrt; exact sw).
-  unfold norm at 1. rewrite <- (sqrt_square (norm v + norm w)) by lra. apply sqrt_le_1_alt.
-  set (d := sum3 (fun a => v a * w a)).
-  assert (E : squared (fun a => v a + w a) = squared v + 2 * d + squared w) by (unfold squared, d, sum3; ring).
-  assert (schwarz : d * d <= squared v * squared w).
-  { unfold d, squared, sum3. set (a := v Expressions.X). set (b := v Expressions.Y). set (c := v Expressions.Z_).
-    set (p := w Expressions.X). set (q := w Expressions.Y). set (r := w Expressions.Z_).
-    pose proof (pow2_ge_0 (a * q - b * p)). pose proof (pow2_ge_0 (b * r - c * q)). pose proof (pow2_ge_0 (a * r - c *
-      p)). lra. }
-  assert (dn : d <= norm v * norm w).
-  { apply Rnot_lt_le. intro h. assert (p0 : 0 <= norm v * norm w) by (apply Rmult_le_pos; lra).
-    assert (norm v * norm w * (norm v * norm w) < d * d) by (apply Rmult_le_0_lt_compat; lra).
-    replace (norm v * norm w * (norm v * norm w)) with ((norm v * norm v) * (norm w * norm w)) in H by ring.
-    rewrite vv, ww in H. lra. }
-  rewrite E. replace ((norm v + norm w) * (norm v + norm w)) with (norm v * norm v + 2 * (norm v * norm w) + norm w *
-    norm w) by ring. lra.
-Qed.
-Lemma norm_scaled c w : 0 <= c -> norm (fun a => c * w a) = c * norm w.
-Proof.
-  intro c0. unfold norm. replace (squared (fun a => c * w a)) with ((c * c) * squared w) by (unfold squared, sum3;
-    ring).
-  rewrite sqrt_mult by (try apply Rle_0_sqr; apply squared_pos). now rewrite sqrt_square.
-Qed.
-
 Section Step.
 Variable f : constants.
 Hypothesis fine : reasonable_constants f.
@@ -244,6 +232,43 @@ Proof.
   - eapply Rle_trans; [apply Rmin_l|apply Rmin_r].
   - eapply Rle_trans; [apply Rmin_r|apply Rmin_r].
 Qed.
+(* So is a pair whose volume exceeds s times the length of the normal. *)
+Definition normal pairs given t := let '(p, b, c) := VolumeSteps.corners_of pairs in VolumeBeyond.normal_at given p b c t.
+Definition volume pairs given t := let '(p, b, c) := VolumeSteps.corners_of pairs in VolumeSteps.exact_volume given p b c
+  t.
+Lemma far_along_a_normal n D K s : 0 < s -> dot (point_of n) D = K -> s * norm n < Rabs K -> s ^ 2 <
+  Certificates.length_squared D.
+Proof.
+  intros s0 E far. pose proof (norm_pos n) as n0. set (N := norm n + (Rabs K - s * norm n) / (2 * s)).
+  assert (part : 0 < (Rabs K - s * norm n) / (2 * s)) by (apply Rdiv_lt_0_compat; lra).
+  assert (sN : s * N = (s * norm n + Rabs K) / 2) by (unfold N; field; lra).
+  apply (Separated.far_from_a_plane (point_of n) D K s N); [lra|unfold N; lra|exact E|lra|].
+  replace (dot (point_of n) (point_of n)) with (squared n) by (unfold dot, squared, sum3, point_of; cbn; ring).
+  pose proof (sqrt_sqrt (squared n) (squared_pos n)) as nn. fold (norm n) in nn. rewrite <- nn.
+  replace (N ^ 2) with (N * N) by ring. apply Rmult_le_compat; unfold N; lra.
+Qed.
+Theorem a_vertex_and_a_face_far given s t i j r : of_place given -> 0 < s ->
+  s * norm (normal vertex_face given t) < Rabs (volume vertex_face given t) -> i + j + r = 1 -> s ^ 2 <
+  Certificates.length_squared (minus (at_ (path 0) t) (plus (scaled i (at_ (path 1) t)) (plus (scaled j (at_ (path 2) t))
+    (scaled r (at_ (path 3) t))))).
+Proof.
+  intros same s0 far one_. apply (far_along_a_normal (normal vertex_face given t) _ (volume vertex_face given t) s s0);
+    [|exact far]. replace i with (1 - j - r) by lra.
+  unfold normal, volume, VolumeSteps.corners_of, vertex_face, VolumeBeyond.normal_at, VolumeSteps.exact_volume,
+    Volume.cross_at, sum3, exactly_at, exactly, exact_difference, point_of, dot, minus, at_, plus, scaled; cbn.
+  rewrite !same. ring.
+Qed.
+Theorem two_edges_far given s t i r : of_place given -> 0 < s ->
+  s * norm (normal edge_edge given t) < Rabs (volume edge_edge given t) -> s ^ 2 < Certificates.length_squared (minus
+    (plus (scaled (1 - i) (at_ (path 0) t)) (scaled i (at_ (path 1) t))) (plus (scaled (1 - r) (at_ (path 2) t)) (scaled r
+      (at_ (path 3) t)))).
+Proof.
+  intros same s0 far. apply (far_along_a_normal (normal edge_edge given t) _ (volume edge_edge given t) s s0); [|exact
+    far].
+  unfold normal, volume, VolumeSteps.corners_of, edge_edge, VolumeBeyond.normal_at, VolumeSteps.exact_volume,
+    Volume.cross_at, sum3, exactly_at, exactly, exact_difference, point_of, dot, minus, at_, plus, scaled; cbn.
+  rewrite !same. ring.
+Qed.
 End OfAPair.
 
 (* One step, as in Advancing.v, with a separation of normal size that is at most the largest extent. *)
@@ -263,7 +288,13 @@ Inductive step (code : proofs) (place : Expressions.coordinate -> R) s (f : cons
 | CurvingBeyond given value_of : computed f env place s given value_of code -> Advancing.is_direction f given 0 ->
     Advancing.is_direction f given 1 -> Advancing.is_direction f given 2 -> Advancing.is_moment given 0 ->
     Advancing.is_moment given 1 -> says f env value_of (Greater (Input (Moment 1)) (Input (Moment 0))) ->
-    says f env value_of (by_curving code) -> step code place s f env (given (Moment 0)) (given (Moment 1)).
+    says f env value_of (by_curving code) -> step code place s f env (given (Moment 0)) (given (Moment 1))
+| VolumeThroughoutBeyond given value_of from : computed f env place s given value_of code -> 0 <= from ->
+    says f env value_of (by_volume_throughout code) -> step code place s f env from 1
+| VolumeToTheEndBeyond given value_of : computed f env place s given value_of code -> Advancing.is_moment given 0 ->
+    says f env value_of (by_volume_to_the_end code) -> step code place s f env (given (Moment 0)) 1
+| VolumeUntilBeyond given value_of u : computed f env place s given value_of code -> Advancing.is_moment given 0 ->
+    given (Moment 0) < u -> value_of (until_volume code) = Number u -> step code place s f env (given (Moment 0)) u.
 Inductive reaches code place s (begin : R) : R -> Prop :=
 | First (f : constants) env until : reasonable_constants f -> step code place s f env begin until -> reaches code
   place s
@@ -273,19 +304,23 @@ Inductive reaches code place s (begin : R) : R -> Prop :=
 | RoundedDown from until : reaches code place s begin from -> until <= from -> reaches code place s begin until.
 
 Section Sound.
-Variable pairs : list (nat * nat).
+Variables p b c : nat * nat.
+Variable others : list (nat * nat).
+Notation pairs := (p :: b :: c :: others).
 Variable place : Expressions.coordinate -> R.
 Variable s : R.
-Definition apart t := 0 <= s /\ exists given, of_place place given /\ ahead s pairs given t.
+Definition is_far given t := s * norm (normal pairs given t) < Rabs (volume pairs given t).
+Definition apart t := 0 < s /\ exists given, of_place place given /\ (ahead s pairs given t \/ is_far given t).
 Theorem a_step_keeps_apart (f : constants) env from until : reasonable_constants f -> step (for_corners pairs) place s f
   env from until -> forall t, from <= t <= until -> t <= 1 -> apart t.
 Proof.
   intros fine [given value_of u (same & run & es & sep & in_range) short time masks E|given value_of (same & run & es &
     sep & in_range) short0 short1 time0 time1 later masks|given value_of (same & run & es & sep & in_range) short0
-      short1
-      short2 time0 time1 later masks] t between t1; (split; [pose proof (lam_pos f); lra|]); exists given; (split;
-        [exact
-        same|]); rewrite <- es in *.
+      short1 short2 time0 time1 later masks|given value_of from' (same & run & es & sep & in_range) from0 masks
+    |given value_of (same & run & es & sep & in_range) time masks|given value_of u (same & run & es & sep & in_range) time
+      later E] t between t1; (split; [pose proof (lam_pos f); lra|]); exists given; (split; [exact same|]); unfold
+    is_far; rewrite <- es in *.
+  1, 2, 3: left. 4, 5, 6: right.
   - pose proof (Advancing.seen_moment f env given 0 time). unfold Advancing.is_moment in time.
     apply (held_is_ahead f fine env given value_of run pairs in_range sep u (Advancing.short_direction f env given 0
       short)); auto; lra.
@@ -301,6 +336,14 @@ Proof.
     assert (s1 : seen f env (given (Moment 1)) = given (Moment 1)) by (apply seen_positive; lra).
     apply (curving_is_ahead f fine env given value_of run pairs in_range sep); auto using Advancing.short_direction;
       lra.
+  - apply (VolumeBeyond.margins_keep_beyond f fine env given value_of run sep (Constant (Small 0)) 0 (run (Constant (Small
+    0))) ltac:(rewrite seen_0; lra) p b c others in_range masks). rewrite seen_0. lra.
+  - pose proof (Advancing.seen_moment f env given 0 time). unfold Advancing.is_moment in time.
+    apply (VolumeBeyond.margins_keep_beyond f fine env given value_of run sep (Input (Moment 0)) (given (Moment 0)) (run
+      (Input (Moment 0))) ltac:(lra) p b c others in_range masks). lra.
+  - pose proof (Advancing.seen_moment f env given 0 time). unfold Advancing.is_moment in time.
+    apply (VolumeBeyond.clipping_keeps_beyond f fine env given value_of run sep (Input (Moment 0)) (given (Moment 0)) (run
+      (Input (Moment 0))) ltac:(lra) p b c others in_range u E later); lra.
 Qed.
 Theorem rounds_keep_apart begin until : reaches (for_corners pairs) place s begin until ->
   forall t, begin <= t <= until -> t <= 1 -> apart t.
@@ -318,8 +361,9 @@ Theorem a_vertex_and_a_face_stay_apart place s begin until t i j r : reaches of_
     1) t)) (plus (scaled j (at_ (Apart.path_of place 2) t)) (scaled r (at_ (Apart.path_of place 3) t))))).
 Proof.
   rewrite (proj1 traced_terms). intros chain between t1.
-  destruct (rounds_keep_apart _ _ _ _ _ chain t between t1) as (s0 & given & same & far).
-  intros. eapply a_vertex_and_a_face_ahead; eassumption.
+  destruct (rounds_keep_apart _ _ _ _ _ _ _ _ chain t between t1) as (s0 & given & same & [far|far]); intros.
+  - eapply a_vertex_and_a_face_ahead; eassumption || lra.
+  - eapply a_vertex_and_a_face_far; eassumption.
 Qed.
 Theorem two_edges_stay_apart place s begin until t i r : reaches of_two_edges place s begin until ->
   begin <= t <= until -> t <= 1 -> 0 <= i <= 1 -> 0 <= r <= 1 ->
@@ -328,6 +372,7 @@ Theorem two_edges_stay_apart place s begin until t i r : reaches of_two_edges pl
     (plus (scaled (1 - r) (at_ (Apart.path_of place 2) t)) (scaled r (at_ (Apart.path_of place 3) t)))).
 Proof.
   rewrite (proj2 traced_terms). intros chain between t1.
-  destruct (rounds_keep_apart _ _ _ _ _ chain t between t1) as (s0 & given & same & far).
-  intros. eapply two_edges_ahead; eassumption.
+  destruct (rounds_keep_apart _ _ _ _ _ _ _ _ chain t between t1) as (s0 & given & same & [far|far]); intros.
+  - eapply two_edges_ahead; eassumption || lra.
+  - eapply two_edges_far; eassumption.
 Qed.

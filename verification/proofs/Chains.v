@@ -398,9 +398,9 @@ Proof.
   rewrite <- m0. apply (Advancing.Held code place f env_ given value_of u); auto.
 Qed.
 Lemma single_is_fine : Corners.reasonable_constants Advance.binary32.
-Proof. constructor; [exact Witnesses.single_is_reasonable| | | | | |]; cbn; lia. Qed.
+Proof. constructor; [exact Witnesses.single_is_reasonable| | | | | | |]; cbn; lia. Qed.
 Lemma double_is_fine : Corners.reasonable_constants Advance.binary64.
-Proof. constructor; [exact Witnesses.double_is_reasonable| | | | | |]; cbn; lia. Qed.
+Proof. constructor; [exact Witnesses.double_is_reasonable| | | | | | |]; cbn; lia. Qed.
 Notation in_single theorem := (theorem 24 128 (-117) 30 (-100) 29 (-100) (-62) _ _ single_is_fine _)%Z.
 Notation in_double theorem := (theorem 53 1024 (-1000) 250 (-960) 250 (-900) (-510) _ _ double_is_fine _)%Z.
 Theorem every_proof_holds_for_some f : f = Advance.binary32 \/ f = Advance.binary64 ->

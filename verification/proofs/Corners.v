@@ -15,7 +15,8 @@ Record reasonable_constants (c : constants) : Prop := {
   extents : (0 <= largest_extent c <= largest_edge c)%Z;
   squares : (4 * largest_edge c + 8 <= greatest_exponent c)%Z;
   safe : (least_exponent c + precision c - 1 + 2 + precision c <= safe_square c <= 0)%Z;
-  vanishing : (least_exponent c + precision c - 1 + 2 <= 2 * length_underflow c <= 0)%Z }.
+  vanishing : (least_exponent c + precision c - 1 + 2 <= 2 * length_underflow c <= 0)%Z;
+  squared_normals : (4 * largest_extent c + 12 <= greatest_exponent c)%Z }.
 
 (* The code's vectors. *)
 Record vector := Vector { vx : number; vy : number; vz : number }.

@@ -16,6 +16,50 @@ Definition clearance k := Product (Input (Length Separation)) (Product (length_a
   32)).
 Definition bar_beyond pairs k := Sum (bar pairs k) (clearance k).
 
+(* The length of a vector. That of a sum is at most that of its parts. *)
+Definition norm (w : Expressions.axis -> R) := sqrt (squared w).
+Lemma norm_pos w : 0 <= norm w. Proof. apply sqrt_pos. Qed.
+Lemma norm_below_sum w : norm w <= sum3 (fun a => Rabs (w a)).
+Proof.
+  unfold norm. assert (P : 0 <= sum3 (fun a => Rabs (w a))).
+  { unfold sum3. pose proof (Rabs_pos (w Expressions.X)). pose proof (Rabs_pos (w Expressions.Y)).
+    pose proof (Rabs_pos (w Expressions.Z_)). lra. }
+  rewrite <- (sqrt_square _ P). apply sqrt_le_1_alt. unfold squared, sum3 in *.
+  assert (sq : forall a, w a * w a = Rabs (w a) * Rabs (w a)).
+  { intro a. rewrite <- Rabs_mult, Rabs_pos_eq; [reflexivity|apply Rle_0_sqr]. }
+  rewrite !sq. pose proof (Rabs_pos (w Expressions.X)) as X. pose proof (Rabs_pos (w Expressions.Y)) as Y.
+  pose proof (Rabs_pos (w Expressions.Z_)) as Z. pose proof (Rmult_le_pos _ _ X Y). pose proof (Rmult_le_pos _ _ Y Z).
+  pose proof (Rmult_le_pos _ _ X Z). lra.
+Qed.
+Lemma norm_sum v w : norm (fun a => v a + w a) <= norm v + norm w.
+Proof.
+  pose proof (norm_pos v) as V0. pose proof (norm_pos w) as W0. pose proof (squared_pos v) as sv.
+  pose proof (squared_pos w) as sw.
+  assert (vv : norm v * norm v = squared v) by (apply sqrt_sqrt; exact sv).
+  assert (ww : norm w * norm w = squared w) by (apply sqrt_sqrt; exact sw).
+  unfold norm at 1. rewrite <- (sqrt_square (norm v + norm w)) by lra. apply sqrt_le_1_alt.
+  set (d := sum3 (fun a => v a * w a)).
+  assert (E : squared (fun a => v a + w a) = squared v + 2 * d + squared w) by (unfold squared, d, sum3; ring).
+  assert (schwarz : d * d <= squared v * squared w).
+  { unfold d, squared, sum3. set (a := v Expressions.X). set (b := v Expressions.Y). set (c := v Expressions.Z_).
+    set (p := w Expressions.X). set (q := w Expressions.Y). set (r := w Expressions.Z_).
+    pose proof (pow2_ge_0 (a * q - b * p)). pose proof (pow2_ge_0 (b * r - c * q)). pose proof (pow2_ge_0 (a * r - c *
+      p)). lra. }
+  assert (dn : d <= norm v * norm w).
+  { apply Rnot_lt_le. intro h. assert (p0 : 0 <= norm v * norm w) by (apply Rmult_le_pos; lra).
+    assert (norm v * norm w * (norm v * norm w) < d * d) by (apply Rmult_le_0_lt_compat; lra).
+    replace (norm v * norm w * (norm v * norm w)) with ((norm v * norm v) * (norm w * norm w)) in H by ring.
+    rewrite vv, ww in H. lra. }
+  rewrite E. replace ((norm v + norm w) * (norm v + norm w)) with (norm v * norm v + 2 * (norm v * norm w) + norm w *
+    norm w) by ring. lra.
+Qed.
+Lemma norm_scaled c w : 0 <= c -> norm (fun a => c * w a) = c * norm w.
+Proof.
+  intro c0. unfold norm. replace (squared (fun a => c * w a)) with ((c * c) * squared w) by (unfold squared, sum3;
+    ring).
+  rewrite sqrt_mult by (try apply Rle_0_sqr; apply squared_pos). now rewrite sqrt_square.
+Qed.
+
 Section Beyond.
 Variable f : constants.
 Hypothesis fine : reasonable_constants f.
@@ -43,20 +87,6 @@ Notation run_root := (run_root f env given value_of run).
 Notation run_constant := (run_constant f env given value_of run).
 Notation run_input := (run_input f env given value_of run).
 
-Definition norm (w : Expressions.axis -> R) := sqrt (squared w).
-Lemma norm_pos w : 0 <= norm w. Proof. apply sqrt_pos. Qed.
-Lemma norm_below_sum w : norm w <= sum3 (fun a => Rabs (w a)).
-Proof.
-  unfold norm. assert (P : 0 <= sum3 (fun a => Rabs (w a))).
-  { unfold sum3. pose proof (Rabs_pos (w Expressions.X)). pose proof (Rabs_pos (w Expressions.Y)).
-    pose proof (Rabs_pos (w Expressions.Z_)). lra. }
-  rewrite <- (sqrt_square _ P). apply sqrt_le_1_alt. unfold squared, sum3 in *.
-  assert (sq : forall a, w a * w a = Rabs (w a) * Rabs (w a)).
-  { intro a. rewrite <- Rabs_mult, Rabs_pos_eq; [reflexivity|apply Rle_0_sqr]. }
-  rewrite !sq. pose proof (Rabs_pos (w Expressions.X)) as X. pose proof (Rabs_pos (w Expressions.Y)) as Y.
-  pose proof (Rabs_pos (w Expressions.Z_)) as Z. pose proof (Rmult_le_pos _ _ X Y). pose proof (Rmult_le_pos _ _ Y Z).
-  pose proof (Rmult_le_pos _ _ X Z). lra.
-Qed.
 Lemma safe_large : 4 * l <= u * safe.
 Proof.
   unfold lam, unit_roundoff, power. rewrite <- bpow_plus. change 4 with (bpow radix2 2). rewrite <- bpow_plus.
@@ -79,18 +109,25 @@ Proof.
   pose proof (omega_pos f fine). apply (number_if_small f fine env) in h; [|rewrite Rabs_pos_eq; lra].
   exists (Rd (IZR n * u)). split; [exact h|]. apply (normal_error f fine env). lra.
 Qed.
-Lemma more_value : exists c, value_of (more_roundoffs 32) = Number c /\ 1 + 14.9 * e1 <= c <= 2.
+Lemma more_value n : (1 <= n <= 64)%Z -> exists c, value_of (more_roundoffs n) = Number c /\
+  1 + (IZR n / 2 - 1.1) * e1 <= c <= 1.0001.
 Proof.
-  destruct (roundoffs_value 32%Z ltac:(lia)) as (x & Ex & x1 & x2).
+  intros [n1 n2]. destruct (roundoffs_value n ltac:(lia)) as (x & Ex & x1 & x2). apply IZR_le in n1, n2.
   pose proof (e_pos f). pose proof (e_small f ok). pose proof (l_pos f). pose proof (l_small f ok).
   pose proof (l_e f fine). pose proof (eps_twice f) as eu. pose proof (omega_pos f fine).
   assert (eu2 : 0 <= e1 * u <= / 8388608 * u) by (split; [apply Rmult_le_pos; lra|apply Rmult_le_compat_r; lra]).
-  assert (xs : 15.99 * e1 <= x <= 16.01 * e1) by lra.
-  pose proof (run_sum one (roundoffs 32)) as h. fold (more_roundoffs 32) in h. unfold one in h at 1.
+  set (k := IZR n) in *. assert (ke : e1 <= k * e1 <= 64 * e1) by (split; [rewrite <- (Rmult_1_l e1) at 1|];
+    apply Rmult_le_compat_r; lra).
+  assert (ku : k * e1 = 2 * (k * u)) by (rewrite eu; ring).
+  assert (kee : 0 <= e1 * (k * u) <= e1 * (32 * e1)). { split; [repeat apply Rmult_le_pos; lra|].
+    apply Rmult_le_compat_l; lra. }
+  assert (e2 : 0 <= e1 * e1 <= / 8388608 * e1) by (split; [apply Rmult_le_pos; lra|apply Rmult_le_compat_r; lra]).
+  assert (xs : k / 2 * e1 - 0.0001 * e1 <= x <= 32.01 * e1) by lra.
+  pose proof (run_sum one (roundoffs n)) as h. fold (more_roundoffs n) in h. unfold one in h at 1.
   rewrite run_constant, Ex in h. unfold sum in h. cbn in h. rewrite (seen_large f env 1), (seen_large f env x) in h by
     lra. apply (number_if_small f fine env) in h; [|rewrite Rabs_pos_eq; lra].
   destruct (normal_error f fine env (1 + x) ltac:(lra)) as [c1 c2].
-  assert (ex : 0 <= e1 * x <= e1 * (16.01 * e1)) by (split; [apply Rmult_le_pos; lra|apply Rmult_le_compat_l; lra]).
+  assert (ex : 0 <= e1 * x <= e1 * (32.01 * e1)) by (split; [apply Rmult_le_pos; lra|apply Rmult_le_compat_l; lra]).
   assert (ee : 0 <= e1 * e1 <= / 8388608 * e1) by (split; [apply Rmult_le_pos; lra|apply Rmult_le_compat_r; lra]).
   exists (Rd (1 + x)). split; [exact h|]. lra.
 Qed.
@@ -233,7 +270,7 @@ Proof.
     ok). pose proof (omega_pos f fine). pose proof (L_G f fine) as LG.
   pose proof (G_4 f fine) as G4. pose proof (G_2 f fine) as G2.
   assert (GG : 4 * G <= G * G) by (apply Rmult_le_compat_r; lra).
-  destruct (length_value k short) as (len & El & ll & lG & ln). destruct more_value as (c & Ec & c1 & c2).
+  destruct (length_value k short) as (len & El & ll & lG & ln). destruct (more_value 32 ltac:(lia)) as (c & Ec & c1 & c2).
   pose proof (run_product (length_above (direction k)) (more_roundoffs 32)) as h. rewrite El, Ec in h.
   unfold product in h. cbn in h. rewrite (seen_large f env len ll), (seen_large f env c) in h by lra.
   assert (lc : (1 + 14.9 * e1) * len <= len * c <= 6.6 * G).

@@ -11,8 +11,8 @@ Record constants := Constants { base :> format; extent_underflow : Z; largest_ex
   length_underflow : Z }.
 
 (* A coordinate of one of the four points, a component of one of the directions that are tried, a time, a length or the
-   slack of a gap. *)
-Inductive length := Separation | LargestCoordinate | Slack.
+   slack of a gap. A gap may be stored, none less than the least and none more than the largest. *)
+Inductive length := Separation | LargestCoordinate | Slack | StoredGap | LeastGap | LargestGap.
 Inductive input :=
 | Length (l : length)
 | Place (c : Expressions.coordinate)

@@ -5,11 +5,12 @@
      (14)     A pair that the filter culls with a separation stays farther apart than that throughout the step.
      (9)      Control values in words of 64 bits are exact, and their top word has the sign.
      (10)     A pair does not touch before the time that the time of impact answers, nor at it.
-     (15)     With a separation, it stays farther apart than that up to the time that directions reach.
+     (15)     With a separation, it stays farther apart than that up to the time that the time of impact answers.
      (11)     What the checker of witnesses accepts does not touch before the claimed time.
      (12)     From `f64` to `f32`, times become no later and lengths no smaller.
      (13)     A pair whose direction has a gap beyond the threshold at both ends of a step stays farther apart than the
-              separation throughout. An accepted step has no contact, and keeps its separation (15).
+              separation throughout. A gap that was stored when the last step ended serves at the start. An accepted step
+              has no contact, and keeps its separation (15).
      (1 to 4) What these rest on: the formats, an operation, the volume of four moving points, its sign.
      (8)      None is empty: each decision holds for some pair.
 
@@ -365,13 +366,17 @@ Proof. exact (Narrowing.widened_value c). Qed.
 
 (* 13. **Certificates of separation** (core/src/kernels/gap.rs), by which a simulation and truncation accept a step. A
        direction keeps a pair if its gap exceeds the threshold at both ends of the step, as the traced terms (Gap.v)
-       compute them in any environment, and its length passed the test in any format. `Gaps.is_kept` says what is
-         assumed
-       of the inputs: the largest coordinate and the separation are at most 2^30 (binary64: 2^250), and no component of
-       the direction exceeds 2^32 (2^252). Then the sets stay farther apart than the separation s throughout the step:
-       the squared distance of any of their points exceeds that of s. *)
+       compute them in any environment, and its length passed the test in any format. At the start, a gap serves that was
+       stored at the end of an earlier step, in any format and environment, and converted to another. `Gaps.is_kept` and
+       `Gaps.lasts_since` say what is assumed of the inputs: the largest coordinate and the separation are at most 2^30
+       (binary64: 2^250), and no component of the direction exceeds 2^32 (2^252). Then the sets stay farther apart than the
+       separation s throughout the step: the squared distance of any of their points exceeds that of s. *)
+Definition keeps_a_vertex_and_a_face f place s := Gaps.is_kept f Gap.a_vertex_and_a_face.keeps place s \/
+  Gaps.lasts_since f Gap.a_vertex_and_a_face.lasts Gap.a_vertex_and_a_face.stored_by_keeps place s.
+Definition keeps_two_edges f place s := Gaps.is_kept f Gap.two_edges.keeps place s \/
+  Gaps.lasts_since f Gap.two_edges.lasts Gap.two_edges.stored_by_keeps place s.
 Theorem a_kept_vertex_and_face_stay_apart f place s t i j r : f = Advance.binary32 \/ f = Advance.binary64 ->
-  Gaps.is_kept f Gap.a_vertex_and_a_face.keeps place s -> 0 <= t <= 1 ->
+  keeps_a_vertex_and_a_face f place s -> 0 <= t <= 1 ->
   0 <= i -> 0 <= j -> 0 <= r -> i + j + r = 1 -> let at_time n := at_ (path_of place n) t in
   s ^ 2 < Certificates.length_squared (minus (at_time 0%nat) (plus (scaled i (at_time 1%nat)) (plus (scaled j (at_time
     2%nat)) (scaled r (at_time 3%nat))))).
@@ -381,7 +386,7 @@ Proof.
   exact (Gaps.a_kept_vertex_and_face_stay_apart f place s t i j r fine).
 Qed.
 Theorem kept_edges_stay_apart f place s t i r : f = Advance.binary32 \/ f = Advance.binary64 ->
-  Gaps.is_kept f Gap.two_edges.keeps place s -> 0 <= t <= 1 -> 0 <= i <= 1 -> 0 <= r <= 1 ->
+  keeps_two_edges f place s -> 0 <= t <= 1 -> 0 <= i <= 1 -> 0 <= r <= 1 ->
   let at_time n := at_ (path_of place n) t in
   s ^ 2 < Certificates.length_squared (minus (plus (scaled (1 - i) (at_time 0%nat)) (scaled i (at_time 1%nat)))
     (plus (scaled (1 - r) (at_time 2%nat)) (scaled r (at_time 3%nat)))).
@@ -390,20 +395,65 @@ Proof.
   { destruct constants_of_the_time_of_impact. destruct which as [-> | ->]; assumption. }
   exact (Gaps.kept_edges_stay_apart f place s t i r fine).
 Qed.
-(* Coq runs the traced gaps: some pairs of both kinds are kept. *)
+(* What `keeps` and `lasts` store is the same, and at most the exact gap along the direction, which does not depend on the
+   environment. *)
+Theorem what_is_stored_is_the_same : Gap.a_vertex_and_a_face.stored_by_lasts = Gap.a_vertex_and_a_face.stored_by_keeps /\
+  Gap.two_edges.stored_by_lasts = Gap.two_edges.stored_by_keeps.
+Proof. split; reflexivity. Qed.
+Definition gap_at_the_end place (direction : axis -> R) n k := let at_end n := Corners.sum3 (fun a => direction a * place
+  (Coordinate n End a)) in at_end n - at_end k.
+Theorem a_stored_gap_is_at_most_the_exact_one f place direction gap_ : f = Advance.binary32 \/ f = Advance.binary64 ->
+  0 < gap_ ->
+  (Gaps.is_stored f Gap.a_vertex_and_a_face.stored_by_keeps place direction gap_ -> forall k, List.In k [1%nat; 2%nat;
+    3%nat]%list ->
+    gap_ <= gap_at_the_end place direction 0 k) /\
+  (Gaps.is_stored f Gap.two_edges.stored_by_keeps place direction gap_ -> forall n k, List.In n [0%nat; 1%nat]%list -> List.In k
+    [2%nat; 3%nat]%list -> gap_ <= gap_at_the_end place direction n k).
+Proof.
+  intros which pos. assert (fine : Corners.reasonable_constants f).
+  { destruct constants_of_the_time_of_impact. destruct which as [-> | ->]; assumption. }
+  destruct Gaps.traced_terms as (_ & _ & _ & _ & _ & _ & same & same' & _). rewrite same, same'. split.
+  - intros stored k inside. apply (Gaps.a_stored_gap_is_below f Gaps.of_a_vertex_and_a_face place direction gap_ fine);
+      try assumption; try discriminate. cbn. auto.
+  - intros stored n k inside inside'. now apply (Gaps.a_stored_gap_is_below f Gaps.of_two_edges place direction gap_ fine).
+Qed.
+(* A distance that the code proves by a direction (distance_from_below) is at most that of any points of the sets. *)
+Theorem a_computed_distance_of_a_vertex_and_a_face_is_right f place x i j r : f = Advance.binary32 \/ f = Advance.binary64 ->
+  Gaps.is_computed_distance f Gap.a_vertex_and_a_face.distance place x -> 0 <= i -> 0 <= j -> 0 <= r -> i + j + r = 1 ->
+  let at_the_end n := at_ (path_of place n) 1 in x ^ 2 <= Certificates.length_squared (minus (at_the_end 0%nat) (plus
+    (scaled i (at_the_end 1%nat)) (plus (scaled j (at_the_end 2%nat)) (scaled r (at_the_end 3%nat))))).
+Proof.
+  intro which. assert (fine : Corners.reasonable_constants f).
+  { destruct constants_of_the_time_of_impact. destruct which as [-> | ->]; assumption. }
+  exact (Gaps.a_distance_of_a_vertex_and_a_face f place x i j r fine).
+Qed.
+Theorem a_computed_distance_of_two_edges_is_right f place x i r : f = Advance.binary32 \/ f = Advance.binary64 ->
+  Gaps.is_computed_distance f Gap.two_edges.distance place x -> 0 <= i <= 1 -> 0 <= r <= 1 ->
+  let at_the_end n := at_ (path_of place n) 1 in x ^ 2 <= Certificates.length_squared (minus
+    (plus (scaled (1 - i) (at_the_end 0%nat)) (scaled i (at_the_end 1%nat)))
+    (plus (scaled (1 - r) (at_the_end 2%nat)) (scaled r (at_the_end 3%nat)))).
+Proof.
+  intro which. assert (fine : Corners.reasonable_constants f).
+  { destruct constants_of_the_time_of_impact. destruct which as [-> | ->]; assumption. }
+  exact (Gaps.a_distance_of_two_edges f place x i r fine).
+Qed.
+(* Coq runs the traced gaps: some pairs of both kinds are kept, and some last since a gap was stored. *)
 Theorem some_pairs_are_kept f : f = Advance.binary32 \/ f = Advance.binary64 ->
   (exists place, Gaps.is_kept f Gap.a_vertex_and_a_face.keeps place (1 / 2)) /\
   (exists place, Gaps.is_kept f Gap.two_edges.keeps place (1 / 2)).
 Proof. exact (Kept.some_are_kept f). Qed.
+Theorem some_pairs_last : (exists place, Gaps.lasts_since Advance.binary32 Gap.a_vertex_and_a_face.lasts
+    Gap.a_vertex_and_a_face.stored_by_keeps place (1 / 2)) /\
+  (exists place, Gaps.lasts_since Advance.binary32 Gap.two_edges.lasts Gap.two_edges.stored_by_keeps place (1 / 2)).
+Proof. exact Kept.some_last. Qed.
 (* An accepted step: each pair that can touch in it is kept by a direction, or a chain of rounds reaches its end. Then
 no
    pair touches during it. That all pairs that can touch are asked about is assumed here, and tested as a property. *)
 Definition all_are_apart (vertices_and_faces edges : list (coordinate -> R)) :=
   (forall place, List.In place vertices_and_faces -> Advancing.reaches Advancing.of_a_vertex_and_a_face place 0 1 \/
-    exists f s, (f = Advance.binary32 \/ f = Advance.binary64) /\ Gaps.is_kept f Gap.a_vertex_and_a_face.keeps place
-      s) /\
+    exists f s, (f = Advance.binary32 \/ f = Advance.binary64) /\ keeps_a_vertex_and_a_face f place s) /\
   (forall place, List.In place edges -> Advancing.reaches Advancing.of_two_edges place 0 1 \/
-    exists f s, (f = Advance.binary32 \/ f = Advance.binary64) /\ Gaps.is_kept f Gap.two_edges.keeps place s).
+    exists f s, (f = Advance.binary32 \/ f = Advance.binary64) /\ keeps_two_edges f place s).
 Lemma apart_is_not_zero s p q : s ^ 2 < Certificates.length_squared (minus p q) -> p <> q.
 Proof.
   intros far ->. replace (Certificates.length_squared _) with 0 in far; [pose proof (pow2_ge_0 s); lra|].
@@ -466,11 +516,11 @@ Theorem the_filter_with_a_separation_culls_some f alone : f = Advance.binary32 \
     Beyond.two_edges.culled_by_permanent) place (1 / 2)).
 Proof. exact (Kept.some_are_culled f alone). Qed.
 
-(* 15. **The time of impact with a separation**, by directions. A chain of rounds as in (10), each a direction that is
-       held, turns or moves on a curve, with the bars of a separation s (AdvanceBeyond.v). `AdvancingBeyond.computed`
-         says
-       what is assumed: s is no subnormal number, and at most the largest extent, as the code requires. Up to the time
-       that the chain reaches, and at it, the sets are farther apart than s, whatever is flushed. *)
+(* 15. **The time of impact with a separation**. A chain of rounds as in (10), with the bars of a separation s
+       (AdvanceBeyond.v): a direction that is held, turns or moves on a curve, or the signed volume, which exceeds s times
+       the length of the normal. `AdvancingBeyond.computed` says what is assumed: s is no subnormal number, and at most
+       the largest extent, as the code requires. Up to the time that the chain reaches, and at it, the sets are farther
+       apart than s, whatever is flushed. *)
 Theorem a_vertex_and_a_face_stay_beyond place s begin until t i j r : AdvancingBeyond.reaches
   AdvancingBeyond.of_a_vertex_and_a_face place s begin until -> begin <= t <= until -> t <= 1 ->
   0 <= i -> 0 <= j -> 0 <= r -> i + j + r = 1 -> let at_time n := at_ (path_of place n) t in
@@ -487,16 +537,22 @@ Theorem chains_with_a_separation_reach_the_end f : f = Advance.binary32 \/ f = A
   (exists place, AdvancingBeyond.reaches AdvancingBeyond.of_a_vertex_and_a_face place (1 / 2) 0 1) /\
   (exists place, AdvancingBeyond.reaches AdvancingBeyond.of_two_edges place (1 / 2) 0 1).
 Proof. exact (Kept.chains_with_a_separation_reach_the_end f). Qed.
+Theorem each_proof_with_a_separation_holds_for_some_pair f : f = Advance.binary32 \/ f = Advance.binary64 ->
+  Kept.every_proof_holds AdvancingBeyond.of_a_vertex_and_a_face f /\ Kept.every_proof_holds AdvancingBeyond.of_two_edges f.
+Proof. exact (Kept.every_proof_with_a_separation_holds_for_some f). Qed.
+Theorem clipping_with_a_separation_advances_for_some_pair :
+  Kept.clipping_advances AdvancingBeyond.of_a_vertex_and_a_face Advance.binary32 /\
+  Kept.clipping_advances AdvancingBeyond.of_two_edges Advance.binary32.
+Proof. exact Kept.clipping_with_a_separation_advances_for_some. Qed.
 (* An accepted step with a separation s: each pair that can touch in it is kept by a direction, or a chain of rounds
   with
    s reaches its end. Then each pair stays farther apart than s during it. *)
 Theorem an_accepted_step_keeps_the_separation s (vertices_and_faces edges : list (coordinate -> R)) t :
   (forall place, List.In place vertices_and_faces -> AdvancingBeyond.reaches AdvancingBeyond.of_a_vertex_and_a_face
     place
-    s 0 1 \/ exists f, (f = Advance.binary32 \/ f = Advance.binary64) /\ Gaps.is_kept f Gap.a_vertex_and_a_face.keeps
-      place s) ->
+    s 0 1 \/ exists f, (f = Advance.binary32 \/ f = Advance.binary64) /\ keeps_a_vertex_and_a_face f place s) ->
   (forall place, List.In place edges -> AdvancingBeyond.reaches AdvancingBeyond.of_two_edges place s 0 1 \/
-    exists f, (f = Advance.binary32 \/ f = Advance.binary64) /\ Gaps.is_kept f Gap.two_edges.keeps place s) ->
+    exists f, (f = Advance.binary32 \/ f = Advance.binary64) /\ keeps_two_edges f place s) ->
   0 <= t <= 1 ->
   (forall place i j r, List.In place vertices_and_faces -> 0 <= i -> 0 <= j -> 0 <= r -> i + j + r = 1 ->
     let at_time n := at_ (path_of place n) t in s ^ 2 < Certificates.length_squared (minus (at_time 0%nat) (plus (scaled
@@ -559,6 +615,11 @@ Print Assumptions Narrowing.the_code_returns_the_same.
 Print Assumptions a_kept_vertex_and_face_stay_apart.
 Print Assumptions kept_edges_stay_apart.
 Print Assumptions some_pairs_are_kept.
+Print Assumptions what_is_stored_is_the_same.
+Print Assumptions a_stored_gap_is_at_most_the_exact_one.
+Print Assumptions some_pairs_last.
+Print Assumptions a_computed_distance_of_a_vertex_and_a_face_is_right.
+Print Assumptions a_computed_distance_of_two_edges_is_right.
 Print Assumptions an_accepted_step_has_no_contact.
 Print Assumptions a_culled_vertex_and_face_stay_apart.
 Print Assumptions culled_edges_stay_apart.
@@ -566,6 +627,8 @@ Print Assumptions the_filter_with_a_separation_culls_some.
 Print Assumptions a_vertex_and_a_face_stay_beyond.
 Print Assumptions two_edges_stay_beyond.
 Print Assumptions chains_with_a_separation_reach_the_end.
+Print Assumptions each_proof_with_a_separation_holds_for_some_pair.
+Print Assumptions clipping_with_a_separation_advances_for_some_pair.
 Print Assumptions an_accepted_step_keeps_the_separation.
 Print Assumptions Certificates.a_product_bounds_the_distance.
 Print Assumptions Certificates.ahead_of_the_triangle.

@@ -13,12 +13,13 @@ Definition margins pairs t := let '(p, b, c) := corners_of pairs in let e := err
   let '(b0, b1, b2, b3) := values_from t (outer p b c Expressions.Start) (inner p b c Expressions.Start) (inner p b c
     Expressions.End)
     (outer p b c Expressions.End) in (margin b0 b0 e, margin b0 b1 e, margin b0 b2 e, margin b0 b3 e).
-Definition volume_to_the_end pairs t := let '(m0, m1, m2, m3) := margins pairs t in
-  Both (Both (Both (is_positive m0) (is_positive m1)) (is_positive m2)) (is_positive m3).
+Definition all_positive '(m0, m1, m2, m3) := Both (Both (Both (is_positive m0) (is_positive m1)) (is_positive m2))
+  (is_positive m3).
+Definition clipped_until t '(m0, m1, m2, m3) := let next := next_time t (looking_ahead m0 m1 m2 m3 (first_zero m0 m1 m2
+  m3)) in Select (Both (is_positive m0) (Greater next t)) next t.
+Definition volume_to_the_end pairs t := all_positive (margins pairs t).
 Definition volume_throughout pairs := volume_to_the_end pairs (Constant (Small 0)).
-Definition volume_until pairs t := let '(m0, m1, m2, m3) := margins pairs t in
-  let next := next_time t (looking_ahead m0 m1 m2 m3 (first_zero m0 m1 m2 m3)) in Select (Both (is_positive m0) (Greater
-    next t)) next t.
+Definition volume_until pairs t := clipped_until t (margins pairs t).
 
 Section VolumeSteps.
 Variable f : constants.
@@ -181,6 +182,53 @@ Qed.
 Lemma cubic_scaled x a0 a1 a2 a3 s : cubic (x * a0) (x * a1) (x * a2) (x * a3) s = x * cubic a0 a1 a2 a3 s.
 Proof. unfold cubic. ring. Qed.
 
+(* Margins that are below the control values Y of a cubic by a reserve r: where they prove something, it is positive. *)
+Section Margins.
+Variables w r : R.
+Hypothesis w_small : 0 <= w <= 10 * (G * G * G).
+Hypothesis reserve_ : 0 < r /\ 4 * slack_ f w < r /\ ahead_error f w + 200 * (l * w) <= r.
+Variables g0 g1 g2 g3 : number.
+Variables x0 x1 x2 x3 Y0 Y1 Y2 Y3 : R.
+Hypothesis c0 : control f env value_of w g0 x0.
+Hypothesis c1 : control f env value_of w g1 x1.
+Hypothesis c2 : control f env value_of w g2 x2.
+Hypothesis c3 : control f env value_of w g3 x3.
+Hypothesis below : seen x0 + r <= Y0 /\ seen x1 + r <= Y1 /\ seen x2 + r <= Y2 /\ seen x3 + r <= Y3.
+Notation is_positive_at t' := (exists q_, 0 <= q_ <= 1 /\ t' = (1 - q_) * T + q_ * 1 /\ 0 < cubic Y0 Y1 Y2 Y3 q_).
+Theorem positive_to_the_end : says f env value_of (all_positive (g0, g1, g2, g3)) -> forall t', T <= t' <= 1 ->
+  is_positive_at t'.
+Proof.
+  intros [[[p0 p1] p2] p3] t' between. destruct reserve_ as (r0 & _). destruct below as (h0 & h1 & h2 & h3).
+  apply (positive_says f env given value_of run w g0 x0 c0) in p0. apply (positive_says f env given value_of run w g1 x1
+    c1) in p1.
+  apply (positive_says f env given value_of run w g2 x2 c2) in p2. apply (positive_says f env given value_of run w g3 x3
+    c3) in p3.
+  assert (part : exists q_, 0 <= q_ <= 1 /\ t' = (1 - q_) * T + q_ * 1).
+  { destruct (Req_dec T 1); [exists 0; lra|]. exists ((t' - T) / (1 - T)). split; [|field; lra]. split.
+    - apply Rle_mult_inv_pos; lra.
+    - apply Rmult_le_reg_r with (1 - T); [lra|]. unfold Rdiv. rewrite Rmult_assoc, Rinv_l; lra. }
+  destruct part as (q_ & q01 & E). exists q_. split; [exact q01|]. split; [exact E|].
+  pose proof (Geometry.hull Y0 (3 * Y1) (3 * Y2) Y3 q_ ltac:(lra) ltac:(lra) ltac:(lra) ltac:(lra) q01) as pos.
+  unfold cubic. lra.
+Qed.
+Theorem positive_until u : value_of (clipped_until t (g0, g1, g2, g3)) = Number u -> tau < u -> forall t',
+  T <= t' <= u -> t' <= 1 -> is_positive_at t'.
+Proof.
+  intros Eu later t' between t1. destruct reserve_ as (r0 & re). destruct below as (h0 & h1 & h2 & h3).
+  unfold clipped_until in Eu. set (part := looking_ahead g0 g1 g2 g3 (first_zero g0 g1 g2 g3)) in *. cbv zeta in Eu.
+  pose proof (run (Select (Both (is_positive g0) (Greater (next_time t part) t)) (next_time t part) t)) as h.
+    cbn -[says is_positive next_time] in h.
+  destruct h as [[[p0 _] h]|[_ h]].
+  2: { rewrite Eu, moment in h. injection h as ->. lra. }
+  apply (positive_says f env given value_of run w g0 x0 c0) in p0.
+  destruct (looking_ahead_value f fine env given value_of run w w_small g0 g1 g2 g3 x0 x1 x2 x3 c0 c1 c2 c3 p0 r re) as
+    (y & Ey & yb & positive).
+  destruct (next_time_value part y Ey yb) as (N & EN & times). rewrite Eu, EN in h. injection h as ->.
+  destruct (times t' between t1) as (q_ & q01 & E & qy). exists q_. split; [exact q01|]. split; [exact E|].
+  pose proof (positive q_ q01 qy) as pos. pose proof (cubic_monotone _ _ _ _ _ _ _ _ q_ q01 h0 h1 h2 h3). lra.
+Qed.
+End Margins.
+
 Variables p b c : nat * nat.
 Variable others : list (nat * nat).
 Notation pairs := (p :: b :: c :: others).
@@ -233,7 +281,10 @@ Proof.
   repeat split; lra.
 Qed.
 
-(* With positive margins, the volume is not zero. *)
+(* Where the margins prove something, the volume is not zero. *)
+Lemma positive_is_not_zero s X0 X1 X2 X3 q_ : 0 < cubic (s * X0) (s * X1) (s * X2) (s * X3) q_ -> cubic X0 X1 X2 X3 q_ <>
+  0.
+Proof. rewrite cubic_scaled. intros pos zero. rewrite zero in pos. lra. Qed.
 Theorem positive_margins : says f env value_of (volume_to_the_end pairs t) -> forall t',
   T <= t' <= 1 -> exact_volume p b c t' <> 0.
 Proof.
@@ -242,23 +293,10 @@ Proof.
   pose proof (cubic_from (outer_at given p b c Expressions.Start) (inner_at given p b c Expressions.Start) (inner_at
     given p b c Expressions.End)
     (outer_at given p b c Expressions.End)) as cf.
-  destruct X as [[[X0 X1] X2] X3]. destruct mv as (s & x0 & x1 & x2 & x3 & s1 & c0 & c1 & c2 & c3 & h0 & h1 & h2 & h3).
-  destruct all as [[[p0 p1] p2] p3]. pose proof reserve_positive as (r0 & _).
-  apply (positive_says f env given value_of run w g0 x0 c0) in p0. apply (positive_says f env given value_of run w g1 x1
-    c1) in p1.
-  apply (positive_says f env given value_of run w g2 x2 c2) in p2. apply (positive_says f env given value_of run w g3 x3
-    c3) in p3.
-  assert (part : exists q_, 0 <= q_ <= 1 /\ t' = (1 - q_) * T + q_ * 1).
-  { destruct (Req_dec T 1); [exists 0; lra|]. exists ((t' - T) / (1 - T)). split; [|field; lra]. split.
-    - apply Rle_mult_inv_pos; lra.
-    - apply Rmult_le_reg_r with (1 - T); [lra|]. unfold Rdiv. rewrite Rmult_assoc, Rinv_l; lra. }
-  destruct part as (q_ & q01 & ->). rewrite volume_is_cubic, (cf q_). intro zero.
-  pose proof (Geometry.hull (s * X0) (3 * (s * X1)) (3 * (s * X2)) (s * X3) q_ ltac:(lra) ltac:(lra) ltac:(lra)
-    ltac:(lra) q01) as pos.
-  unfold cubic in zero. assert (E : s * X0 * (1 - q_) ^ 3 + 3 * (s * X1) * (1 - q_) ^ 2 * q_ + 3 * (s * X2) * (1 - q_) *
-    q_ ^ 2 + s * X3 * q_ ^ 3 =
-    s * (X0 * (1 - q_) ^ 3 + 3 * X1 * (1 - q_) ^ 2 * q_ + 3 * X2 * (1 - q_) * q_ ^ 2 + X3 * q_ ^ 3)) by ring.
-  rewrite E, zero in pos. lra.
+  destruct X as [[[X0 X1] X2] X3]. destruct mv as (s & x0 & x1 & x2 & x3 & s1 & c0 & c1 & c2 & c3 & below).
+  pose proof reserve_positive as (r0 & w0 & re).
+  destruct (positive_to_the_end w r (conj r0 re) g0 g1 g2 g3 x0 x1 x2 x3 _ _ _ _ c0 c1 c2 c3 below all t' between) as
+    (q_ & q01 & -> & pos). rewrite volume_is_cubic, (cf q_). exact (positive_is_not_zero _ _ _ _ _ _ pos).
 Qed.
 (* Nor is it up to the time that clipping gives. *)
 Theorem clipped_volume u : value_of (volume_until pairs t) = Number u -> tau < u -> forall t',
@@ -269,18 +307,9 @@ Proof.
   pose proof (cubic_from (outer_at given p b c Expressions.Start) (inner_at given p b c Expressions.Start) (inner_at
     given p b c Expressions.End)
     (outer_at given p b c Expressions.End)) as cf.
-  destruct X as [[[X0 X1] X2] X3]. destruct mv as (s & x0 & x1 & x2 & x3 & s1 & c0 & c1 & c2 & c3 & h0 & h1 & h2 & h3).
-  pose proof reserve_positive as (r0 & w0 & re). set (part := looking_ahead g0 g1 g2 g3 (first_zero g0 g1 g2 g3)) in *.
-  pose proof (run (Select (Both (is_positive g0) (Greater (next_time t part) t)) (next_time t part) t)) as h.
-    cbn -[says is_positive next_time] in h.
-  destruct h as [[[p0 _] h]|[_ h]].
-  2: { rewrite Eu, moment in h. injection h as ->. lra. }
-  apply (positive_says f env given value_of run w g0 x0 c0) in p0.
-  destruct (looking_ahead_value f fine env given value_of run w w0 g0 g1 g2 g3 x0 x1 x2 x3 c0 c1 c2 c3 p0 r re) as (y &
-    Ey & yb & positive).
-  destruct (next_time_value part y Ey yb) as (N & EN & times). rewrite Eu, EN in h. injection h as ->.
-  destruct (times t' between t1) as (q_ & q01 & -> & qy). rewrite volume_is_cubic, (cf q_). intro zero.
-  pose proof (positive q_ q01 qy) as pos. pose proof (cubic_monotone _ _ _ _ _ _ _ _ q_ q01 h0 h1 h2 h3) as le.
-    rewrite cubic_scaled, zero in le. lra.
+  destruct X as [[[X0 X1] X2] X3]. destruct mv as (s & x0 & x1 & x2 & x3 & s1 & c0 & c1 & c2 & c3 & below).
+  pose proof reserve_positive as (r0 & w0 & re).
+  destruct (positive_until w r w0 (conj r0 re) g0 g1 g2 g3 x0 x1 x2 x3 _ _ _ _ c0 c1 c2 c3 below u Eu later t' between
+    t1) as (q_ & q01 & -> & pos). rewrite volume_is_cubic, (cf q_). exact (positive_is_not_zero _ _ _ _ _ _ pos).
 Qed.
 End VolumeSteps.

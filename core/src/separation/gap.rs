@@ -104,7 +104,7 @@ fn is_short<S: Scalar>(direction: [S; 3]) -> bool {
 pub fn distance_from_below<P: Position>(kind: PairKind, points: [P; 4], direction: P, error: GapError<P::Scalar>) -> P::Scalar {
     let zero = P::Scalar::ZERO;
     let direction = direction.into();
-    let bound = gap(kind, points, direction) / slack() - error.0;
+    let bound = kernel::distance(gap(kind, points, direction), slack(), error.0);
     if bound > zero && is_short(direction) { bound } else { zero }
 }
 
@@ -177,13 +177,8 @@ impl SeparatingDirection {
     /// Returns this direction with another gap, from which the error is already subtracted.
     #[inline(always)]
     fn with_gap<S: Scalar>(self, gap: S) -> Self {
-        let least = S::from_f64(1.0 / LARGEST_GAP);
-        let gap = gap / slack();
-        let gap = if gap > least {
-            gap.smaller(S::from_f64(LARGEST_GAP))
-        } else {
-            gap.smaller(S::ZERO)
-        };
+        let limits = [1.0 / LARGEST_GAP, LARGEST_GAP].map(S::from_f64);
+        let gap = kernel::stored(gap, slack(), limits);
         Self {
             direction: self.direction,
             gap: f32::from_f64(gap.to_f64()),
@@ -246,7 +241,7 @@ impl SeparatingDirection {
     ) -> Option<Self> {
         let threshold = threshold(separation, error);
         let gap = self.gap_at(kind, end);
-        (gap > threshold && self.gap_at(kind, start) > threshold).then(|| self.with_gap(gap - error.0))
+        kernel::keeps(gap, || self.gap_at(kind, start), threshold).then(|| self.with_gap(gap - error.0))
     }
 
     /// Returns this direction with its gap at the end, like [`keeps`](Self::keeps), if the stored gap is valid at the start. It
@@ -260,12 +255,10 @@ impl SeparatingDirection {
         separation: P::Scalar,
         error: GapError<P::Scalar>,
     ) -> Option<Self> {
-        let threshold = threshold(separation, error);
-        if f64::from(self.gap) > threshold.to_f64() {
-            let gap = self.gap_at(kind, end) - error.0;
-            return (gap > threshold).then(|| self.with_gap(gap));
-        }
-        None
+        let stored = P::Scalar::from_f64(self.gap.into());
+        let less_error = || self.gap_at(kind, end) - error.0;
+        let (is_kept, gap) = kernel::lasts(stored, less_error, threshold(separation, error));
+        is_kept.then(|| self.with_gap(gap))
     }
 }
 

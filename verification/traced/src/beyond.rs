@@ -5,6 +5,7 @@ use crate::coq::{Terms, coordinates, direction, machine_input};
 use crate::symbols::{Traced, if_any, trace};
 use selvedge_core::kernels::advance::corners::Corners;
 use selvedge_core::kernels::advance::directions::{are_apart_curving, are_apart_turning};
+use selvedge_core::kernels::advance::volume::SignedVolume;
 use selvedge_core::kernels::points::{EdgeEdge, PairPoints, PairShape, VertexFace};
 use selvedge_core::kernels::separation_lanes::SeparationLanes;
 use std::fmt::Write;
@@ -18,7 +19,7 @@ From Selvedge Require Import Expressions Machine.
 ";
 
 const ADVANCE_HEAD: &str = "\
-(* What the time of impact computes along directions with a separation: core/src/kernels/advance/directions.rs.
+(* What the time of impact computes with a separation: core/src/kernels/advance/directions.rs, volume.rs.
    Written from the code by verification/traced/src/beyond.rs. *)
 From Coq Require Import ZArith.
 From Selvedge Require Import Expressions Machine.
@@ -62,39 +63,50 @@ fn filter_beyond<P: PairShape>(of: &str, text: &mut String) {
     writeln!(text, "End {of}.\n").expect("a string");
 }
 
-/// Writes the proofs of a round along directions.
+/// Writes the proofs of a round.
 fn advance() -> String {
     let mut text = String::from(ADVANCE_HEAD);
-    directions_beyond("a_vertex_and_a_face", Corners::of_vertex_face, &mut text);
-    directions_beyond("two_edges", Corners::of_edge_edge, &mut text);
+    proofs_beyond("a_vertex_and_a_face", Corners::of_vertex_face, &mut text);
+    proofs_beyond("two_edges", Corners::of_edge_edge, &mut text);
     text
 }
 
-/// Writes the assumptions and results of each proof by directions of one round with a separation, for corners in range.
-fn directions_beyond<const N: usize>(of: &str, corners: fn(&PairPoints<Traced>) -> Corners<Traced, N>, text: &mut String) {
-    let ((masks, until), steps) = trace(|| {
+/// Writes the assumptions and results of each proof of one round with a separation, for corners in range.
+fn proofs_beyond<const N: usize>(of: &str, corners: fn(&PairPoints<Traced>) -> Corners<Traced, N>, text: &mut String) {
+    let ((margins, masks, times), steps) = trace(|| {
         let corners = corners(&coordinates());
         let in_range = corners.are_in_range();
         let separation = Traced::input("Length Separation");
         let separation = SeparationLanes::new(separation, separation);
-        let [now, later] = [0, 1].map(|number| corners.at(Traced::input(format!("Moment {number}"))));
+        let moments = [0, 1].map(|number| Traced::input(format!("Moment {number}")));
+        let [now, later] = moments.map(|moment| corners.at(moment));
         let curve = [0, 1, 2].map(|number| corners.direction_beyond(direction(number), &separation));
         let [first, second, _] = &curve;
         let held = corners.apart_along(first, &now, in_range);
+        let volume = SignedVolume::beyond(&corners, &separation);
+        let margins = volume.margins_from(moments[0]);
+        let clipped = volume.clipped(moments[0]);
         let masks = [
             ("in_range", in_range),
             ("held", held.is_apart),
             ("turning", are_apart_turning(first, &now, second, &later)),
             ("curving", are_apart_curving(&curve, &now, &later)),
+            ("volume_throughout", volume.proves_apart_throughout()),
+            ("volume_to_the_end", clipped.to_the_end),
         ];
-        (masks, held.until)
+        (margins, masks, [("held", held.until), ("volume", clipped.until)])
     });
     let mut terms = Terms::new("number", &steps);
     terms.input = machine_input;
+    for (index, margin) in margins.into_iter().enumerate() {
+        terms.define_for_use(&format!("margin_{index}"), margin);
+    }
     for (name, mask) in masks {
         let formula = terms.mask(mask);
         writeln!(terms.text, "Definition {name} : mask := {formula}.").expect("a string");
     }
-    terms.define("until_held", until);
+    for (name, time) in times {
+        terms.define(&format!("until_{name}"), time);
+    }
     writeln!(text, "Module {of}.\n{}End {of}.\n", terms.text).expect("a string");
 }

@@ -12,7 +12,7 @@ use selvedge_core::kernels::advance::directions::{are_apart_curving, are_apart_t
 use selvedge_core::kernels::advance::volume::SignedVolume;
 use selvedge_core::kernels::coplanarity::MovingTetrahedron;
 use selvedge_core::kernels::gap;
-use selvedge_core::kernels::lanes::{Lanes as _, Rounding};
+use selvedge_core::kernels::lanes::Rounding;
 use selvedge_core::kernels::points::{EdgeEdge, PairPoints, PairShape, VertexFace};
 use selvedge_core::kernels::vector::Vector;
 use selvedge_core::{PairKind, Scalar};
@@ -112,24 +112,38 @@ fn advance() -> String {
     text
 }
 
-/// Writes whether a direction keeps a pair apart by its gaps at both ends of the step, and whether it is short.
+/// Writes whether a direction keeps a pair apart by its gaps at both ends of the step, by a stored one and the one at the end,
+/// and whether it is short; the gaps that are stored; and the distance that it proves.
 fn gaps() -> String {
     let mut text = String::from(GAPS_HEAD);
     for (of, kind) in [
         ("a_vertex_and_a_face", PairKind::VertexFace),
         ("two_edges", PairKind::EdgeEdge),
     ] {
-        let (masks, steps) = trace(|| {
+        let ((masks, numbers), steps) = trace(|| {
             let PairPoints { start, end } = coordinates();
             let direction = direction(0);
-            let [separation, largest, slack] =
-                ["Separation", "LargestCoordinate", "Slack"].map(|name| Traced::input(format!("Length {name}")));
-            let threshold = gap::threshold(separation, gap::error(largest), slack);
-            let [start, end] = [start, end].map(|points| gap::gap(kind, points, direction).greater(threshold));
-            [("keeps", end & start), ("short", gap::is_short(direction, slack))]
+            let length = |name| Traced::input(format!("Length {name}"));
+            let [separation, largest, slack] = ["Separation", "LargestCoordinate", "Slack"].map(length);
+            let error = gap::error(largest);
+            let threshold = gap::threshold(separation, error, slack);
+            let limits = ["LeastGap", "LargestGap"].map(length);
+            let at_end = gap::gap(kind, end, direction);
+            let keeps = gap::keeps(at_end, || gap::gap(kind, start, direction), threshold);
+            let (lasts, less) = gap::lasts(length("StoredGap"), || at_end - error, threshold);
+            let masks = [("keeps", keeps), ("lasts", lasts), ("short", gap::is_short(direction, slack))];
+            let numbers = [
+                ("stored_by_keeps", gap::stored(at_end - error, slack, limits)),
+                ("stored_by_lasts", gap::stored(less, slack, limits)),
+                ("distance", gap::distance(at_end, slack, error)),
+            ];
+            (masks, numbers)
         });
         let mut terms = Terms::new("number", &steps);
         terms.input = machine_input;
+        for (name, number) in numbers {
+            terms.define(name, number);
+        }
         let formulas = masks.map(|(name, mask)| (name, terms.mask(mask)));
         writeln!(text, "Module {of}.\n{}", terms.text.trim_end()).expect("a string");
         for (name, formula) in formulas {
