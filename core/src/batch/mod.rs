@@ -60,6 +60,8 @@ mod closest;
 mod compared;
 mod culled;
 #[cfg(not(unoptimised))]
+mod extremes;
+#[cfg(not(unoptimised))]
 mod frame;
 mod kernels;
 mod lane_test;

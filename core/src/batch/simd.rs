@@ -1,5 +1,6 @@
 //! `f32` and `f64` vectors as [`Lanes`].
 
+use super::extremes::Extremes;
 use crate::lanes::Lanes;
 use fearless_simd::{ExtractToken, Select, Simd, SimdBase, SimdFloat, SimdMask, f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
 
@@ -31,12 +32,12 @@ macro_rules! lanes {
 
             #[inline(always)]
             fn larger(self, other: Self) -> Self {
-                <Self as SimdBase<V>>::max(self, other)
+                Extremes::larger_of(self, other)
             }
 
             #[inline(always)]
             fn smaller(self, other: Self) -> Self {
-                <Self as SimdBase<V>>::min(self, other)
+                Extremes::smaller_of(self, other)
             }
 
             #[inline(always)]

@@ -132,7 +132,7 @@ pub(crate) fn roundoffs<L: Lanes>(like: L, count: u8) -> L {
 }
 
 macro_rules! one_lane {
-    ($scalar:ty, $sqrt:path, $power_of_two:path, $constants:expr) => {
+    ($scalar:ty, [$sqrt:path, $larger:path, $smaller:path], $power_of_two:path, $constants:expr) => {
         impl Rounding for $scalar {
             const UNIT_ROUNDOFF: Self = <$scalar>::EPSILON / 2.0;
             const UNDERFLOW: Self = $power_of_two($constants.underflow);
@@ -178,12 +178,12 @@ macro_rules! one_lane {
 
             #[inline(always)]
             fn larger(self, other: Self) -> Self {
-                if self > other { self } else { other }
+                $larger(self, other)
             }
 
             #[inline(always)]
             fn smaller(self, other: Self) -> Self {
-                if self < other { self } else { other }
+                $smaller(self, other)
             }
 
             #[inline(always)]
@@ -248,28 +248,69 @@ const DOUBLE: Exponents = Exponents {
 };
 
 #[cfg(not(all(target_arch = "wasm32", target_feature = "simd128")))]
-use libm::{sqrt, sqrtf};
+mod single {
+    pub(super) use libm::{sqrt, sqrtf};
 
-/// Square roots of WebAssembly's vectors: the same bits as `libm`'s, which computes them there without the instruction.
-#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
-mod root {
-    use core::arch::wasm32::{f32x4_extract_lane, f32x4_splat, f32x4_sqrt, f64x2_extract_lane, f64x2_splat, f64x2_sqrt};
+    macro_rules! extremes {
+        ($scalar:ty, $larger:ident, $smaller:ident) => {
+            #[inline(always)]
+            pub(super) fn $larger(one: $scalar, other: $scalar) -> $scalar {
+                if one > other { one } else { other }
+            }
 
-    #[inline(always)]
-    pub(super) fn sqrtf(square: f32) -> f32 {
-        f32x4_extract_lane::<0>(f32x4_sqrt(f32x4_splat(square)))
+            #[inline(always)]
+            pub(super) fn $smaller(one: $scalar, other: $scalar) -> $scalar {
+                if one < other { one } else { other }
+            }
+        };
     }
-
-    #[inline(always)]
-    pub(super) fn sqrt(square: f64) -> f64 {
-        f64x2_extract_lane::<0>(f64x2_sqrt(f64x2_splat(square)))
-    }
+    extremes!(f32, larger_f32, smaller_f32);
+    extremes!(f64, larger_f64, smaller_f64);
 }
-#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
-use root::{sqrt, sqrtf};
 
-one_lane!(f32, sqrtf, power_of_two_f32, SINGLE);
-one_lane!(f64, sqrt, power_of_two_f64, DOUBLE);
+/// WebAssembly's instructions for vectors, with the same bits.
+///
+/// `libm` computes square roots there without an instruction. Engines make a branch of a comparison that selects a number, which
+/// costs more than the rest where it cannot be predicted; `pmax` and `pmin` are one instruction of x86.
+#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+mod single {
+    use core::arch::wasm32::{f32x4_extract_lane, f32x4_pmax, f32x4_pmin, f32x4_splat, f32x4_sqrt};
+    use core::arch::wasm32::{f64x2_extract_lane, f64x2_pmax, f64x2_pmin, f64x2_splat, f64x2_sqrt};
+
+    macro_rules! instructions {
+        ($scalar:ty, $splat:ident $extract:ident, $sqrt:ident $root:ident, $larger:ident $max:ident, $smaller:ident $min:ident) => {
+            #[inline(always)]
+            pub(super) fn $sqrt(square: $scalar) -> $scalar {
+                $extract::<0>($root($splat(square)))
+            }
+
+            #[inline(always)]
+            pub(super) fn $larger(one: $scalar, other: $scalar) -> $scalar {
+                $extract::<0>($max($splat(other), $splat(one)))
+            }
+
+            #[inline(always)]
+            pub(super) fn $smaller(one: $scalar, other: $scalar) -> $scalar {
+                $extract::<0>($min($splat(other), $splat(one)))
+            }
+        };
+    }
+    instructions!(f32, f32x4_splat f32x4_extract_lane, sqrtf f32x4_sqrt, larger_f32 f32x4_pmax, smaller_f32 f32x4_pmin);
+    instructions!(f64, f64x2_splat f64x2_extract_lane, sqrt f64x2_sqrt, larger_f64 f64x2_pmax, smaller_f64 f64x2_pmin);
+}
+
+one_lane!(
+    f32,
+    [single::sqrtf, single::larger_f32, single::smaller_f32],
+    power_of_two_f32,
+    SINGLE
+);
+one_lane!(
+    f64,
+    [single::sqrt, single::larger_f64, single::smaller_f64],
+    power_of_two_f64,
+    DOUBLE
+);
 
 #[cfg(test)]
 mod tests {

@@ -39,7 +39,7 @@ impl ClosestPoints {
     /// Returns the length of that vector.
     #[must_use]
     pub fn distance(&self) -> f64 {
-        self.offset.length()
+        self.offset.length_squared().sqrt()
     }
 }
 
