@@ -37,6 +37,7 @@
 //! The order of the candidates depends on the hierarchies, and so on earlier steps. The same sequence of steps gives the same
 //! candidates in the same order, on any number of threads and every instruction set.
 
+mod bounds;
 mod degradation;
 mod hierarchies;
 mod hubs;

@@ -5,6 +5,7 @@
 //! boxes of sixteen blocks, and so on up to one block that holds all. So the tree is only arrays: the children of block b are the
 //! blocks, or primitives, from 16b on. No block but the last of a level has an empty lane.
 
+use super::bounds::Bounds;
 use super::hubs::{NO_HUB, order_by_hub};
 use super::neighbours::AtRest;
 use super::order::{Centre, LEAF, order};
@@ -281,42 +282,6 @@ fn refit_level(level: &mut TreeLevel, only_moving: bool, child: impl Fn(usize) -
             node.bounds = bounds.moving_box();
         }
     });
-}
-
-/// The bounds of a moving box, upper ones negated. So merging takes the smaller of each two, four at a time.
-#[derive(Clone, Copy)]
-struct Bounds([f32; 12]);
-
-impl Bounds {
-    #[inline(always)]
-    const fn new(moving: &MovingBox<f32>) -> Self {
-        let ([a, b, c], [d, e, f]) = (moving.start.lower, moving.start.upper);
-        let ([g, h, i], [j, k, l]) = (moving.end.lower, moving.end.upper);
-        Self([a, b, c, -d, -e, -f, g, h, i, -j, -k, -l])
-    }
-
-    #[inline(always)]
-    const fn moving_box(&self) -> MovingBox<f32> {
-        let [a, b, c, d, e, f, g, h, i, j, k, l] = self.0;
-        MovingBox {
-            start: Aabb {
-                lower: [a, b, c],
-                upper: [-d, -e, -f],
-            },
-            end: Aabb {
-                lower: [g, h, i],
-                upper: [-j, -k, -l],
-            },
-        }
-    }
-
-    /// Grows to the bounds of both. There is no NaN in a box.
-    #[inline(always)]
-    fn merge(&mut self, other: &Self) {
-        for (own, &other) in self.0.iter_mut().zip(&other.0) {
-            *own = if other < *own { other } else { *own };
-        }
-    }
 }
 
 #[cfg(test)]

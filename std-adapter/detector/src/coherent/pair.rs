@@ -58,9 +58,11 @@ impl<D: Copy> NearPair<D> {
     #[inline(always)]
     pub(super) fn needs_attention(&self, strays: &[f32]) -> bool {
         let [a, b, c, d] = self.vertices.map(|vertex| strays[vertex as usize]);
+        // `max` is a call on WebAssembly.
+        let larger = |one: f32, other: f32| if one > other { one } else { other };
         let (first, second) = match self.kind {
-            PairKind::VertexFace => (a, b.max(c).max(d)),
-            PairKind::EdgeEdge => (a.max(b), c.max(d)),
+            PairKind::VertexFace => (a, larger(larger(b, c), d)),
+            PairKind::EdgeEdge => (larger(a, b), larger(c, d)),
         };
         // A NaN proves nothing.
         let is_settled = 0.5 * (first + second) <= self.stray;

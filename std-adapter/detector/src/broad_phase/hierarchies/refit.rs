@@ -73,8 +73,10 @@ fn extent(motions: &dyn Motions) -> Aabb<f64> {
         let motion = motions.motion(vertex);
         for position in [motion.start, motion.end] {
             for (axis, x) in position.to_array().into_iter().enumerate() {
-                extent.lower[axis] = extent.lower[axis].min(x);
-                extent.upper[axis] = extent.upper[axis].max(x);
+                // `min` and `max` are calls on WebAssembly.
+                let (lower, upper) = (extent.lower[axis], extent.upper[axis]);
+                extent.lower[axis] = if x < lower { x } else { lower };
+                extent.upper[axis] = if x > upper { x } else { upper };
             }
         }
     }
