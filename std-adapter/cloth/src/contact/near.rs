@@ -17,6 +17,7 @@ use super::cones::NormalCones;
 use super::exempt::Exempt;
 use super::neighbours::{are_neighbours, at_rest};
 use super::settings::{ContactSettings, MARGIN, Thickness};
+use crate::model::length::larger;
 use crate::model::step::TimeStep;
 use selvedge::PairKind;
 use selvedge_core::glam::DVec3;
@@ -136,7 +137,7 @@ pub(super) fn visit_near(
         let closing = moves
             .iter()
             .map(|own| own.distance_squared(moves[0]))
-            .fold(0.0, f64::max)
+            .fold(0.0, larger)
             .sqrt();
         if gap > wide.max(aim + closing) + 0.25 * closing {
             continue;

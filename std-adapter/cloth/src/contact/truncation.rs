@@ -23,6 +23,7 @@ use super::impact_zones::TORN;
 use super::pass::Effort;
 use super::report::Blocker;
 use super::solver::ContactSolver;
+use crate::model::length::length;
 use crate::model::rigid::RigidMotion;
 use crate::model::step::{Carrier, FREE, TimeStep};
 use selvedge_core::Motion;
@@ -147,8 +148,8 @@ impl ContactSolver {
             open = self.check_moved(&open, step, end);
         }
         for vertex in 0..end.len() {
-            let lost = wanted[vertex].distance(end[vertex]);
-            self.counts.held += u64::from(lost > LOSS * wanted[vertex].distance(start[vertex]));
+            let lost = length(wanted[vertex] - end[vertex]);
+            self.counts.held += u64::from(lost > LOSS * length(wanted[vertex] - start[vertex]));
         }
         Ok(())
     }

@@ -1,6 +1,6 @@
-//! Lengths of vectors in code that runs many times in a step.
+//! Lengths of vectors, and the larger of two, in code that runs many times in a step.
 //!
-//! The results have the bits of glam's methods. Those take square roots from libm, which has no instruction for them on
+//! The lengths have the bits of glam's methods. Those take square roots from libm, which has no instruction for them on
 //! WebAssembly.
 
 use selvedge_core::glam::DVec3;
@@ -9,6 +9,12 @@ use selvedge_core::glam::DVec3;
 #[inline(always)]
 pub(crate) fn length(vector: DVec3) -> f64 {
     vector.length_squared().sqrt()
+}
+
+/// Returns the larger of two numbers, the second if one is NaN. `f64::max` is a call on WebAssembly.
+#[inline(always)]
+pub(crate) fn larger(one: f64, other: f64) -> f64 {
+    if one > other { one } else { other }
 }
 
 /// Returns the vector, shortened to a length of `most` if it is longer.
@@ -42,6 +48,13 @@ mod tests {
             let turned = turned_into_plane(DVec3::X * size, normal);
             prop_assert!((length(turned) - size).abs() < 1e-12 * size && turned.dot(normal).abs() < 1e-12 * size);
             prop_assert!(turned_into_plane(normal * size, normal).length() < 1e-12 * size);
+        }
+
+        #[test]
+        fn the_larger_of_two_is_that_of_the_standard_library(one in prop::num::f64::NORMAL, other in prop::num::f64::NORMAL) {
+            prop_assert_eq!(larger(one, other), one.max(other));
+            prop_assert_eq!(larger(one, one), one);
+            prop_assert_eq!(larger(f64::NAN, other), other);
         }
 
         #[test]

@@ -2,6 +2,7 @@
 
 use super::assembly::Assembly;
 use super::state::State;
+use crate::model::length::{larger, length};
 use crate::model::step::{Carrier, FREE, MovedAnchor};
 use crate::world::{Kinematic, put_kinematic};
 use selvedge_core::glam::DVec3;
@@ -47,7 +48,7 @@ impl Ahead {
         let Assembly { carriers, motions, .. } = made;
         let is_free = |carrier: Carrier| motions.get(carrier as usize).is_some_and(Kinematic::is_free);
         let of_what_is_solved = |(velocity, carrier): (&DVec3, &Carrier)| match *carrier {
-            carrier if carrier == FREE || is_free(carrier) => (*velocity - mean).length(),
+            carrier if carrier == FREE || is_free(carrier) => length(*velocity - mean),
             _ => 0.0,
         };
         speeds.clear();
@@ -59,7 +60,7 @@ impl Ahead {
             to.clone_from(&state.positions);
             put_kinematic(motions, carriers, carried, clock, to);
             for (vertex, speed) in speeds.iter_mut().enumerate().filter(|(vertex, _)| carriers[*vertex] != FREE) {
-                *speed = speed.max(((to[vertex] - from[vertex]) / between - mean).length());
+                *speed = larger(*speed, length((to[vertex] - from[vertex]) / between - mean));
             }
             follow_anchors(&mut anchors, motions, (clock, between), mean, speeds);
             std::mem::swap(from, to);

@@ -17,7 +17,7 @@ use super::constants::RECOVERY;
 use super::matrix::{Matrix, outer};
 use super::rigid::RigidBodies;
 use crate::contact::PairKey;
-use crate::model::length::{length, shortened, turned_into_plane};
+use crate::model::length::{larger, length, shortened, turned_into_plane};
 use selvedge_core::glam::{DVec3, Mat3A, Vec3A};
 
 /// The name of a contact from step to step.
@@ -375,7 +375,7 @@ impl ContactRow {
             match self.slips {
                 None => stiffness += plane * self.stiffness as f32,
                 Some(direction) => {
-                    let wanted = length(self.wanted(x)).max(self.bound);
+                    let wanted = larger(length(self.wanted(x)), self.bound);
                     let direction = direction.as_vec3a();
                     let across = plane - outer(direction, direction);
                     stiffness += across * (self.stiffness * self.bound / wanted) as f32;
@@ -421,9 +421,10 @@ impl ContactRow {
         if !self.is_active {
             // Its force comes from the next solve.
             (self.push, self.grip) = (0.0, DVec3::ZERO);
-            return (-gap).max(0.0);
+            return larger(-gap, 0.0);
         }
-        let push = (self.push - self.stiffness * gap).min(all).max(0.0);
+        let pressed = self.push - self.stiffness * gap;
+        let push = larger(if pressed < all { pressed } else { all }, 0.0);
         let mut grip = DVec3::ZERO;
         if self.friction > 0.0 {
             let wanted = self.wanted(x);
@@ -434,7 +435,7 @@ impl ContactRow {
                 grip = shortened(wanted, self.friction * push);
             }
         }
-        let change = (push - self.push).abs().max(length(grip - self.grip)) / self.stiffness;
+        let change = larger((push - self.push).abs(), length(grip - self.grip)) / self.stiffness;
         (self.push, self.grip) = (push, grip);
         change
     }

@@ -15,7 +15,7 @@ use super::matrix::{Matrix, PAIRS, outer};
 use super::term::{Prediction, Renewed, Term};
 use crate::model::edge_lengths::Lengths;
 use crate::model::energy::{Configuration, StoredEnergy};
-use crate::model::length::length;
+use crate::model::length::{larger, length};
 use crate::model::membrane::{Flat, Membrane, all};
 use crate::model::step::TimeStep;
 use crate::world::Cloth;
@@ -182,7 +182,8 @@ fn stretch(stiffness: f32, image: Vec3A) -> Mat3A {
     let length = image.length();
     let inverse = if length > SHORTEST as f32 { length.recip() } else { 0.0 };
     let direction = image * inverse;
-    let across = (1.0 - inverse).max(0.0);
+    // `max` is a call on WebAssembly.
+    let across = if inverse < 1.0 { 1.0 - inverse } else { 0.0 };
     outer(direction * (stiffness * (1.0 - across)), direction) + Mat3A::from_diagonal(Vec3::splat(stiffness * across))
 }
 
@@ -233,7 +234,7 @@ impl Limit {
         } else {
             (0.0, (first / (first - second)) as f32)
         };
-        let [pull, other_pull] = [first, second.max(0.0)].map(|value| (2.0 * value) as f32);
+        let [pull, other_pull] = [first, larger(second, 0.0)].map(|value| (2.0 * value) as f32);
         let (n, m) = ((u * cosine + v * sine).as_vec3a(), (v * cosine - u * sine).as_vec3a());
         for (block, [i, j]) in blocks.iter_mut().zip(PAIRS) {
             *block += Mat3A::from_diagonal(Vec3::splat(pull * along[i] * along[j] + other_pull * across[i] * across[j]));
@@ -275,8 +276,8 @@ impl Term for Membranes {
             let [a, b] = [all(triangle.membrane.a), all(triangle.membrane.b)];
             let steep: f64 = (0..3).map(|k| a[k] * a[k] + b[k] * b[k]).sum::<f64>() / 6.0;
             let masses = triangle.vertices.iter().map(|&vertex| prediction.masses[vertex as usize]);
-            let own = triangle.stiffness[0].max(triangle.stiffness[1]) + masses.sum::<f64>() / (3.0 * steep);
-            *stiffness = STIFFER_THAN_LIMITS * own.max(f64::MIN_POSITIVE) / (4.0 * limit.limit * limit.limit);
+            let own = larger(triangle.stiffness[0], triangle.stiffness[1]) + masses.sum::<f64>() / (3.0 * steep);
+            *stiffness = STIFFER_THAN_LIMITS * larger(own, f64::MIN_POSITIVE) / (4.0 * limit.limit * limit.limit);
         }
     }
 

@@ -24,6 +24,7 @@ use super::term::{Prediction, Term};
 use super::tolerance::{Outcome, Tolerance};
 use super::{Solve, row_stiffness};
 use crate::effects::plan::Entry;
+use crate::model::length::{larger, length};
 use crate::model::rigid::RigidMotion;
 use crate::model::step::TimeStep;
 use selvedge_core::glam::DVec3;
@@ -232,7 +233,7 @@ impl Solve {
             let pushes = work
                 .pieces
                 .iter()
-                .map(|[push, fall, offset]| (push - fall * share).max(0.0) * offset);
+                .map(|[push, fall, offset]| larger(push - fall * share, 0.0) * offset);
             slope + share * bend - pushes.sum::<f64>()
         };
         if at(1.0) <= 0.0 {
@@ -268,10 +269,10 @@ impl Solve {
             .zip(&prediction.masses)
             .filter(|(_, mass)| **mass > 0.0);
         let farthest = farthest.map(|((x, base), _)| x.distance_squared(*base));
-        let farthest = farthest.fold(self.bodies.farthest_squared(), f64::max).sqrt();
+        let farthest = farthest.fold(self.bodies.farthest_squared(), larger).sqrt();
         let largest = self.accuracy.largest_change();
         let pulls = gradient.iter().zip(&prediction.masses).filter(|(_, mass)| **mass > 0.0);
-        let all = pulls.map(|(pull, _)| pull.length()).sum::<f64>() + self.bodies.pulls();
+        let all = pulls.map(|(pull, _)| length(*pull)).sum::<f64>() + self.bodies.pulls();
         for row in &mut self.rows {
             let change = row.renew(x, all);
             let small = (SMALL_CHANGE * farthest).min(largest * row.thickness).max(SLOWEST_CHANGE * h);

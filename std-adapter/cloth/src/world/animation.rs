@@ -7,6 +7,7 @@
 
 use crate::identity::{Identify, Identity};
 use crate::input::{FREQUENCY, Field, LARGEST_COORDINATE, LARGEST_TIME, TIME, ValueError};
+use crate::model::length::length;
 use selvedge_core::glam::DVec3;
 use selvedge_files::animation::Figure;
 use selvedge_files::bytes::Fingerprint;
@@ -272,9 +273,9 @@ impl Jumps {
 }
 
 fn longest_move(from: &[DVec3], to: &[DVec3]) -> (f64, usize) {
-    let moves = from.iter().zip(to).map(|(from, to)| from.distance(*to)).enumerate();
+    let moves = from.iter().zip(to).map(|(from, to)| length(*from - *to)).enumerate();
     let longest = moves.max_by(|a, b| a.1.total_cmp(&b.1));
-    longest.map_or((0.0, 0), |(vertex, length)| (length, vertex))
+    longest.map_or((0.0, 0), |(vertex, longest)| (longest, vertex))
 }
 
 fn larger(a: (f64, f64, usize), b: (f64, f64, usize)) -> (f64, f64, usize) {
