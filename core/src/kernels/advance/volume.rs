@@ -18,10 +18,10 @@
 //! follow lose 36λ. η ≥ 2⁷λ covers it.
 //!
 //! If s > 0, the normal matters. Its components pass through at most 13 roundings (of a corner, a difference of two, 3 by
-//! interpolation, twice; product, difference, sum), each of magnitude at most 8 M_j M_k. That is less than 512u(M_x M_y + M_y M_z
-//! + M_z M_x) for the vector, even with the 9 roundings of looking ahead, since the length itself is at most 8 times that sum. It
-//! passes through a handful more, which a factor 1 + 64u covers. A length whose squares underflow, less than 2⁻⁶² (2⁻⁵¹⁰), is
-//! covered by adding that.
+//! interpolation, twice; product, difference, sum), each of magnitude at most 8 M_j M_k. That is less than
+//! 512u(M_x M_y + M_y M_z + M_z M_x) for the vector, even with the 9 roundings of looking ahead, since the length itself is at
+//! most 8 times that sum. It passes through a handful more, which a factor 1 + 64u covers. A length whose squares underflow, less
+//! than 2⁻⁶² (2⁻⁵¹⁰), is covered by adding that.
 
 use super::corners::Corners;
 use super::directions::beyond;
