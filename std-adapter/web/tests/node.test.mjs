@@ -398,8 +398,8 @@ test("a call from JavaScript adds little to a contact query", () => {
   assert.ok(share < 0.2, `${share}`);
 });
 
-test("modules are small: 870,000 bytes by gzip -9 with cloth, 250,000 without", () => {
-  for (const [name, most] of [["cloth", 870_000], ["detector", 250_000]]) {
+test("modules are small: 880,000 bytes by gzip -9 with cloth, 250,000 without", () => {
+  for (const [name, most] of [["cloth", 880_000], ["detector", 250_000]]) {
     const bytes = execFileSync("gzip", ["-9", "-c", join(built, `package/${name}/selvedge_bg.wasm`)], { maxBuffer: 1 << 24 }).length;
     console.log(`${name}: ${bytes} bytes compressed`);
     assert.ok(bytes <= most, `${name}: ${bytes} bytes`);
