@@ -69,13 +69,13 @@ pub(crate) fn hammock() -> Scene {
     with_cloth(sheet.expect("the sheet is valid"), border, ball.expect("the ball is valid"))
 }
 
-/// A curtain of 90 g that hangs in the way of a door, number 0 of its bodies, which turns about the y axis.
+/// A curtain of 100 g that hangs from above in the way of a door, number 0 of its bodies, which turns about the y axis.
 pub(crate) fn door() -> Scene {
-    let corner = DVec3::new(0.1, -0.4, -0.2);
-    let curtain = Cloth::sheet(corner, [DVec3::X * 0.45, DVec3::Y * 0.8], [9, 16], 0.25);
+    let corner = DVec3::new(0.1, -0.35, -0.2);
+    let curtain = Cloth::sheet(corner, [DVec3::X * 0.45, DVec3::Y * 0.9], [9, 18], 0.25);
     let [x, y, z] = DOOR;
     let door = body_of_mesh("door", &Mesh::from(Cuboid::new(x, y, z)));
-    let top = |point: &DVec3| point.y > 0.399;
+    let top = |point: &DVec3| point.y > 0.549;
     with_cloth(curtain.expect("the curtain is valid"), top, door.expect("the door is valid"))
 }
 
