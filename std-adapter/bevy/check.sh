@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Checks the plugin: formatting, lints, documentation, tests, without a window. Needs Rust 1.95 or newer, and crates.io.
-# --present: skips the check where they are missing. example/ is built by hand. SELVEDGE_ENGINES says with which physics engines, by
-# default "avian rapier".
+# --present: skips the check where they are missing. example/ is built by hand. SELVEDGE_ENGINES names the physics engines to test
+# with, by default "avian rapier".
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
