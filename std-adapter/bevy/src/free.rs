@@ -46,18 +46,17 @@ pub(crate) fn show_bodies(
         let Some(simulation) = cloth.simulation() else { continue };
         let bodies = simulation.body_names().len();
         let mut results = Vec::new();
-        let moved = cloth.advanced().map(|seconds| (seconds, cloth.pushed()));
-        for (seconds, (body, entity)) in moved
-            .into_iter()
-            .flat_map(|(seconds, pushed)| pushed.map(move |it| (seconds, it)))
-        {
-            if let (Ok(mut pushed), Some(load)) = (engine_bodies.get_mut(entity), simulation.proxy_load(body)) {
-                pushed.push(load, seconds);
+        // Cloth that has not moved pushes nothing.
+        let seconds = cloth.advanced();
+        let pushed = || cloth.pushed().filter(|_| seconds.is_some());
+        for (body, entity) in pushed() {
+            let load = simulation.proxy_load(body).zip(seconds);
+            if let (Ok(mut engine_body), Some((load, seconds))) = (engine_bodies.get_mut(entity), load) {
+                engine_body.push(load, seconds);
             }
         }
         let followers = cloth.followers().iter().map(|(&body, &follower)| (body, follower));
-        let pushed = cloth.pushed().filter(|_| cloth.advanced().is_some());
-        for (body, follower) in followers.chain(pushed) {
+        for (body, follower) in followers.chain(pushed()) {
             let placement = match simulation.body_motion(body).and(simulation.placement(body)) {
                 Some(placement) => Ok(placement),
                 None if body < bodies => Err(SelvedgeError::NotFree { body }),

@@ -43,7 +43,7 @@ pub(crate) struct RigidBody {
     pub(super) goal_turn: DVec3,
     pub(super) of_turn: DMat3,
     pub(super) momentum: DVec3,
-    /// The velocity and the angular momentum after gravity and what drives a proxy.
+    /// The velocity and the angular momentum after gravity, or after what an engine applies to a proxy.
     pub(super) forced: DVec3,
     pub(super) started: DVec3,
     /// The velocity and the angular velocity to add to those of the step's motion: corrections of momentum, less the speeds that
@@ -67,7 +67,7 @@ impl RigidBody {
     pub(crate) fn new(carrier: usize, vertices: Range<usize>, free: &Free, step: StepOfBody) -> Self {
         let h = step.h;
         let [acceleration, torque] = match &free.proxy {
-            Some(proxy) => proxy.driven,
+            Some(proxy) => proxy.applied,
             None => [step.gravity, DVec3::ZERO],
         };
         let RigidState {

@@ -10,9 +10,9 @@
 //! body lighter than half of its cloth is thrown off, and one on a taut sheet bounces ever higher.
 //!
 //! **What the engine holds.** On the ground, the engine stops what the load moves, and the proxy would sink by the load's
-//! displacement d in each frame. The engine's velocity tells: what it differs from the last one with load and gravity is the
-//! engine's reaction, which moves the body by up to c in the frame. The reaction takes back the part of d along c, at most |c|.
-//! In free flight c vanishes. The same for rotations.
+//! displacement d in each frame. The engine's velocity shows its reaction: the last velocity with load and gravity would be
+//! another one. The reaction moves the body by up to c in the frame. It takes back the part of d along c, at most |c|. In free
+//! flight c vanishes. The same holds for rotations.
 
 use super::placement::Placement;
 use super::rigid_mass::RigidMass;
@@ -23,8 +23,8 @@ use selvedge_core::glam::{DMat3, DQuat, DVec3};
 pub(super) const VELOCITY: Field = Field::vector("velocity", SPEED, 1e2);
 pub(super) const SPIN: Field = Field::vector("spin", ANGULAR_SPEED, 1e3);
 
-/// The numbers of a proxy that change from frame to frame.
-pub(super) const PROXY_NUMBERS: usize = 18;
+/// The numbers of a proxy that change from frame to frame: six vectors.
+pub(super) const PROXY_NUMBERS: usize = 6 * 3;
 
 /// Where another engine has brought the body of a proxy in the time of a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,7 +59,7 @@ pub(crate) struct Proxy {
     pub(super) impulses: [DVec3; 2],
     pub(super) frame: Frame,
     /// The acceleration of the centre of mass of all that moves with the proxy, and the torque about it, without those by cloth.
-    pub(crate) driven: [DVec3; 2],
+    pub(crate) applied: [DVec3; 2],
 }
 
 /// The frame that has begun.
@@ -88,7 +88,7 @@ impl Proxy {
             expected: [DVec3::ZERO; 2],
             impulses: [DVec3::ZERO; 2],
             frame: Frame::default(),
-            driven: [DVec3::ZERO; 2],
+            applied: [DVec3::ZERO; 2],
         }
     }
 

@@ -43,14 +43,14 @@ impl Free {
             joined([&proxy.own, &self.mass], &self.state, own, riders)
         };
         let [velocity, momentum] = joined(*leaves, &|rider| velocities[rider]);
-        proxy.driven = joined(*accelerations, &|_| *gravity);
+        proxy.applied = joined(*accelerations, &|_| *gravity);
         (self.state.velocity, self.state.momentum) = (velocity, momentum);
         // The solve begins with the acceleration of the last frame's load.
         let [impulse, moment] = proxy.impulses.map(|impulse| impulse / *seconds);
         let last = last_step.unwrap_or(0.0);
         self.before = RigidState {
-            velocity: velocity - (proxy.driven[0] + impulse / self.mass.mass) * last,
-            momentum: momentum - (proxy.driven[1] + moment) * last,
+            velocity: velocity - (proxy.applied[0] + impulse / self.mass.mass) * last,
+            momentum: momentum - (proxy.applied[1] + moment) * last,
             ..self.state
         };
         self.is_first_order = true;
