@@ -103,7 +103,7 @@ impl MeshHierarchy {
                 if centre.is_finite() { centre } else { 0.0 }
             })
         };
-        self.tree.build(0..self.boxes.len() as u32, centre, None);
+        self.tree.build(0..self.boxes.len() as u32, centre, None, &mut Vec::new());
         // Each mesh is its own only vertex.
         self.tree.connect(|mesh| [mesh]);
         let members: Vec<_> = self.groups.iter().map(|&groups| Members::of_mesh(groups)).collect();

@@ -54,7 +54,6 @@ pub(super) struct Tree<const N: usize> {
     pub(super) levels: Vec<TreeLevel>,
     /// True if nodes may have a hub.
     pub(super) has_hubs: bool,
-    centres: Vec<Centre>,
 }
 
 /// The shapes at rest of sixteen primitives, which decide about neighbours.
@@ -86,24 +85,25 @@ impl<const N: usize> Tree<N> {
     }
 
     /// Puts primitives in order by their centres, and by their hubs if there are any. [`connect`](Self::connect) and
-    /// [`refit`](Self::refit) must follow.
+    /// [`refit`](Self::refit) must follow. `centres` is scratch memory.
     pub(super) fn build(
         &mut self,
         primitives: impl Iterator<Item = u32>,
         centre: impl Fn(u32) -> [f32; 3],
         hub: Option<&dyn Fn(u32) -> u32>,
+        centres: &mut Vec<Centre>,
     ) {
-        self.centres.clear();
-        self.centres.extend(primitives.map(|item| Centre {
+        centres.clear();
+        centres.extend(primitives.map(|item| Centre {
             position: centre(item),
             item,
         }));
         match hub {
-            Some(hub) => order_by_hub(&mut self.centres, hub),
-            None => order(&mut self.centres),
+            Some(hub) => order_by_hub(centres, hub),
+            None => order(centres),
         }
         self.primitives.clear();
-        self.primitives.extend(self.centres.iter().map(|centre| centre.item));
+        self.primitives.extend(centres.iter().map(|centre| centre.item));
 
         let mut size = self.primitives.len();
         let mut height = 0;
@@ -296,7 +296,7 @@ mod tests {
     fn tree(edges: &[[u32; 2]]) -> Tree<2> {
         let mut tree = Tree::default();
         let centre = |edge: u32| [edges[edge as usize][0] as f32, 0.0, 0.0];
-        tree.build(0..edges.len() as u32, centre, None);
+        tree.build(0..edges.len() as u32, centre, None, &mut Vec::new());
         tree.connect(|edge| edges[edge as usize]);
         tree
     }

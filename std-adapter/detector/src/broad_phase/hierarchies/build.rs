@@ -10,16 +10,18 @@ use std::sync::Arc;
 
 impl Hierarchies {
     pub(super) fn build(&mut self, motions: &dyn Motions) {
-        let middles = BoxFit::default().mapping(motions, &self.extent);
-        let middle = |vertex: u32| {
-            let motion = motions.motion(vertex as usize);
-            let moving = middles.vertex(motion.start.into(), motion.end.into());
+        let mapping = BoxFit::default().mapping(motions, &self.extent);
+        let middle = |vertex: usize| {
+            let motion = motions.motion(vertex);
+            let moving = mapping.vertex(motion.start.into(), motion.end.into());
             [0, 1, 2].map(|axis| {
                 let middle = 0.5 * moving.start.lower[axis] + 0.5 * moving.end.lower[axis];
                 if middle.is_finite() { middle } else { 0.0 }
             })
         };
         let topology = &*self.topology;
+        let middles: Vec<[f32; 3]> = (0..topology.vertex_count()).map(middle).collect();
+        let middle = |vertex: u32| middles[vertex as usize];
         let (edges, faces) = (topology.edges(), topology.triangles());
         // This marks the vertices that have a triangle.
         self.positions.clear();
@@ -30,7 +32,9 @@ impl Hierarchies {
         let positions = &self.positions;
         let used = (0..topology.vertex_count() as u32).filter(|&vertex| positions[vertex as usize] != NOWHERE);
         let hubs = Hubs::new(topology.vertex_count(), faces);
-        self.vertices.build(used, middle, None);
+        // All three trees use this memory.
+        let mut centres = Vec::with_capacity(edges.len().max(faces.len()));
+        self.vertices.build(used, middle, None, &mut centres);
         for (position, &vertex) in (0..).zip(&self.vertices.primitives) {
             self.positions[vertex as usize] = position;
         }
@@ -40,9 +44,10 @@ impl Hierarchies {
         let hub_of_face: Option<&dyn Fn(u32) -> u32> = if hubs.is_empty() { None } else { Some(&hub_of_face) };
         let centre_of_edge = |edge: u32| mean(edges[edge as usize].map(middle));
         let centre_of_face = |face: u32| mean(faces[face as usize].map(middle));
-        self.edges.build(0..edges.len() as u32, centre_of_edge, hub_of_edge);
-        self.faces.build(0..faces.len() as u32, centre_of_face, hub_of_face);
-
+        self.edges
+            .build(0..edges.len() as u32, centre_of_edge, hub_of_edge, &mut centres);
+        self.faces
+            .build(0..faces.len() as u32, centre_of_face, hub_of_face, &mut centres);
         let positions = &self.positions;
         let position = |vertex: u32| positions[vertex as usize];
         self.vertices.connect(|vertex| [position(vertex)]);
