@@ -2,7 +2,7 @@
 # Checks the npm package and the page: builds them, runs the package in Node, compares its bits and its speed with native ones,
 # checks the declarations, packs, bundles with Vite, and drives the page in Chromium, and in Firefox where firefox-esr and
 # xvfb-run are installed. SELVEDGE_TIMES=no leaves out bounds of time, for a busy machine. SELVEDGE_COMMAND names a built command,
-# whose report the page then opens.
+# the native side of the comparison, whose report the page opens, too.
 #
 # Installs what is missing and says so: Debian's chromium, and its rustc-web, cargo-web and rust-web-src unless rustup has the
 # target; Node's packages by `npm ci`.
@@ -30,25 +30,25 @@ export CHROMIUM=${CHROMIUM:-/usr/bin/chromium}
 say "tools of Node"
 npm ci --no-audit --no-fund
 
-# The linker has one thread, so lints and the native program run beside it, in a folder that it does not lock.
-out=${CARGO_TARGET_DIR:-$PWD/../../target}/web
-mkdir -p "$out/native"
+# The linker has one thread, so lints and the command run beside it, in folders that it does not lock.
+target=${CARGO_TARGET_DIR:-$PWD/../../target}
+out=$target/web
+mkdir -p "$out/lints"
 out=$(cd "$out" && pwd)
 (
-    export CARGO_TARGET_DIR=$out/native
     cargo fmt --check
-    cargo clippy --locked --all-features --workspace --lib --bins -- -D warnings
-    cargo build --quiet --locked --release --package selvedge-native
-) >"$out/native.log" 2>&1 &
-native=$!
+    CARGO_TARGET_DIR=$out/lints cargo clippy --locked --all-features --workspace --lib --bins -- -D warnings
+    [ -n "${SELVEDGE_COMMAND:-}" ] || cargo build --quiet --locked --release --manifest-path ../command/Cargo.toml
+) >"$out/lints.log" 2>&1 &
+lints=$!
 ./build.sh
 
-say "formatting, lints, native answers"
-wait "$native" || {
-    cat "$out/native.log"
+say "formatting, lints, the command"
+wait "$lints" || {
+    cat "$out/lints.log"
     exit 1
 }
-export SELVEDGE_WEB=$out SELVEDGE_NATIVE=$out/native/release/selvedge-native
+export SELVEDGE_WEB=$out SELVEDGE_COMMAND=${SELVEDGE_COMMAND:-$target/release/selvedge}
 
 say "the package: pack, types, bundle"
 (cd "$out/package" && npm pack --pack-destination "$out")
@@ -68,11 +68,9 @@ node_modules/.bin/vite build --logLevel warn "$work"
 say "the package in Node"
 node --test tests/node.test.mjs
 
-if [ -n "${SELVEDGE_COMMAND:-}" ]; then
-    say "a report for the page"
-    "$SELVEDGE_COMMAND" simulate ../cloth/scenes/flag.toml --output "$out" >/dev/null
-    export SELVEDGE_REPORT=$out/flag.html
-fi
+say "a report for the page"
+"$SELVEDGE_COMMAND" simulate ../cloth/scenes/flag.toml --output "$out" >/dev/null
+export SELVEDGE_REPORT=$out/flag.html
 
 say "the page"
 node --test --test-timeout=240000 tests/page.test.mjs

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { before, test } from "node:test";
@@ -342,16 +342,33 @@ test("objects are freed by hand, by `using`, and by the garbage collector", () =
   assert.ok(last.start.buffer.byteLength <= memory.byteLength + 2 ** 20);
 });
 
+// What the command answers natively for 500 steps of a scene: the last positions, the contacts of the motion from the first
+// positions to these (kind, vertices, time), and the steps in a second.
+function natively(text, name, folder) {
+  const run = (...options) => execFileSync(process.env.SELVEDGE_COMMAND, options, { encoding: "utf8", cwd: folder, stdio: ["ignore", "pipe", "ignore"] });
+  writeFileSync(join(folder, `${name}.toml`), text);
+  const report = JSON.parse(run("simulate", `${name}.toml`, "--frames", "ply", "--json", "--output", "."));
+  assert.equal(report.steps, 500);
+  const [first, last] = [0, 1].map((frame) => `${name}-0000${frame}.ply`);
+  run("cull", first, last, "--pairs", "contacts.csv");
+  const rows = readFileSync(join(folder, "contacts.csv"), "utf8").trim().split("\n").slice(1).map((row) => row.split(","));
+  const contacts = rows.map(([kind, ...numbers]) => [kind, ...numbers.map(Number)].join(",")).sort();
+  return { positions: readMesh(last, readFileSync(join(folder, last))).positions, contacts, speed: report.steps_per_second };
+}
+
 test("500 steps of six scenes, and the contacts of their motion, are native's to the last bit, at 0.35 of its speed", () => {
   const names = ["arm-sleeve", "drop", "flag", "hammock", "twist", "walker"];
   const folder = mkdtempSync(join(tmpdir(), "selvedge-"));
-  const files = names.map((name) => new URL(`${name}.toml`, scenes).pathname);
-  const lines = execFileSync(process.env.SELVEDGE_NATIVE, [folder, "500", ...files], { encoding: "utf8" }).trim().split("\n");
-  const native = Object.fromEntries(lines.map((line) => line.split(" ")));
   const walker = Object.fromEntries(["walker.glb", "walker-shirt.ply"].map((name) => [name, readFileSync(new URL(name, scenes))]));
+  Object.entries(walker).forEach(([name, bytes]) => writeFileSync(join(folder, name), bytes));
   const sums = { native: 0, here: 0 };
   for (const name of names) {
-    const make = () => new Simulation(scene(`${name}.toml`), name === "walker" ? walker : undefined);
+    const whole = scene(`${name}.toml`);
+    const step = Number(/^time_step = "(\d+) ms"$/m.exec(whole)[1]);
+    // Only the first and the last state are a frame.
+    const text = whole.replace(/^duration = .*$/m, `duration = "${500 * step} ms"`).replace(/^frames_per_second = .*$/m, "frames_per_second = 0.1");
+    const native = natively(text, name, folder);
+    const make = () => new Simulation(text, name === "walker" ? walker : undefined);
     make().step(200); // Until then the machine's compiler is still at work.
     const simulation = make();
     const from = simulation.positions.slice();
@@ -359,20 +376,14 @@ test("500 steps of six scenes, and the contacts of their motion, are native's to
     simulation.step(500);
     const seconds = (performance.now() - begin) / 1000;
     const to = simulation.positions.slice();
-    assert.ok(Buffer.from(to.buffer).equals(readFileSync(join(folder, `${name}.positions`))), `${name}: positions`);
-    const { count, kind, pair, time } = new Detector(from.length / 3, simulation.triangles).contacts(from, to);
-    const order = [...Array(count).keys()].sort((a, b) => kind[a] - kind[b] || pair[2 * a] - pair[2 * b] || pair[2 * a + 1] - pair[2 * b + 1]);
-    const found = Buffer.alloc(16 * count);
-    order.forEach((k, i) => {
-      found.writeUInt32LE(pair[2 * k], 16 * i);
-      found.writeUInt32LE(pair[2 * k + 1], 16 * i + 4);
-      found.writeDoubleLE(time[k], 16 * i + 8);
-    });
-    assert.ok(found.equals(readFileSync(join(folder, `${name}.contacts`))), `${name}: contacts`);
-    sums.native += Number(native[name]);
+    assert.ok(Buffer.from(to.buffer).equals(Buffer.from(native.positions.buffer)), `${name}: positions`);
+    const { count, kind, vertices, time } = new Detector(from.length / 3, simulation.triangles).contacts(from, to);
+    const row = (k) => [["vertex-face", "edge-edge"][kind[k]], ...vertices.subarray(4 * k, 4 * k + 4), time[k]].join(",");
+    assert.deepEqual(Array.from({ length: count }, (_, k) => row(k)).sort(), native.contacts, `${name}: contacts`);
+    sums.native += 500 / native.speed;
     sums.here += seconds;
-    const share = native[name] / seconds;
-    console.log(`${name}: ${count} contacts; ${(500 / seconds).toFixed(0)} steps a second, native ${(500 / native[name]).toFixed(0)}: ${share.toFixed(2)}`);
+    const speed = 500 / seconds;
+    console.log(`${name}: ${count} contacts; ${speed.toFixed(0)} steps a second, native ${native.speed.toFixed(0)}: ${(speed / native.speed).toFixed(2)}`);
     simulation.free();
   }
   const share = sums.native / sums.here;
