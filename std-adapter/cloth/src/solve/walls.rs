@@ -3,8 +3,8 @@
 //! V = ⅙Σ a·(b × c) is the volume that the triangles enclose. A pressure p stores −p·V, and pushes each corner by p/6·(b − a) ×
 //! (c − a), a third of the triangle's share. This is the gradient of the volume where the border is closed or held.
 //!
-//! * **A given pressure**: −p·V. If vertices at an open border move, the push has no potential. Then it is constant within a
-//!   Newton step.
+//! * **A given pressure**: −p·V. If vertices at an open border move, alone or with a free body, the push has no potential. Then
+//!   it is constant within a Newton step.
 //! * **A gas** with the bulk modulus K and the volume V₀ without pressure: ½K(V − V₀)²/V₀.
 //!
 //! **Second derivative.** The block between corners i and j with the third corner k is ±p/6·[x_k − (x_i + x_j)/2]×, and none for
@@ -16,7 +16,7 @@ use super::term::{Prediction, Renewed, Term};
 use crate::model::energy::{Configuration, StoredEnergy};
 use crate::model::step::TimeStep;
 use crate::model::triangle_edges::{edges_of, undirected};
-use crate::world::Cloth;
+use crate::world::{Cloth, Kinematic};
 use selvedge_core::glam::{DVec3, Mat3A, Vec3A};
 use std::fmt::Debug;
 
@@ -43,10 +43,10 @@ pub(crate) struct Walls<F> {
     first_triangle: usize,
     /// The cloth's first vertex, and the vertex after its last.
     vertices: [usize; 2],
-    /// The vertices of open edges.
+    /// The vertices of open edges, in order.
     border: Vec<u32>,
     gas: Gas,
-    /// True if a vertex of the border moves.
+    /// True if the solve moves a vertex of the border.
     is_open: bool,
     /// The volume, its gradient, and the pressure at the last positions, or where the push was renewed last.
     volume: f64,
@@ -61,9 +61,12 @@ impl<F> Walls<F> {
         let mut edges: Vec<_> = edges_of(triangles).map(undirected).collect();
         edges.sort_unstable();
         let open = edges.chunk_by(|one, other| one == other).filter(|same| same.len() == 1);
+        let mut border: Vec<u32> = open.flat_map(|same| same[0]).map(|vertex| vertex + first_vertex).collect();
+        border.sort_unstable();
+        border.dedup();
         Self {
             filling,
-            border: open.flat_map(|same| same[0]).map(|vertex| vertex + first_vertex).collect(),
+            border,
             triangles: triangles
                 .iter()
                 .map(|corners| corners.map(|vertex| vertex + first_vertex))
@@ -83,8 +86,7 @@ impl<F> Walls<F> {
         let [first, end] = self.vertices;
         self.of_volume.clear();
         self.of_volume.resize(end - first, DVec3::ZERO);
-        // Volumes are relative to a vertex, so that they do not depend on the cloth's position.
-        let origin = x[first];
+        let origin = x[self.origin()];
         let mut volume = 0.0;
         for corners in &self.triangles {
             let [a, b, c] = corners.map(|vertex| x[vertex as usize]);
@@ -99,6 +101,13 @@ impl<F> Walls<F> {
             Gas::Pressure(pressure) => pressure,
             Gas::Volume { modulus, volume } => -modulus * (self.volume - volume) / volume,
         };
+    }
+
+    /// Returns the vertex to which volumes are relative, so that they do not depend on the cloth's position. The volume of a
+    /// cloth with a border depends on this vertex, too, but no push comes from that. So it must not move within a step: it is a
+    /// vertex of the border, which is held.
+    fn origin(&self) -> usize {
+        self.border.first().map_or(self.vertices[0], |&vertex| vertex as usize)
     }
 
     fn energy_now(&self, x: &[DVec3]) -> f64 {
@@ -125,7 +134,15 @@ impl<F: Filling> Term for Walls<F> {
     fn begin(&mut self, step: &TimeStep<'_>, prediction: &Prediction, x: &[DVec3]) {
         self.gas = self.filling.at(step.time + step.h);
         let is_free = |vertex: &u32| prediction.masses[*vertex as usize] > 0.0;
-        self.is_open = matches!(self.gas, Gas::Pressure(_)) && self.border.iter().any(is_free);
+        // The solve also moves what is pinned to a free body.
+        let riders = step
+            .motions
+            .iter()
+            .filter_map(Kinematic::free)
+            .flat_map(|body| body.riders.iter());
+        let mut riding = riders.filter(|rider| self.border.binary_search(rider).is_ok());
+        let moves = self.border.iter().any(is_free) || riding.next().is_some();
+        self.is_open = matches!(self.gas, Gas::Pressure(_)) && moves;
         self.look(x);
     }
 
@@ -194,7 +211,7 @@ impl<F: Filling> Term for Walls<F> {
         let Gas::Volume { modulus, volume } = self.filling.at(0.0) else {
             return Vec::new();
         };
-        let origin = now.positions[self.vertices[0]];
+        let origin = now.positions[self.origin()];
         let parts = self.triangles.iter().map(|corners| {
             let [a, b, c] = corners.map(|vertex| now.positions[vertex as usize] - origin);
             a.dot(b.cross(c))

@@ -1,6 +1,7 @@
 //! The simulation against exact predictions: momenta, strain limits, and rest. `selvedge truths` has the laws with closed forms,
 //! which the laboratory tests.
 
+mod balance;
 mod bodies;
 mod coupled;
 mod limits;
