@@ -276,7 +276,7 @@ pub(super) const HALF_BALLOON: Law = Law {
     statement: "Half a balloon pulls at the pins of its border with the pressure times the area in the border",
     axes: ["pressure, Pa", "sum of the pins' forces, N"],
     error: ErrorUnit::Of("the largest sum"),
-    remark: "The skin is the light fabric.",
+    remark: "The skin is the light fabric. The area is that of the polygon of pins, so that the mesh has no error.",
     simulate: |conditions| {
         let whole = ball(conditions.grid);
         let upper = |triangle: &&[u32; 3]| triangle.iter().all(|&vertex| whole.positions[vertex as usize].z >= 0.0);

@@ -85,8 +85,9 @@ laws! {
     balloon_speed: [1e-7; 3], 0.0;
     gas: [0.002; 3], 0.0;
     pillow: [0.004; 3], 0.0;
-    #[ignore = "not kept yet: at 1 kPa the pins bear 27.5 N after 0.5 s, where the pressure on the disc is 31.0 N"]
-    half_balloon: [0.01; 3], 0.0;
+    // A solve may leave the energy m·(2 µm/s)². Against the stiffness of the skin at its border, this is a force of 24 µN in sum,
+    // less than a millionth of 31 N.
+    half_balloon: [1e-6; 3], 0.0;
     sail: [0.004; 3], 0.0;
     air_speed: [1e-7; 3], 0.0;
     cord_load: [1e-4; 3], 0.0;
