@@ -1,9 +1,9 @@
 //! The balance of forces in each step: what holds the cloth bears the forces from outside without the change of the cloth's
 //! momentum, less what the solve left. Inner forces, such as those of elasticity, seams and strain limits, have no part in it.
 //!
-//! The forces from outside have closed forms of the states before and after the step: the weight, the drag −k·m·v, the push of the
-//! wind −½ρcA|u·n|(u·n)n on each triangle, and of a pressure p·A·n. The change of the momentum is that of the method: m(v′ − v)/h
-//! in steps of first order, m(3v′ − 4v + v₋)/2h in those of second.
+//! The forces from outside have closed forms of the states before and after the step: the weight, the drag −k·m·v, the push of
+//! the wind −½ρcA|u·n|(u·n)n on each triangle, and that of a pressure p·A·n. The change of the momentum is that of the method:
+//! m(v′ − v)/h in steps of first order, m(3v′ − 4v + v₋)/2h in those of second.
 
 use crate::bodies::{ball, of_mass};
 use crate::masses;
@@ -68,8 +68,8 @@ impl Outside {
         }
     }
 
-    /// Returns whether they depend on the normals of triangles. These are renewed after each Newton step, unless a short one was the last
-    /// that the solve may make.
+    /// Returns whether they depend on the normals of triangles. These are renewed after each Newton step, unless the last that
+    /// the solve may make is short.
     fn follows_the_surface(&self) -> bool {
         self.wind.is_some() || self.pressure != 0.0
     }
@@ -206,7 +206,7 @@ impl Case {
         each.sum()
     }
 
-    /// The rounding of the balance, in N: each vertex adds forces of its mass over h², its triangles' and its soft pin's
+    /// Returns the rounding of the balance, in N: each vertex adds forces of its mass over h², its triangles' and its soft pin's
     /// stiffness, times a coordinate, and each of them is rounded a few times.
     fn rounding(self, masses: &[f64]) -> f64 {
         const ROUNDINGS: f64 = 8.0;

@@ -103,6 +103,7 @@ laws! {
     jerk_on_limit: [0.02; 3], 0.0;
     cantilever: [0.051; 3], 0.0, falls_with_the_edges;
     plate: [0.385; 3], 0.0, falls_with_the_edges;
+    // The finest mesh, which is not tested, is off by 0.144 in steps of 1 ms: 78 % instead of at most 76 %.
     drape: [0.118; 3], 0.0;
     inclined_plane: [0.0021, 0.0083, 0.0088], 2e-4;
     // Friction that a new contact does not have yet at its first Newton step lags.
@@ -130,7 +131,7 @@ fn by_cusick(bending_length: f64, angle: f64) -> f64 {
 /// Drape agrees with published coefficients. Those of cotton and leather are of such fabrics. The others are from Cusick's
 /// regression for fabrics of that stiffness, sheared by 3 to 20 degrees. No drape coefficient of latex was found.
 #[test]
-#[ignore = "not kept yet: cotton drapes to 81 %, not 60 to 76 %"]
+#[ignore = "not kept yet: cotton drapes to 80 to 83 % with 10 to 30 rings, not to 60 to 76 %, which takes a softer bend: 15 µN·m has 65 %"]
 fn every_material_drapes_as_was_published() {
     for material in [
         Material::COTTON,
