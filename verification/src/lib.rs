@@ -6,7 +6,6 @@
 //! | [`campaign`] | long runs over many pairs, every claim checked by exact arithmetic |
 //! | [`conformance`] | the cases of the conformance suite |
 //! | [`generator`] | inputs that are biased to what breaks floating-point geometry, for property tests and fuzz targets |
-//! | [`minifloat`] | a number format of a few bits, in which every input of a grid can be tried |
 //! | [`altered`] | the kernels of core with other constants in their error bounds |
 //! | [`culling`] | the culling tests of core by name, one pair at a time |
 //! | [`witness`] | a checker of the proofs that come with a time of impact |
@@ -23,7 +22,6 @@ pub mod campaign;
 pub mod conformance;
 pub mod culling;
 pub mod generator;
-pub mod minifloat;
 pub mod oracle;
 pub mod plain;
 pub mod random;

@@ -40,7 +40,7 @@
 //!
 //! The proofs are written once, for any number of [`Lanes`](crate::lanes::Lanes). Here they serve one pair, which returns as soon
 //! as it is decided; [`round`](crate::kernels::advance::round) serves many side by side, for [`batch`](crate::batch).
-//! Verification runs them on tiny numbers, on symbols, and with other constants.
+//! Verification runs them on symbols, and with other constants.
 //!
 //! The exact [relative boxes](crate::boxes::relative) come first, then the volume's proof for the whole step.
 //!

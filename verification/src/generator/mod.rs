@@ -25,7 +25,6 @@ pub use choices::Choices;
 pub use mesh::{MeshCase, MeshPair, all_pairs, with_kinds};
 pub use moment::{Meeting, MeetingPair};
 pub use numbers::Format;
-pub(crate) use numbers::power_of_two;
 pub use screw::{Screw, vector};
 pub use strategy::{FromChoices, Simplification, Simplify, check, config, from_choices};
 pub use tube::BendingTube;

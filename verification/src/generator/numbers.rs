@@ -68,7 +68,7 @@ pub trait Format: Scalar {
 /// # Panics
 /// Panics if the result is not a normal number.
 #[inline]
-pub(crate) const fn power_of_two(exponent: i32) -> f64 {
+const fn power_of_two(exponent: i32) -> f64 {
     assert!(-1022 <= exponent && exponent < 1024, "2^exponent is not normal");
     f64::from_bits(((exponent + 1023).cast_unsigned() as u64) << 52)
 }

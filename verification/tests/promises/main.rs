@@ -24,7 +24,6 @@ mod exact_campaign_finds_what_is_wrong;
 mod exact_signs_are_those_of_rationals;
 mod generator_makes_what_it_promises;
 mod intersections_are_exact;
-mod minifloat_exhaustive;
 mod moving_boxes_find_what_relative_boxes_leave;
 mod narrowing_rounds_to_the_safe_side;
 mod oracle_collision;
