@@ -281,7 +281,7 @@ impl Simulation {
         } = &self.made;
         let (cloth, carriers) = (&self.state.positions[..*cloth_vertices], &carriers[..*cloth_vertices]);
         let Some(own) = body_vertices.get(carrier) else { return false };
-        let [now, then] = [0.0, h].map(|ticks| motions[carrier].pose(self.state.clock + ticks));
+        let [now, then] = [0.0, h].map(|later| motions[carrier].pose(self.state.clock + later));
         if !(now.is_rigid() && then.is_rigid()) || carriers.contains(&(carrier as Carrier)) {
             return false;
         }

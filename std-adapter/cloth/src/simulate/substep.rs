@@ -56,12 +56,12 @@ pub(super) struct SubstepWork {
 }
 
 impl Simulation {
-    /// Advances the cloth by `h` seconds, and bodies and pins by `ticks` seconds of their clock.
+    /// Advances the cloth by `h` seconds, and bodies and pins by `clock_seconds` of their clock.
     ///
     /// # Errors
     /// Returns an error if no motion is found that is certainly free, or if the certificate leaves an edge over its limit and
     /// `overstretched` refuses that. Then nothing has changed.
-    pub(super) fn attempt(&mut self, h: f64, ticks: f64, overstretched: Overstretched) -> Result<(), Blocker> {
+    pub(super) fn attempt(&mut self, h: f64, clock_seconds: f64, overstretched: Overstretched) -> Result<(), Blocker> {
         let Self {
             state,
             work,
@@ -92,7 +92,7 @@ impl Simulation {
         } = made;
         let Work { poses, substep, .. } = work;
         let count = *cloth_vertices;
-        let times = [state.clock, state.clock + ticks];
+        let times = [state.clock, state.clock + clock_seconds];
         poses.clear();
         poses.extend({ motions.iter() }.map(|motion| times.map(|time| motion.pose(time))));
         let SubstepWork {
@@ -217,7 +217,7 @@ impl Simulation {
         free_bodies::accept(motions, &solve.bodies, h, &are_pressed, velocities);
         std::mem::swap(&mut state.velocities, velocities);
         std::mem::swap(&mut state.positions, x);
-        state.clock += ticks;
+        state.clock += clock_seconds;
         loads.accept(h);
         Ok(())
     }

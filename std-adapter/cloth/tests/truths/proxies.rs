@@ -1,11 +1,13 @@
 //! Proxies: bodies of another engine that yield to cloth.
 
-use crate::bodies::{DENSITY, G, THICKNESS, ball, of_mass, scene, sheet};
+use crate::bodies::{DENSITY, G, THICKNESS, aside, ball, of_mass, scene, sheet};
 use crate::loads::{PACES, Pace};
 use crate::{contact, masses, momenta};
 use selvedge_cloth::effects::{BodyContact, Gravity, PinGroup, PinMotion, Pins, RopeStretch, Thickness};
 use selvedge_cloth::glam::{DQuat, DVec3};
-use selvedge_cloth::{BroughtBody, CHECKPOINT_STEPS, Cloth, DriveError, FreeMotion, Placement, Scene, Simulation};
+use selvedge_cloth::{
+    Body, BodyMotion, BroughtBody, CHECKPOINT_STEPS, Cloth, DriveError, FreeMotion, Placement, Scene, Simulation,
+};
 
 /// An engine with a ball: it knows gravity, and a floor which takes back a fifth of a penetration in each part of a step.
 struct Engine {
@@ -284,6 +286,41 @@ fn a_teleport_moves_a_proxy_with_its_cloth_and_its_next_frame_goes_on_from_there
             "{other} instead of {}",
             by.apply(*one)
         );
+    }
+}
+
+/// The engine keeps its bodies apart. So its ball flies through another one of the engine, and through one that the caller moves,
+/// as if nothing were there.
+#[test]
+fn a_proxy_meets_free_bodies_but_no_driven_body_and_no_other_proxy() {
+    for pace in PACES {
+        let free = || of_mass(0.1);
+        let others: [BodyMotion; 3] = [
+            free().into(),
+            BodyMotion::Driven(Placement::default()),
+            FreeMotion { proxy: true, ..free() }.into(),
+        ];
+        let [met, passed @ ..] = others.map(|motion| {
+            let mut engine = Engine {
+                gravity: 0.0,
+                velocity: DVec3::X,
+                ..Engine::new(0.1, 0.05, DVec3::ZERO)
+            };
+            let mut other = Body::ball("other", DVec3::X * 0.2, 0.05, 16).unwrap();
+            other.motion = motion;
+            let mut scene = scene(aside(), pace.seconds(), 0.0, 0.0);
+            scene.bodies = vec![ball(DVec3::ZERO, engine.radius, engine.motion()), other];
+            contact(&mut scene, THICKNESS, 0.0);
+            let mut simulation = Simulation::new(scene, 1).unwrap();
+            engine.run(&mut simulation, pace, 0.4);
+            [0, 1].map(|body| simulation.placement(body).unwrap().translation)
+        });
+        // Both balls have the same mass, and a contact of the solve takes no more speed than it must: they go on together.
+        assert!(met[1].x > 0.1 && met[0].x < met[1].x + 0.1, "{pace:?}: pushed to {met:?}");
+        for [own, other] in passed {
+            assert!((own - 0.4 * DVec3::X).length() < 1e-9, "{pace:?}: {own}");
+            assert_eq!(other, DVec3::ZERO, "{pace:?}");
+        }
     }
 }
 
