@@ -1,24 +1,9 @@
-//! After the first step, a step allocates nothing.
+//! After the first step, a step of the detector allocates nothing, with the caller's buffers.
 
 use selvedge::Mesh;
 use selvedge::glam::DVec3;
 use selvedge::{CandidateBoxes, CollisionDetector};
 use selvedge_cloth::sleeve::sleeve;
-use selvedge_laboratory::methods::Preset;
-use selvedge_laboratory::pipeline::Pipeline;
-use selvedge_laboratory::scene::ArmScene;
-
-/// Counts allocations in each step, on the calling thread.
-fn allocations(pipeline: &mut Pipeline<f64>, frames: &[Vec<DVec3>]) -> Vec<u64> {
-    let mut step = |start: &[DVec3], end: &[DVec3]| {
-        allocation_counter::measure(|| {
-            let report = pipeline.step(start, end);
-            report.expect("finite positions, one for each vertex");
-        })
-        .count_total
-    };
-    frames.windows(2).map(|pair| step(&pair[0], &pair[1])).collect()
-}
 
 /// Returns the mesh in waves that run along it.
 fn waves(mesh: &Mesh, count: usize) -> Vec<Vec<DVec3>> {
@@ -30,20 +15,6 @@ fn waves(mesh: &Mesh, count: usize) -> Vec<Vec<DVec3>> {
     (0..count).map(frame).collect()
 }
 
-#[test]
-fn a_sleeve_in_waves_allocates_in_its_first_step_only() {
-    let mesh = sleeve(1).expect("a refinement in range");
-    let frames = waves(&mesh, 40);
-    for preset in Preset::ALL {
-        let topology = mesh.topology().expect("a sleeve");
-        let mut pipeline = Pipeline::new(topology, preset.stages(), 1).expect("one thread");
-        let counted = allocations(&mut pipeline, &frames);
-        assert!(counted[0] > 0, "{preset}: the counter counts");
-        assert_eq!(counted[1..], vec![0; frames.len() - 2], "{preset}");
-    }
-}
-
-/// The detector's methods allocate nothing either, with the caller's buffers.
 #[test]
 fn a_detector_allocates_in_its_first_step_only() {
     let mesh = sleeve(1).expect("a refinement in range");
@@ -69,24 +40,4 @@ fn a_detector_allocates_in_its_first_step_only() {
         .collect();
     assert!(counted[0] > 0, "the counter counts");
     assert_eq!(counted[1..], vec![0; frames.len() - 2]);
-}
-
-/// The arm bends again and again, from where folds begin to meet. When the broad phase builds its tree again, a list may have to
-/// grow once more, but seldom.
-#[test]
-fn the_arm_bent_again_and_again_hardly_allocates_after_the_first_time() {
-    let scene = ArmScene::new(1).expect("a refinement in range");
-    let frames: Vec<_> = (40..=ArmScene::STEPS).map(|frame| scene.frame(frame)).collect();
-    for preset in Preset::ALL {
-        let topology = scene.topology().clone();
-        let mut pipeline = Pipeline::new(topology, preset.stages(), 1).expect("one thread");
-        pipeline.keep_candidates(true);
-        let mut round = || allocations(&mut pipeline, &frames).iter().sum::<u64>();
-        let first = round();
-        let later: u64 = (0..4).map(|_| round()).sum();
-        assert!(
-            40 * later <= first,
-            "{preset}: {first} allocations in the first round, {later} in four more"
-        );
-    }
 }

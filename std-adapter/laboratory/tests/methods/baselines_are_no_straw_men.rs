@@ -3,8 +3,9 @@
 use proptest::prelude::*;
 use selvedge_core::elementary::{Impact, Limits};
 use selvedge_core::{PairKind, PrimitivePair};
+use selvedge_laboratory::baselines::plain::non_coplanarity;
 use selvedge_laboratory::baselines::{additive, bernstein_sign, cubic, tight_inclusion};
-use selvedge_verification::generator::{PairCase, check};
+use selvedge_verification::generator::{PairCase, check, pairs};
 use selvedge_verification::oracle::collides;
 
 /// Generates coordinates anywhere from −1 to 1, all different. Half of the pairs are coplanar at some time, one in twenty touch,
@@ -59,4 +60,14 @@ fn tight_inclusion_misses_nothing() {
 #[test]
 fn additive_advancement_misses_nothing_in_general_position() {
     compare(2_000, |pair| additive::time_of_impact(pair, 0.0) != Impact::Never, no_miss);
+}
+
+/// The paper's filter is written twice, here and in `selvedge-verification`, whose campaigns show that they find its false culls.
+#[test]
+fn the_plain_filter_is_the_one_of_the_campaigns() {
+    check(4_000, pairs::<f64>(PairKind::VertexFace), |case| {
+        let expected = selvedge_verification::plain::culls(case);
+        prop_assert_eq!(non_coplanarity(&case.pair()).is_culled(), expected);
+        Ok(())
+    });
 }

@@ -4,7 +4,6 @@
 
 mod arm_scene_starts_free;
 mod baselines_are_no_straw_men;
-mod batches_agree_with_one_pair;
 mod culling_tests_never_cull_what_touches;
 mod exact_answers_enclose_the_first_time;
 mod pipeline_distributes_each_pair_once;

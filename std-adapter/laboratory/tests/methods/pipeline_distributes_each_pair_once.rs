@@ -11,11 +11,9 @@ use selvedge_core::filter::{Filter, Tier};
 use selvedge_laboratory::baselines::cubic;
 use selvedge_laboratory::methods::{ElementaryTest, PairSource, Preset, Redundancy, Stage, Stages};
 use selvedge_laboratory::pipeline::Pipeline;
-use selvedge_laboratory::scene::ArmScene;
 use selvedge_verification::formats;
 use selvedge_verification::generator::{Format, MeshCase, MeshPair, PairCase, all_pairs, check, meshes, with_kinds};
 use selvedge_verification::oracle::collides;
-use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 
 const KINDS: [PairKind; 2] = [VertexFace, EdgeEdge];
@@ -158,27 +156,6 @@ fn a_degenerate_triangle_has_each_of_its_features_once() {
     }
 }
 
-/// The broad phase is as precise far from the origin as near it, and keeps no more pairs there.
-#[test]
-fn an_exact_translation_leaves_the_same_candidates() {
-    let compared = Cell::new(0);
-    check(1000, meshes::<f64>(), |mesh| {
-        let far = mesh.moved_by([1e7, -1e7, 1e7]);
-        // Only meshes of small numbers count: 1e300 would come back, too, but without having moved. Within half of the distance
-        // the way back is exact (Sterbenz), so a mesh that comes back has lost nothing.
-        let small = mesh.positions.iter().flatten().flatten().all(|x| x.abs() < 5e6);
-        if small && far.moved_by([-1e7, 1e7, -1e7]) == *mesh {
-            compared.set(compared.get() + 1);
-            let [near, far] = [mesh, &far].map(|mesh| Run::new(mesh, Preset::Lv2014.stages(), 1));
-            let triangle_pairs = |run: &Run<f64>| run.pipeline.report().triangle_pairs;
-            prop_assert_eq!(triangle_pairs(&near), triangle_pairs(&far));
-            prop_assert_eq!(near.candidates(), far.candidates());
-        }
-        Ok(())
-    });
-    assert!(compared.get() > 100);
-}
-
 fn every_preset_ends_with_what_its_own_tests_leave<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
     let topology = mesh.topology();
     for preset in Preset::ALL {
@@ -306,28 +283,6 @@ fn threads_change_nothing<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseE
 }
 
 formats!(threads_change_nothing(40, meshes()));
-
-/// The mesh is large enough for many batches, and for the broad phase to split its work.
-#[test]
-fn threads_change_nothing_on_a_late_step_of_the_arm() {
-    let scene = ArmScene::new(4).expect("a refinement in range");
-    let [start, end] = [57, 58].map(|frame| scene.frame(frame));
-    let position = |frame: &[selvedge::glam::DVec3], vertex: usize| frame[vertex].to_array();
-    let mesh = MeshCase::<f64> {
-        triangles: scene.topology().triangles().to_vec(),
-        positions: (0..start.len())
-            .map(|vertex| [position(&start, vertex), position(&end, vertex)])
-            .collect(),
-    };
-    for preset in Preset::ALL {
-        let one = Run::new(&mesh, preset.stages(), 1);
-        let report = one.pipeline.report();
-        let is_split = report.triangle_pairs > 10 * 2048 || report.broad_phase_pairs.is_some_and(|pairs| pairs.total() > 2048);
-        assert!(is_split, "several batches or chunks");
-        assert!(!one.pipeline.contacts().is_empty());
-    }
-    threads_change_nothing(&mesh).unwrap();
-}
 
 /// Buffers are reused, but no data of a step may remain in the next.
 #[test]
