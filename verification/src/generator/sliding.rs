@@ -12,11 +12,6 @@ impl<S: Format> PairCase<S> {
     /// other. The distance is between 2⁻¹⁰ and 2⁻²⁶. In some pairs a second point does so too.
     pub fn choose_sliding(kind: PairKind, choices: &mut Choices<'_>) -> Self {
         let distance = choices.pick(&[10, 12, 14, 17, 20, 23, 26]);
-        Self::choose_sliding_at(kind, distance, choices)
-    }
-
-    /// Chooses such a pair at a distance of at most 2 to the power of −`distance` along each axis.
-    pub fn choose_sliding_at(kind: PairKind, distance: i32, choices: &mut Choices<'_>) -> Self {
         let mut points = [[[S::ZERO; 3]; 2]; 4];
         for coordinate in points.as_flattened_mut().as_flattened_mut() {
             *coordinate = S::exact(choices.within(8), -EIGHTHS);

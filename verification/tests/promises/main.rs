@@ -17,7 +17,6 @@ mod collision_filters_exclude_what_they_say;
 mod conformance_cases_are_answered;
 mod contact_geometry_is_enclosed;
 mod contact_is_decided_exactly;
-mod control_values_are_those_of_the_polynomial;
 mod decisions_are_the_same_everywhere;
 mod every_constant_of_a_bound_is_needed;
 mod exact_campaign_finds_what_is_wrong;
