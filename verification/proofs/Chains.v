@@ -113,10 +113,31 @@ Proof.
     destruct (Rlt_dec x 0); split; intro; try lra; try reflexivity. apply settled_result.
 Qed.
 
-(* An execution in binary numbers, as long as all are finite. *)
+(* What a term says with a number in the place of each input. *)
+Fixpoint filled (at_ : input -> number) (e : number) : number := match e with
+  | Input i => at_ i
+  | Constant c => Constant c
+  | Sum a b => Sum (filled at_ a) (filled at_ b)
+  | Minus a b => Minus (filled at_ a) (filled at_ b)
+  | Product a b => Product (filled at_ a) (filled at_ b)
+  | Quotient a b => Quotient (filled at_ a) (filled at_ b)
+  | Negative a => Negative (filled at_ a)
+  | Magnitude a => Magnitude (filled at_ a)
+  | Larger a b => Larger (filled at_ a) (filled at_ b)
+  | Smaller a b => Smaller (filled at_ a) (filled at_ b)
+  | Select m a b => Select (filled_mask at_ m) (filled at_ a) (filled at_ b)
+  | Root a => Root (filled at_ a) end
+with filled_mask at_ (m : mask) : mask := match m with
+  | Always => Always
+  | Greater a b => Greater (filled at_ a) (filled at_ b)
+  | Both a b => Both (filled_mask at_ a) (filled_mask at_ b)
+  | Either a b => Either (filled_mask at_ a) (filled_mask at_ b)
+  | Not a => Not (filled_mask at_ a) end.
+Lemma filled_with_itself : (forall e, filled Input e = e) /\ (forall m, filled_mask Input m = m).
+Proof. apply numbers_and_masks; cbn; congruence. Qed.
+
+(* An execution in binary numbers, as long as all that it needs are finite. *)
 Variable given_ : input -> binary.
-Hypothesis same : forall i, given i = B2R (given_ i).
-Hypothesis all_finite : forall i, is_finite (given_ i) = true.
 Notation finite := (Nearest.finite prec emax).
 Notation both := (Nearest.both prec emax).
 Notation power_of_two := (Nearest.power_of_two prec emax prec_gt_0_ prec_lt_emax_).
@@ -131,7 +152,7 @@ Definition constant_number c := match c with
   | SafeSquare => Some (power_of_two safe_)
   | LengthUnderflow => Some (power_of_two vanishing_) end.
 Fixpoint run (e : number) : option binary := match e with
-  | Input i => Some (given_ i)
+  | Input i => finite (given_ i)
   | Constant c => constant_number c
   | Sum a b => both (Bplus mode_NE) (run a) (run b)
   | Minus a b => both (Bminus mode_NE) (run a) (run b)
@@ -145,7 +166,7 @@ Fixpoint run (e : number) : option binary := match e with
   | Smaller a b => match run a, run b with Some x, Some y => Some (if Bltb y x then y else x) | _, _ => None end
   | Select m a b => match holds m with Some true => run a | Some false => run b | None => None end
   | Root a => match run a with
-    | Some x => if Bltb x (power_of_two (-1)) then None else finite (Bsqrt mode_NE x)
+    | Some x => if Bltb x (B754_zero false) then None else finite (Bsqrt mode_NE x)
     | None => None end end
 with holds (m : mask) : option bool := match m with
   | Always => Some true
@@ -186,21 +207,26 @@ Proof.
       apply Rmult_le_compat_l; lra.
     + apply bpow_le. lia.
 Qed.
-Definition is_right e := forall x, run e = Some x -> nearest e = Number (B2R x) /\ is_finite x = true.
-Theorem run_is_nearest : (forall e, is_right e) /\ (forall m b, holds m = Some b -> is_said m = b).
+(* Inputs may stand for numbers that were computed before. *)
+Section Filled.
+Variable at_ : input -> number.
+Hypothesis same : forall i, is_finite (given_ i) = true -> nearest (at_ i) = Number (B2R (given_ i)).
+Definition is_right e := forall x, run e = Some x -> nearest (filled at_ e) = Number (B2R x) /\ is_finite x = true.
+Theorem run_is_right : (forall e, is_right e) /\ (forall m b, holds m = Some b -> is_said (filled_mask at_ m) = b).
 Proof.
   assert (op_is : forall (op : binary -> binary -> binary) opR a b, (forall x y, is_finite x = true ->
     is_finite y = true -> is_finite (op x y) = true -> B2R (op x y) = near (opR (B2R x) (B2R y))) ->
     is_right a -> is_right b -> forall out, both op (run a) (run b) = Some out -> exists x y,
-    nearest a = Number x /\ nearest b = Number y /\ settled (near (opR x y)) = Number (B2R out) /\ is_finite out =
-      true).
+    nearest (filled at_ a) = Number x /\ nearest (filled at_ b) = Number y /\
+    settled (near (opR x y)) = Number (B2R out) /\ is_finite out = true).
   { intros op opR a b E ra rb out h. unfold Nearest.both, Nearest.finite in h.
     destruct (run a) as [x|] eqn:Ex; [|discriminate]. destruct (run b) as [y|] eqn:Ey; [|discriminate].
     destruct (is_finite (op x y)) eqn:fin; [|discriminate]. injection h as <-.
     destruct (ra x Ex) as [va fx], (rb y Ey) as [vb fy]. exists (B2R x), (B2R y).
     split; [exact va|]. split; [exact vb|]. split; [apply of_settled, E; assumption|exact fin]. }
-  apply numbers_and_masks; unfold is_right; cbn [run holds nearest is_said].
-  - intros i x h. injection h as <-. rewrite same. auto.
+  apply numbers_and_masks; unfold is_right; cbn [run holds filled filled_mask nearest is_said].
+  - intros i x h. unfold Nearest.finite in h. destruct (is_finite (given_ i)) eqn:fin; [|discriminate].
+    injection h as <-. auto.
   - intros c x h. pose proof facts. pose proof (Corners.enough_underflow f fine) as A.
     pose proof (Corners.small_underflow f fine) as B. pose proof (Corners.extents f fine) as C.
     change (extent_ - prec >= 3 - emax - prec + prec - 1 + 2)%Z in A. change (extent_ <= 0)%Z in B.
@@ -253,10 +279,10 @@ Proof.
     rewrite (less y x fy fx). destruct (Rlt_dec (B2R y) (B2R x)); auto.
   - intros m rm a ra b rb out h. destruct (holds m) as [[|]|]; [| |discriminate]; rewrite (rm _ eq_refl); auto.
   - intros a ra out h. destruct (run a) as [x|] eqn:Ex; [|discriminate]. destruct (ra x eq_refl) as [-> fx].
-    destruct (Bltb x (power_of_two (-1))) eqn:less_; [discriminate|].
-    destruct (exact_power (-1)) as [half fin]; [pose proof facts; lia|]. rewrite (less x _ fx fin), half in less_.
-    change (power (-1)) with (/ 2) in less_. destruct (Rlt_dec (B2R x) (/ 2)) as [|large]; [discriminate|].
-    cbn [rooted]. destruct (Rlt_dec (B2R x) 0); [lra|]. unfold Nearest.finite in h.
+    destruct (Bltb x (B754_zero false)) eqn:less_; [discriminate|].
+    rewrite (less x (B754_zero false) fx eq_refl) in less_. cbn [B2R] in less_.
+    destruct (Rlt_dec (B2R x) 0) as [|positive]; [discriminate|]. cbn [rooted]. destruct (Rlt_dec (B2R x) 0); [lra|]. unfold
+      Nearest.finite in h.
     destruct (is_finite (Bsqrt mode_NE x)) eqn:finite_; [|discriminate]. injection h as <-.
     split; [|exact finite_]. apply of_settled. apply (Bsqrt_correct prec emax _ _ mode_NE x).
   - intros b h. injection h as <-. reflexivity.
@@ -271,6 +297,16 @@ Proof.
     + now injection h as <-.
     + exact (rb _ h).
   - intros a ra out h. destruct (holds a) as [x|]; [|discriminate]. injection h as <-. now rewrite (ra _ eq_refl).
+Qed.
+End Filled.
+Hypothesis given_is : forall i, given i = B2R (given_ i).
+Theorem run_is_nearest : (forall e x, run e = Some x -> nearest e = Number (B2R x) /\ is_finite x = true) /\
+  (forall m b, holds m = Some b -> is_said m = b).
+Proof.
+  destruct (run_is_right Input (fun i _ => f_equal Number (given_is i))) as [numbers masks].
+  destruct filled_with_itself as [whole_number whole_mask]. split.
+  - intros e x h. pose proof (numbers e x h) as right_. now rewrite whole_number in right_.
+  - intros m b h. pose proof (masks m b h) as right_. now rewrite whole_mask in right_.
 Qed.
 Theorem what_holds_is_said m : holds m = Some true -> says f env nearest m.
 Proof. intro h. apply said. exact (proj2 run_is_nearest m true h). Qed.
@@ -295,9 +331,9 @@ Definition halves (place_ : nat -> Expressions.time -> Expressions.axis -> Z) i 
 Definition is_small place_ := forall i, (Z.abs (halves place_ i) < 256)%Z.
 Hypothesis small_height : (Z.abs height < 256)%Z.
 Lemma small_vertex_and_face : is_small place_of_a_vertex_and_a_face.
-Proof. intros [l|[[|[|[|[|n]]]] [|] [| |]]|k [| |]|[|[|n]]]; try exact small_height; reflexivity. Qed.
+Proof. intros [l|[[|[|[|[|n]]]] [|] [| |]]|k [| |]|[|[|n]]|k]; try exact small_height; reflexivity. Qed.
 Lemma small_edges : is_small place_of_two_edges.
-Proof. intros [l|[[|[|[|[|n]]]] [|] [| |]]|k [| |]|[|[|n]]]; try exact small_height; reflexivity. Qed.
+Proof. intros [l|[[|[|[|[|n]]]] [|] [| |]]|k [| |]|[|[|n]]|k]; try exact small_height; reflexivity. Qed.
 End Places.
 
 (* An execution of a pair in range, with short directions, from moment 0 to moment 1, the ends of the step. *)
@@ -340,24 +376,21 @@ Proof.
     as [E fin];
     [apply small|lia|]. split; [|exact fin]. rewrite E. unfold F2R; cbn [Fnum Fexp bpow radix_val radix2]. cbn. lra.
 Qed.
-Lemma what_is_computed : is_true (Advancing.is_in_range code) = true -> exists env place given value_of,
-  computes code f env place given value_of /\ (forall m, is_true m = true -> says f env value_of m) /\
-  (forall n e, is_beyond n e = true -> exists u, value_of e = Number u /\ IZR n < u).
+Notation given := (fun i => B2R (input_ i)).
+Notation env_ := (env prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ fine).
+Notation nearest_ := (nearest prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ fine given).
+Lemma what_is_computed : is_true (Advancing.is_in_range code) = true ->
+  computes code f env_ (fun c => given (Place c)) given nearest_ /\ (forall m, is_true m = true -> says f env_ nearest_ m) /\
+  (forall n e, is_beyond n e = true -> exists u, nearest_ e = Number u /\ IZR n < u).
 Proof.
-  intro range. set (given i := B2R (input_ i)).
-  set (env_ := env prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ fine).
-  set (nearest_ := nearest prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ fine given).
-  assert (E : execution f env_ nearest_ given) by (apply an_execution_exists; assumption).
+  intro range. assert (E : execution f env_ nearest_ given) by (apply an_execution_exists; assumption).
   pose proof (run_is_nearest prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe fine given input_
-    (fun i => eq_refl)
-    (fun i => proj2 (input_is i))) as [numbers _].
+    (fun i => eq_refl)) as [numbers _].
   assert (truth : forall m, is_true m = true -> says f env_ nearest_ m).
   { intros m h. apply (what_holds_is_said prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe fine
-    given input_ (fun i =>
-      eq_refl) (fun i => proj2 (input_is i))). unfold is_true in h. destruct (holds _ _ _ _ _ _ _ _ _) as [[|]|];
-      congruence. }
+    given input_ (fun i => eq_refl)). unfold is_true in h. destruct (holds _ _ _ _ _ _ _ _ _) as [[|]|]; congruence. }
   assert (value_ : forall i, given i = IZR (halves place_ i) / 2) by (intro i; apply input_is).
-  exists env_, (fun c => given (Place c)), given, nearest_. split; [|split; [exact truth|]].
+  split; [|split; [exact truth|]].
   - split; [split; [intro; reflexivity|split; [exact E|apply truth; assumption]]|].
     assert (G4 : 4 <= Errors.reach f) by (apply (Corners.G_4 f fine)).
     split; [intros k a; apply Rle_trans with 4; [rewrite value_; destruct a; cbn; unfold Rabs; destruct (Rcase_abs _);
@@ -377,14 +410,8 @@ Definition every_proof := is_true (Advancing.is_in_range code) &&
 Theorem every_proof_holds_if_computed : every_proof = true -> every_proof_holds code f.
 Proof.
   unfold every_proof. intro all. repeat (apply andb_prop in all as [all ?]).
-  destruct (what_is_computed all) as (env_ & place & given & value_of & c & truth & numbers).
-  exists env_, place, given, value_of. auto 12.
-Qed.
-Theorem clipping_advances_if_computed : is_true (Advancing.is_in_range code) = true ->
-  is_beyond 0 (Advancing.until_volume code) = true -> clipping_advances code f.
-Proof.
-  intros range beyond. destruct (what_is_computed range) as (env_ & place & given & value_of & c & truth & numbers).
-  exists env_, place, given, value_of. auto.
+  destruct (what_is_computed all) as (c & truth & numbers).
+  exists env_, (fun c => given (Place c)), given, nearest_. auto 12.
 Qed.
 End OfAPair.
 
@@ -411,12 +438,4 @@ Proof.
   - apply (in_single every_proof_holds_if_computed (small_edges 2 eq_refl)); vm_cast_no_check (eq_refl true).
   - apply (in_double every_proof_holds_if_computed (small_vertex_and_face 2 eq_refl)); vm_cast_no_check (eq_refl true).
   - apply (in_double every_proof_holds_if_computed (small_edges 2 eq_refl)); vm_cast_no_check (eq_refl true).
-Qed.
-Theorem clipping_advances_for_some : clipping_advances Advancing.of_a_vertex_and_a_face Advance.binary32 /\
-  clipping_advances Advancing.of_two_edges Advance.binary32.
-Proof.
-  split.
-  - apply (in_single clipping_advances_if_computed (small_vertex_and_face (-2) eq_refl)); vm_cast_no_check (eq_refl
-    true).
-  - apply (in_single clipping_advances_if_computed (small_edges (-2) eq_refl)); vm_cast_no_check (eq_refl true).
 Qed.

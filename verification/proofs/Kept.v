@@ -51,7 +51,6 @@ Notation whole := (Chains.whole prec emax p0 pe).
 
 Hypothesis wide : (102 <= emax)%Z.
 Variable gap_ : binary_float prec emax.
-Hypothesis finite_gap : is_finite gap_ = true.
 Notation power_of_two := (Nearest.power_of_two prec emax p0 pe).
 
 (* σ, coordinates of at most 4, a separation of one half, a stored gap and the limits of such. *)
@@ -83,11 +82,6 @@ Proof.
   intro h. pose proof facts.
   apply (Chains.exact_power prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe fine). lia.
 Qed.
-Lemma all_finite i : is_finite (input_ i) = true.
-Proof.
-  destruct i as [[| | | | |]| | |]; cbn [input_]; try (apply whole_is; apply small || reflexivity); try (apply limit_is;
-    lia); [apply slack_is|exact finite_gap].
-Qed.
 Definition computed m := match Chains.holds prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe input_
   m with
   | Some b => b | None => false end.
@@ -98,7 +92,7 @@ Notation place := (fun c => given (Place c)).
 Lemma truth m : computed m = true -> says f env_ nearest_ m.
 Proof.
   intro h. apply (Chains.what_holds_is_said prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe
-    fine given input_ (fun i => eq_refl) all_finite). unfold computed in h. destruct (Chains.holds _ _ _ _ _ _ _ _ _) as
+    fine given input_ (fun i => eq_refl)). unfold computed in h. destruct (Chains.holds _ _ _ _ _ _ _ _ _) as
       [[|]|]; congruence.
 Qed.
 Lemma an_execution : execution f env_ nearest_ given. Proof. apply Chains.an_execution_exists; assumption. Qed.
@@ -141,7 +135,7 @@ Proof.
   split; [exact asked|]. split; [now apply tested|]. split; [reflexivity|]. split; [exact fine|]. split; [exact least|].
   split; [apply least|].
   destruct (Chains.run_is_nearest prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe fine given input_
-    (fun i => eq_refl) all_finite) as [numbers _]. destruct (numbers code x stored) as [Vx _].
+    (fun i => eq_refl)) as [numbers _]. destruct (numbers code x stored) as [Vx _].
   split; [exact Vx|]. symmetry. change (Machine.seen f env_ (B2R x)) with (B2R x).
   apply round_generic; [apply valid_rnd_N|]. exact (generic_format_B2R prec emax x).
 Qed.
@@ -152,17 +146,17 @@ Proof.
 Qed.
 Definition is_beyond n e := computed (Greater e (Constant (Small n))) &&
   match running e with Some _ => true | None => false end.
-Lemma what_is_computed code : computed (AdvancingBeyond.is_in_range code) = true -> exists env place given value_of,
-  computes code f env place given value_of /\ (forall m, computed m = true -> says f env value_of m) /\
-  (forall n e, is_beyond n e = true -> exists u, value_of e = Number u /\ IZR n < u).
+Lemma what_is_computed code : computed (AdvancingBeyond.is_in_range code) = true ->
+  computes code f env_ place given nearest_ /\ (forall m, computed m = true -> says f env_ nearest_ m) /\
+  (forall n e, is_beyond n e = true -> exists u, nearest_ e = Number u /\ IZR n < u).
 Proof.
   intro range. pose proof (Chains.run_is_nearest prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe fine
-    given input_ (fun i => eq_refl) all_finite) as [numbers _].
+    given input_ (fun i => eq_refl)) as [numbers _].
   assert (halves_ : forall i, (forall l, i <> Length l) -> given i = IZR (Chains.halves place_ i) / 2).
-  { intros i no. destruct i as [l| | |]; try (now destruct (no _ eq_refl)); apply whole_is; apply small. }
+  { intros i no. destruct i as [l| | | |]; try (now destruct (no _ eq_refl)); apply whole_is; apply small. }
   pose proof (Corners.G_4 f fine) as G4. pose proof (Nearness.l_small f (Corners.reasonable_base f fine)).
   pose proof (Corners.L_1 f fine).
-  exists env_, place, given, nearest_. split; [|split; [exact truth|]].
+  split; [|split; [exact truth|]].
   - split; [split; [intro; reflexivity|]; split; [exact an_execution|]; split; [exact one_half|]; split; [|now apply
       truth]; unfold Arithmetic.lam in *; lra|].
     split; [intros k a; rewrite halves_ by discriminate; apply Rle_trans with 4; [destruct a; cbn; unfold Rabs; destruct
@@ -181,14 +175,7 @@ Definition every_proof code := computed (AdvancingBeyond.is_in_range code) &&
 Theorem every_proof_holds_if_computed code : every_proof code = true -> every_proof_holds code f.
 Proof.
   unfold every_proof. intro all. repeat (apply andb_prop in all as [all ?]).
-  destruct (what_is_computed code all) as (env_ & place & given & value_of & c & truth & numbers).
-  exists env_, place, given, value_of. auto 12.
-Qed.
-Theorem clipping_advances_if_computed code : computed (AdvancingBeyond.is_in_range code) = true ->
-  is_beyond 0 (AdvancingBeyond.until_volume code) = true -> clipping_advances code f.
-Proof.
-  intros range beyond. destruct (what_is_computed code range) as (env_ & place & given & value_of & c & truth & numbers).
-  exists env_, place, given, value_of. auto.
+  destruct (what_is_computed code all) as (c & truth & numbers). exists env_, place, given, nearest_. auto 12.
 Qed.
 End OfAPair.
 Lemma near_vertex_and_face n t a : (Z.abs (Chains.place_of_a_vertex_and_a_face 2 n t a) <= 8)%Z.
@@ -202,13 +189,13 @@ Theorem some_are_kept f : f = Advance.binary32 \/ f = Advance.binary64 ->
 Proof.
   intros [-> | ->]; split; eexists.
   - apply (kept_if_computed 24 128 (-117) 30 (-100) 29 (-100) (-62) _ _ Chains.single_is_fine ltac:(lia) _
-      (Chains.small_vertex_and_face 2 eq_refl) near_vertex_and_face ltac:(lia) no_gap eq_refl); vm_compute; reflexivity.
+      near_vertex_and_face ltac:(lia) no_gap); vm_compute; reflexivity.
   - apply (kept_if_computed 24 128 (-117) 30 (-100) 29 (-100) (-62) _ _ Chains.single_is_fine ltac:(lia) _
-      (Chains.small_edges 2 eq_refl) near_edges ltac:(lia) no_gap eq_refl); vm_compute; reflexivity.
+      near_edges ltac:(lia) no_gap); vm_compute; reflexivity.
   - apply (kept_if_computed 53 1024 (-1000) 250 (-960) 250 (-900) (-510) _ _ Chains.double_is_fine ltac:(lia) _
-      (Chains.small_vertex_and_face 2 eq_refl) near_vertex_and_face ltac:(lia) no_gap eq_refl); vm_compute; reflexivity.
+      near_vertex_and_face ltac:(lia) no_gap); vm_compute; reflexivity.
   - apply (kept_if_computed 53 1024 (-1000) 250 (-960) 250 (-900) (-510) _ _ Chains.double_is_fine ltac:(lia) _
-      (Chains.small_edges 2 eq_refl) near_edges ltac:(lia) no_gap eq_refl); vm_compute; reflexivity.
+      near_edges ltac:(lia) no_gap); vm_compute; reflexivity.
 Qed.
 (* A pair at rest lasts since the gap that was stored of it: in single precision, where its conversion changes nothing. *)
 Notation in_single theorem := (theorem 24 128 (-117) 30 (-100) 29 (-100) (-62) _ _)%Z.
@@ -223,7 +210,7 @@ Proof.
   intros small near_ rests all. unfold lasts_when_computed in all.
   destruct (in_single Chains.run _ stored) as [x|] eqn:Ex; [|discriminate].
   apply andb_prop in all as [all now_]. apply andb_prop in all as [all short_]. apply andb_prop in all as [fin short'].
-  pose proof (in_single stored_if_computed Chains.single_is_fine ltac:(lia) place_ small near_ ltac:(lia) no_gap eq_refl
+  pose proof (in_single stored_if_computed Chains.single_is_fine ltac:(lia) place_ near_ ltac:(lia) no_gap
     stored x Ex short' ltac:(lia)) as was.
   eexists. eexists. eexists. eexists. exists Advance.binary32, (fun c => B2R (input_ 24 128 _ _ place_ no_gap (Place c))),
     (B2R x).
@@ -231,10 +218,10 @@ Proof.
   split; [exact (in_single one_half Chains.single_is_fine place_ x)|].
   split; [pose proof (limit 24 128 (-117) 30 (-100) 29 (-100) (-62) ltac:(lia))%Z as h; change (4 <= power
     (largest_edge Advance.binary32)) in h; lra|].
-  split; [exact (in_single tested Chains.single_is_fine place_ small ltac:(lia) x fin short_)|].
+  split; [exact (in_single tested Chains.single_is_fine place_ ltac:(lia) x short_)|].
   split; [exact Chains.single_is_fine|]. split; [exact was|]. split; [|split; [reflexivity|]].
   - intros n a. cbn [input_ Chains.halves]. now rewrite rests.
-  - exact (in_single truth Chains.single_is_fine place_ small ltac:(lia) x fin lasts now_).
+  - exact (in_single truth Chains.single_is_fine place_ x lasts now_).
 Qed.
 Lemma rests_vertex_and_face n a : Chains.place_of_a_vertex_and_a_face 4 n Expressions.End a =
   Chains.place_of_a_vertex_and_a_face 4 n Expressions.Start a.
@@ -262,19 +249,19 @@ Theorem some_are_culled f alone : f = Advance.binary32 \/ f = Advance.binary64 -
     Beyond.two_edges.culled_by_permanent) place (1 / 2)).
 Proof.
   intros [-> | ->]; split.
-  - apply (culled_if_computed 24 128 (-117) 30 (-100) 29 (-100) (-62) _ _ Chains.single_is_fine _
-      (Chains.small_vertex_and_face (if alone then 4 else 2) ltac:(now destruct alone)) ltac:(lia) no_gap eq_refl);
+  - apply (culled_if_computed 24 128 (-117) 30 (-100) 29 (-100) (-62) _ _ Chains.single_is_fine
+      (Chains.place_of_a_vertex_and_a_face (if alone then 4 else 2)) no_gap);
         destruct alone; vm_compute;
       reflexivity.
-  - apply (culled_if_computed 24 128 (-117) 30 (-100) 29 (-100) (-62) _ _ Chains.single_is_fine _
-      (Chains.small_edges (if alone then 4 else 2) ltac:(now destruct alone)) ltac:(lia) no_gap eq_refl); destruct
+  - apply (culled_if_computed 24 128 (-117) 30 (-100) 29 (-100) (-62) _ _ Chains.single_is_fine
+      (Chains.place_of_two_edges (if alone then 4 else 2)) no_gap); destruct
         alone; vm_compute; reflexivity.
-  - apply (culled_if_computed 53 1024 (-1000) 250 (-960) 250 (-900) (-510) _ _ Chains.double_is_fine _
-      (Chains.small_vertex_and_face (if alone then 4 else 2) ltac:(now destruct alone)) ltac:(lia) no_gap eq_refl);
+  - apply (culled_if_computed 53 1024 (-1000) 250 (-960) 250 (-900) (-510) _ _ Chains.double_is_fine
+      (Chains.place_of_a_vertex_and_a_face (if alone then 4 else 2)) no_gap);
         destruct alone; vm_compute;
       reflexivity.
-  - apply (culled_if_computed 53 1024 (-1000) 250 (-960) 250 (-900) (-510) _ _ Chains.double_is_fine _
-      (Chains.small_edges (if alone then 4 else 2) ltac:(now destruct alone)) ltac:(lia) no_gap eq_refl); destruct
+  - apply (culled_if_computed 53 1024 (-1000) 250 (-960) 250 (-900) (-510) _ _ Chains.double_is_fine
+      (Chains.place_of_two_edges (if alone then 4 else 2)) no_gap); destruct
         alone; vm_compute; reflexivity.
 Qed.
 Notation of_single theorem := (theorem 24 128 (-117) 30 (-100) 29 (-100) (-62) _ _ Chains.single_is_fine _)%Z.
@@ -283,26 +270,13 @@ Theorem every_proof_with_a_separation_holds_for_some f : f = Advance.binary32 \/
   every_proof_holds AdvancingBeyond.of_a_vertex_and_a_face f /\ every_proof_holds AdvancingBeyond.of_two_edges f.
 Proof.
   intros [-> | ->]; split.
-  - apply (of_single every_proof_holds_if_computed (Chains.small_vertex_and_face 2 eq_refl) ltac:(lia) no_gap
-    eq_refl); vm_cast_no_check (eq_refl
+  - apply (of_single every_proof_holds_if_computed (Chains.small_vertex_and_face 2 eq_refl) no_gap); vm_cast_no_check (eq_refl
       true).
-  - apply (of_single every_proof_holds_if_computed (Chains.small_edges 2 eq_refl) ltac:(lia) no_gap eq_refl);
+  - apply (of_single every_proof_holds_if_computed (Chains.small_edges 2 eq_refl) no_gap);
     vm_cast_no_check (eq_refl true).
-  - apply (of_double every_proof_holds_if_computed (Chains.small_vertex_and_face 2 eq_refl) ltac:(lia) no_gap
-    eq_refl); vm_cast_no_check (eq_refl
+  - apply (of_double every_proof_holds_if_computed (Chains.small_vertex_and_face 2 eq_refl) no_gap); vm_cast_no_check (eq_refl
       true).
-  - apply (of_double every_proof_holds_if_computed (Chains.small_edges 2 eq_refl) ltac:(lia) no_gap eq_refl);
-    vm_cast_no_check (eq_refl true).
-Qed.
-Theorem clipping_with_a_separation_advances_for_some : 
-  clipping_advances AdvancingBeyond.of_a_vertex_and_a_face Advance.binary32 /\
-  clipping_advances AdvancingBeyond.of_two_edges Advance.binary32.
-Proof.
-  split.
-  - apply (of_single clipping_advances_if_computed (Chains.small_vertex_and_face (-2) eq_refl) ltac:(lia) no_gap
-    eq_refl); vm_cast_no_check (eq_refl
-      true).
-  - apply (of_single clipping_advances_if_computed (Chains.small_edges (-2) eq_refl) ltac:(lia) no_gap eq_refl);
+  - apply (of_double every_proof_holds_if_computed (Chains.small_edges 2 eq_refl) no_gap);
     vm_cast_no_check (eq_refl true).
 Qed.
 Theorem chains_with_a_separation_reach_the_end f : f = Advance.binary32 \/ f = Advance.binary64 ->

@@ -11,13 +11,15 @@ Record constants := Constants { base :> format; extent_underflow : Z; largest_ex
   length_underflow : Z }.
 
 (* A coordinate of one of the four points, a component of one of the directions that are tried, a time, a length or the
-   slack of a gap. A gap may be stored, none less than the least and none more than the largest. *)
+   slack of a gap. A gap may be stored, none less than the least and none more than the largest. A program (Replay.v) computes
+   each of its numbers once, and refers to it by its place. *)
 Inductive length := Separation | LargestCoordinate | Slack | StoredGap | LeastGap | LargestGap.
 Inductive input :=
 | Length (l : length)
 | Place (c : Expressions.coordinate)
 | Along (direction : nat) (a : Expressions.axis)
-| Moment (n : nat).
+| Moment (n : nat)
+| Saved (place : positive).
 Inductive constant := UnitRoundoff | Underflow | ExtentUnderflow | LargestExtent | Half | Small (count : Z) |
   LargestEdge
   | SafeSquare | LengthUnderflow.

@@ -6,6 +6,8 @@
      (9)      Control values in words of 64 bits are exact, and their top word has the sign.
      (10)     A pair does not touch before the time that the time of impact answers, nor at it.
      (15)     With a separation, it stays farther apart than that up to the time that the time of impact answers.
+     (16)     The loop: if the interpreter of its records accepts one, the pair is so up to the time that the code answered.
+              It accepts the records of the runs that the code writes down for each check.
      (11)     What the checker of witnesses accepts does not touch before the claimed time.
      (12)     From `f64` to `f32`, times become no later and lengths no smaller.
      (13)     A pair whose direction has a gap beyond the threshold at both ends of a step stays farther apart than the
@@ -19,7 +21,8 @@
    Words are defined in Geometry.v (contact, volume), Arithmetic.v (one operation), Expressions.v (an execution), and
    Filter.v (what the code of the certified filter computes); for boxes in Orders.v (an execution) and Boxes.v; for the
    time of impact, gaps and all separations in Machine.v (an environment, an execution); Advancing.v and
-   AdvancingBeyond.v (a round, a chain) and Separated.v (what the filter culls with a separation). *)
+   AdvancingBeyond.v (a round, a chain), Separated.v (what the filter culls with a separation), and Replay.v and
+   Replayed.v (a record, a run). *)
 From Coq Require Import Reals ZArith Lra Lia.
 From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent
@@ -28,6 +31,7 @@ From Selvedge Require Orders Boxes Apart Certificates Nearest Witnesses Integers
 From Selvedge Require Machine Nearness Corners Advance Advancing Checker Chains Narrowing Gap Gaps Kept Least Normals
   Beyond
   Separated DirectionsBeyond AdvanceBeyond AdvancingBeyond.
+From Selvedge Require Replay Replayed.
 From Coq Require QArith_base List.
 Import List.ListNotations.
 Open Scope R_scope.
@@ -317,7 +321,7 @@ Theorem each_proof_of_a_round_holds_for_some_pair f : f = Advance.binary32 \/ f 
 Proof. exact (Chains.every_proof_holds_for_some f). Qed.
 Theorem clipping_advances_for_some_pair : Chains.clipping_advances Advancing.of_a_vertex_and_a_face Advance.binary32 /\
   Chains.clipping_advances Advancing.of_two_edges Advance.binary32.
-Proof. exact Chains.clipping_advances_for_some. Qed.
+Proof. exact Replayed.clipping_advances_for_some. Qed.
 
 (* 11. A checker of witnesses without a separation, in rational numbers (Checker.v): for whoever distrusts the code and
        the model of its arithmetic. A witness is a list of parts of the step, each with its proof (docs/witnesses.md).
@@ -543,7 +547,7 @@ Proof. exact (Kept.every_proof_with_a_separation_holds_for_some f). Qed.
 Theorem clipping_with_a_separation_advances_for_some_pair :
   Kept.clipping_advances AdvancingBeyond.of_a_vertex_and_a_face Advance.binary32 /\
   Kept.clipping_advances AdvancingBeyond.of_two_edges Advance.binary32.
-Proof. exact Kept.clipping_with_a_separation_advances_for_some. Qed.
+Proof. exact Replayed.clipping_with_a_separation_advances_for_some. Qed.
 (* An accepted step with a separation s: each pair that can touch in it is kept by a direction, or a chain of rounds
   with
    s reaches its end. Then each pair stays farther apart than s during it. *)
@@ -570,7 +574,46 @@ Proof.
     + exact (kept_edges_stay_apart f place s t i r which kept time i01 r01).
 Qed.
 
-(* 16. Certificates.v has the lemmas about exact numbers that they and truncation rest on: a direction held or turning
+(* 16. **The loop**. It keeps a record of its rounds (core/src/elementary/advance/witness.rs): for each part of the step its
+       end and its proof, which are a direction that is held, turns or moves on a curve, or the signed volume. The
+       interpreter of Replay.v computes each proof again: the traced terms, as programs that compute each step once, in
+       Flocq's binary numbers, to nearest. `Replayed.is_replayed_...` says that each part is proven until exactly the end
+       that it has, by directions no longer than (10) requires, and the last part until exactly the time that was
+       answered; or that exact boxes prove the whole step. Then chains of rounds as in (10) and (15) reach that time, and
+       the pair is apart up to it. *)
+Theorem a_replayed_vertex_and_face_do_not_touch w run t : Replayed.is_replayed_vertex_and_face w run = true ->
+  Replayed.is_separated run = false -> 0 <= t <= Replayed.time_of w run /\ 0 < Replayed.time_of w run /\ t <= 1 ->
+  let at_time n := at_ (path_of (Replayed.place_of w run) n) t in
+  ~ vertex_in_triangle (at_time 0%nat) (at_time 1%nat) (at_time 2%nat) (at_time 3%nat).
+Proof. intros h plain before. exact (Replayed.a_replayed_vertex_and_face_do_not_touch w run t before h plain). Qed.
+Theorem replayed_edges_do_not_touch w run t : Replayed.are_replayed_edges w run = true ->
+  Replayed.is_separated run = false -> 0 <= t <= Replayed.time_of w run /\ 0 < Replayed.time_of w run /\ t <= 1 ->
+  let at_time n := at_ (path_of (Replayed.place_of w run) n) t in
+  ~ segments_meet (at_time 0%nat) (at_time 1%nat) (at_time 2%nat) (at_time 3%nat).
+Proof. intros h plain before. exact (Replayed.replayed_edges_do_not_touch w run t before h plain). Qed.
+Theorem a_replayed_vertex_and_face_stay_apart w run t i j r : Replayed.is_replayed_vertex_and_face w run = true ->
+  Replayed.is_separated run = true -> 0 <= t <= Replayed.time_of w run /\ 0 < Replayed.time_of w run /\ t <= 1 ->
+  0 <= i -> 0 <= j -> 0 <= r -> i + j + r = 1 -> let at_time n := at_ (path_of (Replayed.place_of w run) n) t in
+  Replayed.separation_of w run ^ 2 < Certificates.length_squared (minus (at_time 0%nat) (plus (scaled i (at_time 1%nat))
+    (plus (scaled j (at_time 2%nat)) (scaled r (at_time 3%nat))))).
+Proof.
+  intros h separated before. exact (Replayed.a_replayed_vertex_and_face_stay_apart w run t before i j r h separated).
+Qed.
+Theorem replayed_edges_stay_apart w run t i r : Replayed.are_replayed_edges w run = true ->
+  Replayed.is_separated run = true -> 0 <= t <= Replayed.time_of w run /\ 0 < Replayed.time_of w run /\ t <= 1 ->
+  0 <= i <= 1 -> 0 <= r <= 1 -> let at_time n := at_ (path_of (Replayed.place_of w run) n) t in
+  Replayed.separation_of w run ^ 2 < Certificates.length_squared (minus
+    (plus (scaled (1 - i) (at_time 0%nat)) (scaled i (at_time 1%nat)))
+    (plus (scaled (1 - r) (at_time 2%nat)) (scaled r (at_time 3%nat)))).
+Proof. intros h separated before. exact (Replayed.replayed_edges_stay_apart w run t before i r h separated). Qed.
+(* The code's runs (Runs.v): pairs of both kinds in both formats, with a separation and without, with all proofs, in few
+   rounds and in many. The interpreter accepts each until exactly the time that the code answered. *)
+Theorem the_runs_of_the_code_are_replayed w :
+  List.forallb (Replayed.is_replayed_vertex_and_face w) (fst (Replayed.runs_of w)) = true /\
+  List.forallb (Replayed.are_replayed_edges w) (snd (Replayed.runs_of w)) = true.
+Proof. exact (Replayed.the_runs_of_the_code_are_replayed w). Qed.
+
+(* 17. Certificates.v has the lemmas about exact numbers that they and truncation rest on: a direction held or turning
        over a part of the step, the volume there, shares of ways. *)
 
 Print Assumptions formats_are_reasonable.
@@ -630,6 +673,11 @@ Print Assumptions chains_with_a_separation_reach_the_end.
 Print Assumptions each_proof_with_a_separation_holds_for_some_pair.
 Print Assumptions clipping_with_a_separation_advances_for_some_pair.
 Print Assumptions an_accepted_step_keeps_the_separation.
+Print Assumptions a_replayed_vertex_and_face_do_not_touch.
+Print Assumptions replayed_edges_do_not_touch.
+Print Assumptions a_replayed_vertex_and_face_stay_apart.
+Print Assumptions replayed_edges_stay_apart.
+Print Assumptions the_runs_of_the_code_are_replayed.
 Print Assumptions Certificates.a_product_bounds_the_distance.
 Print Assumptions Certificates.ahead_of_the_triangle.
 Print Assumptions Certificates.between_two_ahead.

@@ -29,7 +29,8 @@ fi
 # In the order of their dependencies; the last one prints the axioms of its theorems.
 files=(Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Magnitudes Orders Boxes Apart Certificates
     Machine Nearness Corners Least Beyond Normals Separated Directions Held DirectionsBeyond Hull Volume Clipping VolumeSteps
-    Lengths Bars VolumeBeyond Advance Advancing AdvanceBeyond AdvancingBeyond Checker Gap Gaps Nearest Witnesses Chains Kept Integers Narrowed Narrowing Theorems)
+    Lengths Bars VolumeBeyond Advance Advancing AdvanceBeyond AdvancingBeyond Checker Gap Gaps Nearest Witnesses Chains Kept
+    Replay Programs Runs Replayed Integers Narrowed Narrowing Theorems)
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cp -r ./*.v extracted "$folder"

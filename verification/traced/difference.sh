@@ -24,6 +24,7 @@ texts() {
 texts "$folder/sources" "$folder/before"
 texts "$PWD" "$folder/now"
 cd "$folder"
-if diff --recursive --unified before now; then
+# Coq checks programs and runs itself; nobody accepts them.
+if diff --recursive --unified --exclude=Programs.v --exclude=Runs.v before now; then
     echo "the texts for Gappa and Coq have not changed"
 fi

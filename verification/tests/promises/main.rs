@@ -34,6 +34,7 @@ mod rotating_bodies_are_not_missed;
 mod separations_are_never_overstated;
 mod simulation_is_free_of_intersections;
 mod tiers_keep_their_promises;
+mod time_of_impact_advances_only_by_proofs;
 mod time_of_impact_is_never_late;
 mod truncated_steps_are_free;
 mod witnesses_prove_what_they_claim;

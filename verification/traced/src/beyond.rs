@@ -64,7 +64,7 @@ fn filter_beyond<P: PairShape>(of: &str, text: &mut String) {
 }
 
 /// Writes the proofs of a round.
-fn advance() -> String {
+pub(crate) fn advance() -> String {
     let mut text = String::from(ADVANCE_HEAD);
     proofs_beyond("a_vertex_and_a_face", Corners::of_vertex_face, &mut text);
     proofs_beyond("two_edges", Corners::of_edge_edge, &mut text);

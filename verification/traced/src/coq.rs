@@ -103,7 +103,7 @@ fn boxes() -> String {
     text
 }
 
-fn advance() -> String {
+pub(crate) fn advance() -> String {
     let mut text = String::from(ADVANCE_HEAD);
     constants::<f32>("binary32", &mut text);
     constants::<f64>("binary64", &mut text);

@@ -14,6 +14,8 @@ mod beyond;
 pub mod coq;
 pub mod gappa;
 mod narrowed;
+mod programs;
+mod runs;
 pub mod symbols;
 
 /// A file that a prover reads: its name and its text.
@@ -45,6 +47,14 @@ impl Prover {
         match self {
             Self::Gappa => gappa::scripts(),
             Self::Coq => [coq::files(), beyond::files()].concat(),
+        }
+    }
+
+    /// Returns the texts that the prover checks itself, so that nobody has to accept them: programs of the terms, and runs.
+    pub fn checked_texts(self) -> Vec<Text> {
+        match self {
+            Self::Gappa => Vec::new(),
+            Self::Coq => vec![programs::file(), runs::file()],
         }
     }
 }

@@ -31,7 +31,7 @@ fn main() -> ExitCode {
 
 /// Writes the texts, which show the changes, and checks them.
 fn write(prover: Prover, folder: &Path) -> Result<(), String> {
-    for (name, text) in prover.texts() {
+    for (name, text) in [prover.texts(), prover.checked_texts()].concat() {
         let path = folder.join(name);
         fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
     }
