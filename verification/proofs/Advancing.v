@@ -55,16 +55,8 @@ Qed.
 Definition ahead pairs given t := exists w : Expressions.axis -> R, forall pair,
   In pair pairs -> 0 < sum3 (fun a => w a * exactly_at given pair a t).
 Section Step.
-Variable f : constants.
-Hypothesis fine : reasonable_constants f.
-Let ok : reasonable f := reasonable_base f fine.
-Variable env : environment f.
-Variable given : input -> R.
-Variable value_of : number -> value.
-Hypothesis run : execution f env value_of given.
-Variable pairs : list (nat * nat).
-Hypothesis in_range : says f env value_of (are_in_range pairs).
-Notation seen := (seen f env).
+Load "Setting.section".
+Load "InRange.section".
 Notation T n := (seen (given (Moment n))).
 Notation is_short := (is_short f env given).
 Notation exact_product := (exact_product f env given).
@@ -72,10 +64,10 @@ Notation along := (along f env given).
 
 Lemma bar_of k : is_short k -> is_bar f env given value_of pairs k (bar pairs k) 0.
 Proof.
-  intro short. destruct (bar_is_large f fine env given value_of run pairs in_range k short) as (B & E & rep & big &
+  intro short. destruct (within bar_is_large k short) as (B & E & rep & big &
     small).
   pose proof (G_4 f fine). assert (0 <= Errors.reach f * Errors.reach f) by (apply Rmult_le_pos; lra).
-  pose proof (size_bounds f fine env given value_of run pairs in_range k short) as (_ & _ & e0). pose proof (l_pos f).
+  pose proof (within size_bounds k short) as (_ & _ & e0). pose proof (l_pos f).
   exists B. split; [exact E|]. split; [exact rep|]. lra.
 Qed.
 Theorem held_is_ahead u : is_short 0 -> 0 <= T 0 <= 1 -> says f env value_of (held_for_the_pair pairs) ->
@@ -84,7 +76,7 @@ Proof.
   intros short time masks E t between tu.
   assert (two : value_of (Constant (Small 2)) = Number 2) by exact (run (Constant (Small 2))).
   assert (s2 : seen 2 = 2). { apply seen_of_normal. rewrite Rabs_pos_eq by lra. pose proof (l_small f ok). lra. }
-  destruct (held_corners f fine env given value_of run pairs in_range 0 (bar pairs 0) 0 0 _ _ 2 short time (bar_of 0
+  destruct (within held_corners 0 (bar pairs 0) 0 0 _ _ 2 short time (bar_of 0
     short) masks two ltac:(lra) s2)
     as (u' & E' & _ & _ & all). unfold held_until_the_end in E. rewrite E' in E. injection E as ->.
   exists (along 0). intros pair inside. apply (all pair t inside between tu).
@@ -109,11 +101,11 @@ Proof.
       greater f env (value_of (middle 0 1 1 0 pair)) (value_of (Sum (bar pairs 0) (bar pairs 1))))
     ltac:(cbn -[is_ahead middle bar]; tauto) pairs _ masks) as [_ all].
   exists (fun a => (1 - s) * along 0 a + s * along 1 a). intros pair inside. destruct (all pair inside) as (A & C & B).
-  apply (ahead_at f fine env given value_of run pairs in_range 0 _ 0 pair 0 inside short0 ltac:(lra) (bar_of 0 short0))
+  apply (within ahead_at 0 _ 0 pair 0 inside short0 ltac:(lra) (bar_of 0 short0))
     in A.
-  apply (ahead_at f fine env given value_of run pairs in_range 1 _ 1 pair 0 inside short1 ltac:(lra) (bar_of 1 short1))
+  apply (within ahead_at 1 _ 1 pair 0 inside short1 ltac:(lra) (bar_of 1 short1))
     in C.
-  apply (middle_coefficient f fine env given value_of run pairs in_range 0 _ 0 1 1 _ 0 0 pair inside short0 short1
+  apply (within middle_coefficient 0 _ 0 1 1 _ 0 0 pair inside short0 short1
     ltac:(lra) ltac:(lra)
     (bar_of 0 short0) (bar_of 1 short1)) in B.
   replace (sum3 _) with ((1 - s) ^ 2 * exact_product 0 pair (T 0) + (1 - s) * s * (exact_product 0 pair (T 1) +
@@ -144,14 +136,14 @@ Proof.
     ltac:(cbn -[is_ahead middle bar]; tauto) pairs _ masks) as [_ all].
   exists (fun a => (1 - s) ^ 2 * along 0 a + (1 - s) * s * along 1 a + s ^ 2 * along 2 a). intros pair inside.
   destruct (all pair inside) as (A & D & B & C).
-  apply (ahead_at f fine env given value_of run pairs in_range 0 _ 0 pair 0 inside short0 ltac:(lra) (bar_of 0 short0))
+  apply (within ahead_at 0 _ 0 pair 0 inside short0 ltac:(lra) (bar_of 0 short0))
     in A.
-  apply (ahead_at f fine env given value_of run pairs in_range 2 _ 1 pair 0 inside short2 ltac:(lra) (bar_of 2 short2))
+  apply (within ahead_at 2 _ 1 pair 0 inside short2 ltac:(lra) (bar_of 2 short2))
     in D.
-  apply (middle_coefficient f fine env given value_of run pairs in_range 0 _ 0 1 1 _ 0 0 pair inside short0 short1
+  apply (within middle_coefficient 0 _ 0 1 1 _ 0 0 pair inside short0 short1
     ltac:(lra) ltac:(lra)
     (bar_of 0 short0) (bar_of 1 short1)) in B.
-  apply (middle_coefficient f fine env given value_of run pairs in_range 1 _ 0 1 2 _ 0 0 pair inside short1 short2
+  apply (within middle_coefficient 1 _ 0 1 2 _ 0 0 pair inside short1 short2
     ltac:(lra) ltac:(lra)
     (bar_of 1 short1) (bar_of 2 short2)) in C.
   replace (sum3 _) with (exact_product 0 pair (T 0) * (1 - s) ^ 3 + (exact_product 0 pair (T 1) + exact_product 1 pair

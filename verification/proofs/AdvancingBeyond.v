@@ -55,23 +55,15 @@ Definition ahead s pairs given t := exists w : Expressions.axis -> R, forall pai
   In pair pairs -> s * norm w < sum3 (fun a => w a * exactly_at given pair a t).
 Definition point_of (w : Expressions.axis -> R) := Point (w Expressions.X) (w Expressions.Y) (w Expressions.Z_).
 Section Step.
-Variable f : constants.
-Hypothesis fine : reasonable_constants f.
-Let ok : reasonable f := reasonable_base f fine.
-Variable env : environment f.
-Variable given : input -> R.
-Variable value_of : number -> value.
-Hypothesis run : execution f env value_of given.
-Variable pairs : list (nat * nat).
-Hypothesis in_range : says f env value_of (are_in_range pairs).
-Notation seen := (seen f env).
+Load "Setting.section".
+Load "InRange.section".
 Notation T n := (seen (given (Moment n))).
 Notation is_short := (is_short f env given).
 Notation exact_product := (exact_product f env given).
 Notation along := (along f env given).
 Notation s := (given (Length Separation)).
 Hypothesis separation : lam f <= s <= power (largest_extent f).
-Notation bar_of := (bar_beyond_is_bar f fine env given value_of run separation pairs in_range).
+Notation bar_of := (here bar_beyond_is_bar separation pairs in_range).
 Lemma s_pos : 0 < s. Proof. pose proof (lam_pos f). lra. Qed.
 Theorem held_is_ahead u : is_short 0 -> 0 <= T 0 <= 1 -> says f env value_of (held_for_the_pair pairs) ->
   value_of (held_until_the_end pairs) = Number u -> forall t, T 0 <= t <= 1 -> t <= u -> ahead s pairs given t.
@@ -79,7 +71,7 @@ Proof.
   intros short time masks E t between tu.
   assert (two : value_of (Constant (Small 2)) = Number 2) by exact (run (Constant (Small 2))).
   assert (s2 : seen 2 = 2). { apply seen_of_normal. rewrite Rabs_pos_eq by lra. pose proof (l_small f ok). lra. }
-  destruct (held_corners f fine env given value_of run pairs in_range 0 (barred pairs 0) 0 _ _ _ 2 short time (bar_of
+  destruct (within held_corners 0 (barred pairs 0) 0 _ _ _ 2 short time (bar_of
     0%nat
     short) masks two ltac:(lra) s2)
     as (u' & E' & _ & _ & all). unfold held_until_the_end in E. rewrite E' in E. injection E as ->.
@@ -100,11 +92,11 @@ Proof.
       greater f env (value_of (middle 0 1 1 0 pair)) (value_of (Sum (barred pairs 0) (barred pairs 1))))
     ltac:(cbn -[is_ahead middle barred]; tauto) pairs _ masks) as [_ all].
   exists (fun a => (1 - r) * along 0 a + r * along 1 a). intros pair inside. destruct (all pair inside) as (A & C & B).
-  apply (ahead_at f fine env given value_of run pairs in_range 0 _ 0 pair _ inside short0 ltac:(lra) (bar_of 0%nat
+  apply (within ahead_at 0 _ 0 pair _ inside short0 ltac:(lra) (bar_of 0%nat
     short0)) in A.
-  apply (ahead_at f fine env given value_of run pairs in_range 1 _ 1 pair _ inside short1 ltac:(lra) (bar_of 1%nat
+  apply (within ahead_at 1 _ 1 pair _ inside short1 ltac:(lra) (bar_of 1%nat
     short1)) in C.
-  apply (middle_coefficient f fine env given value_of run pairs in_range 0 _ _ 1 1 _ _ 0 pair inside short0 short1
+  apply (within middle_coefficient 0 _ _ 1 1 _ _ 0 pair inside short0 short1
     ltac:(lra) ltac:(lra) (bar_of 0%nat short0) (bar_of 1%nat short1)) in B.
   pose proof (norm_sum (fun a => (1 - r) * along 0 a) (fun a => r * along 1 a)) as tri. cbv beta in tri.
   rewrite !norm_scaled in tri by lra. apply (Rmult_le_compat_l s) in tri; [|lra].
@@ -145,13 +137,13 @@ Proof.
     ltac:(cbn -[is_ahead middle barred]; tauto) pairs _ masks) as [_ all].
   exists (fun a => (1 - r) ^ 2 * along 0 a + ((1 - r) * r * along 1 a + r ^ 2 * along 2 a)). intros pair inside.
   destruct (all pair inside) as (A & D & B & C).
-  apply (ahead_at f fine env given value_of run pairs in_range 0 _ 0 pair _ inside short0 ltac:(lra) (bar_of 0%nat
+  apply (within ahead_at 0 _ 0 pair _ inside short0 ltac:(lra) (bar_of 0%nat
     short0)) in A.
-  apply (ahead_at f fine env given value_of run pairs in_range 2 _ 1 pair _ inside short2 ltac:(lra) (bar_of 2%nat
+  apply (within ahead_at 2 _ 1 pair _ inside short2 ltac:(lra) (bar_of 2%nat
     short2)) in D.
-  apply (middle_coefficient f fine env given value_of run pairs in_range 0 _ _ 1 1 _ _ 0 pair inside short0 short1
+  apply (within middle_coefficient 0 _ _ 1 1 _ _ 0 pair inside short0 short1
     ltac:(lra) ltac:(lra) (bar_of 0%nat short0) (bar_of 1%nat short1)) in B.
-  apply (middle_coefficient f fine env given value_of run pairs in_range 1 _ _ 1 2 _ _ 0 pair inside short1 short2
+  apply (within middle_coefficient 1 _ _ 1 2 _ _ 0 pair inside short1 short2
     ltac:(lra) ltac:(lra) (bar_of 1%nat short1) (bar_of 2%nat short2)) in C.
   assert (q0 : 0 <= (1 - r) ^ 2) by (apply pow_le; lra). assert (q1 : 0 <= (1 - r) * r) by (apply Rmult_le_pos; lra).
   assert (q2 : 0 <= r ^ 2) by (apply pow_le; lra).

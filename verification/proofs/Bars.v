@@ -9,42 +9,18 @@ Import ListNotations.
 Open Scope R_scope.
 
 Section Bars.
-Variable f : constants.
-Hypothesis fine : reasonable_constants f.
-Let ok : reasonable f := reasonable_base f fine.
-Variable env : environment f.
-Variable given : input -> R.
-Variable value_of : number -> value.
-Hypothesis run : execution f env value_of given.
-Variable pairs : list (nat * nat).
-Hypothesis in_range : says f env value_of (are_in_range pairs).
-Notation l := (lam f).
-Notation e1 := (eps f).
-Notation q := (Bounds.q f).
-Notation u := (unit_roundoff f).
-Notation Rd := (rounded env).
-Notation seen := (seen f env).
-Notation holds := (holds f).
-Notation operand := (operand f env).
-Notation G := (Errors.reach f).
-Notation mu := (power (extent_underflow f)).
+Load "Setting.section".
+Load "InRange.section".
 Notation L := (power (largest_extent f)).
-Notation m := (m f env value_of pairs).
-Notation p := (p f env value_of pairs).
-Notation M a := (Rd (m a + mu)).
-Notation exactly := (exactly given).
 Notation vanishing := (power (length_underflow f)).
 Notation X_ := Expressions.X. Notation Y_ := Expressions.Y. Notation Z_ := Expressions.Z_.
 
 Notation constant := (constant f env given value_of run).
-Notation seen_holds := (seen_operand f env _ _ _ _ _).
-Notation product_holds := (holds_product f ok env _ _ _ _ _ _ _ _ _ _ _).
-Notation sum_holds op := (holds_sum f ok env op _ _ _ _ _ _ _ _ _ _ _).
-Notation M_bounds := (M_bounds f fine env given value_of run pairs in_range).
-Notation p_pos := (p_pos f fine env given value_of run pairs in_range).
-Notation p_small := (p_small f fine env given value_of run pairs in_range).
-Notation p_M := (p_M f fine env given value_of run pairs in_range).
-Notation p_product := (p_product f fine env given value_of run pairs in_range).
+Notation M_bounds := (within M_bounds).
+Notation p_pos := (within p_pos).
+Notation p_small := (within p_small).
+Notation p_M := (within p_M).
+Notation p_product := (within p_product).
 Notation beside := (beside f env value_of pairs).
 Notation run_sum := (run_sum f env given value_of run).
 Notation run_product := (run_product f env given value_of run).
@@ -72,8 +48,8 @@ Lemma side_holds b time a : In b pairs -> holds (value_of (component (side pp b 
   (2 * p a) 2 9.1.
 Proof.
   intro hb. destruct inside as (hp & _). unfold side. rewrite component_each.
-  pose proof (corner_operand f fine env given value_of run pairs in_range pp time a hp) as o.
-  pose proof (corner_operand f fine env given value_of run pairs in_range b time a hb) as o'.
+  pose proof (within corner_operand pp time a hp) as o.
+  pose proof (within corner_operand b time a hb) as o'.
   pose proof (p_pos a). pose proof (p_small a). pose proof (G_1 f fine). pose proof (G_4 f fine).
   pose proof (run (Minus (component (difference pp time) a) (component (difference b time) a))) as h. cbn in h.
   pose proof (sum_holds Rminus 1 ltac:(auto) h o o' ltac:(lia) ltac:(lia) ltac:(lia) ltac:(lra) ltac:(lra)) as s.
@@ -87,7 +63,7 @@ Proof.
   pose proof (seen_holds (side_holds b Expressions.Start a hb)) as o.
   pose proof (seen_holds (side_holds b Expressions.End a hb)) as o'.
   set (x := component (side pp b Expressions.Start) a) in *. set (y := component (side pp b Expressions.End) a) in *.
-  pose proof (rest_operand f fine env given value_of run t T moment in_step) as ro.
+  pose proof (here rest_operand t T moment in_step) as ro.
   pose proof (moment_operand_ f env value_of t T moment in_step) as mo.
   assert (t0 : 0 <= p a * (1 - T) <= p a) by (split; [apply Rmult_le_pos; lra|]; rewrite <- (Rmult_1_r (p a)) at 2;
     apply Rmult_le_compat_l; lra).
@@ -187,8 +163,8 @@ Proof.
   pose proof (p_pos X_). pose proof (p_pos Y_). pose proof (p_pos Z_).
   assert (e2 : 0 <= e1 * e1 <= / 8388608 * e1) by (split; [apply Rmult_le_pos; lra|apply Rmult_le_compat_r; lra]).
   assert (up : forall a, 7.99 * l <= e1 * M a).
-  { intro a. pose proof (M_low f fine env given value_of run pairs in_range a) as low.
-    pose proof (m_pos f fine env given value_of run pairs in_range a) as m0. pose proof (mu_large f fine) as ml.
+  { intro a. pose proof (within M_low a) as low.
+    pose proof (within m_pos a) as m0. pose proof (mu_large f fine) as ml.
     pose proof (mu_pos f). pose proof (mu_1 f fine).
     apply (Rmult_le_compat_l e1) in low; [|lra]. assert (0 <= e1 * m a) by (apply Rmult_le_pos; lra).
     assert (e1 * (e1 * m a) <= / 8388608 * (e1 * m a)) by (apply Rmult_le_compat_r; lra).
@@ -218,7 +194,7 @@ Proof.
 Qed.
 Lemma extents_squared : forall a, 0 <= p a <= 1.00001 * L.
 Proof.
-  intro a. pose proof (extent_and_differences f fine env given value_of run pairs in_range a) as (_ & _ & ML & _).
+  intro a. pose proof (within extent_and_differences a) as (_ & _ & ML & _).
   pose proof (p_M a). pose proof (p_pos a). pose proof (M_bounds a). pose proof (l_pos f). pose proof (e_small f ok).
   pose proof (e_pos f). assert (3 * e1 * M a <= 0.00001 * M a) by (apply Rmult_le_compat_r; lra). lra.
 Qed.
@@ -278,7 +254,7 @@ Proof.
       pose proof (Rabs_pos (v a)). apply Rmult_le_compat; auto. }
     assert (0 <= L * L * (L * L)) by (repeat apply Rmult_le_pos; lra).
     pose proof (sq X_). pose proof (sq Y_). pose proof (sq Z_). unfold squared, sum3. lra. }
-  destruct (length_value f fine env given value_of run (normal_vector i) v Ev squares) as (r & Er & low & high).
+  destruct (here length_value (normal_vector i) v Ev squares) as (r & Er & low & high).
   exists r. split; [exact Er|].
   assert (eb : e1 * (beside X_ + beside Y_ + beside Z_) <= e1 * ((1 + 7 * e1) * A)) by (apply Rmult_le_compat_l; lra).
   assert (eA : 0 <= e1 * A <= / 8388608 * A) by (split; [apply Rmult_le_pos; lra|apply Rmult_le_compat_r; lra]).

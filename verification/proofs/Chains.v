@@ -356,38 +356,36 @@ Definition clipping_advances code (f : constants) := exists env place given valu
   exists u, value_of (Advancing.until_volume code) = Number u /\ 0 < u.
 
 Section OfAPair.
-Variables prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ : Z.
-Context (p0 : Prec_gt_0 prec) (pe : Prec_lt_emax prec emax).
-Notation f := (constants_of prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_).
+Load "Format.section".
 Hypothesis fine : Corners.reasonable_constants f.
 Variable place_ : nat -> Expressions.time -> Expressions.axis -> Z.
 Hypothesis small : is_small place_.
 Variable code : Advancing.proofs.
 Notation input_ := (fun i => whole prec emax p0 pe (halves place_ i) (-1)).
-Definition is_true m := match holds prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe input_ m with
+Definition is_true m := match in_format holds p0 pe input_ m with
   Some b => b | None => false
   end.
 Definition is_beyond n e := is_true (Greater e (Constant (Small n))) &&
-  match run prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe input_ e with Some _ => true | None =>
+  match in_format run p0 pe input_ e with Some _ => true | None =>
     false end.
 Lemma input_is i : B2R (input_ i) = IZR (halves place_ i) / 2 /\ is_finite (input_ i) = true.
 Proof.
-  destruct (whole_is prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe fine (halves place_ i) (-1))
+  destruct (in_format whole_is p0 pe fine (halves place_ i) (-1))
     as [E fin];
     [apply small|lia|]. split; [|exact fin]. rewrite E. unfold F2R; cbn [Fnum Fexp bpow radix_val radix2]. cbn. lra.
 Qed.
 Notation given := (fun i => B2R (input_ i)).
-Notation env_ := (env prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ fine).
-Notation nearest_ := (nearest prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ fine given).
+Notation env_ := (in_format env fine).
+Notation nearest_ := (in_format nearest fine given).
 Lemma what_is_computed : is_true (Advancing.is_in_range code) = true ->
   computes code f env_ (fun c => given (Place c)) given nearest_ /\ (forall m, is_true m = true -> says f env_ nearest_ m) /\
   (forall n e, is_beyond n e = true -> exists u, nearest_ e = Number u /\ IZR n < u).
 Proof.
   intro range. assert (E : execution f env_ nearest_ given) by (apply an_execution_exists; assumption).
-  pose proof (run_is_nearest prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe fine given input_
+  pose proof (in_format run_is_nearest p0 pe fine given input_
     (fun i => eq_refl)) as [numbers _].
   assert (truth : forall m, is_true m = true -> says f env_ nearest_ m).
-  { intros m h. apply (what_holds_is_said prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe fine
+  { intros m h. apply (in_format what_holds_is_said p0 pe fine
     given input_ (fun i => eq_refl)). unfold is_true in h. destruct (holds _ _ _ _ _ _ _ _ _) as [[|]|]; congruence. }
   assert (value_ : forall i, given i = IZR (halves place_ i) / 2) by (intro i; apply input_is).
   split; [|split; [exact truth|]].

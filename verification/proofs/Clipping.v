@@ -35,24 +35,7 @@ Definition next_time t part := Product (Sum t (Product (Product part (Minus one 
   (less_roundoffs 8).
 
 Section Clipping.
-Variable f : constants.
-Hypothesis fine : reasonable_constants f.
-Let ok : reasonable f := reasonable_base f fine.
-Variable env : environment f.
-Variable given : input -> R.
-Variable value_of : number -> value.
-Hypothesis run : execution f env value_of given.
-Notation l := (lam f).
-Notation e1 := (eps f).
-Notation q := (Bounds.q f).
-Notation Rd := (rounded env).
-Notation seen := (seen f env).
-Notation holds := (holds f).
-Notation operand := (operand f env).
-Notation G := (Errors.reach f).
-Notation mu := (power (extent_underflow f)).
-Notation eta := (power (underflow f)).
-Notation u := (unit_roundoff f).
+Load "Setting.section".
 Notation constant := (constant f env given value_of run).
 
 (* Four control values, as they are seen, at most w. *)
@@ -464,7 +447,7 @@ Proof.
   assert (l * (2 * a) <= 0.001 * a) by (assert (l * (2 * a) <= / 1152921504606846976 * (2 * a)) by (apply
     Rmult_le_compat_r; lra); lra).
   pose proof (run (Product (Minus one t) x)) as h. cbn -[one] in h.
-  pose proof (holds_product f ok env _ _ _ _ _ _ _ _ _ _ _ h (rest_operand f fine env given value_of run t T time_
+  pose proof (holds_product f ok env _ _ _ _ _ _ _ _ _ _ _ h (here rest_operand t T time_
     in_step) hx ltac:(lia) ltac:(lra) ltac:(lra)) as r.
   pose proof (run (Product t y)) as h'. cbn in h'.
   pose proof (holds_product f ok env _ _ _ _ _ _ _ _ _ _ _ h' (moment_operand_ f env value_of t T time_ in_step) hy

@@ -53,22 +53,7 @@ Definition product_error pairs w := Sum (Product (roundoffs 20) (dot_ (magnitude
   Underflow).
 
 Section Corners.
-Variable f : constants.
-Hypothesis fine : reasonable_constants f.
-Let ok : reasonable f := reasonable_base f fine.
-Variable env : environment f.
-Variable given : input -> R.
-Variable value_of : number -> value.
-Hypothesis run : execution f env value_of given.
-Notation l := (lam f).
-Notation e1 := (eps f).
-Notation q := (Bounds.q f).
-Notation Rd := (rounded env).
-Notation seen := (seen f env).
-Notation holds := (holds f).
-Notation operand := (operand f env).
-Notation G := (Errors.reach f).
-Notation mu := (power (extent_underflow f)).
+Load "Setting.section".
 Notation L := (power (largest_extent f)).
 
 Lemma G_4 : 4 <= G.

@@ -8,49 +8,23 @@ Import ListNotations.
 Open Scope R_scope.
 
 Section Directions.
-Variable f : constants.
-Hypothesis fine : reasonable_constants f.
-Let ok : reasonable f := reasonable_base f fine.
-Variable env : environment f.
-Variable given : input -> R.
-Variable value_of : number -> value.
-Hypothesis run : execution f env value_of given.
-Variable pairs : list (nat * nat).
-Hypothesis in_range : says f env value_of (are_in_range pairs).
-Notation l := (lam f).
-Notation e1 := (eps f).
-Notation q := (Bounds.q f).
-Notation Rd := (rounded env).
-Notation seen := (seen f env).
-Notation holds := (holds f).
-Notation operand := (operand f env).
-Notation G := (Errors.reach f).
-Notation mu := (power (extent_underflow f)).
-Notation eta := (power (underflow f)).
-Notation m := (m f env value_of pairs).
-Notation p := (p f env value_of pairs).
-Notation M a := (Rd (m a + mu)).
-Notation at_ := (exactly_at given).
-Notation exactly := (exactly given).
+Load "Setting.section".
+Load "InRange.section".
 
-Notation p_pos := (p_pos f fine env given value_of run pairs in_range).
-Notation p_small := (p_small f fine env given value_of run pairs in_range).
-Notation m_pos := (m_pos f fine env given value_of run pairs in_range).
-Notation m_small := (m_small f fine env given value_of run pairs in_range).
-Notation M_low := (M_low f fine env given value_of run pairs in_range).
-Notation dot_holds := (dot_holds f fine env given value_of run).
+Notation p_pos := (within p_pos).
+Notation p_small := (within p_small).
+Notation m_pos := (within m_pos).
+Notation m_small := (within m_small).
+Notation M_low := (within M_low).
+Notation dot_holds := (here dot_holds).
 Notation constant := (constant f env given value_of run).
 Notation normal := (operand_normal f env).
-Notation seen_holds := (seen_operand f env _ _ _ _ _).
-Notation product_holds := (holds_product f ok env _ _ _ _ _ _ _ _ _ _ _).
-Notation sum_holds op := (holds_sum f ok env op _ _ _ _ _ _ _ _ _ _ _).
-Notation corner_holds := (corner_holds f fine env given value_of run pairs in_range).
-Notation difference_holds := (difference_holds f fine env given value_of run pairs in_range).
-Notation u := (unit_roundoff f).
+Notation corner_holds := (within corner_holds).
+Notation difference_holds := (within difference_holds).
 
 Lemma M_bounds a : l <= M a <= / 4 * G.
 Proof.
-  pose proof (M_low a). pose proof (extent_and_differences f fine env given value_of run pairs in_range a) as (_ & m0 &
+  pose proof (M_low a). pose proof (within extent_and_differences a) as (_ & m0 &
     ML & _).
   pose proof (L_G f fine). pose proof (e_small f ok). pose proof (mu_l f fine). pose proof (l_pos f).
     pose proof (e_pos f).
@@ -153,7 +127,7 @@ Proof.
       [apply operand_exact|].
     rewrite seen_magnitude. apply Rabs_pos. }
   assert (oe : forall a, operand (value_of (component (extent pairs) a)) (M a) (M a) 0 0).
-  { intro a. rewrite (extent_value f fine env given value_of run pairs in_range a). pose proof (M_bounds a).
+  { intro a. rewrite (within extent_value a). pose proof (M_bounds a).
     rewrite <- (Rabs_pos_eq (M a)) at 3 by lra. apply normal. rewrite Rabs_pos_eq; lra. }
   assert (small : sum3 (fun a => Rabs (along k a) * M a) <= omega f / 4) by (fold S; lra).
   assert (none : sum3 (fun a => Rabs (along k a) * 0 + 0 * M a + l * (0 * 0)) <= omega f / 4) by (unfold sum3; lra).

@@ -61,20 +61,7 @@ Proof.
 Qed.
 
 Section Beyond.
-Variable f : constants.
-Hypothesis fine : reasonable_constants f.
-Let ok : reasonable f := reasonable_base f fine.
-Variable env : environment f.
-Variable given : input -> R.
-Variable value_of : number -> value.
-Hypothesis run : execution f env value_of given.
-Notation l := (lam f).
-Notation e1 := (eps f).
-Notation u := (unit_roundoff f).
-Notation Rd := (rounded env).
-Notation seen := (seen f env).
-Notation G := (Errors.reach f).
-Notation mu := (power (extent_underflow f)).
+Load "Setting.section".
 Notation safe := (power (safe_square f)).
 Notation along := (along f env given).
 Notation is_short := (is_short f env given).
@@ -99,7 +86,7 @@ Qed.
 Lemma roundoffs_value n : (1 <= n <= 255)%Z -> exists x, value_of (roundoffs n) = Number x /\
   (1 - e1) * (IZR n * u) <= x <= (1 + e1) * (IZR n * u).
 Proof.
-  intro n255. destruct (roundoffs_holds f fine env given value_of run n n255) as (x & E & _ & d & _ & _).
+  intro n255. destruct (here roundoffs_holds n n255) as (x & E & _ & d & _ & _).
   pose proof (e_pos f). pose proof (e_small f ok). pose proof (l_pos f). pose proof (l_e f fine).
   pose proof (eps_twice f) as eu. destruct n255 as [n1 n2]. apply IZR_le in n1. apply IZR_le in n2.
   pose proof (run_product (Constant (Small n)) (Constant UnitRoundoff)) as h. rewrite !run_constant in h.
@@ -155,7 +142,7 @@ Proof.
   { unfold W, squared, sum3, X, Y, Z. rewrite <- !Rabs_mult, !Rabs_pos_eq by apply Rle_0_sqr. reflexivity. }
   assert (D : exists Q, value_of (dot_ (direction k) (direction k)) = Number Q /\ Rabs (Q - W) <= 3.01 * e1 * W + 9.2 *
     l).
-  { pose proof (dot_holds f fine env given value_of run (direction k) (direction k) (along k) (along k) (fun a => Rabs
+  { pose proof (here dot_holds (direction k) (direction k) (along k) (along k) (fun a => Rabs
       (along k a)) (fun a => Rabs (along k a)) (fun _ => 0) (fun _ => 0) 0 0 (along_operand f env given value_of run k)
         (along_operand f env given value_of run k) ltac:(lia)) as d.
     cbv zeta in d. unfold sum3 in d. fold X Y Z in d.
@@ -325,8 +312,8 @@ Proof.
   intro short. pose proof (e_pos f) as e0. pose proof (e_small f ok) as es. pose proof (l_pos f). pose proof (l_small f
     ok). pose proof (omega_pos f fine). pose proof (G_4 f fine) as G4. pose proof (G_2 f fine) as G2.
   assert (GG : 4 * G <= G * G) by (apply Rmult_le_compat_r; lra).
-  destruct (bar_is_large f fine env given value_of run pairs in_range k short) as (T & ET & _ & [t1 t2]).
-  pose proof (size_bounds f fine env given value_of run pairs in_range k short) as (_ & _ & er0).
+  destruct (here bar_is_large pairs in_range k short) as (T & ET & _ & [t1 t2]).
+  pose proof (here size_bounds pairs in_range k short) as (_ & _ & er0).
   destruct (clearance_value k short) as (x & Ex & [x0 xG] & xl).
   pose proof (run_sum (bar pairs k) (clearance k)) as h. fold (bar_beyond pairs k) in h. rewrite ET, Ex in h.
   unfold sum in h. cbn in h. rewrite (seen_large f env T) in h by lra. destruct (seen_low f env x x0) as [s0 _].

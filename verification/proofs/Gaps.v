@@ -48,33 +48,14 @@ Theorem traced_terms : Gap.a_vertex_and_a_face.keeps = keeps [0%nat] [1%nat; 2%n
 Proof. repeat split; vm_compute; reflexivity. Qed.
 
 Section Gaps.
-Variable f : constants.
-Hypothesis fine : reasonable_constants f.
-Let ok : reasonable f := reasonable_base f fine.
-Variable env : environment f.
-Variable given : input -> R.
-Variable value_of : number -> value.
-Hypothesis run : execution f env value_of given.
-Notation l := (lam f).
-Notation e1 := (eps f).
-Notation q := (Bounds.q f).
-Notation Rd := (rounded env).
-Notation seen := (seen f env).
-Notation holds := (holds f).
-Notation operand := (operand f env).
-Notation G := (Errors.reach f).
-Notation eta := (power (underflow f)).
-Notation u := (unit_roundoff f).
+Load "Setting.section".
 Notation m := (given (Length Separation)).
 Notation B := (given (Length LargestCoordinate)).
 Hypothesis the_slack : given (Length Slack) = sigma.
 Definition along a := seen (given (Along 0 a)).
 Definition squared := sum3 (fun a => along a * along a).
-Notation dot_holds := (dot_holds f fine env given value_of run).
+Notation dot_holds := (here dot_holds).
 Notation constant := (constant f env given value_of run).
-Notation seen_holds := (seen_operand f env _ _ _ _ _).
-Notation product_holds := (holds_product f ok env _ _ _ _ _ _ _ _ _ _ _).
-Notation sum_holds op := (holds_sum f ok env op _ _ _ _ _ _ _ _ _ _ _).
 
 Lemma input_operand i X p n a : value_of (Input i) = Number X -> near f (seen X) X p n a ->
   operand (value_of (Input i)) X p n a.
@@ -283,7 +264,7 @@ Proof.
   assert (uB : 0 <= 64 * u * B <= 0.001 * G) by (split; [repeat apply Rmult_le_pos; lra|]; assert (64 * u * B <= 64 *
     u * (/ 4 * G)) by (apply Rmult_le_compat_l; lra); assert (u * G <= / 16777216 * G) by (apply Rmult_le_compat_r;
       lra); lra).
-  pose proof (product_holds h1 (seen_holds (Directions.roundoffs_holds f fine env given value_of run 64%Z ltac:(lia)))
+  pose proof (product_holds h1 (seen_holds (here Directions.roundoffs_holds 64%Z ltac:(lia)))
     oB ltac:(lia) ltac:(lra) ltac:(lra)) as r1.
   assert (on : operand (value_of (Constant Underflow)) eta eta 0 0).
   { rewrite constant. cbn [constant_value]. rewrite <- (Rabs_pos_eq eta) at 3 by lra. apply operand_normal.
@@ -377,7 +358,7 @@ Proof.
   assert (uB : 0 <= 64 * u * B <= 0.001 * G) by (split; [repeat apply Rmult_le_pos; lra|]; assert (64 * u * B <= 64 *
     u * (/ 4 * G)) by (apply Rmult_le_compat_l; lra); assert (u * G <= / 16777216 * G) by (apply Rmult_le_compat_r;
       lra); lra).
-  pose proof (product_holds h1 (seen_holds (Directions.roundoffs_holds f fine env given value_of run 64%Z ltac:(lia)))
+  pose proof (product_holds h1 (seen_holds (here Directions.roundoffs_holds 64%Z ltac:(lia)))
     (length_ LargestCoordinate B0) ltac:(lia) ltac:(lra) ltac:(lra)) as r1.
   assert (on : operand (value_of (Constant Underflow)) eta eta 0 0).
   { rewrite constant. cbn [constant_value]. rewrite <- (Rabs_pos_eq eta) at 3 by lra. apply operand_normal.

@@ -9,30 +9,8 @@ Import ListNotations.
 Open Scope R_scope.
 
 Section Held.
-Variable f : constants.
-Hypothesis fine : reasonable_constants f.
-Let ok : reasonable f := reasonable_base f fine.
-Variable env : environment f.
-Variable given : input -> R.
-Variable value_of : number -> value.
-Hypothesis run : execution f env value_of given.
-Variable pairs : list (nat * nat).
-Hypothesis in_range : says f env value_of (are_in_range pairs).
-Notation l := (lam f).
-Notation e1 := (eps f).
-Notation q := (Bounds.q f).
-Notation Rd := (rounded env).
-Notation seen := (seen f env).
-Notation holds := (holds f).
-Notation operand := (operand f env).
-Notation G := (Errors.reach f).
-Notation mu := (power (extent_underflow f)).
-Notation eta := (power (underflow f)).
-Notation m := (m f env value_of pairs).
-Notation p := (p f env value_of pairs).
-Notation M a := (Rd (m a + mu)).
-Notation at_ := (exactly_at given).
-Notation exactly := (exactly given).
+Load "Setting.section".
+Load "InRange.section".
 
 Notation constant := (constant f env given value_of run).
 Notation along := (along f env given).
@@ -41,10 +19,10 @@ Notation sizes := (sizes f env given value_of pairs).
 Notation lengths := (lengths f env given).
 Notation err := (err f env given value_of pairs).
 Notation exact_product := (exact_product f env given).
-Notation size_bounds := (size_bounds f fine env given value_of run pairs in_range).
-Notation end_holds := (product_holds_at_end f fine env given value_of run pairs in_range).
-Notation moment_holds := (product_holds_at f fine env given value_of run pairs in_range).
-Notation err_covers := (err_covers f fine env given value_of run pairs in_range).
+Notation size_bounds := (within size_bounds).
+Notation end_holds := (within product_holds_at_end).
+Notation moment_holds := (within product_holds_at).
+Notation err_covers := (within err_covers).
 Notation q_error := (q_error f fine).
 Notation greater_holds := (greater_holds f env).
 Notation greater_than := (greater_than f env).
@@ -170,7 +148,7 @@ Proof.
     apply (result_number f ok env) in h; [exact h|]. eapply Rle_trans; [apply Rabs_triang|]. rewrite Rabs_Ropp. lra. }
   set (N := Rd (seen fs - B)) in *. set (Dn := Rd (seen fs - FE)) in *.
   assert (D0 : 0 <= Dn) by (apply rounded_positive; lra). assert (ND : N <= Dn) by (apply (monotone env); lra).
-  destruct (less_roundoffs_value f fine env given value_of run) as (c & Ec & c0 & c1).
+  destruct (here less_roundoffs_value) as (c & Ec & c0 & c1).
   assert (sc : seen c = c) by (apply seen_of_normal; rewrite Rabs_pos_eq; lra).
   set (numerator := Minus (dot_ (direction k) (at_start pair)) b) in *.
   set (divisor := Minus (dot_ (direction k) (at_start pair)) (dot_ (direction k) (at_end pair))) in *.

@@ -38,9 +38,7 @@ Proof.
 Qed.
 
 Section OfAPair.
-Variables prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ : Z.
-Context (p0 : Prec_gt_0 prec) (pe : Prec_lt_emax prec emax).
-Notation f := (Chains.constants_of prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_).
+Load "Format.section".
 Hypothesis fine : Corners.reasonable_constants f.
 Notation facts := (Nearest.facts prec emax pe underflow_ largest_ (Corners.reasonable_base f fine)).
 Hypothesis roomy : (2 <= largest_)%Z.
@@ -73,25 +71,25 @@ Proof.
 Qed.
 Lemma whole_is n : (Z.abs n < 256)%Z -> B2R (whole n (-1)) = IZR n / 2 /\ is_finite (whole n (-1)) = true.
 Proof.
-  intro h. destruct (Chains.whole_is prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe fine n (-1))
+  intro h. destruct (in_format Chains.whole_is p0 pe fine n (-1))
     as [E fin]; [exact
     h|lia|]. split; [|exact fin]. rewrite E. unfold F2R; cbn [Fnum Fexp bpow radix_val radix2]. cbn. lra.
 Qed.
 Lemma limit_is e : (-100 <= e <= 100)%Z -> B2R (power_of_two e) = power e /\ is_finite (power_of_two e) = true.
 Proof.
   intro h. pose proof facts.
-  apply (Chains.exact_power prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe fine). lia.
+  apply (in_format Chains.exact_power p0 pe fine). lia.
 Qed.
-Definition computed m := match Chains.holds prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe input_
+Definition computed m := match in_format Chains.holds p0 pe input_
   m with
   | Some b => b | None => false end.
 Notation given := (fun i => B2R (input_ i)).
-Notation env_ := (Chains.env prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ fine).
-Notation nearest_ := (Chains.nearest prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ fine given).
+Notation env_ := (in_format Chains.env fine).
+Notation nearest_ := (in_format Chains.nearest fine given).
 Notation place := (fun c => given (Place c)).
 Lemma truth m : computed m = true -> says f env_ nearest_ m.
 Proof.
-  intro h. apply (Chains.what_holds_is_said prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe
+  intro h. apply (in_format Chains.what_holds_is_said p0 pe
     fine given input_ (fun i => eq_refl)). unfold computed in h. destruct (Chains.holds _ _ _ _ _ _ _ _ _) as
       [[|]|]; congruence.
 Qed.
@@ -124,7 +122,7 @@ Proof.
   split; [pose proof limit; lra|]. split; [now apply tested|now apply truth].
 Qed.
 (* The gap that is stored of this pair, computed; and a pair that lasts since that. *)
-Notation running := (Chains.run prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe input_).
+Notation running := (in_format Chains.run p0 pe input_).
 Theorem stored_if_computed code x : running code = Some x -> computed Gap.a_vertex_and_a_face.short = true ->
   (extent_ <= -100)%Z -> Gaps.is_stored f code place (fun a => given (Along 0 a)) (B2R x).
 Proof.
@@ -134,7 +132,7 @@ Proof.
   { cbn [input_]. rewrite E. split; [apply bpow_le; exact deep|]. change 1 with (bpow radix2 0). apply bpow_le. lia. }
   split; [exact asked|]. split; [now apply tested|]. split; [reflexivity|]. split; [exact fine|]. split; [exact least|].
   split; [apply least|].
-  destruct (Chains.run_is_nearest prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe fine given input_
+  destruct (in_format Chains.run_is_nearest p0 pe fine given input_
     (fun i => eq_refl)) as [numbers _]. destruct (numbers code x stored) as [Vx _].
   split; [exact Vx|]. symmetry. change (Machine.seen f env_ (B2R x)) with (B2R x).
   apply round_generic; [apply valid_rnd_N|]. exact (generic_format_B2R prec emax x).
@@ -150,7 +148,7 @@ Lemma what_is_computed code : computed (AdvancingBeyond.is_in_range code) = true
   computes code f env_ place given nearest_ /\ (forall m, computed m = true -> says f env_ nearest_ m) /\
   (forall n e, is_beyond n e = true -> exists u, nearest_ e = Number u /\ IZR n < u).
 Proof.
-  intro range. pose proof (Chains.run_is_nearest prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe fine
+  intro range. pose proof (in_format Chains.run_is_nearest p0 pe fine
     given input_ (fun i => eq_refl)) as [numbers _].
   assert (halves_ : forall i, (forall l, i <> Length l) -> given i = IZR (Chains.halves place_ i) / 2).
   { intros i no. destruct i as [l| | | |]; try (now destruct (no _ eq_refl)); apply whole_is; apply small. }

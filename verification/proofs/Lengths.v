@@ -29,18 +29,7 @@ Definition bar_of_length pairs length := Sum (error_of_volume pairs) (Product wi
   pairs))).
 
 Section Lengths.
-Variable f : constants.
-Hypothesis fine : reasonable_constants f.
-Let ok : reasonable f := reasonable_base f fine.
-Variable env : environment f.
-Variable given : input -> R.
-Variable value_of : number -> value.
-Hypothesis run : execution f env value_of given.
-Notation l := (lam f).
-Notation e1 := (eps f).
-Notation q := (Bounds.q f).
-Notation Rd := (rounded env).
-Notation seen := (seen f env).
+Load "Setting.section".
 Notation run_sum := (run_sum f env given value_of run).
 Notation run_product := (run_product f env given value_of run).
 Notation run_root := (run_root f env given value_of run).

@@ -110,17 +110,8 @@ Theorem traced_normals : Beyond.a_vertex_and_a_face.largest_normal = largest_nor
 Proof. split; vm_compute; reflexivity. Qed.
 
 Section Normals.
-Variable f : constants.
-Hypothesis fine : reasonable_constants f.
-Let ok : reasonable f := reasonable_base f fine.
-Variable env : environment f.
-Variable given : input -> R.
-Variable value_of : number -> value.
-Hypothesis run : execution f env value_of given.
+Load "Setting.section".
 Variable k : kind.
-Notation l := (lam f).
-Notation e1 := (eps f).
-Notation u := (unit_roundoff f).
 Notation L := (power (largest_edge f)).
 Notation at_least := at_least.
 Definition from c := given (Place (snd (of_kind k c))).
@@ -282,7 +273,7 @@ Lemma dot_of i : at_least (value_of (dot_ (normal_term k i) (normal_term k i)))
   ((1 - 3 * e1) * squared (fun a => val (normal k i a)) - 9.2 * l).
 Proof.
   pose proof L_4 as L4. pose proof (omega_pos f fine).
-  apply (dot_least f fine env given value_of run).
+  apply (here dot_least).
   - intro a. unfold normal_term. rewrite component_each. apply number. destruct k, i, a; vm_compute; reflexivity.
   - intro a. pose proof (square_size i a). lra.
   - unfold squared, sum3. cbv beta. pose proof (square_size i Expressions.X). pose proof (square_size i Expressions.Y).
@@ -376,7 +367,7 @@ Proof.
   pose proof (e_pos f). pose proof (e_small f ok) as es. pose proof (l_pos f). pose proof (l_small f ok).
   pose proof (l_e f fine) as le. pose proof (eps_twice f) as eu. pose proof L_1 as L1. pose proof L_2.
   pose proof largest_pos as M0. pose proof (omega_pos f fine) as om.
-  assert (su : seen f env u = u) by (apply seen_large; lra).
+  assert (su : seen u = u) by (apply seen_large; lra).
   assert (roundoffs_ : forall n, (1 <= n <= 255)%Z -> exists x, value_of (Product (Constant (Small n)) (Constant
     UnitRoundoff)) = Number x /\ (1 - e1) * (IZR n * u) <= x <= (1 + e1) * (IZR n * u)).
   { intros n [n1 n2]. apply IZR_le in n1. apply IZR_le in n2.
@@ -401,12 +392,12 @@ Proof.
   (* The square of M. *)
   pose proof (number largest_ eq_refl) as EM.
   assert (MM : 0 <= M * M <= L * L) by (split; [apply Rmult_le_pos|apply Rmult_le_compat]; lra).
-  destruct (square_least f fine env given value_of run (term_of k largest_) M EM ltac:(lra)) as (z & Ez & z0 & z1).
+  destruct (here square_least (term_of k largest_) M EM ltac:(lra)) as (z & Ez & z0 & z1).
   pose proof (number rounding eq_refl) as Er. set (r := val rounding) in *.
   pose proof (run_product (Product (Constant (Small 128)) (Constant UnitRoundoff)) (Product (term_of k largest_)
     (term_of k largest_))) as g. rewrite Ey, Ez in g.
   change (product f env (Number y) (Number z) (value_of (term_of k rounding))) in g. rewrite Er in g.
-  assert (yn : seen f env y = y) by (apply seen_large; lra).
+  assert (yn : seen y = y) by (apply seen_large; lra).
   assert (g' : product f env (Number z) (Number y) (Number r)) by (apply product_turned; exact g).
   assert (eM : 0 <= e1 * (M * M)) by (apply Rmult_le_pos; lra). assert (el : 0 <= e1 * l <= / 8388608 * l) by (split;
     [apply Rmult_le_pos; lra|apply Rmult_le_compat_r; lra]).
@@ -434,22 +425,22 @@ Proof.
   assert (zL : z <= 1.01 * (L * L)).
   { pose proof (run_product (term_of k largest_) (term_of k largest_)) as w. rewrite EM, Ez in w. unfold product in w.
     cbn in w. pose proof (seen_square f fine env M) as [_ sm].
-    assert (sp : 0 <= seen f env M * seen f env M) by apply Rle_0_sqr.
+    assert (sp : 0 <= seen M * seen M) by apply Rle_0_sqr.
     apply (number_if_small f fine env) in w; [|rewrite Rabs_pos_eq; lra]. injection w as ->.
-    pose proof (error f ok env (seen f env M * seen f env M)) as er. rewrite (Rabs_pos_eq _ sp) in er.
+    pose proof (error f ok env (seen M * seen M)) as er. rewrite (Rabs_pos_eq _ sp) in er.
     apply Rabs_le_inv in er.
-    assert (e1 * (seen f env M * seen f env M) <= / 8388608 * (L * L)) by (apply Rmult_le_compat; lra).
+    assert (e1 * (seen M * seen M) <= / 8388608 * (L * L)) by (apply Rmult_le_compat; lra).
     assert (1 * 1 <= L * L) by (apply Rmult_le_compat; lra). lra. }
   unfold product in g'. cbn in g'. rewrite yn in g'. destruct (seen_low f env z z0) as [sz0 _].
   pose proof (seen_smaller f env z) as sz. rewrite !Rabs_pos_eq in sz by lra.
-  assert (zs : 0 <= seen f env z * y <= 1.01 * (L * L) * (64.01 * e1)) by (split; [apply Rmult_le_pos; lra|apply
+  assert (zs : 0 <= seen z * y <= 1.01 * (L * L) * (64.01 * e1)) by (split; [apply Rmult_le_pos; lra|apply
     Rmult_le_compat; lra]).
   assert (eL : 0 <= e1 * (L * L) <= / 8388608 * (L * L)) by (split; [apply Rmult_le_pos; lra|apply Rmult_le_compat_r;
     lra]).
   apply (number_if_small f fine env) in g'; [|rewrite Rabs_pos_eq; lra]. injection g' as ->.
-  pose proof (error f ok env (seen f env z * y)) as er. rewrite (Rabs_pos_eq (seen f env z * y)) in er by lra.
+  pose proof (error f ok env (seen z * y)) as er. rewrite (Rabs_pos_eq (seen z * y)) in er by lra.
   apply Rabs_le_inv in er.
-  assert (e1 * (seen f env z * y) <= / 8388608 * (seen f env z * y)) by (apply Rmult_le_compat_r; lra).
+  assert (e1 * (seen z * y) <= / 8388608 * (seen z * y)) by (apply Rmult_le_compat_r; lra).
   assert (1 * 1 <= L * L) by (apply Rmult_le_compat; lra). lra.
 Qed.
 Definition exact_squared i := squared (fun a => weight i * Expressions.exact D (normal k i a)).

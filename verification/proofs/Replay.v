@@ -40,12 +40,9 @@ Definition coordinate_of run c := let '(Expressions.Coordinate n t a) := c in
     match a with Expressions.X => 0 | Expressions.Y => 1 | Expressions.Z_ => 2 end) (coordinates run) (0, 0)%Z.
 
 Section Replay.
-Variables prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ : Z.
-Context (p0 : Prec_gt_0 prec) (pe : Prec_lt_emax prec emax).
-Notation f := (Chains.constants_of prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_).
-Notation binary := (binary_float prec emax).
-Notation run := (Chains.run prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe).
-Notation holds := (Chains.holds prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe).
+Load "Format.section".
+Notation run := (in_format Chains.run p0 pe).
+Notation holds := (in_format Chains.holds p0 pe).
 Notation power_of_two := (Nearest.power_of_two prec emax p0 pe).
 
 (* A number of the format, from its digits and its exponent. *)
@@ -114,9 +111,9 @@ Fixpoint replayed from (record : list part) := match record with
     | None => None end end.
 
 Variable is_fine : Corners.reasonable_constants f.
-Notation env_ := (Chains.env prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ is_fine).
+Notation env_ := (in_format Chains.env is_fine).
 Notation given input_ := (fun i : input => B2R (input_ i : binary)).
-Notation nearest input_ := (Chains.nearest prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ is_fine
+Notation nearest input_ := (in_format Chains.nearest is_fine
   (given input_)).
 Definition is_saved (at_ : input -> number) input_ (saved : PositiveMap.t binary) := forall k x, PositiveMap.find k saved =
   Some x ->
@@ -135,7 +132,7 @@ Proof.
   cbn [saved_by]. apply (IH _ _ all). destruct (run (with_saved input_ saved) e) as [x|] eqn:E; [|exact right_].
   intros k' x' found fin. destruct (Pos.eq_dec k' k) as [->|other].
   - rewrite PositiveMap.gss in found. injection found as <-. cbn [at_place]. rewrite <- here.
-    apply (proj1 (Chains.run_is_right prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe is_fine
+    apply (proj1 (in_format Chains.run_is_right p0 pe is_fine
       (given input_) (with_saved input_ saved) (at_place places) (with_saved_is_right places input_ saved right_)) e x E).
   - rewrite PositiveMap.gso in found by exact other. now apply right_.
 Qed.
@@ -146,7 +143,7 @@ Proof.
   intros (all & <- & <-). set (saved := saved_by input_ 1 (steps p) (PositiveMap.empty _)).
   assert (right_ : is_saved (at_place places) input_ saved).
   { apply saved_by_is_right; [exact all|]. intros k x found. now rewrite PositiveMap.gempty in found. }
-  destruct (Chains.run_is_right prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe is_fine
+  destruct (in_format Chains.run_is_right p0 pe is_fine
     (given input_) (with_saved input_ saved) (at_place places) (with_saved_is_right places input_ saved right_))
     as [numbers masks].
   split; cbn [fst snd result_of]; fold saved.
@@ -154,7 +151,7 @@ Proof.
   - intros u h. exact (numbers _ u h).
 Qed.
 
-Notation exact_power := (Chains.exact_power prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe is_fine).
+Notation exact_power := (in_format Chains.exact_power p0 pe is_fine).
 Notation facts := (Nearest.facts prec emax pe underflow_ largest_ (Corners.reasonable_base f is_fine)).
 Lemma one_is : B2R one = 1 /\ is_finite one = true.
 Proof. destruct (exact_power 0) as [E fin]; [pose proof facts; lia|]. split; [exact E|exact fin]. Qed.
@@ -236,8 +233,7 @@ Proof.
     is_in_range.
   destruct (holds input_ (range code)) as [[|]|] eqn:E; try (split; intros; discriminate).
   assert (in_range : says f env_ (nearest input_) (Advancing.is_in_range all)).
-  { rewrite <- (range_is all right_programs). apply (Chains.what_holds_is_said prec emax underflow_ largest_ extent_ reach_
-    safe_ vanishing_ p0 pe is_fine _ input_);
+  { rewrite <- (range_is all right_programs). apply (in_format Chains.what_holds_is_said p0 pe is_fine _ input_);
     [reflexivity|exact E]. }
   auto.
 Qed.
@@ -389,18 +385,18 @@ End OfAPair.
 
 (* The theorems: without a separation and with one. *)
 Variable is_fine : Corners.reasonable_constants f.
-Notation env_ := (Chains.env prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ is_fine).
+Notation env_ := (in_format Chains.env is_fine).
 Variable place_ : Expressions.coordinate -> binary.
 Definition place c := B2R (place_ c).
 Variables p b c : nat * nat.
 Variable others : list (nat * nat).
 Notation pairs := (p :: b :: c :: others).
-Lemma execution_of (input_ : input -> binary) : execution f env_ (Chains.nearest prec emax underflow_ largest_ extent_ reach_
-  safe_ vanishing_ is_fine (fun i => B2R (input_ i))) (fun i => B2R (input_ i)).
+Lemma execution_of (input_ : input -> binary) : execution f env_ (in_format Chains.nearest is_fine (fun i => B2R (input_ i)))
+  (fun i => B2R (input_ i)).
 Proof. apply Chains.an_execution_exists; assumption. Qed.
 
 Notation given i := (fun j : input => B2R (i j : binary)).
-Notation nearest i := (Chains.nearest prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ is_fine (given i)).
+Notation nearest i := (in_format Chains.nearest is_fine (given i)).
 Lemma rounds_are_allowed all : allowed place_ zero is_fine (Advancing.step all place f env_) all.
 Proof.
   assert (C : forall i : input -> binary, (forall c, i (Place c) = place_ c) -> says f env_ (nearest i)
@@ -454,9 +450,9 @@ Proof.
   apply andb_prop in separation_ as [low high]. apply at_most in low as (low & _). apply at_most in high as (high & _).
   pose proof (Nearest.facts prec emax pe underflow_ largest_ (Corners.reasonable_base f is_fine)).
   pose proof (Corners.extents f is_fine) as e. change (0 <= reach_ <= largest_)%Z in e.
-  destruct (Chains.exact_power prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe is_fine (2 - emax))
+  destruct (in_format Chains.exact_power p0 pe is_fine (2 - emax))
     as [E _]; [lia|].
-  destruct (Chains.exact_power prec emax underflow_ largest_ extent_ reach_ safe_ vanishing_ p0 pe is_fine reach_)
+  destruct (in_format Chains.exact_power p0 pe is_fine reach_)
     as [E' _]; [lia|]. rewrite E in low. rewrite E' in high. split; [|exact high].
   unfold lam. replace (least_exponent f + precision f - 1)%Z with (2 - emax)%Z; [exact low|].
   change (2 - emax = 3 - emax - prec + prec - 1)%Z. lia.

@@ -48,19 +48,9 @@ Proof.
     + cbn [Fexp]. destruct ok. lia.
 Qed.
 Section Separated.
-Variable f : constants.
-Hypothesis fine : reasonable_constants f.
-Let ok : reasonable f := reasonable_base f fine.
-Variable env : environment f.
-Variable given : input -> R.
-Variable value_of : Machine.number -> value.
-Hypothesis run : execution f env value_of given.
+Load "Setting.section".
 Variable k : kind.
-Notation l := (lam f).
-Notation e1 := (eps f).
 Notation L := (power (largest_edge f)).
-Notation Rd := (rounded env).
-Notation seen := (seen f env).
 Notation s := (given (Length Separation)).
 (* A subnormal separation is raised to the smallest normal number. *)
 Hypothesis normal_separation : l <= s.
@@ -103,7 +93,7 @@ Hypothesis in_range : forall c, exists x, told_of (Expressions.Difference c) = E
   Errors.reach f.
 Hypothesis small : forall c, Rabs (Bounds.computed told_of c) <= L.
 Hypothesis M_L : val Magnitudes.by_axis <= L.
-Notation number := (Normals.number f fine env given value_of run k in_range).
+Notation number := (here Normals.number k in_range).
 
 (* What a positive bound of the normal's length, times the separation, covers. *)
 Definition are_clear n outer_ inner_ := 0 < n /\ (forall i, exact_squared given k i <= n ^ 2) /\
@@ -116,7 +106,7 @@ Proof.
   pose proof (run_product (Input (Length Separation)) (largest_normal k)) as h. rewrite (run (Input _)) in h.
   pose proof (run_product (outer k) (Constant (Small 3))) as g. rewrite (run (Constant _)) in g.
   cbn [constant_value] in g. fold (outer k) in h. fold (inner k) in g.
-  destruct (largest_normal_is_large f fine env given value_of run k in_range small M_L) as [inf|(n & En & ln & all)].
+  destruct (here largest_normal_is_large k in_range small M_L) as [inf|(n & En & ln & all)].
   - left. rewrite inf in h. unfold product in h. cbn in h. rewrite (seen_large f env s) in h by lra.
     specialize (h ltac:(lra)). split; [exact h|]. rewrite h in g. unfold product in g. cbn in g.
     rewrite (seen_large f env 3) in g by lra. apply g. lra.
@@ -347,7 +337,7 @@ Proof.
   assert (in_range : forall c, exists x, told_of (Expressions.Difference c) = Expressions.Number x /\ Rabs x <=
     Errors.reach f).
   { intro c. destruct (all c) as (x & E & b). exists x. split; [exact E|]. unfold Errors.reach. lra. }
-  cbn -[term] in g. rewrite (run (Constant _)), (Normals.number f fine env given value_of run k in_range
+  cbn -[term] in g. rewrite (run (Constant _)), (here Normals.number k in_range
     Magnitudes.by_axis eq_refl) in g.
   cbn in g. rewrite (seen_large f env L) in g by lra. pose proof (seen_off f env (val Magnitudes.by_axis)) as off.
   unfold Machine.seen in g, off.

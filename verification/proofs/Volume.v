@@ -31,43 +31,17 @@ Definition values_from t k0 k1 k2 k3 := let a0 := between_ t k0 k1 in let a1 := 
 Definition margin b0 b e := Minus (Select (Greater (Constant (Small 0)) b0) (Negative b) b) e.
 
 Section Volume.
-Variable f : constants.
-Hypothesis fine : reasonable_constants f.
-Let ok : reasonable f := reasonable_base f fine.
-Variable env : environment f.
-Variable given : input -> R.
-Variable value_of : number -> value.
-Hypothesis run : execution f env value_of given.
-Variable pairs : list (nat * nat).
-Hypothesis in_range : says f env value_of (are_in_range pairs).
-Notation l := (lam f).
-Notation e1 := (eps f).
-Notation q := (Bounds.q f).
-Notation Rd := (rounded env).
-Notation seen := (seen f env).
-Notation holds := (holds f).
-Notation operand := (operand f env).
-Notation G := (Errors.reach f).
-Notation mu := (power (extent_underflow f)).
-Notation eta := (power (underflow f)).
-Notation m := (m f env value_of pairs).
-Notation p := (p f env value_of pairs).
-Notation M a := (Rd (m a + mu)).
-Notation at_ := (exactly_at given).
-Notation exactly := (exactly given).
+Load "Setting.section".
+Load "InRange.section".
 
 Notation constant := (constant f env given value_of run).
-Notation seen_holds := (seen_operand f env _ _ _ _ _).
-Notation product_holds := (holds_product f ok env _ _ _ _ _ _ _ _ _ _ _).
-Notation sum_holds op := (holds_sum f ok env op _ _ _ _ _ _ _ _ _ _ _).
-Notation dot_holds := (dot_holds f fine env given value_of run).
-Notation difference_holds := (difference_holds f fine env given value_of run pairs in_range).
-Notation M_bounds := (M_bounds f fine env given value_of run pairs in_range).
-Notation p_pos := (p_pos f fine env given value_of run pairs in_range).
-Notation p_small := (p_small f fine env given value_of run pairs in_range).
-Notation m_pos := (m_pos f fine env given value_of run pairs in_range).
-Notation M_low := (M_low f fine env given value_of run pairs in_range).
-Notation u := (unit_roundoff f).
+Notation dot_holds := (here dot_holds).
+Notation difference_holds := (within difference_holds).
+Notation M_bounds := (within M_bounds).
+Notation p_pos := (within p_pos).
+Notation p_small := (within p_small).
+Notation m_pos := (within m_pos).
+Notation M_low := (within M_low).
 Notation X_ := Expressions.X. Notation Y_ := Expressions.Y. Notation Z_ := Expressions.Z_.
 
 (* Sizes: PM, what a monomial's sum is at most, and Q, one more than the largest extent. *)
@@ -414,7 +388,7 @@ Proof.
     [rewrite Rmax_right|rewrite Rmax_left]; auto; lra).
   assert (E : Q - 1 = Rmax (Rmax (M X_) (M Y_)) (M Z_)) by (unfold more; ring). rewrite E. split.
   - pose proof (run (Larger (vx (extent pairs)) (vy (extent pairs)))) as h. cbn -[extent] in h.
-    pose proof (extent_value f fine env given value_of run pairs in_range) as ev.
+    pose proof (within extent_value) as ev.
     apply (larger_numbers _ _ _ _ _ (ev X_) (ev Y_) (s X_) (s Y_)) in h.
     pose proof (run (largest (extent pairs))) as h'. unfold largest in h'. cbn -[extent] in h'.
     exact (larger_numbers _ _ _ _ _ h (ev Z_) sm (s Z_) h').
@@ -422,7 +396,7 @@ Proof.
 Qed.
 Lemma extent_operand a : operand (value_of (component (extent pairs) a)) (M a) (M a) 0 0.
 Proof.
-  rewrite (extent_value f fine env given value_of run pairs in_range a). pose proof (M_bounds a). pose proof (l_pos f).
+  rewrite (within extent_value a). pose proof (M_bounds a). pose proof (l_pos f).
   rewrite <- (Rabs_pos_eq (M a)) at 3 by lra. apply operand_normal. rewrite Rabs_pos_eq; lra.
 Qed.
 Lemma permanent_pair x y z w a b : operand (value_of x) (M a) (M a) 0 0 -> operand (value_of y) (M b) (M b) 0 0 ->
@@ -471,9 +445,9 @@ Proof.
   assert (uQ : 0 <= u * Q <= / 16777216 * Q) by (split; [apply Rmult_le_pos; lra|apply Rmult_le_compat_r; lra]).
   assert (lQ : 0 <= l * Q <= 0.0001 * Q) by (split; [apply Rmult_le_pos; lra|apply Rmult_le_compat_r; lra]).
   pose proof (run (Product (roundoffs 64) triple)) as h. cbn -[roundoffs triple] in h.
-  pose proof (product_holds h (seen_holds (roundoffs_holds f fine env given value_of run 64%Z ltac:(lia))) (seen_holds
+  pose proof (product_holds h (seen_holds (here roundoffs_holds 64%Z ltac:(lia))) (seen_holds
     d) ltac:(lia) ltac:(lra) ltac:(lra)) as r.
-  assert (o1 : operand (value_of one) 1 1 0 0) by exact (count_operand f fine env given value_of run 1%Z ltac:(lia)).
+  assert (o1 : operand (value_of one) 1 1 0 0) by exact (here count_operand 1%Z ltac:(lia)).
   assert (ol : operand (value_of (largest (extent pairs))) (Q - 1) (Q - 1) 0 0).
   { rewrite El. pose proof (operand_exact f env (Q - 1)) as o. now rewrite sl, (Rabs_pos_eq (Q - 1)) in o by lra. }
   pose proof (run size) as hs. unfold size in hs. cbn -[one largest extent] in hs.

@@ -17,29 +17,11 @@ Definition margins_beyond pairs t := let '(p, b, c) := corners_of pairs in let '
     margin b0 b3 (bar_of_length pairs l3)).
 
 Section VolumeBeyond.
-Variable f : constants.
-Hypothesis fine : reasonable_constants f.
-Let ok : reasonable f := reasonable_base f fine.
-Variable env : environment f.
-Variable given : input -> R.
-Variable value_of : number -> value.
-Hypothesis run : execution f env value_of given.
-Notation l := (lam f).
-Notation e1 := (eps f).
-Notation q := (Bounds.q f).
-Notation u := (unit_roundoff f).
-Notation Rd := (rounded env).
-Notation seen := (seen f env).
-Notation G := (Errors.reach f).
-Notation mu := (power (extent_underflow f)).
-Notation eta := (power (underflow f)).
+Load "Setting.section".
 Notation L := (power (largest_extent f)).
 Notation v := (power (length_underflow f)).
 Notation s := (given (Length Separation)).
 Hypothesis separation : l <= s <= L.
-Notation seen_holds := (seen_operand f env _ _ _ _ _).
-Notation product_holds := (holds_product f ok env _ _ _ _ _ _ _ _ _ _ _).
-Notation sum_holds op := (holds_sum f ok env op _ _ _ _ _ _ _ _ _ _ _).
 Notation run_sum := (run_sum f env given value_of run).
 Notation run_product := (run_product f env given value_of run).
 Notation run_constant := (run_constant f env given value_of run).
@@ -73,7 +55,7 @@ Lemma sizes_ : 0 < A <= 0.19 * (G * G) /\ 0 < v <= 1 /\ 1000000 * l <= 0.5 * v /
   1073741824 * (G * G) <= omega f /\ 0 <= l * A <= / 1099511627776 * (e1 * A) /\ 0 <= e1 * A <= / 8388608 * A /\
   0 <= e1 * v <= / 8388608 * v /\ 0 <= e1 * l <= / 8388608 * l.
 Proof.
-  pose proof (area_bounds f fine env given value_of run pairs in_range) as (a & _ & _ & la). pose proof (e_pos f).
+  pose proof (here area_bounds pairs in_range) as (a & _ & _ & la). pose proof (e_pos f).
   pose proof (e_small f ok). pose proof (vanishing_large f fine) as (v2 & v1 & vl & r0). pose proof (l_pos f).
   pose proof (G_4 f fine). pose proof (G_2 f fine). assert (4 * G <= G * G) by (apply Rmult_le_compat_r; lra).
   repeat split; try lra; try (apply Rmult_le_pos; lra); apply Rmult_le_compat_r; lra.
@@ -101,7 +83,7 @@ Lemma third_of_sum e e' y y' : value_of e = Number y -> value_of e' = Number y' 
 Proof.
   intros E E' y0 y1. pose proof sizes_ as (_ & _ & _ & G4 & GG & G2 & _). pose proof (l_pos f). pose proof (l_small f
     ok). pose proof (e_pos f). pose proof (e_small f ok). pose proof (l_e f fine).
-  destruct (third_operand f fine env given value_of run) as (c & Ec & dc & _). apply Rabs_le_inv in dc.
+  destruct (here third_operand) as (c & Ec & dc & _). apply Rabs_le_inv in dc.
   unfold Bounds.q in dc. replace ((1 + e1) ^ 1 - 1) with e1 in dc by ring.
   pose proof (run_sum e e') as h. rewrite E, E' in h. unfold sum in h. cbn in h.
   apply number_if_small in h; [|rewrite Rabs_pos_eq; lra].
@@ -143,7 +125,7 @@ Lemma lengths_raised i : exists x, value_of (length_ i) = Number x /\
 Proof.
   pose proof sizes_ as (A0 & v0 & vl & G4 & GG & G2 & lA & eA & ev & el). pose proof (l_pos f). pose proof (l_small f
     ok). pose proof (e_pos f). pose proof (e_small f ok).
-  pose proof (lengths_hold f fine env given value_of run pairs in_range t T time_ in_step pp pb pc inside) as lh.
+  pose proof (here lengths_hold pairs in_range t T time_ in_step pp pb pc inside) as lh.
   destruct (lh 0%nat) as (y0 & E0 & n0 & b0). destruct (lh 1%nat) as (y1 & E1 & n1 & b1).
   destruct (lh 2%nat) as (y2 & E2 & n2 & b2). clear lh.
   assert (e_ : forall x, 0 <= x -> 0 <= e1 * x <= / 8388608 * x) by (intros x x0; split; [apply Rmult_le_pos; lra|apply
@@ -173,10 +155,10 @@ Lemma length_error_value : exists x, value_of (length_error pairs) = Number x /\
 Proof.
   pose proof sizes_ as (A0 & v0 & vl & G4 & GG & G2 & lA & eA & ev & el). pose proof (l_pos f). pose proof (l_small f
     ok). pose proof (e_pos f). pose proof (e_small f ok). pose proof (eps_twice f) as eu.
-  pose proof (extent_operand f fine env given value_of run pairs in_range) as oe.
-  pose proof (M_bounds f fine env given value_of run pairs in_range) as Mb.
-  assert (pair : forall a b x y, operand f env (value_of x) (M a) (M a) 0 0 -> operand f env (value_of y) (M b) (M b) 0
-    0 -> operand f env (value_of (Product x y)) (M a * M b) (M a * M b) 1 2 /\ 0 <= M a * M b <= G * G).
+  pose proof (here extent_operand pairs in_range) as oe.
+  pose proof (here M_bounds pairs in_range) as Mb.
+  assert (pair : forall a b x y, operand (value_of x) (M a) (M a) 0 0 -> operand (value_of y) (M b) (M b) 0
+    0 -> operand (value_of (Product x y)) (M a * M b) (M a * M b) 1 2 /\ 0 <= M a * M b <= G * G).
   { intros a b x y ox oy. pose proof (Mb a). pose proof (Mb b).
     assert (0 <= M a * M b <= G * G) by (split; [apply Rmult_le_pos; lra|apply Rmult_le_compat; lra]).
     pose proof (run (Product x y)) as h. cbn in h. pose proof (product_holds h ox oy ltac:(lia) ltac:(lra) ltac:(lra)) as
@@ -193,17 +175,17 @@ Proof.
       * M Expressions.X) with A in s2.
   assert (uA : 0 <= u * A <= 0.0001 * A) by (split; [apply Rmult_le_pos; lra|apply Rmult_le_compat_r; lra]).
   pose proof (run (Product (Constant (Small 8)) (roundoffs 64))) as h3. cbn -[roundoffs] in h3.
-  pose proof (product_holds h3 (count_operand f fine env given value_of run 8%Z ltac:(lia)) (seen_holds (roundoffs_holds
-    f fine env given value_of run 64%Z ltac:(lia))) ltac:(lia) ltac:(lra) ltac:(lra)) as s3.
+  pose proof (product_holds h3 (here count_operand 8%Z ltac:(lia)) (seen_holds (here roundoffs_holds 64%Z ltac:(lia)))
+    ltac:(lia) ltac:(lra) ltac:(lra)) as s3.
   pose proof (run (Product (Product (Constant (Small 8)) (roundoffs 64)) (areas E))) as h4. cbn -[roundoffs areas E] in
     h4.
-  assert (s3' : operand f env (value_of (Product (Constant (Small 8)) (roundoffs 64))) (512 * u) (512 * u) 2 18.2).
+  assert (s3' : operand (value_of (Product (Constant (Small 8)) (roundoffs 64))) (512 * u) (512 * u) 2 18.2).
   { replace (512 * u) with (8 * (64 * u)) at 1 by ring. apply (operand_weaker f env _ _ _ _ _ _ _ _ (seen_holds s3));
       lra || lia. }
   pose proof (product_holds h4 s3' (seen_holds s2) ltac:(lia) ltac:(lra) ltac:(lra)) as s4.
   pose proof (run (length_error pairs)) as h5. unfold length_error in h5. cbn -[roundoffs areas extent] in h5. fold E in
     h5.
-  assert (ov : operand f env (value_of (Constant LengthUnderflow)) v v 0 0).
+  assert (ov : operand (value_of (Constant LengthUnderflow)) v v 0 0).
   { rewrite run_constant. cbn [constant_value]. rewrite <- (Rabs_pos_eq v) at 3 by lra. apply operand_normal.
     rewrite Rabs_pos_eq; lra. }
   pose proof (sum_holds Rplus 6 ltac:(auto) h5 (seen_holds s4) ov ltac:(lia) ltac:(lia) ltac:(lia) ltac:(lra) ltac:(lra))
@@ -220,7 +202,7 @@ Lemma wide_separation_value : exists x, value_of wide_separation = Number x /\ s
 Proof.
   pose proof sizes_ as (_ & _ & _ & G4 & GG & G2 & _). pose proof (l_pos f). pose proof (l_small f ok).
   pose proof (e_pos f). pose proof (e_small f ok). pose proof (L_G f fine).
-  destruct (more_value f fine env given value_of run 64 ltac:(lia)) as (c & Ec & c1 & c2).
+  destruct (here more_value 64 ltac:(lia)) as (c & Ec & c1 & c2).
   pose proof (run_product (Input (Length Separation)) (more_roundoffs 64)) as h. rewrite run_input, Ec in h.
   unfold product in h. cbn in h. rewrite (seen_large f env s), (seen_large f env c) in h by lra.
   assert (es : 0 <= e1 * s <= / 8388608 * s) by (split; [apply Rmult_le_pos; lra|apply Rmult_le_compat_r; lra]).
@@ -244,9 +226,9 @@ Proof.
   destruct (lengths_raised i) as (x & Ex & low & x0 & high). revert Ex. generalize (length_ i) as len. intros len Ex.
   destruct length_error_value as (d & Ed & sd & d1 & d2).
   destruct wide_separation_value as (S & ES & sS & S1 & S2). set (N := exact_length i) in *.
-  destruct (error_value f fine env given value_of run pairs in_range) as (E & EE & _ & lE & Elow & Ehigh).
-  pose proof (volume_bounds f fine env given value_of run pairs in_range) as (_ & PMG & _).
-  pose proof (QQ f fine env given value_of run pairs in_range) as QQ_. pose proof (eta_1 f fine) as et1.
+  destruct (here error_value pairs in_range) as (E & EE & _ & lE & Elow & Ehigh).
+  pose proof (here volume_bounds pairs in_range) as (_ & PMG & _).
+  pose proof (here QQ pairs in_range) as QQ_. pose proof (eta_1 f fine) as et1.
   assert (et0 : 0 < eta) by apply bpow_gt_0.
   assert (eQ : 0 <= eta * (Q * Q) <= G * G). { split; [apply Rmult_le_pos; lra|].
     assert (eta * (Q * Q) <= 1 * (Q * Q)) by (apply Rmult_le_compat_r; lra). lra. }
@@ -322,8 +304,8 @@ Lemma products_ : 0 <= s * A <= 0.05 * (G * G * G) /\ 0 <= s * v <= / 4 * G /\ 0
 Proof.
   pose proof sizes_ as (A0 & v0 & vl & G4 & GG & G2 & lA & eA & ev & el). pose proof (l_pos f). pose proof (l_small f
     ok). pose proof (e_pos f). pose proof (e_small f ok). pose proof (L_G f fine). pose proof (l_e f fine) as le.
-  pose proof (volume_bounds f fine env given value_of run pairs in_range) as (_ & PMG & _).
-  pose proof (QQ f fine env given value_of run pairs in_range) as QQ_. pose proof (eta_1 f fine).
+  pose proof (here volume_bounds pairs in_range) as (_ & PMG & _).
+  pose proof (here QQ pairs in_range) as QQ_. pose proof (eta_1 f fine).
   pose proof (eta_large f fine). assert (sA : 0 <= s * A) by (apply Rmult_le_pos; lra).
   assert (sv : 0 <= s * v) by (apply Rmult_le_pos; lra).
   assert (le_ : forall x, 0 <= x -> 0 <= l * x <= / 1099511627776 * (e1 * x)).
@@ -351,7 +333,7 @@ Proof.
   intros signs (y & Ey & ry & near_). destruct (bar_value i) as (B & EB & sB & Blow & B0 & Bhigh).
   pose proof products_ as (sA & sv & esA & esv & lsA & lsv & eP & lP & N_ & lQQ & PMG & GGG).
   pose proof sizes_ as (_ & _ & _ & G4 & GG & G2 & _). pose proof (G_3 f fine) as G3.
-  pose proof (volume_bounds f fine env given value_of run pairs in_range) as (S3b & _ & _ & S3PM).
+  pose proof (here volume_bounds pairs in_range) as (S3b & _ & _ & S3PM).
   pose proof (l_pos f). pose proof (l_small f ok). pose proof (e_pos f). pose proof (e_small f ok).
   set (PMv := PM) in *. set (N := eta * (Q * Q)) in *. set (sAv := s * A) in *. set (svv := s * v) in *.
   assert (sN0 : 0 <= s * exact_length i). { apply Rmult_le_pos; [lra|]. unfold exact_length. pose proof (norm_pos (normal
@@ -431,9 +413,9 @@ Lemma margins_beyond_values : let '(g0, g1, g2, g3) := margins_beyond pairs t in
   seen x2 + reserve_beyond <= sign * X2 - s * exact_length 2 /\ seen x3 + reserve_beyond <= sign * X3 - s * exact_length
   3.
 Proof.
-  pose proof (outer_holds f fine env given value_of run pairs in_range pp pb pc inside) as oh.
-  pose proof (inner_holds f fine env given value_of run pairs in_range pp pb pc inside) as ih.
-  pose proof (values_hold f fine env given value_of run pairs in_range pp pb pc inside t T time_ in_step _ _ _ _ _ _ _ _
+  pose proof (here outer_holds pairs in_range pp pb pc inside) as oh.
+  pose proof (here inner_holds pairs in_range pp pb pc inside) as ih.
+  pose proof (here values_hold pairs in_range pp pb pc inside t T time_ in_step _ _ _ _ _ _ _ _
     (conj (oh Expressions.Start) (conj (ih Expressions.Start) (conj (ih Expressions.End) (oh Expressions.End))))) as vh.
   pose proof margin_value as mv. unfold length_, normal_vector in mv. unfold margins_beyond. cbn [corners_of].
   destruct (normals pp pb pc t) as [[n0 n1] n2]. destruct (raised _ _ _) as [[[l0 l1] l2] l3].
@@ -515,7 +497,7 @@ Proof.
   destruct exact_values as [[[X0 X1] X2] X3].
   destruct mv as (sign & x0 & x1 & x2 & x3 & one_ & c0 & c1 & c2 & c3 & below).
   destruct reserve_is_enough as (w0 & enough).
-  destruct (positive_until f fine env given value_of run t tau moment in_step width_beyond reserve_beyond w0 enough g0 g1
+  destruct (here positive_until t tau moment in_step width_beyond reserve_beyond w0 enough g0 g1
     g2 g3 x0 x1 x2 x3 _ _ _ _ c0 c1 c2 c3 below until Eu later t' between t1) as (q_ & q01 & -> & pos).
   apply (positive_is_beyond sign X0 X1 X2 X3 q_ one_ q01); [|exact pos]. rewrite volume_is_cubic. apply cf.
 Qed.

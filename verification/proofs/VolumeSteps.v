@@ -22,18 +22,7 @@ Definition volume_throughout pairs := volume_to_the_end pairs (Constant (Small 0
 Definition volume_until pairs t := clipped_until t (margins pairs t).
 
 Section VolumeSteps.
-Variable f : constants.
-Hypothesis fine : reasonable_constants f.
-Let ok : reasonable f := reasonable_base f fine.
-Variable env : environment f.
-Variable given : input -> R.
-Variable value_of : number -> value.
-Hypothesis run : execution f env value_of given.
-Notation l := (lam f).
-Notation e1 := (eps f).
-Notation Rd := (rounded env).
-Notation seen := (seen f env).
-Notation G := (Errors.reach f).
+Load "Setting.section".
 Notation kappa := (kappa f).
 Notation constant := (constant f env given value_of run).
 Variable t : number.
@@ -68,8 +57,8 @@ Proof.
   apply (result_number f ok env) in h2; [|rewrite Rabs_pos_eq; lra]. pose proof (rounds_ _ ltac:(split;
     [apply b2|lra])) as r2.
   set (R2 := Rd (seen y * seen R1)) in *. pose proof (positive_seen R2 ltac:(lra)) as s2.
-  destruct (less_roundoffs_bounds f fine env given value_of run 32 ltac:(lia)) as (c & Ec & c0 & c1).
-    destruct (less_roundoffs_bounds f fine env given value_of run 8 ltac:(lia)) as (d & Ed & d0 & d1).
+  destruct (here less_roundoffs_bounds 32 ltac:(lia)) as (c & Ec & c0 & c1).
+    destruct (here less_roundoffs_bounds 8 ltac:(lia)) as (d & Ed & d0 & d1).
   assert (sc : seen c = c) by (apply seen_of_normal; rewrite Rabs_pos_eq; lra).
     assert (sd : seen d = d) by (apply seen_of_normal; rewrite Rabs_pos_eq; lra).
   pose proof (run (Product (Product part (Minus one t)) (less_roundoffs 32))) as h3. cbn -[one less_roundoffs] in h3.
@@ -221,7 +210,7 @@ Proof.
   destruct h as [[[p0 _] h]|[_ h]].
   2: { rewrite Eu, moment in h. injection h as ->. lra. }
   apply (positive_says f env given value_of run w g0 x0 c0) in p0.
-  destruct (looking_ahead_value f fine env given value_of run w w_small g0 g1 g2 g3 x0 x1 x2 x3 c0 c1 c2 c3 p0 r re) as
+  destruct (here looking_ahead_value w w_small g0 g1 g2 g3 x0 x1 x2 x3 c0 c1 c2 c3 p0 r re) as
     (y & Ey & yb & positive).
   destruct (next_time_value part y Ey yb) as (N & EN & times). rewrite Eu, EN in h. injection h as ->.
   destruct (times t' between t1) as (q_ & q01 & E & qy). exists q_. split; [exact q01|]. split; [exact E|].
@@ -246,16 +235,16 @@ Theorem margins_values : let '(g0, g1, g2, g3) := margins pairs t in let '(X0, X
   seen x0 + r <= s * X0 /\ seen x1 + r <= s * X1 /\ seen x2 + r <= s * X2 /\ seen x3 + r <= s * X3.
 Proof.
   assert (inside : In p pairs /\ In b pairs /\ In c pairs) by (cbn; tauto).
-  pose proof (outer_holds f fine env given value_of run pairs in_range p b c inside) as oh.
-    pose proof (inner_holds f fine env given value_of run pairs in_range p b c inside) as ih.
-  pose proof (values_hold f fine env given value_of run pairs in_range p b c inside t T time_ in_step _ _ _ _ _ _ _ _
+  pose proof (here outer_holds pairs in_range p b c inside) as oh.
+    pose proof (here inner_holds pairs in_range p b c inside) as ih.
+  pose proof (here values_hold pairs in_range p b c inside t T time_ in_step _ _ _ _ _ _ _ _
     (conj (oh Expressions.Start) (conj (ih Expressions.Start) (conj (ih Expressions.End) (oh Expressions.End))))) as vh.
   unfold margins. cbn [corners_of]. destruct (values_from _ _ _ _ _) as [[[b0 b1] b2] b3].
     destruct X as [[[X0 X1] X2] X3]. destruct vh as (h0 & h1 & h2 & h3).
   assert (sign : exists s, (s = 1 \/ s = -1) /\ sign_of f env value_of b0 s).
   { destruct h0 as (y & Ey & _). unfold sign_of. cbn. rewrite (constant (Small 0)), Ey. cbn.
     destruct (Rlt_dec (seen y) (seen 0)); [exists (-1)|exists 1]; tauto. }
-  destruct sign as (s & s1 & sign). pose proof (margin_facts f fine env given value_of run pairs in_range b0) as mf.
+  destruct sign as (s & s1 & sign). pose proof (here margin_facts pairs in_range b0) as mf.
   destruct (mf b0 s X0 sign h0) as (x0 & A0). destruct (mf b1 s X1 sign h1) as (x1 & A1).
     destruct (mf b2 s X2 sign h2) as (x2 & A2). destruct (mf b3 s X3 sign h3) as (x3 & A3).
   exists s, x0, x1, x2, x3. unfold control. tauto.
@@ -263,8 +252,8 @@ Qed.
 Lemma reserve_positive : 0 < r /\ 0 <= w <= 10 * (G * G * G) /\ 4 * slack_ f w < r /\
   ahead_error f w + 200 * (l * w) <= r.
 Proof.
-  pose proof (volume_bounds f fine env given value_of run pairs in_range) as (_ & P & _).
-    pose proof (QQ f fine env given value_of run pairs in_range) as (Q1 & Q2 & _).
+  pose proof (here volume_bounds pairs in_range) as (_ & P & _).
+    pose proof (here QQ pairs in_range) as (Q1 & Q2 & _).
   pose proof (G_bounds f fine) as (G4 & G2 & G3 & _). pose proof (l_pos f). pose proof (l_small f ok).
     pose proof (e_pos f). pose proof (e_small f ok). pose proof (l_e f fine).
   pose proof (eta_large f fine) as el. pose proof (eta_1 f fine) as e1_. unfold reserve, width, slack_, ahead_error.

@@ -39,7 +39,8 @@ manifest=$(realpath ../Cargo.toml)
 cargo run --quiet --manifest-path "$manifest" --package selvedge-traced -- coq "$folder"
 cd "$folder"
 
-if [ "$(ls ./*.v | wc -l)" -ne "${#files[@]}" ]; then
+# Others load those named `section`.
+if [ "$(ls ./*.v | grep -vc '\.section\.v$')" -ne "${#files[@]}" ]; then
     echo "proofs: a file is missing in the list of check.sh" >&2
     exit 1
 fi
