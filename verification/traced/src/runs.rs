@@ -105,7 +105,7 @@ fn runs<S: Scalar>(name: &str, text: &mut String) {
 
 fn run<S: Scalar>(pair: &PrimitivePair<S>, separation: S, impact: Impact<S>, parts: &[WitnessPart<S>]) -> String {
     let ends = pair.motions.iter().flat_map(|motion| [motion.start, motion.end]);
-    let coordinates: Vec<String> = ends.flat_map(|end| <[S; 3]>::from(end.into())).map(number).collect();
+    let coordinates: Vec<String> = ends.flat_map(|end| -> [S; 3] { end.into() }).map(number).collect();
     let answer = number(impact.time().unwrap_or(S::ONE));
     let record: Vec<String> = parts.iter().map(part).collect();
     format!(
