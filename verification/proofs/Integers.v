@@ -1,45 +1,16 @@
-(* Whole numbers in words of 64 bits: the carries, borrows, rows and signs of core/src/kernels/exact/integer, and the
-   control values of kernel.rs, for which there is room. Written after that code by hand, not traced from it. *)
-From Coq Require Import ZArith Lia List.
+(* The exact signs: kernel.rs and aligned.rs of core/src/kernels/exact, in their shape, on the integers of `Words.v`. The
+   code's control values are the exact ones of the coordinates as encodings have them, up to a positive factor. *)
+From Coq Require Import Reals ZArith Lia Lra List Bool.
+From Flocq Require Import Core.
+From Selvedge Require Import Words.
+From Selvedge Require Narrowing Geometry.
 Import ListNotations.
 Open Scope Z_scope.
 
-Definition word := 2 ^ 64.
-Definition is_word w := 0 <= w < word.
-(* Without a sign; the lowest word first. *)
-Fixpoint natural ws := match ws with [] => 0 | w :: rest => w + word * natural rest end.
-Definition modulus (ws : list Z) := word ^ Z.of_nat (length ws).
-
-(* Addition with carry, word by word: the sum modulo 2^(64 words). *)
-Fixpoint plus_words a b carry := match a, b with
-  | x :: a, y :: b => let s := x + y + carry in (s mod word) :: plus_words a b (s / word)
-  | _, _ => [] end.
-Lemma modulus_cons w ws : modulus (w :: ws) = word * modulus ws.
-Proof. unfold modulus. cbn [length]. rewrite Nat2Z.inj_succ, Z.pow_succ_r by lia. reflexivity. Qed.
-Lemma natural_range ws : Forall is_word ws -> 0 <= natural ws < modulus ws.
-Proof.
-  induction 1 as [|w ws hw _ IH]; [cbn; unfold modulus; cbn; lia|]. rewrite modulus_cons. cbn [natural].
-    unfold is_word in hw.
-  assert (0 < word) by reflexivity. nia.
-Qed.
-Theorem carries_are_right a b carry : length a = length b -> exists over,
-  natural (plus_words a b carry) + modulus a * over = natural a + natural b + carry.
-Proof.
-  revert b carry. induction a as [|x a IH]; intros [|y b] carry len; try discriminate.
-  - exists carry. unfold modulus. cbn [length plus_words natural Z.of_nat]. rewrite Z.pow_0_r. ring.
-  - injection len as len. cbn [plus_words natural]. destruct (IH b ((x + y + carry) / word) len) as [over E].
-    exists over.
-    rewrite modulus_cons. pose proof (Z.div_mod (x + y + carry) word ltac:(discriminate)). nia.
-Qed.
-
-(* Two's complement: a number in [-M/2, M/2), M the modulus, is the only one with its remainder; so a result that fits
-   is exact. *)
-Theorem what_fits_is_exact M a b : 0 < M -> - M <= 2 * a < M -> - M <= 2 * b < M -> a mod M = b mod M -> a = b.
-Proof.
-  intros pos ha hb same. pose proof (Z.div_mod a M ltac:(lia)) as da. pose proof (Z.div_mod b M ltac:(lia)) as db.
-  rewrite same in da. assert (a - b = M * (a / M - b / M)) by lia.
-  assert (-1 < a / M - b / M < 1) by nia. assert (a / M - b / M = 0) as z by lia. rewrite z in H. lia.
-Qed.
+Notation word := (word 64).
+Notation fits := (fits 64).
+Notation is := (is 64).
+Notation holds := (holds 64).
 
 (* Room: coordinates of 64 N - 3 bits; products of two fit 2 N words, control values fit 3 N words, with a sign. *)
 Section Room.
@@ -60,7 +31,7 @@ Proof. intros ha hb hc hd. pose proof (product_below a b _ _ ha hb). pose proof 
 Theorem two_words_suffice x : Z.abs x <= 6 * square -> - (word ^ (2 * n)) <= 2 * x < word ^ (2 * n).
 Proof.
   intro h. assert (word ^ (2 * n) = 16 * square) as ->; [|pose proof (Z.pow_pos_nonneg 2 m ltac:(lia) ltac:(lia)); nia].
-  unfold word. rewrite <- Z.pow_mul_r, <- Z.pow_add_r by lia. transitivity (2 ^ 4 * 2 ^ (m + m));
+  change word with (2 ^ 64). rewrite <- Z.pow_mul_r, <- Z.pow_add_r by lia. transitivity (2 ^ 4 * 2 ^ (m + m));
     [|change (2 ^ 6) with 64; change (2 ^ 4) with 16; reflexivity].
   rewrite <- Z.pow_add_r by lia. f_equal. ring.
 Qed.
@@ -68,7 +39,7 @@ Theorem three_words_suffice x : Z.abs x <= 18 * (2 ^ m * square) -> - (word ^ (3
 Proof.
   intro h. assert (word ^ (3 * n) = 64 * (2 ^ m * square)) as ->; [|pose proof (Z.pow_pos_nonneg 2 m ltac:(lia)
     ltac:(lia)); nia].
-  unfold word. rewrite <- Z.pow_mul_r, <- !Z.pow_add_r by lia. transitivity (2 ^ 6 * 2 ^ (m + (m + m)));
+  change word with (2 ^ 64). rewrite <- Z.pow_mul_r, <- !Z.pow_add_r by lia. transitivity (2 ^ 6 * 2 ^ (m + (m + m)));
     [|change (2 ^ 6) with 64; change (2 ^ 4) with 16; reflexivity].
   rewrite <- Z.pow_add_r by lia. f_equal. ring.
 Qed.
@@ -92,380 +63,402 @@ Proof.
 Qed.
 End Room.
 
-(* The number that words are, in two's complement; and what it takes to know it. *)
-Definition signed ws := if modulus ws <=? 2 * natural ws then natural ws - modulus ws else natural ws.
-Definition words_of n ws := length ws = n /\ Forall is_word ws.
-Definition fits n x := - word ^ Z.of_nat n <= 2 * x < word ^ Z.of_nat n.
-Lemma modulus_of n ws : words_of n ws -> modulus ws = word ^ Z.of_nat n.
-Proof. intros [<- _]. reflexivity. Qed.
-Lemma word_pos n : 0 < word ^ Z.of_nat n. Proof. apply Z.pow_pos_nonneg; [reflexivity|lia]. Qed.
-Lemma signed_fits n ws : words_of n ws -> fits n (signed ws).
-Proof.
-  intros h. pose proof (natural_range ws (proj2 h)) as r. rewrite (modulus_of n ws h) in r. unfold signed, fits.
-    rewrite (modulus_of n ws h).
-  destruct (Z.leb_spec (word ^ Z.of_nat n) (2 * natural ws)); lia.
-Qed.
-Lemma signed_same n ws : words_of n ws -> exists k, natural ws = signed ws + word ^ Z.of_nat n * k.
-Proof.
-  intro h. unfold signed. rewrite (modulus_of n ws h). destruct (_ <=? _); [exists 1|exists 0]; ring.
-Qed.
-(* A number that is right up to multiples of the modulus, and fits, is right. *)
-Theorem right_if_it_fits n ws x k : words_of n ws -> fits n x -> natural ws = x + word ^ Z.of_nat n * k -> signed ws =
-  x.
-Proof.
-  intros h fx E. destruct (signed_same n ws h) as [j E']. apply (what_fits_is_exact (word ^ Z.of_nat n));
-    [apply word_pos|exact (signed_fits n ws h)|exact fx|].
-  replace (signed ws) with (x + (k - j) * word ^ Z.of_nat n) by lia. apply Z_mod_plus_full.
-Qed.
-Lemma natural_app a b : natural (a ++ b) = natural a + word ^ Z.of_nat (length a) * natural b.
-Proof.
-  induction a as [|w a IH]; [cbn [app natural length Z.of_nat]; rewrite Z.pow_0_r; ring|].
-  cbn [app natural length]. rewrite IH, Nat2Z.inj_succ, Z.pow_succ_r by lia. ring.
-Qed.
-Lemma a_remainder_is_a_word x : is_word (x mod word). Proof. apply Z.mod_pos_bound. reflexivity. Qed.
-
-(* Sums: `plus`. *)
-Lemma plus_is_words n a b carry : words_of n a -> words_of n b -> words_of n (plus_words a b carry).
-Proof.
-  revert a b carry. induction n as [|n IH]; intros a b carry [la wa] [lb wb]; destruct a as [|x a], b as [|y b];
-    try discriminate; [split; [reflexivity|constructor]|].
-  cbn [plus_words]. destruct (IH a b ((x + y + carry) / word)) as [l w]; [split;
-    [now injection la|now inversion wa]|split; [now injection lb|now inversion wb]|].
-  split; [cbn [length]; now rewrite l|]. constructor; [apply a_remainder_is_a_word|exact w].
-Qed.
-Theorem sums_are_exact n a b : words_of n a -> words_of n b -> fits n (signed a + signed b) ->
-  words_of n (plus_words a b 0) /\ signed (plus_words a b 0) = signed a + signed b.
-Proof.
-  intros ha hb f. pose proof (plus_is_words n a b 0 ha hb) as h. split; [exact h|].
-    destruct (signed_same n a ha) as [j ea]. destruct (signed_same n b hb) as [k eb].
-  destruct (carries_are_right a b 0 ltac:(destruct ha, hb; congruence)) as [over E]. rewrite (modulus_of n a ha) in E.
-  apply (right_if_it_fits n _ _ (j + k - over) h f). lia.
-Qed.
-
-(* Differences: `subtract`, with `subtract_with_borrow`. *)
-Fixpoint minus_words a b borrow := match a, b with
-  | x :: a, y :: b => let d := x - y - borrow in (d mod word) :: minus_words a b (if d <? 0 then 1 else 0)
-  | _, _ => [] end.
-Lemma borrow_is d : - word <= d < word -> d = d mod word - word * (if d <? 0 then 1 else 0).
-Proof.
-  intro h. pose proof (Z.div_mod d word ltac:(discriminate)) as E. destruct (Z.ltb_spec d 0).
-  - assert (d / word = -1) as q; [|rewrite q in E; lia]. apply Z.le_antisymm; [apply Z.lt_succ_r, Z.div_lt_upper_bound;
-    [reflexivity|lia]|].
-    apply Z.div_le_lower_bound; [reflexivity|lia].
-  - rewrite Z.mod_small by lia. ring.
-Qed.
-Theorem borrows_are_right n a b borrow : words_of n a -> words_of n b -> 0 <= borrow <= 1 ->
-  words_of n (minus_words a b borrow) /\ exists under, natural (minus_words a b borrow) = natural a - natural b - borrow
-    + word ^ Z.of_nat n * under.
-Proof.
-  revert a b borrow. induction n as [|n IH]; intros a b borrow [la wa] [lb wb] one; destruct a as [|x a], b as [|y b];
-    try discriminate.
-  - split; [split; [reflexivity|constructor]|]. exists borrow. cbn [natural minus_words Z.of_nat]. rewrite Z.pow_0_r.
-    ring.
-  - inversion wa as [|? ? wx wa']; subst. inversion wb as [|? ? wy wb']; subst. unfold is_word in wx, wy.
-    cbn [minus_words natural].
-    destruct (IH a b (if x - y - borrow <? 0 then 1 else 0)) as [h [under E]]; [split;
-      [now injection la|assumption]|split; [now injection lb|assumption]|destruct (_ <? _); lia|].
-    split; [destruct h as [l w]; split; [cbn [length]; now rewrite l|constructor;
-      [apply a_remainder_is_a_word|exact w]]|].
-    exists under. rewrite E, Nat2Z.inj_succ, Z.pow_succ_r by lia. pose proof (borrow_is (x - y - borrow) ltac:(lia)).
-      lia.
-Qed.
-Theorem differences_are_exact n a b : words_of n a -> words_of n b -> fits n (signed a - signed b) ->
-  words_of n (minus_words a b 0) /\ signed (minus_words a b 0) = signed a - signed b.
-Proof.
-  intros ha hb f. destruct (borrows_are_right n a b 0 ha hb ltac:(lia)) as [h [under E]]. split; [exact h|].
-  destruct (signed_same n a ha) as [j ea]. destruct (signed_same n b hb) as [k eb].
-    apply (right_if_it_fits n _ _ (j - k + under) h f). lia.
-Qed.
-
-(* Products: `multiply`, a row for each word of a on what the rows before have left above. No sum of a row needs more
-   than 128 bits. *)
-Theorem a_row_fits_128_bits x y w carry : is_word x -> is_word y -> is_word w -> is_word carry -> 0 <= x * y + w + carry
-  < 2 ^ 128.
-Proof. change (2 ^ 128) with (word * word). unfold is_word. nia. Qed.
-Fixpoint row x b above carry := match b, above with
-  | y :: b, w :: above => let s := x * y + w + carry in let '(ws, last) := row x b above (s / word) in (s mod word ::
-    ws, last)
-  | _, _ => ([], carry) end.
-Fixpoint multiply a b above := match a with
-  | [] => above
-  | x :: a => let '(ws, carry) := row x b above 0 in match ws ++ [carry] with low :: rest => low :: multiply a b rest |
-    [] => [] end end.
-Lemma row_is_right n x b above carry : is_word x -> words_of n b -> words_of n above -> is_word carry -> let '(ws,
-  last) := row x b above carry in
-  words_of n ws /\ is_word last /\ natural ws + word ^ Z.of_nat n * last = x * natural b + natural above + carry.
-Proof.
-  intros wx. revert b above carry. induction n as [|n IH]; intros b above carry [lb wb] [la wa] wc;
-    destruct b as [|y b], above as [|w above]; try discriminate.
-  - cbn [row natural Z.of_nat]. rewrite Z.pow_0_r. split; [split; [reflexivity|constructor]|]. split; [exact wc|ring].
-  - inversion wb as [|? ? wy wb']; subst. inversion wa as [|? ? ww wa']; subst. cbn [row].
-    pose proof (a_row_fits_128_bits x y w carry wx wy ww wc) as small. set (s := x * y + w + carry) in *.
-    assert (ws : is_word (s / word)). { split; [apply Z.div_pos; [lia|reflexivity]|].
-      apply Z.div_lt_upper_bound; [reflexivity|]. exact (proj2 small). }
-    specialize (IH b above (s / word) ltac:(split; [now injection lb|assumption]) ltac:(split;
-      [now injection la|assumption]) ws).
-    destruct (row x b above (s / word)) as [rest last]. destruct IH as (h & wl & E). split; [|split; [exact wl|]].
-    + destruct h as [l wr]. split; [cbn [length]; now rewrite l|constructor; [apply a_remainder_is_a_word|exact wr]].
-    + cbn [natural]. rewrite Nat2Z.inj_succ, Z.pow_succ_r by lia. pose proof (Z.div_mod s word ltac:(discriminate)).
-      unfold s in *. lia.
-Qed.
-Theorem products_are_right n m a b above : words_of n a -> words_of m b -> words_of m above -> (0 < m)%nat ->
-  words_of (n + m) (multiply a b above) /\ natural (multiply a b above) = natural a * natural b + natural above.
-Proof.
-  intros ha hb habove some_. revert a above ha habove. induction n as [|n IH]; intros a above [la wa] habove;
-    destruct a as [|x a]; try discriminate.
-  - split; [exact habove|]. cbn [multiply natural]. ring.
-  - inversion wa as [|? ? wx wa']; subst. cbn [multiply natural]. pose proof (row_is_right m x b above 0 wx hb habove
-    ltac:(split; [lia|reflexivity])) as R.
-    destruct (row x b above 0) as [ws carry]. destruct R as ([lw ww] & wc & E).
-    assert (all : words_of (S m) (ws ++ [carry])).
-    { split; [rewrite app_length, lw; cbn [length]; lia|apply Forall_app; split; [exact ww|constructor;
-      [exact wc|constructor]]]. }
-    assert (sum : natural (ws ++ [carry]) = x * natural b + natural above) by (rewrite natural_app, lw; cbn [natural];
-      lia).
-    destruct (ws ++ [carry]) as [|low rest]; [destruct all; discriminate|]. destruct all as [lr wr].
-      inversion wr as [|? ? wlow wrest]; subst.
-    destruct (IH a rest ltac:(split; [now injection la|assumption]) ltac:(split;
-      [now injection lr|assumption])) as [[l w] E2].
-    split; [split; [cbn [length]; now rewrite l|constructor; assumption]|]. cbn [natural] in *. lia.
-Qed.
-(* Signs: a negative factor is 2^(64 words) too much, times the other one, which is taken off above: `times`. *)
-Definition is_negative ws := modulus ws <=? 2 * natural ws.
-Definition masked (sign : bool) ws := if sign then ws else map (fun _ => 0) ws.
-Definition minus_at k p b := firstn k p ++ minus_words (skipn k p) b 0.
-Definition times a b :=
-  let p := multiply a b (map (fun _ => 0) b) in
-  let p := minus_at (length a) p (masked (is_negative a) b) in
-  minus_at (length b) p (masked (is_negative b) a).
-Lemma zeros_are_words n (ws : list Z) : length ws = n -> words_of n (map (fun _ : Z => 0) ws) /\
-  natural (map (fun _ : Z => 0) ws) = 0.
-Proof.
-  revert n. induction ws as [|w ws IH]; intros n <-; [split; [split; [reflexivity|constructor]|reflexivity]|].
-    destruct (IH _ eq_refl) as [[l h] E].
-  split; [split; [now rewrite map_length|constructor; [split; [lia|reflexivity]|exact h]]|]. cbn [map natural].
-    rewrite E. ring.
-Qed.
-Lemma masked_is sign n ws : words_of n ws -> words_of n (masked sign ws) /\ natural (masked sign ws) = if sign then
-  natural ws else 0.
-Proof. intro h. destruct sign; [auto|]. apply zeros_are_words. apply h. Qed.
-Lemma minus_at_is k n p b : words_of (k + n) p -> words_of n b ->
-  words_of (k + n) (minus_at k p b) /\ exists under, natural (minus_at k p b) = natural p - word ^ Z.of_nat k * natural
-    b + word ^ Z.of_nat (k + n) * under.
-Proof.
-  intros [lp wp] hb. rewrite <- (firstn_skipn k p) in wp. apply Forall_app in wp as [w1 w2].
-  assert (l1 : length (firstn k p) = k) by (rewrite firstn_length; lia). assert (l2 : length (skipn k p) = n) by
-    (rewrite skipn_length; lia).
-  destruct (borrows_are_right n (skipn k p) b 0 (conj l2 w2) hb ltac:(lia)) as [[l w] [under E]]. unfold minus_at.
-  split; [split; [rewrite app_length; lia|now apply Forall_app]|]. exists under. rewrite natural_app, l1, E.
-    rewrite <- (firstn_skipn k p) at 3.
-  rewrite natural_app, l1, Nat2Z.inj_add, Z.pow_add_r by lia. ring.
-Qed.
-Theorem products_are_exact n m a b : words_of n a -> words_of m b -> (0 < n)%nat -> (0 < m)%nat ->
-  words_of (n + m) (times a b) /\ signed (times a b) = signed a * signed b.
-Proof.
-  intros ha hb n0 m0. pose proof (zeros_are_words m b (proj1 hb)) as [hz ez].
-    destruct (products_are_right n m a b _ ha hb hz m0) as [hp ep].
-  destruct (masked_is (is_negative a) m b hb) as [hmb emb]. destruct (masked_is (is_negative b) n a ha) as [hma ema].
-  unfold times. rewrite (proj1 ha), (proj1 hb). destruct (minus_at_is n m _ _ hp hmb) as [h1 [u1 e1]].
-    rewrite Nat.add_comm in h1.
-  destruct (minus_at_is m n _ _ h1 hma) as [h2 [u2 e2]]. rewrite (Nat.add_comm m n) in h2, e2. split; [exact h2|].
-  pose proof (signed_fits n a ha) as fa. pose proof (signed_fits m b hb) as fb. unfold fits in *.
-    pose proof (word_pos n). pose proof (word_pos m).
-  assert (pow : word ^ Z.of_nat (n + m) = word ^ Z.of_nat n * word ^ Z.of_nat m) by (rewrite Nat2Z.inj_add,
-    Z.pow_add_r by lia; reflexivity).
-  assert (sa : natural a = signed a + word ^ Z.of_nat n * (if is_negative a then 1 else 0)).
-  { unfold signed, is_negative. rewrite (modulus_of n a ha). destruct (_ <=? _); ring. }
-  assert (sb : natural b = signed b + word ^ Z.of_nat m * (if is_negative b then 1 else 0)).
-  { unfold signed, is_negative. rewrite (modulus_of m b hb). destruct (_ <=? _); ring. }
-  apply (right_if_it_fits (n + m) _ _ (u1 + u2 - (if is_negative a then 1 else 0) * (if is_negative b then 1 else 0))
-    h2).
-  - unfold fits. rewrite pow. set (A := word ^ Z.of_nat n) in *. set (B := word ^ Z.of_nat m) in *.
-    set (x := signed a) in *. set (y := signed b) in *.
-    assert (Z.abs (2 * x) <= A) by lia. assert (Z.abs (2 * y) <= B) by lia.
-    assert (Z.abs (2 * x) * Z.abs (2 * y) <= A * B) by (apply Z.mul_le_mono_nonneg; lia). rewrite <- Z.abs_mul in H3.
-    assert (0 < A * B) by (apply Z.mul_pos_pos; assumption). lia.
-  - rewrite e2, e1, ep, ez, emb, ema, pow. rewrite sa, sb. destruct (is_negative a), (is_negative b); ring.
-Qed.
-(* One word by one or by two, which the code multiplies in 128 bits: the same number. *)
-Theorem words_of_a_product z : natural [z mod word; (z / word) mod word] = z mod (word * word).
-Proof.
-  cbn [natural]. rewrite Z.rem_mul_r by (reflexivity || discriminate). ring.
-Qed.
-Theorem words_of_one_by_two a b0 b1 : let below := a * b0 in let above := a * b1 + below / word in
-  below mod word + word * above = a * (b0 + word * b1).
-Proof. cbv zeta. pose proof (Z.div_mod (a * b0) word ltac:(discriminate)). lia. Qed.
-
-(* The sign is that of the top word: `sign`, `sign_word`. *)
-Theorem the_top_word_has_the_sign n ws top : words_of n (ws ++ [top]) -> (signed (ws ++ [top]) < 0 <-> word <= 2 * top).
-Proof.
-  intros [l w]. apply Forall_app in w as [w wt]. inversion wt as [|? ? wtop _]; subst.
-    pose proof (natural_range ws w) as r. unfold modulus in r.
-  unfold signed, modulus. rewrite natural_app, app_length. cbn [natural length].
-    rewrite Nat.add_1_r, Nat2Z.inj_succ, Z.pow_succ_r by lia.
-  pose proof (word_pos (length ws)). set (M := word ^ Z.of_nat (length ws)) in *. unfold is_word in wtop.
-  assert (E : word = 2 * 2 ^ 63) by reflexivity. destruct (Z.leb_spec (word * M) (2 * (natural ws + M * (top + word *
-    0)))); split; nia.
-Qed.
-
-(* A coordinate in its axis' unit: `write_shifted`, a significand of 64 bits times a power of two, in n words. *)
-Definition shifted_word significand shift i :=
-  let first := shift / 64 in let wide := significand * 2 ^ (shift mod 64) in
-  if i <? first then 0 else if i =? first then wide mod word else if i =? first + 1 then (wide / word) mod word else if
-    significand <? 0 then word - 1 else 0.
-Definition shifted n significand shift := map (fun i => shifted_word significand shift (Z.of_nat i)) (seq 0 n).
-Lemma digits n x : natural (map (fun i => (x / word ^ Z.of_nat i) mod word) (seq 0 n)) = x mod word ^ Z.of_nat n.
-Proof.
-  revert x. induction n as [|n IH]; intro x; [cbn; now rewrite Z.mod_1_r|].
-  assert (rest : map (fun i => (x / word ^ Z.of_nat i) mod word) (seq 1 n) = map (fun i => ((x / word) / word ^ Z.of_nat
-    i) mod word) (seq 0 n)).
-  { rewrite <- seq_shift, map_map. apply map_ext. intro i. rewrite Nat2Z.inj_succ, Z.pow_succ_r by lia.
-    rewrite Z.div_div; [reflexivity|discriminate|apply word_pos]. }
-  cbn [seq map natural]. rewrite rest, IH. change (Z.of_nat 0) with 0. rewrite Z.pow_0_r, Z.div_1_r, Nat2Z.inj_succ,
-    Z.pow_succ_r by lia.
-  rewrite Z.rem_mul_r; [reflexivity|discriminate|apply word_pos].
-Qed.
-Theorem shifted_is_exact n significand shift : - 2 ^ 63 <= significand < 2 ^ 63 -> 0 <= shift -> fits n (significand * 2
-  ^ shift) ->
-  words_of n (shifted n significand shift) /\ signed (shifted n significand shift) = significand * 2 ^ shift.
-Proof.
-  intros s64 s0 f. set (x := significand * 2 ^ shift).
-  assert (same : shifted n significand shift = map (fun i => (x / word ^ Z.of_nat i) mod word) (seq 0 n)).
-  { apply map_ext. intro i. unfold shifted_word. set (first := shift / 64). set (within := shift mod 64).
-    set (wide := significand * 2 ^ within).
-    pose proof (Z.div_mod shift 64 ltac:(discriminate)) as E. fold first within in E.
-      pose proof (Z.mod_pos_bound shift 64 ltac:(reflexivity)) as w. fold within in w.
-    assert (f0 : 0 <= first) by (apply Z.div_pos; lia).
-    assert (X : x = wide * word ^ first).
-    { unfold x, wide, word. rewrite <- Z.pow_mul_r, <- Z.mul_assoc, <- Z.pow_add_r by lia. do 2 f_equal. lia. }
-    assert (W : - (word * word) <= 2 * wide < word * word).
-    { unfold wide. assert (1 <= 2 ^ within <= 2 ^ 63) by (split; [apply Z.lt_pred_le, Z.pow_pos_nonneg;
-      lia|apply Z.pow_le_mono_r; lia]).
-      change (word * word) with (4 * (2 ^ 63 * 2 ^ 63)). nia. }
-    destruct (Z.ltb_spec (Z.of_nat i) first) as [low|high].
-    - rewrite X. replace first with ((first - Z.of_nat i - 1) + 1 + Z.of_nat i) by ring. rewrite !Z.pow_add_r by lia.
-      rewrite Z.mul_assoc, Z.div_mul by (apply Z.pow_nonzero; [discriminate|lia]).
-      rewrite Z.pow_1_r, Z.mul_assoc. symmetry. apply Z.mod_mul. discriminate.
-    - assert (D : x / word ^ Z.of_nat i = wide / word ^ (Z.of_nat i - first)).
-      { rewrite X. replace (Z.of_nat i) with (first + (Z.of_nat i - first)) at 1 by ring. rewrite Z.pow_add_r by lia.
-        rewrite <- Z.div_div by (try apply Z.pow_nonzero; try apply Z.pow_pos_nonneg; try discriminate;
-          try reflexivity; lia).
-        now rewrite Z.div_mul by (apply Z.pow_nonzero; [discriminate|lia]). }
-      rewrite D. destruct (Z.eqb_spec (Z.of_nat i) first) as [e|ne]; [rewrite e, Z.sub_diag, Z.pow_0_r, Z.div_1_r;
-        reflexivity|].
-      destruct (Z.eqb_spec (Z.of_nat i) (first + 1)) as [e|ne1]; [rewrite e; replace (first + 1 - first) with 1 by ring;
-        now rewrite Z.pow_1_r|].
-      assert (big : word * word <= word ^ (Z.of_nat i - first)).
-      { replace (word * word) with (word ^ 2) by reflexivity. apply Z.pow_le_mono_r; [reflexivity|lia]. }
-      assert (signs : (significand <? 0) = (wide <? 0)).
-      { unfold wide. assert (0 < 2 ^ within) by (apply Z.pow_pos_nonneg; lia).
-        destruct (Z.ltb_spec significand 0), (Z.ltb_spec (significand * 2 ^ within) 0); try reflexivity; nia. }
-      rewrite signs. destruct (Z.ltb_spec wide 0).
-      + assert (wide / word ^ (Z.of_nat i - first) = -1) as ->; [|reflexivity].
-        apply Z.le_antisymm; [apply Z.lt_succ_r, Z.div_lt_upper_bound; lia|apply Z.div_le_lower_bound; lia].
-      + rewrite Z.div_small by lia. reflexivity. }
-  assert (h : words_of n (shifted n significand shift)).
-  { rewrite same. split; [now rewrite map_length, seq_length|]. apply Forall_forall. intros v i.
-    apply in_map_iff in i as (k & <- & _). apply a_remainder_is_a_word. }
-  split; [exact h|]. apply (right_if_it_fits n _ _ (- (x / word ^ Z.of_nat n)) h f). rewrite same, digits.
-  pose proof (Z.div_mod x (word ^ Z.of_nat n) ltac:(pose proof (word_pos n); lia)). fold x. lia.
-Qed.
-
-(* Control values, as kernel.rs computes them: cross products in 2n words, products with them in 3n. *)
-Definition plus a b := plus_words a b 0.
-Definition minus a b := minus_words a b 0.
-Definition is n ws x := words_of n ws /\ signed ws = x.
-Lemma is_sum n a b x y : is n a x -> is n b y -> fits n (x + y) -> is n (plus a b) (x + y).
-Proof. intros [ha <-] [hb <-] f. exact (sums_are_exact n a b ha hb f). Qed.
-Lemma is_difference n a b x y : is n a x -> is n b y -> fits n (x - y) -> is n (minus a b) (x - y).
-Proof. intros [ha <-] [hb <-] f. exact (differences_are_exact n a b ha hb f). Qed.
-Lemma is_product n m a b x y : (0 < n)%nat -> (0 < m)%nat -> is n a x -> is m b y -> is (n + m) (times a b) (x * y).
-Proof. intros n0 m0 [ha <-] [hb <-]. exact (products_are_exact n m a b ha hb n0 m0). Qed.
+(* kernel.rs: `Arithmetic`, for numbers of any type. *)
 Record triple T := Triple { x_ : T; y_ : T; z_ : T }.
 Arguments Triple {T}. Arguments x_ {T}. Arguments y_ {T}. Arguments z_ {T}.
-Section Polynomials.
-Context {T : Type} (plus_ minus_ times_ : T -> T -> T).
-Definition cross_of a b := Triple (minus_ (times_ (y_ a) (z_ b)) (times_ (z_ a) (y_ b)))
-  (minus_ (times_ (z_ a) (x_ b)) (times_ (x_ a) (z_ b))) (minus_ (times_ (x_ a) (y_ b)) (times_ (y_ a) (x_ b))).
-Definition sum_of a b := Triple (plus_ (x_ a) (x_ b)) (plus_ (y_ a) (y_ b)) (plus_ (z_ a) (z_ b)).
-Definition dot_of a b := plus_ (plus_ (times_ (x_ a) (x_ b)) (times_ (y_ a) (y_ b))) (times_ (z_ a) (z_ b)).
-(* k0 and k3; 3 k1 and 3 k2. *)
-Definition outer_of p b c := dot_of p (cross_of b c).
-Definition inner_of p b b' c c' p' b'' c'' := plus_ (dot_of p (sum_of (cross_of b c) (cross_of b' c'))) (dot_of p'
-  (cross_of b'' c'')).
-End Polynomials.
+Record arithmetic T := Arithmetic { difference : T -> T -> T; cross : triple T -> triple T -> triple T;
+  sum : triple T -> triple T -> triple T; dot : triple T -> triple T -> T; sum_of_three : T -> T -> T }.
+Arguments difference {T}. Arguments cross {T}. Arguments sum {T}. Arguments dot {T}. Arguments sum_of_three {T}.
+Definition by_operations {T} (plus minus times : T -> T -> T) := Arithmetic T minus
+  (fun a b => Triple (minus (times (y_ a) (z_ b)) (times (z_ a) (y_ b))) (minus (times (z_ a) (x_ b)) (times (x_ a) (z_ b)))
+    (minus (times (x_ a) (y_ b)) (times (y_ a) (x_ b))))
+  (fun a b => Triple (plus (x_ a) (x_ b)) (plus (y_ a) (y_ b)) (plus (z_ a) (z_ b)))
+  (fun a b => plus (plus (times (x_ a) (x_ b)) (times (y_ a) (y_ b))) (times (z_ a) (z_ b))) plus.
+(* Numbers of a fixed width, of as many words as they need, and exact ones. *)
+Definition fixed := by_operations (integer_plus 64) (integer_minus 64) (integer_times 64).
+Definition space := Arithmetic (list Z) (minus 64)
+  (fun a b => Triple (minor 64 (y_ a) (z_ a) (y_ b) (z_ b)) (minor 64 (z_ a) (x_ a) (z_ b) (x_ b))
+    (minor 64 (x_ a) (y_ a) (x_ b) (y_ b)))
+  (fun a b => Triple (plus 64 (x_ a) (x_ b)) (plus 64 (y_ a) (y_ b)) (plus 64 (z_ a) (z_ b)))
+  (fun a b => sum_of_products 64 (x_ a) (x_ b) (y_ a) (y_ b) (z_ a) (z_ b)) (plus 64).
+Definition exact := by_operations Z.add Z.sub Z.mul.
+Inductive pair_kind := VertexFace | EdgeEdge.
+(* The eight coordinates along each axis: four points at the start, then at the end. *)
+Section Control.
+Context {T : Type} (A : arithmetic T) (kind : pair_kind) (coordinates : triple (nat -> T)).
+Definition point n := Triple (x_ coordinates n) (y_ coordinates n) (z_ coordinates n).
+Definition differences a b := Triple (difference A (x_ a) (x_ b)) (difference A (y_ a) (y_ b)) (difference A (z_ a) (z_ b)).
+Definition edges at_ := match kind with
+  | VertexFace => (differences (point (2 + at_)) (point (1 + at_)), differences (point (3 + at_)) (point (1 + at_)),
+      differences (point (0 + at_)) (point (1 + at_)))
+  | EdgeEdge => (differences (point (1 + at_)) (point (0 + at_)), differences (point (3 + at_)) (point (2 + at_)),
+      differences (point (0 + at_)) (point (2 + at_))) end.
+Definition control_values :=
+  let '(b0, c0, p0) := edges 0 in let '(b1, c1, p1) := edges 4 in
+  let n0 := cross A b0 c0 in let n1 := cross A b1 c1 in
+  let h := sum A (cross A b0 c1) (cross A b1 c0) in
+  [dot A p0 n0; sum_of_three A (dot A p0 h) (dot A p1 n0); sum_of_three A (dot A p1 h) (dot A p0 n1); dot A p1 n1].
+End Control.
+
+(* What the words of an arithmetic stand for, with the squares and cubes of 2^m that bound them. *)
 Section Widths.
+Variable A : arithmetic (list Z).
+Variables coordinate one : list Z -> Z -> Prop.
+Variables two three : Z -> list Z -> Z -> Prop.
+Definition all (p : list Z -> Z -> Prop) ws v := p (x_ ws) (x_ v) /\ p (y_ ws) (y_ v) /\ p (z_ ws) (z_ v).
+Hypothesis differences_are : forall a b x y, coordinate a x -> coordinate b y -> one (difference A a b) (x - y).
+Hypothesis crosses_are : forall a b x y, all one a x -> all one b y -> all (two 2) (cross A a b) (cross exact x y).
+Hypothesis sums_are : forall a b x y, all (two 2) a x -> all (two 2) b y -> all (two 4) (sum A a b) (sum exact x y).
+Hypothesis dots_are : forall k a b x y, k = 2 \/ k = 4 -> all one a x -> all (two k) b y -> three (3 * k) (dot A a b) (dot exact x y).
+Hypothesis last_sums_are : forall a b x y, three 12 a x -> three 6 b y -> three 18 (sum_of_three A a b) (x + y).
+Theorem control_values_are kind words numbers :
+  (forall n, (n < 8)%nat -> all coordinate (point words n) (point numbers n)) ->
+  Forall2 (fun ws x => exists k, three k ws x) (control_values A kind words) (control_values exact kind numbers).
+Proof.
+  intro h.
+  assert (e : forall at_, (at_ <= 4)%nat -> let '(b, c, p) := edges A kind words at_ in let '(vb, vc, vp) := edges exact kind numbers at_ in
+    all one b vb /\ all one c vc /\ all one p vp).
+  { assert (d : forall i j, (i < 8)%nat -> (j < 8)%nat -> all one (differences A (point words i) (point words j)) (differences exact (point numbers i) (point numbers j))).
+    { intros i j hi hj. destruct (h i hi) as (a & b & c). destruct (h j hj) as (a' & b' & c').
+      split; [|split]; apply differences_are; assumption. }
+    intros at_ le. destruct kind; (split; [|split]); apply d; lia. }
+  unfold control_values. pose proof (e 0%nat ltac:(lia)) as e0. pose proof (e 4%nat ltac:(lia)) as e1.
+  destruct (edges A kind words 0) as [[b0 c0] p0]. destruct (edges A kind words 4) as [[b1 c1] p1].
+  destruct (edges exact kind numbers 0) as [[vb0 vc0] vp0]. destruct (edges exact kind numbers 4) as [[vb1 vc1] vp1].
+  destruct e0 as (hb0 & hc0 & hp0). destruct e1 as (hb1 & hc1 & hp1).
+  pose proof (crosses_are _ _ _ _ hb0 hc0) as n0. pose proof (crosses_are _ _ _ _ hb1 hc1) as n1.
+  pose proof (sums_are _ _ _ _ (crosses_are _ _ _ _ hb0 hc1) (crosses_are _ _ _ _ hb1 hc0)) as hh.
+  repeat constructor; eexists.
+  - apply (dots_are 2); auto.
+  - apply last_sums_are; [apply (dots_are 4)|apply (dots_are 2)]; auto.
+  - apply last_sums_are; [apply (dots_are 4)|apply (dots_are 2)]; auto.
+  - apply (dots_are 2); auto.
+Qed.
+End Widths.
+
+(* Numbers of as many words as they need have no bounds. *)
+Theorem space_is_exact kind words numbers : (forall n, (n < 8)%nat -> all holds (point words n) (point numbers n)) ->
+  Forall2 holds (control_values space kind words) (control_values exact kind numbers).
+Proof.
+  intro h. assert (r : 1 <= 64) by lia.
+  pose proof (control_values_are space holds holds (fun _ => holds) (fun _ => holds)) as C.
+  assert (F : Forall2 (fun ws x => exists _ : Z, holds ws x) (control_values space kind words) (control_values exact kind numbers)).
+  { apply C; try exact h.
+    - intros a b x y ha hb. now apply minus_is.
+    - intros a b x y (ax & ay & az) (bx & by_ & bz).
+      split; [|split]; cbn [space cross exact by_operations x_ y_ z_]; now apply minor_is.
+    - intros a b x y (ax & ay & az) (bx & by_ & bz). split; [|split]; now apply plus_is.
+    - intros k a b x y _ (ax & ay & az) (bx & by_ & bz). now apply sum_of_products_is.
+    - intros a b x y ha hb. now apply plus_is. }
+  clear -F. induction F as [|ws x l l' [_ w] _ IH]; constructor; assumption.
+Qed.
+
+Section Fixed.
 Variable n : nat.
 Hypothesis some : (0 < n)%nat.
 Notation m := (64 * Z.of_nat n - 2).
 Notation square := (2 ^ m * 2 ^ m).
-Definition all_are k ws v := is k (x_ ws) (x_ v) /\ is k (y_ ws) (y_ v) /\ is k (z_ ws) (z_ v).
-Definition all_below b v := Z.abs (x_ v) <= b /\ Z.abs (y_ v) <= b /\ Z.abs (z_ v) <= b.
+Let r64 : 1 <= 64. Proof. lia. Qed.
+Lemma fits_one x : Z.abs x < 2 ^ m -> fits n x.
+Proof.
+  intro h. unfold Words.fits. assert (word ^ Z.of_nat n = 4 * 2 ^ m) as ->; [|lia].
+  change word with (2 ^ 64). rewrite <- Z.pow_mul_r by lia. change 4 with (2 ^ 2). rewrite <- Z.pow_add_r by lia. f_equal. lia.
+Qed.
 Lemma fits_two x : Z.abs x <= 6 * square -> fits (n + n) x.
-Proof. intro h. unfold fits. pose proof (two_words_suffice (Z.of_nat n) ltac:(lia) x h) as w.
+Proof. intro h. unfold Words.fits. pose proof (two_words_suffice (Z.of_nat n) ltac:(lia) x h) as w.
   replace (Z.of_nat (n + n)) with (2 * Z.of_nat n) by lia. exact w. Qed.
 Lemma fits_three x : Z.abs x <= 18 * (2 ^ m * square) -> fits (n + (n + n)) x.
-Proof. intro h. unfold fits. pose proof (three_words_suffice (Z.of_nat n) ltac:(lia) x h) as w.
+Proof. intro h. unfold Words.fits. pose proof (three_words_suffice (Z.of_nat n) ltac:(lia) x h) as w.
   replace (Z.of_nat (n + (n + n))) with (3 * Z.of_nat n) by lia. exact w. Qed.
 Lemma square_pos : 0 < square. Proof. assert (0 < 2 ^ m) by (apply Z.pow_pos_nonneg; lia). now apply Z.mul_pos_pos. Qed.
-Theorem crosses_are_exact a b v w : all_are n a v -> all_are n b w -> all_below (2 ^ m) v -> all_below (2 ^ m) w ->
-  all_are (n + n) (cross_of minus times a b) (cross_of Z.sub Z.mul v w) /\ all_below (2 * square) (cross_of Z.sub Z.mul
-    v w).
+Definition coordinate ws x := is n ws x /\ Z.abs x < 2 ^ (64 * Z.of_nat n - 3).
+Definition one ws x := is n ws x /\ Z.abs x <= 2 ^ m.
+Definition two k ws x := is (n + n) ws x /\ Z.abs x <= k * square.
+Definition three k ws x := is (n + (n + n)) ws x /\ Z.abs x <= k * (2 ^ m * square).
+Lemma room_for_dots k u v w : k = 2 \/ k = 4 -> Z.abs u <= 2 ^ m * (k * square) -> Z.abs v <= 2 ^ m * (k * square) ->
+  Z.abs w <= 2 ^ m * (k * square) -> fits (n + (n + n)) u /\ fits (n + (n + n)) v /\ fits (n + (n + n)) w /\
+  fits (n + (n + n)) (u + v) /\ fits (n + (n + n)) (u + v + w) /\ Z.abs (u + v + w) <= 3 * k * (2 ^ m * square).
 Proof.
-  intros (ax & ay & az) (bx & by_ & bz) (vx & vy & vz) (wx & wy & wz). pose proof square_pos.
-  pose proof (crosses_have_room (Z.of_nat n) ltac:(lia) (y_ v) (z_ w) (z_ v) (y_ w) vy wz vz wy) as X.
-  pose proof (crosses_have_room (Z.of_nat n) ltac:(lia) (z_ v) (x_ w) (x_ v) (z_ w) vz wx vx wz) as Y.
-  pose proof (crosses_have_room (Z.of_nat n) ltac:(lia) (x_ v) (y_ w) (y_ v) (x_ w) vx wy vy wx) as Z_.
-  split; [|exact (conj X (conj Y Z_))].
-  split; [|split]; cbn [cross_of x_ y_ z_]; apply is_difference; try (apply is_product; assumption); apply fits_two;
-    lia.
+  intro k24. assert (c : 0 < 2 ^ m * square) by (apply Z.mul_pos_pos; [apply Z.pow_pos_nonneg; lia|apply square_pos]).
+  replace (2 ^ m * (k * square)) with (k * (2 ^ m * square)) by ring. pose proof fits_three as F. revert F.
+  set (S := 2 ^ m * square) in *. clearbody S. intros F a b d. destruct k24 as [-> | ->]; repeat split; try apply F; lia.
 Qed.
-Theorem sums_of_crosses_are_exact a b v w : all_are (n + n) a v -> all_are (n + n) b w -> all_below (2 * square) v ->
-  all_below (2 * square) w ->
-  all_are (n + n) (sum_of plus a b) (sum_of Z.add v w) /\ all_below (4 * square) (sum_of Z.add v w).
+Theorem fixed_is_exact kind words numbers : (forall i, (i < 8)%nat -> all coordinate (point words i) (point numbers i)) ->
+  Forall2 (is (n + (n + n))) (control_values fixed kind words) (control_values exact kind numbers).
 Proof.
-  intros (ax & ay & az) (bx & by_ & bz) (vx & vy & vz) (wx & wy & wz). pose proof square_pos. split.
-  - split; [|split]; cbn [sum_of x_ y_ z_]; apply is_sum; try assumption; apply fits_two; lia.
-  - split; [|split]; cbn [sum_of x_ y_ z_]; lia.
+  intro h. pose proof square_pos as sp. assert (p : 0 < 2 ^ m) by (apply Z.pow_pos_nonneg; lia).
+  assert (cp : 0 < 2 ^ m * square) by (now apply Z.mul_pos_pos).
+  pose proof (control_values_are fixed coordinate one two three) as C.
+  assert (F : Forall2 (fun ws x => exists k, three k ws x) (control_values fixed kind words) (control_values exact kind numbers)).
+  { apply C; try exact h.
+    - intros a b x y [ha la] [hb lb]. pose proof (differences_have_room (Z.of_nat n) ltac:(lia) x y la lb).
+      split; [|lia]. apply integer_minus_is; try assumption. now apply fits_one.
+    - intros a b x y ([ax lax] & [ay lay] & [az laz]) ([bx lbx] & [by_ lby] & [bz lbz]).
+      pose proof (crosses_have_room (Z.of_nat n) ltac:(lia) (y_ x) (z_ y) (z_ x) (y_ y) lay lbz laz lby).
+      pose proof (crosses_have_room (Z.of_nat n) ltac:(lia) (z_ x) (x_ y) (x_ x) (z_ y) laz lbx lax lbz).
+      pose proof (crosses_have_room (Z.of_nat n) ltac:(lia) (x_ x) (y_ y) (y_ x) (x_ y) lax lby lay lbx).
+      pose proof (fun u v => product_below u v (2 ^ m) (2 ^ m)) as P.
+      split; [|split]; (split; [|assumption]); cbn [cross fixed exact by_operations x_ y_ z_];
+        apply integer_minus_is; try assumption; try (apply integer_times_is; assumption); apply fits_two; lia.
+    - intros a b x y ([ax lax] & [ay lay] & [az laz]) ([bx lbx] & [by_ lby] & [bz lbz]).
+      split; [|split]; cbn [sum fixed exact by_operations x_ y_ z_]; (split; [|lia]); apply integer_plus_is; try assumption;
+        apply fits_two; lia.
+    - intros k a b x y k24 ([ax lax] & [ay lay] & [az laz]) ([bx lbx] & [by_ lby] & [bz lbz]).
+      pose proof (product_below _ _ _ _ lax lbx). pose proof (product_below _ _ _ _ lay lby). pose proof (product_below _ _ _ _ laz lbz).
+      destruct (room_for_dots k _ _ _ k24 H H0 H1) as (f1 & f2 & f3 & f4 & f5 & bound).
+      cbn [dot fixed exact by_operations]. split; [|exact bound].
+      assert (T : forall u v i j, is n u i -> is (n + n) v j -> is (n + (n + n)) (integer_times 64 u v) (i * j)).
+      { intros u v i j hu hv. exact (integer_times_is 64 r64 n (n + n) u v i j some ltac:(lia) hu hv). }
+      exact (integer_plus_is 64 r64 _ _ _ _ _ (integer_plus_is 64 r64 _ _ _ _ _ (T _ _ _ _ ax bx) (T _ _ _ _ ay by_) f4)
+        (T _ _ _ _ az bz) f5).
+    - intros a b x y [ha la] [hb lb]. split; [|lia]. apply integer_plus_is; try assumption. apply fits_three. lia. }
+  clear -F. induction F as [|ws x l l' [_ [w _]] _ IH]; constructor; assumption.
 Qed.
-Theorem dots_are_exact k a b v w : 0 <= k <= 4 -> all_are n a v -> all_are (n + n) b w -> all_below (2 ^ m) v ->
-  all_below (k * square) w ->
-  is (n + (n + n)) (dot_of plus times a b) (dot_of Z.add Z.mul v w) /\ Z.abs (dot_of Z.add Z.mul v w) <= 3 * (2 ^ m * (k
-    * square)).
+End Fixed.
+
+(* aligned.rs: a number apart, by its encoding alone. *)
+Record scalar := Scalar { fraction_bits : Z; exponent_bits : Z }.
+Definition single := Scalar 23 8.
+Definition double := Scalar 52 11.
+Definition bias s := 2 ^ (exponent_bits s - 1) - 1 + fraction_bits s.
+Definition largest_field s := 2 ^ exponent_bits s - 1.
+Definition largest_u32 := 2 ^ 32 - 1.
+Record parts := Parts { significand : Z; exponent : Z; top : Z; is_finite : bool }.
+Fixpoint trailing_zeros p := match p with xO p => 1 + trailing_zeros p | _ => 0 end.
+Fixpoint odd_part p := match p with xO p => odd_part p | _ => p end.
+Definition take_apart s encoding :=
+  let field := encoding / 2 ^ fraction_bits s mod 2 ^ exponent_bits s in
+  let is_negative := negb (encoding / 2 ^ (fraction_bits s + exponent_bits s) =? 0) in
+  let is_normal := negb (field =? 0) in
+  let exponent := Z.max field 1 in
+  let fraction := encoding mod 2 ^ fraction_bits s in
+  let magnitude := fraction + if is_normal then 2 ^ fraction_bits s else 0 in
+  let '(odd, zeros) := match magnitude with Zpos p => (Zpos (odd_part p), trailing_zeros p) | _ => (0, 64) end in
+  Parts (if is_negative then - odd else odd) (if magnitude =? 0 then largest_u32 else exponent + zeros)
+    (exponent + fraction_bits s + 1) (negb (field =? largest_field s)).
+(* `Axis`: the smallest exponent is the unit. *)
+Definition unit terms := fold_right Z.min largest_u32 (map exponent terms).
+Definition bits_of terms := Z.max 0 (fold_right Z.max 0 (map top terms) - unit terms).
+Definition wrapping_sub x y := (x - y) mod 2 ^ 32.
+Definition integers {T} (shifted : Z -> Z -> T) terms :=
+  map (fun term => shifted (significand term) (wrapping_sub (exponent term) (unit terms))) terms.
+Definition each {T U} (f : T -> U) v := Triple (f (x_ v)) (f (y_ v)) (f (z_ v)).
+(* mod.rs and `Width`: the narrowest width that suffices; none if a coordinate is not finite. *)
+Definition coordinates (shifted : Z -> Z -> list Z) axes := each (fun terms n => nth n (integers shifted terms) []) axes.
+Definition signs kind axes :=
+  let bits := Z.max (Z.max (bits_of (x_ axes)) (bits_of (y_ axes))) (bits_of (z_ axes)) in
+  let by_fixed n := map (integer_sign 64) (control_values fixed kind (coordinates (integer_shifted 64 n) axes)) in
+  if bits <=? 61 then by_fixed 1%nat else if bits <=? 125 then by_fixed 2%nat else if bits <=? 317 then by_fixed 5%nat else
+  map (words_sign 64) (control_values space kind (coordinates (shifted 64) axes)).
+Definition all_finite axes := forallb is_finite (x_ axes) && forallb is_finite (y_ axes) && forallb is_finite (z_ axes).
+Definition control_value_signs s kind encodings :=
+  let axes := each (map (take_apart s)) encodings in if all_finite axes then Some (signs kind axes) else None.
+
+(* What encodings are, after `Narrowing.v`; the sign is the top bit. *)
+Definition encoding_of s := Narrowing.Encoding (fraction_bits s) (bias s) (largest_field s * 2 ^ fraction_bits s).
+Definition value s e : R := ((if e <? 2 ^ (fraction_bits s + exponent_bits s) then 1 else -1) *
+  Narrowing.value (encoding_of s) (e mod 2 ^ (fraction_bits s + exponent_bits s)))%R.
+Definition is_encoding s e := 0 <= e < 2 ^ (fraction_bits s + exponent_bits s + 1).
+Definition reasonable s := 1 <= fraction_bits s <= 62 /\ 1 <= exponent_bits s <= 30.
+Lemma odd_times p : Zpos p = Zpos (odd_part p) * 2 ^ trailing_zeros p /\ 0 <= trailing_zeros p.
 Proof.
-  intros k4 (ax & ay & az) (bx & by_ & bz) (vx & vy & vz) (wx & wy & wz). pose proof square_pos.
-    assert (0 < 2 ^ m) by (apply Z.pow_pos_nonneg; lia).
-  pose proof (product_below _ _ _ _ vx wx). pose proof (product_below _ _ _ _ vy wy).
-    pose proof (product_below _ _ _ _ vz wz).
-  assert (0 < 2 ^ m * square) by (now apply Z.mul_pos_pos). assert (2 ^ m * (k * square) <= 4 * (2 ^ m * square)) by
-    nia. unfold dot_of. split.
-  - apply is_sum; [apply is_sum|apply is_product; try assumption; lia|]; [apply is_product; try assumption; lia..| |];
-    apply fits_three; lia.
-  - lia.
+  induction p as [p _|p [IH pos]|]; try (cbn; lia). cbn [odd_part trailing_zeros]. rewrite Z.pow_add_r by lia.
+  change (2 ^ 1) with 2. lia.
 Qed.
-Theorem outer_control_values_are_exact p b c vp vb vc : all_are n p vp -> all_are n b vb -> all_are n c vc ->
-  all_below (2 ^ m) vp -> all_below (2 ^ m) vb -> all_below (2 ^ m) vc -> is (n + (n + n)) (outer_of plus minus times p
-    b c) (outer_of Z.add Z.sub Z.mul vp vb vc).
+(* A finite number is its significand times 2^exponent, less the bias; and it is below 2^top. *)
+Theorem take_apart_is s e : reasonable s -> is_encoding s e -> let term := take_apart s e in is_finite term = true ->
+  (value s e = IZR (significand term) * bpow radix2 (exponent term - bias s))%R /\
+  Z.abs (significand term) < 2 ^ (fraction_bits s + 1) /\ 0 <= exponent term <= largest_u32 /\
+  (significand term <> 0 -> Z.abs (significand term) * 2 ^ exponent term < 2 ^ top term).
 Proof.
-  intros hp hb hc sp sb sc. destruct (crosses_are_exact b c vb vc hb hc sb sc) as [h s].
-    exact (proj1 (dots_are_exact 2 _ _ _ _ ltac:(lia) hp h sp s)).
+  intros [rf re] he term. unfold is_encoding in he. subst term. unfold take_apart.
+  set (fb := fraction_bits s) in *. set (eb := exponent_bits s) in *.
+  assert (F : 0 < 2 ^ fb) by (apply Z.pow_pos_nonneg; lia). assert (E : 0 < 2 ^ eb) by (apply Z.pow_pos_nonneg; lia).
+  assert (FE : 2 ^ (fb + eb) = 2 ^ fb * 2 ^ eb) by (apply Z.pow_add_r; lia).
+  set (field := e / 2 ^ fb mod 2 ^ eb). set (fraction := e mod 2 ^ fb).
+  pose proof (Z.mod_pos_bound (e / 2 ^ fb) (2 ^ eb) E) as hf. fold field in hf.
+  pose proof (Z.mod_pos_bound e (2 ^ fb) F) as hr. fold fraction in hr.
+  assert (B : e mod 2 ^ (fb + eb) = fraction + 2 ^ fb * field) by (rewrite FE; apply Z.rem_mul_r; lia).
+  assert (neg : negb (e / 2 ^ (fb + eb) =? 0) = negb (e <? 2 ^ (fb + eb))).
+  { f_equal. apply eq_true_iff_eq. rewrite Z.eqb_eq, Z.ltb_lt. split; intro h.
+    - pose proof (Z.div_mod e (2 ^ (fb + eb)) ltac:(lia)). pose proof (Z.mod_pos_bound e (2 ^ (fb + eb)) ltac:(lia)). nia.
+    - apply Z.div_small. lia. }
+  rewrite neg. set (m := fraction + _). assert (m0 : 0 <= m < 2 ^ (fb + 1)).
+  { unfold m. rewrite Z.pow_add_r by lia. change (2 ^ 1) with 2. destruct (field =? 0); cbn [negb]; lia. }
+  assert (V : Narrowing.value (encoding_of s) (e mod 2 ^ (fb + eb)) = (IZR m * bpow radix2 (Z.max field 1 - bias s))%R).
+  { unfold Narrowing.value, encoding_of. cbn [Narrowing.bits Narrowing.offset]. fold fb. rewrite B.
+    replace ((fraction + 2 ^ fb * field) / 2 ^ fb) with field by (symmetry; rewrite Z.mul_comm, Z.div_add, Z.div_small by lia; ring).
+    replace ((fraction + 2 ^ fb * field) mod 2 ^ fb) with fraction by (rewrite Z.mul_comm, Z_mod_plus_full; symmetry; apply Z.mod_small; lia).
+    unfold m. destruct (Z.eqb_spec field 0) as [->|n]; cbn [negb].
+    - replace (fraction + 2 ^ fb * 0) with (fraction + 0) by ring. reflexivity.
+    - rewrite Z.max_l by lia. now rewrite Z.add_comm. }
+  intros _. unfold value. fold fb eb. rewrite V. clear V B. clearbody m.
+  assert (big : 2 ^ eb <= 2 ^ 30) by (apply Z.pow_le_mono_r; lia).
+  assert (out : forall z, (if negb (e <? 2 ^ (fb + eb)) then - z else z) = (if e <? 2 ^ (fb + eb) then 1 else -1) * z).
+  { intro z. destruct (e <? _); cbn [negb]; ring. }
+  destruct m as [|p|p]; [| |lia].
+  - cbn [significand exponent top]. rewrite out, Z.mul_0_r. split; [rewrite !Rmult_0_l, Rmult_0_r; reflexivity|].
+    split; [cbn; lia|]. cbn. split; [unfold largest_u32; lia|lia].
+  - cbn [significand exponent top]. rewrite out. change (Zpos p =? 0) with false. cbn [exponent top].
+    destruct (odd_times p) as [O Z0]. set (o := Zpos (odd_part p)) in *. assert (o0 : 0 < o) by reflexivity.
+    set (z := trailing_zeros p) in *. assert (pz : 0 < 2 ^ z) by (apply Z.pow_pos_nonneg; lia).
+    set (sign := if e <? _ then 1 else -1). assert (sg : Z.abs sign = 1) by (unfold sign; destruct (e <? _); reflexivity).
+    assert (zb : z < fb + 1).
+    { destruct (Z_lt_le_dec z (fb + 1)) as [l|g]; [exact l|]. assert (2 ^ (fb + 1) <= 2 ^ z) by (apply Z.pow_le_mono_r; lia). nia. }
+    split; [|split; [|split]].
+    + rewrite O, !mult_IZR. unfold Z.sub. rewrite (Z.add_comm (Z.max field 1) z), <- Z.add_assoc, (bpow_plus radix2 z).
+      rewrite <- (IZR_Zpower radix2 z) by lia. change (Z.pow radix2 z) with (2 ^ z). 
+      unfold sign. destruct (e <? _); ring.
+    + rewrite Z.abs_mul, sg. nia.
+    + unfold largest_u32. change (2 ^ 30) with 1073741824 in big. lia.
+    + intros _. rewrite Z.abs_mul, sg, Z.mul_1_l, Z.abs_eq by lia. rewrite Z.add_comm, Z.pow_add_r, Z.mul_assoc, <- O by lia.
+      replace (Z.max field 1 + fb + 1) with ((fb + 1) + Z.max field 1) by ring. rewrite (Z.pow_add_r 2 (fb + 1)) by lia.
+      apply Z.mul_lt_mono_pos_r; [apply Z.pow_pos_nonneg; lia|lia].
 Qed.
-Theorem inner_control_values_are_exact p b b' c c' p' b'' c'' vp vb vb' vc vc' vp' vb'' vc'' :
-  all_are n p vp -> all_are n b vb -> all_are n b' vb' -> all_are n c vc -> all_are n c' vc' -> all_are n p' vp' ->
-    all_are n b'' vb'' -> all_are n c'' vc'' ->
-  all_below (2 ^ m) vp -> all_below (2 ^ m) vb -> all_below (2 ^ m) vb' -> all_below (2 ^ m) vc -> all_below (2 ^ m) vc'
-    -> all_below (2 ^ m) vp' ->
-  all_below (2 ^ m) vb'' -> all_below (2 ^ m) vc'' ->
-  is (n + (n + n)) (inner_of plus minus times p b b' c c' p' b'' c'') (inner_of Z.add Z.sub Z.mul vp vb vb' vc vc' vp'
-    vb'' vc'').
+
+Definition numbers axes := each (fun terms n => nth n (integers (fun significand shift => significand * 2 ^ shift) terms) 0) axes.
+Notation part terms n := (nth n terms (Parts 0 0 0 true)).
+Notation shift_of terms n := (wrapping_sub (exponent (part terms n)) (unit terms)).
+Notation number_of terms n := (significand (part terms n) * 2 ^ shift_of terms n).
+Lemma nth_integers T (f : Z -> Z -> T) terms n d : (n < length terms)%nat ->
+  nth n (integers f terms) d = f (significand (part terms n)) (shift_of terms n).
 Proof.
-  intros hp hb hb' hc hc' hp' hb'' hc'' sp sb sb' sc sc' sp' sb'' sc''.
-  destruct (crosses_are_exact b c vb vc hb hc sb sc) as [h1 s1]. destruct (crosses_are_exact b' c' vb' vc' hb' hc' sb'
-    sc') as [h2 s2].
-  destruct (crosses_are_exact b'' c'' vb'' vc'' hb'' hc'' sb'' sc'') as [h3 s3].
-    destruct (sums_of_crosses_are_exact _ _ _ _ h1 h2 s1 s2) as [h s].
-  destruct (dots_are_exact 4 _ _ _ _ ltac:(lia) hp h sp s) as [hd sd]. destruct (dots_are_exact 2 _ _ _ _ ltac:(lia) hp'
-    h3 sp' s3) as [he se].
-  apply is_sum; [exact hd|exact he|]. apply fits_three. lia.
+  intro l. unfold integers. rewrite (nth_indep _ d (f 0 (wrapping_sub 0 (unit terms)))) by now rewrite map_length.
+  exact (map_nth (fun term => f (significand term) (wrapping_sub (exponent term) (unit terms))) terms (Parts 0 0 0 true) n).
 Qed.
-End Widths.
+Definition fine term := Z.abs (significand term) < 2 ^ 63 /\ 0 <= exponent term <= largest_u32 /\
+  (significand term <> 0 -> Z.abs (significand term) * 2 ^ exponent term < 2 ^ top term).
+Lemma unit_is_least terms n : Forall fine terms -> (n < length terms)%nat -> 0 <= unit terms <= exponent (part terms n).
+Proof.
+  intro h. revert n. assert (low : forall terms, Forall fine terms -> 0 <= unit terms).
+  { induction 1 as [|t ts ht _ IH]; unfold unit in *; cbn [map fold_right]; [unfold largest_u32; lia|].
+    destruct ht as (_ & r & _). lia. }
+  induction h as [|t ts ht hts IH]; intros n l; [cbn in l; lia|]. split; [now apply low; constructor|].
+  destruct n as [|n]; unfold unit in *; cbn [nth map fold_right length] in *; [lia|]. specialize (IH n ltac:(lia)). lia.
+Qed.
+Lemma top_is_largest terms n : (n < length terms)%nat -> top (part terms n) <= fold_right Z.max 0 (map top terms).
+Proof.
+  revert n. induction terms as [|t ts IH]; intros n l; [cbn in l; lia|]. destruct n as [|n]; cbn [nth map fold_right length] in *; [lia|].
+  specialize (IH n ltac:(lia)). lia.
+Qed.
+Lemma number_is terms n : Forall fine terms -> (n < length terms)%nat -> Z.abs (number_of terms n) < 2 ^ bits_of terms /\
+  - half 64 <= significand (part terms n) < half 64 /\ 0 <= shift_of terms n /\
+  forall b, (IZR (significand (part terms n)) * bpow radix2 (exponent (part terms n) - b) = IZR (number_of terms n) * bpow radix2 (unit terms - b))%R.
+Proof.
+  intros h l. pose proof (unit_is_least terms n h l) as least. pose proof (top_is_largest terms n l) as largest.
+  assert (ht : fine (part terms n)) by (rewrite Forall_forall in h; apply h, nth_In, l). destruct ht as (small & re & below).
+  assert (shift : shift_of terms n = exponent (part terms n) - unit terms).
+  { unfold wrapping_sub. apply Z.mod_small. unfold largest_u32 in re. lia. }
+  rewrite shift. set (t := part terms n) in *. clearbody t. change (half 64) with (2 ^ 63).
+  split; [|split; [lia|split; [lia|]]].
+  - assert (0 < 2 ^ bits_of terms) by (apply Z.pow_pos_nonneg; [lia|unfold bits_of; lia]).
+    destruct (Z.eq_dec (significand t) 0) as [->|n0]; [lia|]. specialize (below n0).
+    set (highest := fold_right Z.max 0 (map top terms)) in *. rewrite Z.abs_mul.
+    assert (p : 0 < 2 ^ (exponent t - unit terms)) by (apply Z.pow_pos_nonneg; lia). rewrite (Z.abs_eq (2 ^ _)) by lia.
+    assert (E : 2 ^ exponent t = 2 ^ (exponent t - unit terms) * 2 ^ unit terms) by (rewrite <- Z.pow_add_r by lia; f_equal; lia).
+    rewrite E, Z.mul_assoc in below. assert (U : 0 < 2 ^ unit terms) by (apply Z.pow_pos_nonneg; lia).
+    set (v := Z.abs (significand t) * 2 ^ (exponent t - unit terms)) in *. assert (1 <= v) by (unfold v; nia).
+    assert (T : 2 ^ top t <= 2 ^ highest).
+    { destruct (Z_lt_le_dec (top t) 0) as [neg|]; [rewrite (Z.pow_neg_r 2 (top t) neg) in below; nia|apply Z.pow_le_mono_r; lia]. }
+    assert (unit terms < highest).
+    { destruct (Z_lt_le_dec (unit terms) highest) as [|g]; [assumption|]. exfalso.
+      assert (2 ^ highest <= 2 ^ unit terms) by (apply Z.pow_le_mono_r; lia). nia. }
+    unfold bits_of. fold highest. rewrite Z.max_r by lia.
+    assert (H2 : 2 ^ highest = 2 ^ (highest - unit terms) * 2 ^ unit terms) by (rewrite <- Z.pow_add_r by lia; f_equal; lia).
+    nia.
+  - intro b. rewrite mult_IZR, Rmult_assoc. f_equal. change (2 ^ (exponent t - unit terms)) with (Z.pow radix2 (exponent t - unit terms)).
+    rewrite IZR_Zpower by lia. rewrite <- bpow_plus. f_equal. lia.
+Qed.
+
+(* The real control values, and what a sign says of one. *)
+Definition real := by_operations Rplus Rminus Rmult.
+Definition says x sign := match sign with Lt => (x < 0)%R | Eq => (x = 0)%R | Gt => (0 < x)%R end.
+Definition reals s encodings := each (fun es n => value s (nth n es 0)) encodings.
+Lemma difference_in_units a b u : (IZR a * u - IZR b * u = IZR (a - b) * u)%R.
+Proof. rewrite minus_IZR. ring. Qed.
+Lemma four_equal {T} (a b c d a' b' c' d' : T) : a = a' -> b = b' -> c = c' -> d = d' -> [a; b; c; d] = [a'; b'; c'; d'].
+Proof. now intros -> -> -> ->. Qed.
+Lemma control_values_in_units kind v w ux uy uz : (forall n, (n < 8)%nat -> x_ v n = IZR (x_ w n) * ux /\ y_ v n = IZR (y_ w n) * uy /\
+  z_ v n = IZR (z_ w n) * uz)%R ->
+  control_values real kind v = map (fun k => IZR k * (ux * uy * uz))%R (control_values exact kind w).
+Proof.
+  intro h. pose proof (h 0%nat ltac:(lia)) as (a0 & b0 & c0). pose proof (h 1%nat ltac:(lia)) as (a1 & b1 & c1).
+  pose proof (h 2%nat ltac:(lia)) as (a2 & b2 & c2). pose proof (h 3%nat ltac:(lia)) as (a3 & b3 & c3).
+  pose proof (h 4%nat ltac:(lia)) as (a4 & b4 & c4). pose proof (h 5%nat ltac:(lia)) as (a5 & b5 & c5).
+  pose proof (h 6%nat ltac:(lia)) as (a6 & b6 & c6). pose proof (h 7%nat ltac:(lia)) as (a7 & b7 & c7). clear h.
+  destruct kind; unfold control_values, edges, differences, point; cbn [Nat.add real exact by_operations difference cross sum dot sum_of_three x_ y_ z_];
+    rewrite ?a0, ?b0, ?c0, ?a1, ?b1, ?c1, ?a2, ?b2, ?c2, ?a3, ?b3, ?c3, ?a4, ?b4, ?c4, ?a5, ?b5, ?c5, ?a6, ?b6, ?c6, ?a7, ?b7, ?c7;
+    clear; cbn [map]; rewrite !difference_in_units;
+    repeat match goal with |- context [?f w ?i - ?f w ?j] => generalize (f w i - f w j); intro end;
+    apply four_equal; repeat rewrite ?plus_IZR, ?mult_IZR, ?minus_IZR; ring.
+Qed.
+Lemma says_in_units k u : (0 < u)%R -> says (IZR k * u) (k ?= 0).
+Proof.
+  intro pos. unfold says. destruct (Z.compare_spec k 0) as [->|n|n]; [ring|apply IZR_lt in n|apply IZR_lt in n]; nra.
+Qed.
+Lemma words_say words numbers (sign : list Z -> comparison) (good : list Z -> Z -> Prop) : (forall ws x, good ws x -> sign ws = (x ?= 0)) ->
+  Forall2 good words numbers -> map sign words = map (fun x => x ?= 0) numbers.
+Proof. intros h F. induction F as [|ws x l l' w _ IH]; [reflexivity|]. cbn [map]. now rewrite IH, (h ws x w). Qed.
+Definition eight_are {T} (good : T -> Prop) axis := length axis = 8%nat /\ Forall good axis.
+Definition each_is {T} (good : T -> Prop) v := good (x_ v) /\ good (y_ v) /\ good (z_ v).
+Lemma signs_are kind axes : each_is (eight_are fine) axes ->
+  signs kind axes = map (fun x => x ?= 0) (control_values exact kind (numbers axes)).
+Proof.
+  intros (hx & hy & hz). assert (r64 : 1 <= 64) by lia. unfold signs.
+  set (bits := Z.max (Z.max (bits_of (x_ axes)) (bits_of (y_ axes))) (bits_of (z_ axes))).
+  assert (F : forall n, (0 < n)%nat -> bits <= 64 * Z.of_nat n - 3 ->
+    map (integer_sign 64) (control_values fixed kind (coordinates (integer_shifted 64 n) axes)) =
+      map (fun x => x ?= 0) (control_values exact kind (numbers axes))).
+  { intros n n0 le. apply words_say with (good := is (n + (n + n))).
+    - intros ws x [[_ w] <-]. now apply integer_sign_is.
+    - apply fixed_is_exact; [exact n0|]. intros i i8.
+      assert (C : forall terms, eight_are fine terms -> bits_of terms <= bits ->
+        coordinate n (nth i (integers (integer_shifted 64 n) terms) []) (nth i (integers (fun s k => s * 2 ^ k) terms) 0)).
+      { intros terms [l h] b. rewrite !nth_integers by lia. destruct (number_is terms i h ltac:(lia)) as (small & s64 & s0 & _).
+        assert (less : Z.abs (number_of terms i) < 2 ^ (64 * Z.of_nat n - 3)).
+        { eapply Z.lt_le_trans; [exact small|]. apply Z.pow_le_mono_r; lia. }
+        split; [|exact less]. apply integer_shifted_is; try assumption. apply (fits_one n n0).
+        eapply Z.lt_le_trans; [exact less|]. apply Z.pow_le_mono_r; lia. }
+      split; [|split]; apply C; try assumption; unfold bits; lia. }
+  assert (S : map (words_sign 64) (control_values space kind (coordinates (shifted 64) axes)) =
+    map (fun x => x ?= 0) (control_values exact kind (numbers axes))).
+  { apply words_say with (good := holds).
+    - intros ws x (a & b & <-). now apply words_sign_is.
+    - apply space_is_exact. intros i i8.
+      assert (C : forall terms, eight_are fine terms -> holds (nth i (integers (shifted 64) terms) []) (nth i (integers (fun s k => s * 2 ^ k) terms) 0)).
+      { intros terms [l h]. rewrite !nth_integers by lia. destruct (number_is terms i h ltac:(lia)) as (_ & s64 & s0 & _).
+        now apply shifted_is. }
+      split; [|split]; apply C; assumption. }
+  destruct (Z.leb_spec bits 61); [apply F; lia|]. destruct (Z.leb_spec bits 125); [apply F; lia|].
+  destruct (Z.leb_spec bits 317); [apply F; lia|]. exact S.
+Qed.
+(* The signs are those of the real control values of any encodings that are finite; there are some for such. *)
+Theorem control_value_signs_are s kind encodings found : reasonable s -> each_is (eight_are (is_encoding s)) encodings ->
+  control_value_signs s kind encodings = Some found -> Forall2 says (control_values real kind (reals s encodings)) found.
+Proof.
+  intros hs he. unfold control_value_signs. destruct (all_finite _) eqn:finite; [|discriminate]. intro E. injection E as <-.
+  unfold all_finite in finite. apply andb_true_iff in finite as [finite fz]. apply andb_true_iff in finite as [fx fy].
+  set (axes := each (map (take_apart s)) encodings) in *.
+  assert (G : forall es, eight_are (is_encoding s) es -> forallb is_finite (map (take_apart s) es) = true ->
+    eight_are fine (map (take_apart s) es) /\ forall n, (n < 8)%nat -> value s (nth n es 0) =
+      (IZR (nth n (integers (fun s k => (s * 2 ^ k)%Z) (map (take_apart s) es)) 0%Z) * bpow radix2 (unit (map (take_apart s) es) - bias s))%R).
+  { intros es [l h] f. rewrite forallb_forall in f. rewrite Forall_forall in h.
+    assert (A : forall e, List.In e es -> let term := take_apart s e in (value s e = IZR (significand term) * bpow radix2 (exponent term - bias s))%R /\ fine term).
+    { intros e i. destruct (take_apart_is s e hs (h e i) (f _ (in_map _ _ _ i))) as (a & b & c & d). split; [exact a|].
+      split; [|split; assumption]. eapply Z.lt_le_trans; [exact b|]. destruct hs. apply Z.pow_le_mono_r; lia. }
+    assert (F : Forall fine (map (take_apart s) es)).
+    { apply Forall_forall. intros t i. apply in_map_iff in i as (e & <- & i). apply (A e i). }
+    split; [split; [now rewrite map_length|exact F]|]. intros n n8.
+    rewrite nth_integers by (rewrite map_length; lia).
+    destruct (number_is (map (take_apart s) es) n F ltac:(rewrite map_length; lia)) as (_ & _ & _ & same). rewrite <- same.
+    rewrite (nth_indep _ (Parts 0 0 0 true) (take_apart s 0)) by (rewrite map_length; lia). rewrite map_nth.
+    apply A, nth_In. lia. }
+  destruct he as (ex & ey & ez). destruct (G _ ex fx) as [gx vx]. destruct (G _ ey fy) as [gy vy]. destruct (G _ ez fz) as [gz vz].
+  rewrite signs_are by (split; [exact gx|split; [exact gy|exact gz]]).
+  rewrite (control_values_in_units kind (reals s encodings) (numbers axes) (bpow radix2 (unit (x_ axes) - bias s))
+    (bpow radix2 (unit (y_ axes) - bias s)) (bpow radix2 (unit (z_ axes) - bias s))).
+  2:{ intros n n8. split; [|split]; [exact (vx n n8)|exact (vy n n8)|exact (vz n n8)]. }
+  set (u := (_ * _ * _)%R). assert (pos : (0 < u)%R) by (unfold u; repeat apply Rmult_lt_0_compat; apply bpow_gt_0).
+  clearbody u. generalize (control_values exact kind (numbers axes)). intro l. induction l as [|k l IH]; constructor; [|exact IH].
+  now apply says_in_units.
+Qed.

@@ -27,7 +27,7 @@ From Coq Require Import Reals ZArith Lra Lia.
 From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent
   Magnitudes.
-From Selvedge Require Orders Boxes Apart Certificates Nearest Witnesses Integers.
+From Selvedge Require Orders Boxes Apart Certificates Nearest Witnesses Words Integers.
 From Selvedge Require Machine Nearness Corners Advance Advancing Checker Chains Narrowing Gap Gaps Kept Least Normals
   Beyond
   Separated DirectionsBeyond AdvanceBeyond AdvancingBeyond.
@@ -199,73 +199,43 @@ Proof.
   split; [exact run|]. split; [destruct test; assumption|]. split; [exact run'|]. destruct test; assumption.
 Qed.
 
-(* 9. Exact signs: whole numbers in words of 64 bits. Written after the code by hand (`Integers.v`), not traced from it.
-      A coordinate is a significand and a shift, of at most 64 n - 3 bits; b, c, p are differences of such; along each
-      axis they count in a unit of their own, a power of two. What the words of a control value say is that value in
-      those units, so that its sign is that of their top word. *)
-Theorem coordinates_are_exact n significand shift : (- 2 ^ 63 <= significand < 2 ^ 63)%Z -> (0 <= shift)%Z ->
-  Integers.fits n (significand * 2 ^ shift) ->
-  Integers.is n (Integers.shifted n significand shift) (significand * 2 ^ shift).
-Proof. exact (Integers.shifted_is_exact n significand shift). Qed.
-Section Units.
-Variables ux uy uz : R.
-Hypothesis units : 0 < ux /\ 0 < uy /\ 0 < uz.
-Definition placed v := Point (ux * IZR (Integers.x_ v)) (uy * IZR (Integers.y_ v)) (uz * IZR (Integers.z_ v)).
-Definition says_the_sign_of ws value := (Z.lt (Integers.signed ws) 0 <-> value < 0) /\
-  (Z.lt 0 (Integers.signed ws) <-> 0 < value).
-Lemma in_units ws k value : Integers.signed ws = k -> value = ux * uy * uz * IZR k -> says_the_sign_of ws value.
+(* 9. Exact signs. `Words.v` has the code's integers as functions on lists of words, for words of any size; `Samples.v`
+      compares them with what the code returns. Sums, differences and products of a fixed width are exact where they fit;
+      those of as many words as they need always are. Their signs are those of the numbers. *)
+Theorem integers_of_a_fixed_width_are_exact bits n m a b x y : (1 <= bits)%Z -> (0 < n)%nat -> (0 < m)%nat ->
+  Words.is bits n a x -> Words.is bits m b y ->
+  Words.integer_sign bits a = Z.compare x 0 /\ Words.is bits (n + m) (Words.integer_times bits a b) (x * y) /  (n = m -> Words.fits bits n (x + y) -> Words.is bits n (Words.integer_plus bits a b) (x + y)) /  (n = m -> Words.fits bits n (x - y) -> Words.is bits n (Words.integer_minus bits a b) (x - y)).
 Proof.
-  intros E1 E2. unfold says_the_sign_of. rewrite E1, E2. destruct units as (a & b & c).
-  assert (0 < ux * uy * uz) by (repeat apply Rmult_lt_0_compat; assumption).
-  split; split; intro h; try (apply lt_IZR; apply Rmult_lt_reg_l with (ux * uy * uz); [assumption|]; lra).
-  - apply IZR_lt in h. replace 0 with (ux * uy * uz * 0) by ring. now apply Rmult_lt_compat_l.
-  - apply IZR_lt in h. now apply Rmult_lt_0_compat.
+  intros r n0 m0 ha hb. split; [destruct ha as [[_ h] <-]; now apply Words.integer_sign_is|].
+  split; [now apply Words.integer_times_is|]. split; intros <- f; [now apply Words.integer_plus_is|now apply
+    Words.integer_minus_is].
 Qed.
-Variable n : nat.
-Hypothesis some_words : (0 < n)%nat.
-(* A vector in words, and that each component is the number that `v` has, and small enough. *)
-Definition stands_for ws v := Integers.all_are n ws v /\ Integers.all_below (2 ^ (64 * Z.of_nat n - 2)) v.
-Theorem outer_signs_are_exact p b c vp vb vc : stands_for p vp -> stands_for b vb -> stands_for c vc ->
-  says_the_sign_of (Integers.outer_of Integers.plus Integers.minus Integers.times p b c) (k0 (placed vb) (placed vc)
-    (placed vp)).
+Theorem integers_in_a_space_are_exact bits a b c d x y z w : (1 <= bits)%Z ->
+  Words.holds bits a x -> Words.holds bits b y -> Words.holds bits c z -> Words.holds bits d w ->
+  Words.words_sign bits a = Z.compare x 0 /\ Words.holds bits (Words.plus bits a b) (x + y) /  Words.holds bits (Words.minus bits a b) (x - y) /\ Words.holds bits (Words.times bits a b) (x * y) /  Words.holds bits (Words.minor bits a b c d) (x * w - y * z).
 Proof.
-  intros [hp sp] [hb sb] [hc sc]. destruct (Integers.outer_control_values_are_exact n some_words p b c vp vb vc hp hb hc
-    sp sb sc) as [_ E].
-  apply (in_units _ _ _ E). unfold Integers.outer_of, Integers.dot_of, Integers.cross_of, k0, dot, cross, placed;
-    cbn [Integers.x_ Integers.y_ Integers.z_ x y z].
-  rewrite ?plus_IZR, ?mult_IZR, ?minus_IZR, ?plus_IZR, ?mult_IZR, ?minus_IZR. ring.
+  intros r ha hb hc hd. split; [destruct ha as (h & m & <-); now apply Words.words_sign_is|].
+  split; [now apply Words.plus_is|]. split; [now apply Words.minus_is|]. split; [now apply Words.times_is|now apply
+    Words.minor_is].
 Qed.
-Theorem inner_signs_are_exact p0 p1 b0 b1 c0 c1 vp0 vp1 vb0 vb1 vc0 vc1 : stands_for p0 vp0 -> stands_for p1 vp1 ->
-  stands_for b0 vb0 ->
-  stands_for b1 vb1 -> stands_for c0 vc0 -> stands_for c1 vc1 ->
-  says_the_sign_of (Integers.inner_of Integers.plus Integers.minus Integers.times p0 b0 b1 c1 c0 p1 b0 c0)
-    (k1 (placed vb0) (placed vb1) (placed vc0) (placed vc1) (placed vp0) (placed vp1)) /\
-  says_the_sign_of (Integers.inner_of Integers.plus Integers.minus Integers.times p1 b0 b1 c1 c0 p0 b1 c1)
-    (k2 (placed vb0) (placed vb1) (placed vc0) (placed vc1) (placed vp0) (placed vp1)).
+(* `Integers.v` has the way from 24 encodings to the signs, in the code's shape: coordinates taken apart and shifted to
+   their axis' unit, and the control values in the narrowest width that suffices. The signs are those of the real control
+   values, for any encodings that are finite. *)
+Theorem exact_signs_are_right s kind encodings found : s = Integers.single \/ s = Integers.double ->
+  Integers.each_is (Integers.eight_are (Integers.is_encoding s)) encodings ->
+  Integers.control_value_signs s kind encodings = Some found ->
+  List.Forall2 Integers.says (Integers.control_values Integers.real kind (Integers.reals s encodings)) found.
 Proof.
-  intros [hp0 sp0] [hp1 sp1] [hb0 sb0] [hb1 sb1] [hc0 sc0] [hc1 sc1]. split.
-  - destruct (Integers.inner_control_values_are_exact n some_words p0 b0 b1 c1 c0 p1 b0 c0 vp0 vb0 vb1 vc1 vc0 vp1 vb0
-    vc0) as [_ E]; try assumption.
-    apply (in_units _ _ _ E). unfold Integers.inner_of, Integers.dot_of, Integers.sum_of, Integers.cross_of, k1, h,
-      dot, cross, plus, placed; cbn [Integers.x_ Integers.y_ Integers.z_ x y z].
-    repeat rewrite ?plus_IZR, ?mult_IZR, ?minus_IZR. ring.
-  - destruct (Integers.inner_control_values_are_exact n some_words p1 b0 b1 c1 c0 p0 b1 c1 vp1 vb0 vb1 vc1 vc0 vp0 vb1
-    vc1) as [_ E]; try assumption.
-    apply (in_units _ _ _ E). unfold Integers.inner_of, Integers.dot_of, Integers.sum_of, Integers.cross_of, k2, h,
-      dot, cross, plus, placed; cbn [Integers.x_ Integers.y_ Integers.z_ x y z].
-    repeat rewrite ?plus_IZR, ?mult_IZR, ?minus_IZR. ring.
+  intros which. apply Integers.control_value_signs_are. unfold Integers.reasonable. destruct which as [-> | ->]; cbn; lia.
 Qed.
-End Units.
-(* For two edges the code takes b = v - u, c = l - k, p = u - k; the control values are the same. *)
-Theorem edges_have_the_same_control_values u v k l : let of f := f (minus (start v) (start u)) (minus (finish v) (finish
-  u)) (minus (start l) (start k))
-    (minus (finish l) (finish k)) (minus (start u) (start k)) (minus (finish u) (finish k)) in
-  (of (fun b0 _ c0 _ p0 _ => k0 b0 c0 p0), of k1, of k2, of (fun _ b1 _ c1 _ p1 => k3 b1 c1 p1)) = control k u v l.
-Proof. cbv beta zeta. unfold control. repeat apply f_equal2; cbv -[Rplus Rminus Rmult Ropp]; ring. Qed.
-Theorem control_values_fit_three_times_the_words n x : (1 <= n)%Z -> (Z.abs x <= 18 * (2 ^ (64 * n - 2) * (2 ^ (64 * n -
-  2) * 2 ^ (64 * n - 2))))%Z ->
-  (- Integers.word ^ (3 * n) <= 2 * x < Integers.word ^ (3 * n))%Z.
-Proof. intro h. exact (Integers.three_words_suffice n h x). Qed.
+(* These are the control values of the volume of the four moving points. *)
+Definition moving (v : Integers.triple (nat -> R)) n := Path (Point (Integers.x_ v n) (Integers.y_ v n) (Integers.z_ v n))
+  (Point (Integers.x_ v (4 + n)%nat) (Integers.y_ v (4 + n)%nat) (Integers.z_ v (4 + n)%nat)).
+Theorem control_values_are_those_of_the_volume v :
+  (let '(k0, k1, k2, k3) := control (moving v 1) (moving v 2) (moving v 3) (moving v 0) in [k0; k1; k2; k3]%list) =
+    Integers.control_values Integers.real Integers.VertexFace v /  (let '(k0, k1, k2, k3) := control (moving v 2) (moving v 0) (moving v 1) (moving v 3) in [k0; k1; k2; k3]%list) =
+    Integers.control_values Integers.real Integers.EdgeEdge v.
+Proof. split; apply Integers.four_equal; cbv -[Rplus Rminus Rmult Ropp]; ring. Qed.
 
 (* 10. **The time of impact**, without a separation, from the operations to the geometry. Its constants: both formats
        are ones that the following theorems hold for. *)
@@ -630,17 +600,10 @@ Print Assumptions executions_exist.
 Print Assumptions every_decision_culls_some_pair.
 Print Assumptions the_permanent_culls_some_pair.
 Print Assumptions every_box_test_culls_some_pair.
-Print Assumptions coordinates_are_exact.
-Print Assumptions outer_signs_are_exact.
-Print Assumptions inner_signs_are_exact.
-Print Assumptions edges_have_the_same_control_values.
-Print Assumptions Integers.differences_are_exact.
-Print Assumptions Integers.products_are_exact.
-Print Assumptions Integers.the_top_word_has_the_sign.
-Print Assumptions control_values_fit_three_times_the_words.
-Print Assumptions Integers.carries_are_right.
-Print Assumptions Integers.what_fits_is_exact.
-Print Assumptions Integers.control_values_have_room.
+Print Assumptions integers_of_a_fixed_width_are_exact.
+Print Assumptions integers_in_a_space_are_exact.
+Print Assumptions exact_signs_are_right.
+Print Assumptions control_values_are_those_of_the_volume.
 Print Assumptions constants_of_the_time_of_impact.
 Print Assumptions environments_exist.
 Print Assumptions no_contact_of_a_vertex_and_a_face_before.
