@@ -83,3 +83,23 @@ fn the_dictionary_of_scenes_has_every_effect() {
     let missing: Vec<_> = selvedge_cloth::effect_names().into_iter().filter(is_missing).collect();
     assert!(missing.is_empty(), "add to dictionaries/scene.dict: {missing:?}");
 }
+
+/// `cargo run -p selvedge-traced -- coq FOLDER` writes the signs of these pairs for Coq, which computes the same.
+#[test]
+fn the_proofs_have_the_kept_pairs_of_exact_signs() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let path = root.join("../verification/traced/kept_pairs.txt");
+    let inputs = files(&root.join("corpus/exact_signs"));
+    let lines = inputs
+        .iter()
+        .map(|input| targets::exact_signs::encodings(&fs::read(input).unwrap()) + "\n");
+    let text: String = lines.collect();
+    if std::env::var_os("UPDATE_KEPT_PAIRS").is_some() {
+        fs::write(&path, &text).unwrap();
+    }
+    assert!(
+        fs::read_to_string(&path).unwrap() == text,
+        "kept inputs have changed: run UPDATE_KEPT_PAIRS=1 cargo test -p selvedge-fuzz kept_pairs, then accept the terms \
+         (cargo run -p selvedge-traced -- accept)"
+    );
+}

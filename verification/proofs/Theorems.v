@@ -204,7 +204,9 @@ Qed.
       those of as many words as they need always are. Their signs are those of the numbers. *)
 Theorem integers_of_a_fixed_width_are_exact bits n m a b x y : (1 <= bits)%Z -> (0 < n)%nat -> (0 < m)%nat ->
   Words.is bits n a x -> Words.is bits m b y ->
-  Words.integer_sign bits a = Z.compare x 0 /\ Words.is bits (n + m) (Words.integer_times bits a b) (x * y) /  (n = m -> Words.fits bits n (x + y) -> Words.is bits n (Words.integer_plus bits a b) (x + y)) /  (n = m -> Words.fits bits n (x - y) -> Words.is bits n (Words.integer_minus bits a b) (x - y)).
+  Words.integer_sign bits a = Z.compare x 0 /\ Words.is bits (n + m) (Words.integer_times bits a b) (x * y)%Z /\
+  (n = m -> Words.fits bits n (x + y)%Z -> Words.is bits n (Words.integer_plus bits a b) (x + y)%Z) /\
+  (n = m -> Words.fits bits n (x - y)%Z -> Words.is bits n (Words.integer_minus bits a b) (x - y)%Z).
 Proof.
   intros r n0 m0 ha hb. split; [destruct ha as [[_ h] <-]; now apply Words.integer_sign_is|].
   split; [now apply Words.integer_times_is|]. split; intros <- f; [now apply Words.integer_plus_is|now apply
@@ -212,7 +214,9 @@ Proof.
 Qed.
 Theorem integers_in_a_space_are_exact bits a b c d x y z w : (1 <= bits)%Z ->
   Words.holds bits a x -> Words.holds bits b y -> Words.holds bits c z -> Words.holds bits d w ->
-  Words.words_sign bits a = Z.compare x 0 /\ Words.holds bits (Words.plus bits a b) (x + y) /  Words.holds bits (Words.minus bits a b) (x - y) /\ Words.holds bits (Words.times bits a b) (x * y) /  Words.holds bits (Words.minor bits a b c d) (x * w - y * z).
+  Words.words_sign bits a = Z.compare x 0 /\ Words.holds bits (Words.plus bits a b) (x + y)%Z /\
+  Words.holds bits (Words.minus bits a b) (x - y)%Z /\ Words.holds bits (Words.times bits a b) (x * y)%Z /\
+  Words.holds bits (Words.minor bits a b c d) (x * w - y * z)%Z.
 Proof.
   intros r ha hb hc hd. split; [destruct ha as (h & m & <-); now apply Words.words_sign_is|].
   split; [now apply Words.plus_is|]. split; [now apply Words.minus_is|]. split; [now apply Words.times_is|now apply
@@ -233,7 +237,8 @@ Definition moving (v : Integers.triple (nat -> R)) n := Path (Point (Integers.x_
   (Point (Integers.x_ v (4 + n)%nat) (Integers.y_ v (4 + n)%nat) (Integers.z_ v (4 + n)%nat)).
 Theorem control_values_are_those_of_the_volume v :
   (let '(k0, k1, k2, k3) := control (moving v 1) (moving v 2) (moving v 3) (moving v 0) in [k0; k1; k2; k3]%list) =
-    Integers.control_values Integers.real Integers.VertexFace v /  (let '(k0, k1, k2, k3) := control (moving v 2) (moving v 0) (moving v 1) (moving v 3) in [k0; k1; k2; k3]%list) =
+    Integers.control_values Integers.real Integers.VertexFace v /\
+  (let '(k0, k1, k2, k3) := control (moving v 2) (moving v 0) (moving v 1) (moving v 3) in [k0; k1; k2; k3]%list) =
     Integers.control_values Integers.real Integers.EdgeEdge v.
 Proof. split; apply Integers.four_equal; cbv -[Rplus Rminus Rmult Ropp]; ring. Qed.
 

@@ -1,5 +1,7 @@
-(* Whole numbers in words, in two's complement, the lowest word first: the functions of core/src/kernels/exact/integer on
-   lists of words, under their names and in their shape. A word has `bits` bits, which are 64 in the code. `Sampled.v` has
+(* Whole numbers in words, in two's complement, the lowest word first: the functions of core/src/kernels/exact/integer
+  on
+   lists of words, under their names and in their shape. A word has `bits` bits, which are 64 in the code.
+     `Sampled.v` has
    what the code returns, and `Samples.v` computes the same with the functions of this file. *)
 From Coq Require Import ZArith Lia List Bool.
 Import ListNotations.
@@ -24,9 +26,11 @@ Definition words_of n ws := length ws = n /\ Forall is_word ws.
 Definition fits n x := - word ^ Z.of_nat n <= 2 * x < word ^ Z.of_nat n.
 
 (* limbs.rs. *)
-Definition halves z := (z mod word, (z / word) mod word).
-Definition overflowing_add x y := ((x + y) mod word, word <=? x + y).
-Definition overflowing_sub x y := ((x - y) mod word, x <? y).
+(* z mod word and z / word mod word, as `halves_are` says; Coq computes these faster. *)
+Definition low_word z := Z.land z (Z.ones bits).
+Definition halves z := (low_word z, low_word (Z.shiftr z bits)).
+Definition overflowing_add x y := (low_word (x + y), word <=? x + y).
+Definition overflowing_sub x y := (low_word (x - y), x <? y).
 Definition add_with_carry x y carry :=
   let '(partial, first) := overflowing_add x y in
   let '(whole, second) := overflowing_add partial (Z.b2z carry) in (whole, first || second).
@@ -57,17 +61,20 @@ Fixpoint without_ones n ws := match n, ws with O, _ | _, [] => ws | S n, _ =>
 Definition without_repeated_sign ws := without_ones (length ws) (without_eights (length ws) ws).
 Fixpoint without_zeros_below ws := match ws with
   | [] => (0%nat, [])
-  | w :: rest => if w =? 0 then let '(zeros, above) := without_zeros_below rest in (S zeros, above) else (0%nat, ws) end.
+  | w :: rest => if w =? 0 then let '(zeros, above) := without_zeros_below rest in (S zeros, above) else (0%nat, ws)
+    end.
 (* A row of a product: the first one, and one on what the rows before have left. *)
 Fixpoint first_row x b carry := match b with
   | [] => ([], carry)
-  | y :: b => let '(w, carry) := halves (x * y + carry) in let '(ws, carry) := first_row x b carry in (w :: ws, carry) end.
+  | y :: b => let '(w, carry) := halves (x * y + carry) in let '(ws, carry) := first_row x b carry in (w :: ws, carry)
+    end.
 Fixpoint row x b before carry := match b, before with
   | y :: b, w :: before => let '(w, carry) := halves (x * y + w + carry) in
       let '(ws, carry) := row x b before carry in (w :: ws, carry)
   | _, _ => ([], carry) end.
 (* `product` is the code's from the row's lowest word on. *)
-Definition with_carry '((ws, carry) : list Z * Z) (above : list Z) := ws ++ match above with [] => [] | _ :: above => carry :: above end.
+Definition with_carry '((ws, carry) : list Z * Z) (above : list Z) := ws ++ match above with [] => [] | _ :: above =>
+  carry :: above end.
 Fixpoint rows a b product := match a with
   | [] => product
   | x :: a => match with_carry (row x b (firstn (length b) product) 0) (skipn (length b) product) with
@@ -102,7 +109,8 @@ Definition integer_minus a b := subtract a b true.
 Definition integer_times a b := match a, b with
   | [a], [b] => let '(low, high) := halves (cast_signed a * cast_signed b) in [low; high]
   | [a], [b0; b1] => let a := cast_signed a in let below := a * b0 in
-      let above := a * cast_signed b1 + below / word in let '(middle, high) := halves above in [below mod word; middle; high]
+      let above := a * cast_signed b1 + Z.shiftr below bits in let '(middle, high) := halves above in [low_word below;
+        middle; high]
   | _, _ => let product := repeat 0 (length a + length b) in
       if (2 <? length a)%nat then multiply_significant_words a b product else product_with_signs a b product end.
 Definition integer_sign ws := if is_negative ws then Lt else if forallb (Z.eqb 0) ws then Eq else Gt.
@@ -118,7 +126,7 @@ Definition shifted significand shift := if significand =? 0 then [] else
   let '(low, high) := halves (significand * 2 ^ (shift mod bits)) in
   without_repeated_sign (repeat 0 (Z.to_nat (shift / bits)) ++ [low; high]).
 Definition double z := let '(low, high) := halves z in
-  firstn (if z =? 0 then 0 else if z =? cast_signed (z mod word) then 1 else 2) [low; high].
+  firstn (if z =? 0 then 0 else if z =? cast_signed low then 1 else 2) [low; high].
 Definition complement (mask : bool) w := if mask then word - 1 - w else w.
 Definition sum a b mask :=
   let '(long, long_mask, short, short_mask) := if (length b <=? length a)%nat then (a, false, b, mask) else
@@ -153,6 +161,10 @@ Definition word_above ws dropped := let first := Z.to_nat (dropped / bits) in
   (nth (S first) ws (sign_word ws) * word + nth first ws (sign_word ws)) / 2 ^ (dropped mod bits) mod word.
 
 (* What words are. *)
+Lemma low_word_is z : low_word z = z mod word.
+Proof. apply Z.land_ones. lia. Qed.
+Lemma halves_are z : halves z = (z mod word, (z / word) mod word).
+Proof. unfold halves. rewrite !low_word_is, Z.shiftr_div_pow2 by lia. reflexivity. Qed.
 Lemma word_pos n : 0 < word ^ Z.of_nat n.
 Proof. pose proof half_pos. pose proof two_halves. apply Z.pow_pos_nonneg; lia. Qed.
 Lemma word_succ n : word ^ Z.of_nat (S n) = word * word ^ Z.of_nat n.
@@ -192,7 +204,8 @@ Proof.
   intros [l h]. rewrite <- (firstn_skipn n ws) in h. apply Forall_app in h as [h1 h2].
   split; split; try assumption; [rewrite firstn_length|rewrite skipn_length]; lia.
 Qed.
-Lemma words_top ws : ws <> [] -> Forall is_word ws -> exists below top, ws = below ++ [top] /\ Forall is_word below /\ is_word top.
+Lemma words_top ws : ws <> [] -> Forall is_word ws -> exists below top, ws = below ++ [top] /\ Forall is_word below /\
+  is_word top.
 Proof.
   intros some h. destruct (exists_last some) as (below & top & ->). apply Forall_app in h as [a b].
   exists below, top. inversion b; auto.
@@ -214,7 +227,8 @@ Qed.
 Lemma cast_range w : is_word w -> - half <= cast_signed w < half.
 Proof. pose proof two_halves. unfold is_word, cast_signed. destruct (Z.leb_spec half w); lia. Qed.
 Lemma signed_nil : signed [] = 0.
-Proof. unfold signed, is_negative, modulus. cbn [last natural length]. pose proof half_pos. destruct (Z.leb_spec half 0); lia. Qed.
+Proof. unfold signed, is_negative, modulus. cbn [last natural length]. pose proof half_pos.
+  destruct (Z.leb_spec half 0); lia. Qed.
 Theorem signed_fits n ws : words_of n ws -> fits n (signed ws).
 Proof.
   intros h. unfold fits. rewrite <- (modulus_of n ws h). destruct h as [_ h]. destruct ws as [|w ws].
@@ -236,7 +250,8 @@ Proof.
   rewrite same in da. assert (a - b = M * (a / M - b / M)) by lia.
   assert (-1 < a / M - b / M < 1) by nia. assert (a / M - b / M = 0) as z by lia. rewrite z in H. lia.
 Qed.
-Theorem right_if_it_fits n ws x k : words_of n ws -> fits n x -> natural ws = x + word ^ Z.of_nat n * k -> signed ws = x.
+Theorem right_if_it_fits n ws x k : words_of n ws -> fits n x -> natural ws = x + word ^ Z.of_nat n * k ->
+  signed ws = x.
 Proof.
   intros h fx E. destruct (signed_same n ws h) as [j E'].
   apply (what_fits_is_exact (word ^ Z.of_nat n)); [apply word_pos|exact (signed_fits n ws h)|exact fx|].
@@ -274,8 +289,10 @@ Proof.
   assert (E : signed (repeat (sign_word ws) (S n)) = if is_negative ws then -1 else 0).
   { pose proof half_pos. pose proof two_halves. unfold signed, is_negative, modulus. rewrite last_repeat, repeat_length.
     unfold sign_word. destruct (half <=? last ws 0).
-    - rewrite (proj2 (ones_are_words (S n))). replace (half <=? word - 1) with true by (symmetry; apply Z.leb_le; lia). ring.
-    - rewrite (proj2 (zeros_are_words (S n))). replace (half <=? 0) with false by (symmetry; apply Z.leb_gt; lia). ring. }
+    - rewrite (proj2 (ones_are_words (S n))). replace (half <=? word - 1) with true by (symmetry; apply Z.leb_le;
+      lia). ring.
+    - rewrite (proj2 (zeros_are_words (S n))). replace (half <=? 0) with false by (symmetry; apply Z.leb_gt; lia).
+      ring. }
   rewrite E. unfold signed. destruct (is_negative ws); ring.
 Qed.
 Definition is_minimal ws := ws = [] \/ last ws 0 <> sign_word (removelast ws).
@@ -314,7 +331,8 @@ Proof.
 Qed.
 Lemma without_zeros_below_is ws : let '(zeros, above) := without_zeros_below ws in ws = repeat 0 zeros ++ above.
 Proof.
-  induction ws as [|w ws IH]; [reflexivity|]. cbn [without_zeros_below]. destruct (Z.eqb_spec w 0) as [->|]; [|reflexivity].
+  induction ws as [|w ws IH]; [reflexivity|]. cbn [without_zeros_below]. destruct (Z.eqb_spec w 0) as [->|];
+    [|reflexivity].
   destruct (without_zeros_below ws) as [zeros above]. cbn [repeat app]. now rewrite <- IH.
 Qed.
 Lemma signed_zeros n : signed (repeat 0 n) = 0.
@@ -343,21 +361,24 @@ Proof.
 Qed.
 Theorem integer_sign_is ws : Forall is_word ws -> integer_sign ws = (signed ws ?= 0).
 Proof.
-  intro h. unfold integer_sign. rewrite (is_negative_iff _ h). symmetry. destruct (Z.ltb_spec (signed ws) 0) as [n|n]; [exact n|].
+  intro h. unfold integer_sign. rewrite (is_negative_iff _ h). symmetry. destruct (Z.ltb_spec (signed ws) 0) as [n|n];
+    [exact n|].
   destruct (forallb _ ws) eqn:E.
   - rewrite (all_same 0 ws E), signed_zeros. reflexivity.
   - apply Z.compare_gt_iff. enough (0 < natural ws) as p.
     { pose proof (is_negative_iff ws h) as s. unfold signed in *. destruct (is_negative ws); [|lia].
       symmetry in s. apply Z.ltb_lt in s. lia. }
-    clear n. induction ws as [|w ws IH]; [discriminate|]. inversion h as [|? ? hw hws]; subst. cbn [forallb natural] in *.
+    clear n. induction ws as [|w ws IH]; [discriminate|]. inversion h as [|? ? hw hws]; subst.
+      cbn [forallb natural] in *.
     pose proof (natural_range ws hws). pose proof two_halves. pose proof half_pos. unfold is_word in hw.
     destruct (Z.eqb_spec 0 w); [|nia]. specialize (IH hws E). nia.
 Qed.
 
 (* Sums and differences. *)
-Lemma halves_of_small s : 0 <= s < word * word -> is_word (fst (halves s)) /\ is_word (snd (halves s)) /\ fst (halves s) + word * snd (halves s) = s.
+Lemma halves_of_small s : 0 <= s < word * word -> is_word (fst (halves s)) /\ is_word (snd (halves s)) /\
+  fst (halves s) + word * snd (halves s) = s.
 Proof.
-  intro r. pose proof half_pos. pose proof two_halves. unfold halves; cbn [fst snd].
+  intro r. pose proof half_pos. pose proof two_halves. rewrite halves_are; cbn [fst snd].
   split; [apply a_remainder_is_a_word|]. split; [apply a_remainder_is_a_word|].
   rewrite (Z.mod_small (s / word)).
   - pose proof (Z.div_mod s word ltac:(lia)). lia.
@@ -366,7 +387,8 @@ Qed.
 Theorem add_with_carry_is x y carry : is_word x -> is_word y -> let '(w, over) := add_with_carry x y carry in
   is_word w /\ w + word * Z.b2z over = x + y + Z.b2z carry.
 Proof.
-  unfold is_word, add_with_carry, overflowing_add. intros hx hy. pose proof half_pos. pose proof two_halves.
+  unfold is_word, add_with_carry, overflowing_add. rewrite !low_word_is. intros hx hy. pose proof half_pos.
+    pose proof two_halves.
   assert (0 <= Z.b2z carry <= 1) by (destruct carry; cbn; lia). set (c := Z.b2z carry) in *. clearbody c.
   assert (P : (x + y) mod word = x + y - word * Z.b2z (word <=? x + y)).
   { destruct (Z.leb_spec word (x + y)); cbn [Z.b2z].
@@ -379,10 +401,12 @@ Proof.
     + assert (x + y + c = word) as -> by lia. rewrite Z_mod_same_full. lia.
     + rewrite Z.mod_small by lia. lia.
 Qed.
-Theorem subtract_with_borrow_is x y borrow : is_word x -> is_word y -> let '(w, under) := subtract_with_borrow x y borrow in
+Theorem subtract_with_borrow_is x y borrow : is_word x -> is_word y ->
+  let '(w, under) := subtract_with_borrow x y borrow in
   is_word w /\ w - word * Z.b2z under = x - y - Z.b2z borrow.
 Proof.
-  unfold is_word, subtract_with_borrow, overflowing_sub. intros hx hy. pose proof half_pos. pose proof two_halves.
+  unfold is_word, subtract_with_borrow, overflowing_sub. rewrite !low_word_is. intros hx hy. pose proof half_pos.
+    pose proof two_halves.
   assert (0 <= Z.b2z borrow <= 1) by (destruct borrow; cbn; lia). set (c := Z.b2z borrow) in *. clearbody c.
   assert (P : (x - y) mod word = x - y + word * Z.b2z (x <? y)).
   { destruct (Z.ltb_spec x y); cbn [Z.b2z].
@@ -402,23 +426,27 @@ Proof.
   revert a b carry. induction n as [|n IH]; intros [|x a] [|y b] carry; try (intros [? _] [? _]; discriminate).
   - intros _ _. cbn [add_words natural Z.of_nat]. rewrite Z.pow_0_r. split; [split; [reflexivity|constructor]|ring].
   - intros ha hb. apply words_cons in ha as [hx ha]. apply words_cons in hb as [hy hb]. cbn [add_words].
-    pose proof (add_with_carry_is x y carry hx hy) as E. destruct (add_with_carry x y carry) as [w over]. destruct E as [hw E].
+    pose proof (add_with_carry_is x y carry hx hy) as E. destruct (add_with_carry x y carry) as [w over].
+      destruct E as [hw E].
     specialize (IH a b over ha hb). destruct (add_words a b over) as [ws last]. destruct IH as [h E2].
     split; [now apply words_cons|]. cbn [natural]. rewrite word_succ. lia.
 Qed.
 (* Words of `from` beyond `other` do not count: a borrow is lost where `other` ends. *)
 Theorem subtract_is n from other mask : words_of n from -> words_of n other -> words_of n (subtract from other mask) /\
-  exists k, natural (subtract from other mask) = natural from - (if mask then natural other else 0) + word ^ Z.of_nat n * k.
+  exists k, natural (subtract from other mask) = natural from - (if mask then natural other else 0) + word ^ Z.of_nat n
+    * k.
 Proof.
   intros hf ho. assert (general : forall borrow, words_of n (subtract_words from other mask borrow) /\ exists k,
     natural (subtract_words from other mask borrow) = natural from - (if mask then natural other else 0) - Z.b2z borrow
       + word ^ Z.of_nat n * k).
-  { revert from other hf ho. induction n as [|n IH]; intros [|x from] [|y other]; try (intros [? _] [? _]; discriminate).
+  { revert from other hf ho. induction n as [|n IH]; intros [|x from] [|y other]; try (intros [? _] [? _];
+    discriminate).
     - intros _ _ borrow. cbn [subtract_words natural Z.of_nat]. split; [split; [reflexivity|constructor]|].
       exists (Z.b2z borrow). rewrite Z.pow_0_r. destruct mask; ring.
     - intros ha hb borrow. apply words_cons in ha as [hx ha]. apply words_cons in hb as [hy hb]. cbn [subtract_words].
       assert (hy' : is_word (if mask then y else 0)) by (destruct mask; [exact hy|unfold is_word in *; lia]).
-      pose proof (subtract_with_borrow_is x _ borrow hx hy') as E. destruct (subtract_with_borrow _ _ borrow) as [w under].
+      pose proof (subtract_with_borrow_is x _ borrow hx hy') as E.
+        destruct (subtract_with_borrow _ _ borrow) as [w under].
       destruct E as [hw E]. destruct (IH from other ha hb under) as [h [k E2]]. split; [now apply words_cons|].
       exists k. cbn [natural]. rewrite word_succ, E2. destruct mask; lia. }
   destruct (general false) as [h [k E]]. split; [exact h|]. exists k. unfold subtract. rewrite E. cbn [Z.b2z]. ring.
@@ -454,7 +482,8 @@ Theorem row_is n x b before carry : is_word x -> words_of n b -> words_of n befo
 Proof.
   intros hx. revert b before carry. induction n as [|n IH]; intros [|y b] [|w before] carry;
     try (intros [? _] [? _]; discriminate).
-  - intros _ _ hc. cbn [row natural Z.of_nat]. rewrite Z.pow_0_r. split; [split; [reflexivity|constructor]|]. split; [exact hc|ring].
+  - intros _ _ hc. cbn [row natural Z.of_nat]. rewrite Z.pow_0_r. split; [split; [reflexivity|constructor]|]. split;
+    [exact hc|ring].
   - intros hb ha hc. apply words_cons in hb as [hy hb]. apply words_cons in ha as [hw ha]. cbn [row].
     pose proof (halves_of_small _ (a_row_fits_two_words x y w carry hx hy hw hc)) as E.
     destruct (halves (x * y + w + carry)) as [low high]. cbn [fst snd] in E. destruct E as (hl & hh & E).
@@ -470,7 +499,8 @@ Proof.
   pose proof (skipn_length m product) as s. rewrite E in s. cbn [length] in s.
   assert (same : natural (ws ++ [over]) = natural ws + word ^ Z.of_nat m * over).
   { rewrite natural_app. unfold modulus. rewrite lw. cbn [natural]. ring. }
-  assert (all : Forall is_word (ws ++ [over])) by (apply Forall_app; split; [exact hw|constructor; [exact ho|constructor]]).
+  assert (all : Forall is_word (ws ++ [over])) by (apply Forall_app; split; [exact hw|constructor;
+    [exact ho|constructor]]).
   assert (lall : length (ws ++ [over]) = S m) by (rewrite app_length, lw; cbn; lia).
   replace (ws ++ over :: above) with ((ws ++ [over]) ++ above) by now rewrite <- app_assoc.
   destruct (ws ++ [over]) as [|low rest]; [discriminate|]. inversion all; subst. injection lall as lall.
@@ -480,7 +510,8 @@ Proof.
 Qed.
 Lemma rows_are n m a b product : words_of n a -> words_of m b -> length product = (n + m)%nat ->
   words_of m (firstn m product) ->
-  words_of (n + m) (rows a b product) /\ natural (rows a b product) = natural a * natural b + natural (firstn m product).
+  words_of (n + m) (rows a b product) /\ natural (rows a b product) = natural a * natural b + natural (firstn m
+    product).
 Proof.
   intros ha hb. revert a product ha. induction n as [|n IH]; intros [|x a] product ha; try (destruct ha; discriminate);
     intros l first.
@@ -501,7 +532,8 @@ Proof.
   pose proof (row_is m x b (repeat 0 m) 0 hx hb hz zero_is_a_word) as R.
   destruct (row x b (repeat 0 m) 0) as [ws over]. destruct R as (hw & ho & E).
   destruct (with_carry_is n m ws over product hw ho l) as (low & rest & -> & hl & lr & fr & E2).
-  destruct (rows_are n m a b rest ha hb lr fr) as [h E3]. split; [now apply words_cons|]. cbn [natural]. rewrite E3. lia.
+  destruct (rows_are n m a b rest ha hb lr fr) as [h E3]. split; [now apply words_cons|]. cbn [natural]. rewrite E3.
+    lia.
 Qed.
 Lemma subtract_at_is k n product other mask : words_of (k + n) product -> words_of n other ->
   words_of (k + n) (subtract_at k product other mask) /\ exists under, natural (subtract_at k product other mask) =
@@ -530,7 +562,8 @@ Proof.
   - unfold fits. rewrite word_sum. set (A := word ^ Z.of_nat n) in *. set (B := word ^ Z.of_nat m) in *.
     set (x := signed a) in *. set (y := signed b) in *.
     assert (Z.abs (2 * x) <= A) by lia. assert (Z.abs (2 * y) <= B) by lia.
-    assert (H3 : Z.abs (2 * x) * Z.abs (2 * y) <= A * B) by (apply Z.mul_le_mono_nonneg; lia). rewrite <- Z.abs_mul in H3.
+    assert (H3 : Z.abs (2 * x) * Z.abs (2 * y) <= A * B) by (apply Z.mul_le_mono_nonneg; lia).
+      rewrite <- Z.abs_mul in H3.
     assert (0 < A * B) by (apply Z.mul_pos_pos; assumption). lia.
   - rewrite e2, e1, ep, word_sum. rewrite sa, sb. destruct (is_negative a), (is_negative b); cbn [Z.b2z]; ring.
 Qed.
@@ -539,7 +572,8 @@ Proof. induction ws as [|w ws IH]; [reflexivity|]. cbn. now rewrite IH. Qed.
 Lemma signs_map (s : Z) (ws : list Z) : map (fun _ => s) ws = repeat s (length ws).
 Proof. induction ws as [|w ws IH]; [reflexivity|]. cbn. now rewrite IH. Qed.
 Lemma significant ws : Forall is_word ws -> let '(zeros, above) := without_zeros_below (without_repeated_sign ws) in
-  Forall is_word above /\ (above = [] -> signed ws = 0) /\ (above <> [] -> signed ws = word ^ Z.of_nat zeros * signed above) /\
+  Forall is_word above /\ (above = [] -> signed ws = 0) /\ (above <> [] ->
+    signed ws = word ^ Z.of_nat zeros * signed above) /\
   (zeros + length above <= length ws)%nat.
 Proof.
   intro h. destruct (without_repeated_sign_is ws h) as (a & b & _).
@@ -548,8 +582,10 @@ Proof.
     enough (forall n v, (length (without_ones n v) <= length v)%nat) as d by (eapply Nat.le_trans; [apply d|exact c]).
     clear. induction n as [|n IH]; intros [|w v]; try apply Nat.le_refl. cbn [without_ones].
     destruct (_ =? _); [|apply Nat.le_refl]. eapply Nat.le_trans; [apply IH|].
-    destruct (exists_last (l := w :: v) ltac:(discriminate)) as (below & top & ->). rewrite removelast_last, app_length. lia. }
-  pose proof (without_zeros_below_is (without_repeated_sign ws)) as E. destruct (without_zeros_below _) as [zeros above].
+    destruct (exists_last (l := w :: v) ltac:(discriminate)) as (below & top & ->).
+      rewrite removelast_last, app_length. lia. }
+  pose proof (without_zeros_below_is (without_repeated_sign ws)) as E.
+    destruct (without_zeros_below _) as [zeros above].
   rewrite E in a. apply Forall_app in a as [_ a]. split; [exact a|]. split; [|split].
   - intros ->. rewrite <- b, E, app_nil_r. apply signed_zeros.
   - intro some. rewrite <- b, E, signed_app by exact some. rewrite (proj2 (zeros_are_words zeros)).
@@ -582,49 +618,61 @@ Proof.
   - replace (n + m)%nat with ((za + zb) + ((na + nb) + k))%nat by lia. apply words_app; [apply zeros_are_words|].
     apply words_app; [exact hp|]. apply signs_are_words.
   - rewrite signed_app by (destruct hp; destruct p; cbn in *; [lia|discriminate]).
-    rewrite a_repeated_sign_changes_nothing, ep, (proj2 (zeros_are_words _)), (modulus_of (za + zb) _ (proj1 (zeros_are_words _))), word_sum.
+    rewrite a_repeated_sign_changes_nothing, ep, (proj2 (zeros_are_words _)), (modulus_of (za + zb) _ (proj1
+      (zeros_are_words _))), word_sum.
     ring.
 Qed.
 Lemma in_two_words z : - (half * word) <= z < half * word -> is 2 (let '(low, high) := halves z in [low; high]) z.
 Proof.
-  intro r. pose proof half_pos. pose proof two_halves. unfold halves.
+  intro r. pose proof half_pos. pose proof two_halves. rewrite halves_are.
   assert (h : words_of 2 [z mod word; (z / word) mod word]).
   { split; [reflexivity|]. repeat (constructor; [apply a_remainder_is_a_word|]). constructor. }
   split; [exact h|]. change [z mod word; (z / word) mod word] with ([z mod word] ++ [(z / word) mod word]).
   rewrite signed_app, signed_one, modulus_one by discriminate. cbn [natural].
-  pose proof (Z.div_mod z word ltac:(lia)) as E. set (q := z / word) in *. pose proof (Z.mod_pos_bound z word ltac:(lia)).
+  pose proof (Z.div_mod z word ltac:(lia)) as E. set (q := z / word) in *.
+    pose proof (Z.mod_pos_bound z word ltac:(lia)).
   assert (- half <= q < half) by nia. enough (cast_signed (q mod word) = q) as -> by lia. unfold cast_signed.
   destruct (Z_lt_le_dec q 0) as [n|n].
-  - replace (q mod word) with (q + word) by (apply Z.mod_unique with (-1); lia). destruct (Z.leb_spec half (q + word)); lia.
+  - replace (q mod word) with (q + word) by (apply Z.mod_unique with (-1); lia).
+    destruct (Z.leb_spec half (q + word)); lia.
   - rewrite Z.mod_small by lia. destruct (Z.leb_spec half q); lia.
 Qed.
-Theorem integer_times_is n m a b x y : (0 < n)%nat -> (0 < m)%nat -> is n a x -> is m b y -> is (n + m) (integer_times a b) (x * y).
+Theorem integer_times_is n m a b x y : (0 < n)%nat -> (0 < m)%nat -> is n a x -> is m b y ->
+  is (n + m) (integer_times a b) (x * y).
 Proof.
   intros n0 m0 [ha <-] [hb <-].
   assert (general : is (n + m) (let product := repeat 0 (length a + length b) in
-      if (2 <? length a)%nat then multiply_significant_words a b product else product_with_signs a b product) (signed a * signed b)).
+      if (2 <? length a)%nat then multiply_significant_words a b product else product_with_signs a b product) (signed a
+        * signed b)).
   { cbv zeta. destruct (2 <? length a)%nat; [apply multiply_significant_words_is|apply product_with_signs_is];
       try assumption; now rewrite repeat_length, (proj1 ha), (proj1 hb). }
   pose proof half_pos. pose proof two_halves.
   destruct a as [|a [|a1 a']]; [exact general| |exact general]. destruct b as [|b [|b1 [|b2 b']]]; try exact general.
-  - destruct ha as [<- ha], hb as [<- hb]. inversion ha; inversion hb; subst. rewrite !signed_one. cbn [integer_times length Nat.add].
+  - destruct ha as [<- ha], hb as [<- hb]. inversion ha; inversion hb; subst. rewrite !signed_one.
+    cbn [integer_times length Nat.add].
     pose proof (cast_range a ltac:(assumption)). pose proof (cast_range b ltac:(assumption)).
     set (x := cast_signed a) in *. set (y := cast_signed b) in *.
     apply in_two_words. assert (half * half < half * word) by nia. assert (Z.abs (x * y) <= half * half); [|lia].
     rewrite Z.abs_mul. apply Z.mul_le_mono_nonneg; lia.
-  - destruct ha as [<- ha], hb as [<- hb]. inversion ha as [|? ? wa _]; inversion hb as [|? ? w0 hb']; subst. inversion hb' as [|? ? w1 _]; subst.
-    change [b; b1] with ([b] ++ [b1]). rewrite signed_app, !signed_one, modulus_one by discriminate. cbn [natural]. rewrite Z.mul_0_r, Z.add_0_r.
-    pose proof (cast_range a wa). pose proof (cast_range b1 w1). set (x := cast_signed a) in *. set (y := cast_signed b1) in *.
+  - destruct ha as [<- ha], hb as [<- hb]. inversion ha as [|? ? wa _]; inversion hb as [|? ? w0 hb']; subst.
+    inversion hb' as [|? ? w1 _]; subst.
+    change [b; b1] with ([b] ++ [b1]). rewrite signed_app, !signed_one, modulus_one by discriminate. cbn [natural].
+      rewrite Z.mul_0_r, Z.add_0_r.
+    pose proof (cast_range a wa). pose proof (cast_range b1 w1). set (x := cast_signed a) in *.
+      set (y := cast_signed b1) in *.
     unfold is_word in w0.
     assert (R : - (half * word) <= x * y + x * b / word < half * word).
     { assert (Z.abs (x * y) <= half * half) by (rewrite Z.abs_mul; apply Z.mul_le_mono_nonneg; lia).
       assert (- half <= x * b / word < half).
       { split; [apply Z.div_le_lower_bound; nia|apply Z.div_lt_upper_bound; nia]. }
       assert (half * half + half <= half * word) by nia. lia. }
-    change (is 3 (let '(middle, high) := halves (x * y + x * b / word) in [x * b mod word; middle; high]) (x * (b + word * y))).
+    change (is 3 (let '(middle, high) := halves (x * y + Z.shiftr (x * b) bits) in [low_word (x * b); middle;
+      high]) (x * (b + word * y))).
+    rewrite low_word_is, Z.shiftr_div_pow2 by lia. change (2 ^ bits) with word.
     pose proof (in_two_words _ R) as [h E]. destruct (halves (x * y + x * b / word)) as [middle high].
     split; [apply (proj2 (words_cons 2 _ _)); split; [apply a_remainder_is_a_word|exact h]|].
-    change [x * b mod word; middle; high] with ([x * b mod word] ++ [middle; high]). rewrite signed_app, modulus_one, E by discriminate.
+    change [x * b mod word; middle; high] with ([x * b mod word] ++ [middle; high]).
+      rewrite signed_app, modulus_one, E by discriminate.
     cbn [natural]. pose proof (Z.div_mod (x * b) word ltac:(lia)). lia.
 Qed.
 
@@ -654,15 +702,17 @@ Proof.
   assert (0 <= shift / bits) by (apply Z.div_pos; lia). unfold word.
   rewrite <- Z.pow_mul_r, <- Z.mul_assoc, <- Z.pow_add_r by lia. do 2 f_equal. lia.
 Qed.
-Theorem write_shifted_is n significand shift : - half <= significand < half -> 0 <= shift -> fits n (significand * 2 ^ shift) ->
+Theorem write_shifted_is n significand shift : - half <= significand < half -> 0 <= shift ->
+  fits n (significand * 2 ^ shift) ->
   is n (write_shifted n significand shift) (significand * 2 ^ shift).
 Proof.
   intros s64 s0 f. pose proof half_pos. pose proof two_halves. set (x := significand * 2 ^ shift).
-  pose proof (wide_is_small significand shift s64 s0) as W. pose proof (wide_times significand shift s0) as X. fold x in X.
+  pose proof (wide_is_small significand shift s64 s0) as W. pose proof (wide_times significand shift s0) as X.
+    fold x in X.
   set (first := shift / bits) in *. set (within := shift mod bits) in *. set (wide := significand * 2 ^ within) in *.
   assert (f0 : 0 <= first) by (apply Z.div_pos; lia).
   assert (same : write_shifted n significand shift = map (fun i => (x / word ^ Z.of_nat i) mod word) (seq 0 n)).
-  { unfold write_shifted, halves. fold first within wide. apply map_ext. intro i.
+  { unfold write_shifted. rewrite halves_are. fold first within wide. apply map_ext. intro i.
     destruct (Z.ltb_spec (Z.of_nat i) first) as [low|high].
     - rewrite X. replace first with ((first - Z.of_nat i - 1) + 1 + Z.of_nat i) by ring. rewrite !Z.pow_add_r by lia.
       rewrite Z.mul_assoc, Z.div_mul by (pose proof (word_pos i); lia).
@@ -672,7 +722,8 @@ Proof.
         rewrite X. replace (Z.of_nat i) with (first + (Z.of_nat i - first)) at 1 by ring. rewrite Z.pow_add_r by lia.
         pose proof (pos first ltac:(lia)). pose proof (pos (Z.of_nat i - first) ltac:(lia)).
         rewrite <- Z.div_div by lia. now rewrite Z.div_mul by lia. }
-      rewrite D. destruct (Z.eqb_spec (Z.of_nat i) first) as [e|ne]; [rewrite e, Z.sub_diag, Z.pow_0_r, Z.div_1_r; reflexivity|].
+      rewrite D. destruct (Z.eqb_spec (Z.of_nat i) first) as [e|ne]; [rewrite e, Z.sub_diag, Z.pow_0_r, Z.div_1_r;
+        reflexivity|].
       destruct (Z.eqb_spec (Z.of_nat i) (first + 1)) as [e|ne1]; [rewrite e; replace (first + 1 - first) with 1 by ring;
         now rewrite Z.pow_1_r|].
       assert (big : word * word <= word ^ (Z.of_nat i - first)).
@@ -691,7 +742,8 @@ Proof.
   split; [exact h|]. apply (right_if_it_fits n _ _ (- (x / word ^ Z.of_nat n)) h f). rewrite same, digits.
   pose proof (Z.div_mod x (word ^ Z.of_nat n) ltac:(pose proof (word_pos n); lia)). lia.
 Qed.
-Theorem integer_shifted_is n significand shift : - half <= significand < half -> 0 <= shift -> fits n (significand * 2 ^ shift) ->
+Theorem integer_shifted_is n significand shift : - half <= significand < half -> 0 <= shift ->
+  fits n (significand * 2 ^ shift) ->
   is n (integer_shifted n significand shift) (significand * 2 ^ shift).
 Proof.
   intros s64 s0 f. unfold integer_shifted. destruct (Nat.eqb_spec n 1) as [->|]; [|now apply write_shifted_is].
@@ -699,10 +751,13 @@ Proof.
   assert (h : words_of 1 [(significand * 2 ^ (shift mod bits)) mod word]).
   { split; [reflexivity|]. constructor; [apply a_remainder_is_a_word|constructor]. }
   split; [exact h|]. pose proof (Z.div_mod (significand * 2 ^ (shift mod bits)) word ltac:(lia)) as E.
-  apply (right_if_it_fits 1 _ _ (- (significand * 2 ^ (shift mod bits) / word)) h f). change (Z.of_nat 1) with 1. rewrite Z.pow_1_r.
-  cbn [natural]. destruct (Z.eq_dec significand 0) as [->|ne]; [rewrite !Z.mul_0_l in *; rewrite Z.mod_0_l, Z.div_0_l by lia; ring|].
+  apply (right_if_it_fits 1 _ _ (- (significand * 2 ^ (shift mod bits) / word)) h f). change (Z.of_nat 1) with 1.
+    rewrite Z.pow_1_r.
+  cbn [natural]. destruct (Z.eq_dec significand 0) as [->|ne]; [rewrite !Z.mul_0_l in *;
+    rewrite Z.mod_0_l, Z.div_0_l by lia; ring|].
   assert (shift < bits).
-  { destruct (Z_lt_le_dec shift bits) as [l|g]; [exact l|]. exfalso. unfold fits in f. change (Z.of_nat 1) with 1 in f. rewrite Z.pow_1_r in f.
+  { destruct (Z_lt_le_dec shift bits) as [l|g]; [exact l|]. exfalso. unfold fits in f.
+    change (Z.of_nat 1) with 1 in f. rewrite Z.pow_1_r in f.
     assert (word <= 2 ^ shift) by (apply Z.pow_le_mono_r; lia). nia. }
   rewrite (Z.mod_small shift) in * by lia. lia.
 Qed.
@@ -714,18 +769,21 @@ Proof. intro h. destruct (without_repeated_sign_is ws h) as (a & b & c). repeat 
 Lemma cast_of_remainder z : - half <= z < half -> cast_signed (z mod word) = z.
 Proof.
   intro r. pose proof half_pos. pose proof two_halves. unfold cast_signed. destruct (Z_lt_le_dec z 0) as [n|n].
-  - replace (z mod word) with (z + word) by (apply Z.mod_unique with (-1); lia). destruct (Z.leb_spec half (z + word)); lia.
+  - replace (z mod word) with (z + word) by (apply Z.mod_unique with (-1); lia).
+    destruct (Z.leb_spec half (z + word)); lia.
   - rewrite Z.mod_small by lia. destruct (Z.leb_spec half z); lia.
 Qed.
 Theorem double_is z : - (half * word) <= z < half * word -> holds (double z) z.
 Proof.
   intro r. destruct (in_two_words z r) as [[_ h] E]. pose proof half_pos. pose proof two_halves. unfold double.
-  unfold halves in *. destruct (Z.eqb_spec z 0) as [->|n0].
+  rewrite halves_are in *. destruct (Z.eqb_spec z 0) as [->|n0].
   { cbn [firstn]. repeat split; [constructor|now left|apply signed_nil]. }
   destruct (Z.eqb_spec z (cast_signed (z mod word))) as [one|two]; cbn [firstn].
   - inversion h; subst. split; [constructor; [assumption|constructor]|]. split; [|now rewrite signed_one].
-    right. cbn [last removelast]. unfold sign_word. cbn [last]. replace (half <=? 0) with false by (symmetry; apply Z.leb_gt; lia).
-    intro z0. rewrite z0 in one. unfold cast_signed in one. replace (half <=? 0) with false in one by (symmetry; apply Z.leb_gt; lia). lia.
+    right. cbn [last removelast]. unfold sign_word. cbn [last]. replace (half <=? 0) with false by (symmetry;
+      apply Z.leb_gt; lia).
+    intro z0. rewrite z0 in one. unfold cast_signed in one. replace (half <=? 0) with false in one by (symmetry;
+      apply Z.leb_gt; lia). lia.
   - split; [exact h|]. split; [|exact E]. right. cbn [last removelast]. intro same. apply two. rewrite <- signed_one.
     rewrite <- (a_repeated_sign_changes_nothing [z mod word] 1). cbn [repeat app]. rewrite <- same. symmetry. exact E.
 Qed.
@@ -739,8 +797,10 @@ Lemma small_is ws z : Forall is_word ws -> small ws = Some z -> signed ws = z.
 Proof.
   intros h E. destruct ws as [|w [|v [|]]]; try (now apply single_is).
   cbn [small] in E. injection E as <-. inversion h as [|? ? hw h']; subst. inversion h' as [|? ? hv _]; subst.
-  pose proof half_pos. pose proof two_halves. change [w; v] with ([w] ++ [v]). rewrite signed_app, signed_one, modulus_one by discriminate.
-  cbn [natural]. unfold cast_signed, is_word in *. destruct (Z.leb_spec half v), (Z.leb_spec (half * word) (v * word + w)); nia.
+  pose proof half_pos. pose proof two_halves. change [w; v] with ([w] ++ [v]).
+    rewrite signed_app, signed_one, modulus_one by discriminate.
+  cbn [natural]. unfold cast_signed, is_word in *. destruct (Z.leb_spec half v), (Z.leb_spec (half * word) (v * word +
+    w)); nia.
 Qed.
 Lemma add_words_app a a' b b' carry : length a = length b -> add_words (a ++ a') (b ++ b') carry =
   let '(x, carry) := add_words a b carry in let '(y, carry) := add_words a' b' carry in (x ++ y, carry).
@@ -761,7 +821,8 @@ Proof.
     + rewrite word_succ. unfold complement. destruct mask; ring.
 Qed.
 Lemma extended n k mask ws : words_of n ws -> let all := map (complement mask) (ws ++ repeat (sign_word ws) k) in
-  words_of (n + k) all /\ exists j, natural all = (if mask then - 1 - signed ws else signed ws) + word ^ Z.of_nat (n + k) * j.
+  words_of (n + k) all /\ exists j, natural all = (if mask then - 1 - signed ws else signed ws) + word ^ Z.of_nat (n +
+    k) * j.
 Proof.
   intro h. cbv zeta. pose proof (words_app n k _ _ h (signs_are_words ws k)) as all.
   destruct (complement_is (n + k) mask _ all) as [a E]. split; [exact a|]. rewrite E.
@@ -795,27 +856,32 @@ Proof.
   destruct (add_words (firstn _ _) _ carry) as [below c1].
   rewrite add_words_app in sum_ by (rewrite skipn_length, !map_length, repeat_length; unfold k; lia).
   rewrite signs_map, skipn_length, map_length. fold k.
-  assert (R : map (complement short_mask) (repeat (sign_word short) k) = repeat (complement short_mask (sign_word short)) k).
+  assert (R : map (complement short_mask) (repeat (sign_word short) k) = repeat (complement short_mask (sign_word
+    short)) k).
   { clear. induction k as [|k IH]; [reflexivity|]. cbn [repeat map]. now rewrite IH. }
   rewrite R in *. destruct (add_words (skipn _ _) _ c1) as [above c2]. cbn [add_words] in sum_.
   destruct (add_with_carry _ _ c2) as [top c3]. cbn [fst] in *. destruct sum_ as [h E].
   assert (fit : fits (length long + 1) total).
   { destruct (fits_wider _ (length long) _ (Nat.le_refl _) (signed_fits _ long (conj eq_refl hl))) as [l1 l2].
     destruct (fits_wider _ (length long) _ le (signed_fits _ short (conj eq_refl hs))) as [s1 s2].
-    unfold fits. rewrite Nat.add_1_r, word_succ. pose proof half_pos. pose proof two_halves. pose proof (word_pos (length long)).
+    unfold fits. rewrite Nat.add_1_r, word_succ. pose proof half_pos. pose proof two_halves.
+      pose proof (word_pos (length long)).
     set (P := word ^ Z.of_nat (length long)) in *. assert (2 * P <= word * P) by nia. lia. }
   assert (E2 : signed (below ++ above ++ [top]) = total).
-  { apply (right_if_it_fits _ _ _ (jl + js - Z.b2z c3) h fit). unfold total. rewrite el, es in E. destruct long_mask, short_mask; lia. }
+  { apply (right_if_it_fits _ _ _ (jl + js - Z.b2z c3) h fit). unfold total. rewrite el, es in E.
+    destruct long_mask, short_mask; lia. }
   rewrite <- E2. apply holds_words. apply h.
 Qed.
 Theorem sum_is a b mask x y : holds a x -> holds b y -> holds (sum a b mask) (if mask then x - y else x + y).
 Proof.
   intros (ha & _ & ea) (hb & _ & eb). unfold sum. destruct (Nat.leb_spec (length b) (length a)) as [le|lt].
   - pose proof (aligned_sum a b false mask mask x y ha hb le ea eb) as S. cbv zeta in S.
-    replace (if mask then x - y else x + y) with (x + (if mask then - 1 - y else y) + Z.b2z mask) by (destruct mask; cbn [Z.b2z]; ring).
+    replace (if mask then x - y else x + y) with (x + (if mask then - 1 - y else y) + Z.b2z mask) by (destruct mask;
+      cbn [Z.b2z]; ring).
     apply S. destruct mask; cbn [Z.b2z]; lia.
   - pose proof (aligned_sum b a mask false mask y x hb ha ltac:(lia) eb ea) as S. cbv zeta in S.
-    replace (if mask then x - y else x + y) with ((if mask then - 1 - y else y) + x + Z.b2z mask) by (destruct mask; cbn [Z.b2z]; ring).
+    replace (if mask then x - y else x + y) with ((if mask then - 1 - y else y) + x + Z.b2z mask) by (destruct mask;
+      cbn [Z.b2z]; ring).
     apply S. destruct mask; cbn [Z.b2z]; lia.
 Qed.
 Lemma in_double_is z : in_double z = true -> - (half * word) <= z < half * word.
@@ -824,14 +890,16 @@ Theorem plus_is a b x y : holds a x -> holds b y -> holds (plus a b) (x + y).
 Proof.
   intros ha hb. pose proof (sum_is a b false x y ha hb) as general. unfold plus.
   destruct (small a) as [u|] eqn:ea, (small b) as [v|] eqn:eb; try exact general.
-  destruct (in_double (u + v)) eqn:r; [|exact general]. apply small_is in ea; [|apply ha]. apply small_is in eb; [|apply hb].
+  destruct (in_double (u + v)) eqn:r; [|exact general]. apply small_is in ea; [|apply ha]. apply small_is in eb;
+    [|apply hb].
   destruct ha as (_ & _ & <-), hb as (_ & _ & <-). rewrite ea, eb. now apply double_is, in_double_is.
 Qed.
 Theorem minus_is a b x y : holds a x -> holds b y -> holds (minus a b) (x - y).
 Proof.
   intros ha hb. pose proof (sum_is a b true x y ha hb) as general. unfold minus.
   destruct (small a) as [u|] eqn:ea, (small b) as [v|] eqn:eb; try exact general.
-  destruct (in_double (u - v)) eqn:r; [|exact general]. apply small_is in ea; [|apply ha]. apply small_is in eb; [|apply hb].
+  destruct (in_double (u - v)) eqn:r; [|exact general]. apply small_is in ea; [|apply ha]. apply small_is in eb;
+    [|apply hb].
   destruct ha as (_ & _ & <-), hb as (_ & _ & <-). rewrite ea, eb. now apply double_is, in_double_is.
 Qed.
 Lemma zero_is : holds [] 0.
@@ -845,7 +913,8 @@ Proof. intro h. replace (3 * x) with (2 * x + x) by ring. apply plus_is; [now ap
 Theorem times_is a b x y : holds a x -> holds b y -> holds (times a b) (x * y).
 Proof.
   intros (ha & _ & <-) (hb & _ & <-). pose proof half_pos. pose proof two_halves.
-  assert (general : holds (without_repeated_sign (multiply_significant_words a b (repeat 0 (length a + length b)))) (signed a * signed b)).
+  assert (general : holds (without_repeated_sign (multiply_significant_words a b (repeat 0 (length a + length b))))
+    (signed a * signed b)).
   { destruct (multiply_significant_words_is (length a) (length b) a b (repeat 0 (length a + length b)) (conj eq_refl ha)
       (conj eq_refl hb) (repeat_length _ _)) as [[_ h] <-]. now apply holds_words. }
   destruct a as [|u a]; [rewrite signed_nil; apply zero_is|].
@@ -856,11 +925,14 @@ Proof.
   assert (half * half < half * word) by nia. assert (Z.abs (cast_signed u * cast_signed v) <= half * half); [|lia].
   rewrite Z.abs_mul. apply Z.mul_le_mono_nonneg; lia.
 Qed.
-Theorem minor_is a b c d x y z w : holds a x -> holds b y -> holds c z -> holds d w -> holds (minor a b c d) (x * w - y * z).
+Theorem minor_is a b c d x y z w : holds a x -> holds b y -> holds c z -> holds d w ->
+  holds (minor a b c d) (x * w - y * z).
 Proof.
   intros ha hb hc hd. pose proof (minus_is _ _ _ _ (times_is _ _ _ _ ha hd) (times_is _ _ _ _ hb hc)) as general.
-  unfold minor. destruct (single a) as [a1|] eqn:ea; [|exact general]. destruct (single b) as [b1|] eqn:eb; [|exact general].
-  destruct (single c) as [c1|] eqn:ec; [|exact general]. destruct (single d) as [d1|] eqn:ed; [|exact general]. clear general.
+  unfold minor. destruct (single a) as [a1|] eqn:ea; [|exact general]. destruct (single b) as [b1|] eqn:eb;
+    [|exact general].
+  destruct (single c) as [c1|] eqn:ec; [|exact general]. destruct (single d) as [d1|] eqn:ed; [|exact general].
+    clear general.
   apply single_is in ea as [ea ra]; [|apply ha]. apply single_is in eb as [eb rb]; [|apply hb].
   apply single_is in ec as [ec rc]; [|apply hc]. apply single_is in ed as [ed rd]; [|apply hd].
   destruct ha as (_ & _ & <-), hb as (_ & _ & <-), hc as (_ & _ & <-), hd as (_ & _ & <-). rewrite ea, eb, ec, ed.
@@ -876,7 +948,8 @@ Proof.
     - assert (Z.abs p * Z.abs q <= half * half) by (apply Z.mul_le_mono_nonneg; lia). rewrite <- Z.abs_mul in *. lia. }
   pose proof (P a1 d1 ra rd). pose proof (P b1 c1 rb rc). nia.
 Qed.
-Theorem sum_of_products_is a b c d e f u v w x y z : holds a u -> holds b v -> holds c w -> holds d x -> holds e y -> holds f z ->
+Theorem sum_of_products_is a b c d e f u v w x y z : holds a u -> holds b v -> holds c w -> holds d x -> holds e y ->
+  holds f z ->
   holds (sum_of_products a b c d e f) (u * v + w * x + y * z).
 Proof. intros. unfold sum_of_products. repeat (apply plus_is || apply times_is); assumption. Qed.
 Theorem shifted_is significand shift : - half <= significand < half -> 0 <= shift ->
@@ -886,7 +959,8 @@ Proof.
   destruct (in_two_words _ (wide_is_small significand shift s64 s0)) as [h E].
   rewrite (wide_times significand shift s0). assert (0 <= shift / bits) by (apply Z.div_pos; lia).
   destruct (halves _) as [low high]. destruct (zeros_are_words (Z.to_nat (shift / bits))) as [hz ez].
-  assert (V : signed (repeat 0 (Z.to_nat (shift / bits)) ++ [low; high]) = significand * 2 ^ (shift mod bits) * word ^ (shift / bits)).
+  assert (V : signed (repeat 0 (Z.to_nat (shift / bits)) ++ [low;
+    high]) = significand * 2 ^ (shift mod bits) * word ^ (shift / bits)).
   { rewrite signed_app by discriminate. rewrite ez, E, (modulus_of _ _ hz), Z2Nat.id by assumption. ring. }
   rewrite <- V. apply holds_words. apply Forall_app. split; [apply hz|apply h].
 Qed.

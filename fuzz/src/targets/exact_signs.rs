@@ -1,6 +1,8 @@
 use super::pair::{self, Numbers};
 use selvedge::core::kernels::coplanarity::is_in_range;
 use selvedge::core::kernels::exact::{UNKNOWN, certain_signs, control_value_signs, is_never_coplanar};
+#[cfg(test)]
+use selvedge::core::kernels::{points::PairPoints, vector::Vector};
 use selvedge_verification::generator::{Format, PairCase};
 use selvedge_verification::oracle::InRationals;
 
@@ -36,4 +38,26 @@ fn check<S: Format>(case: &PairCase<S>) {
         }
         assert_eq!(is_never_coplanar(pair, known), has_one_sign, "{case:?}");
     }
+}
+
+/// Returns a pair's kind and format, and the encodings of its coordinates: axis by axis, all points at the start, then at the
+/// end.
+#[cfg(test)]
+pub(crate) fn encodings(data: &[u8]) -> String {
+    match pair::numbers(data) {
+        Numbers::Single(case) => encoded("f32", &case),
+        Numbers::Double(case) => encoded("f64", &case),
+    }
+}
+
+#[cfg(test)]
+fn encoded<S: Format>(format: &str, case: &PairCase<S>) -> String {
+    let pair = case.pair();
+    let points = PairPoints::from(&pair);
+    let axes: [fn(&Vector<S>) -> S; 3] = [|point| point.x, |point| point.y, |point| point.z];
+    let all = || points.start.iter().chain(&points.end);
+    let numbers = axes
+        .iter()
+        .flat_map(|of| all().map(|point| format!(" {:x}", of(point).encoding())));
+    format!("{:?} {format}{}", pair.kind, numbers.collect::<String>())
 }

@@ -4,7 +4,7 @@ mod box_tests;
 mod c_interface;
 mod certified_filter;
 mod detector;
-mod exact_signs;
+pub(crate) mod exact_signs;
 mod exact_verdict;
 mod meshes;
 mod message;

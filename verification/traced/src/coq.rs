@@ -5,6 +5,7 @@
 
 use crate::Text;
 use crate::gappa::tetrahedron;
+use crate::kernels::exact;
 use crate::narrowed;
 use crate::symbols::{MaskStep, Step, Trace, Traced, TracedMask, if_any, trace};
 use selvedge_core::kernels::advance::corners::Corners;
@@ -60,6 +61,7 @@ pub fn files() -> Vec<Text> {
         ("Advance.v", advance()),
         ("Gap.v", gaps()),
         ("Narrowed.v", narrowed::text()),
+        ("Sampled.v", exact::text()),
     ]
     .map(|(name, text)| (name.to_owned(), text))
     .into()

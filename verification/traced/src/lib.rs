@@ -13,6 +13,7 @@ pub mod accepted;
 mod beyond;
 pub mod coq;
 pub mod gappa;
+mod kernels;
 mod narrowed;
 mod programs;
 mod runs;

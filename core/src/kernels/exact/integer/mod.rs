@@ -3,23 +3,27 @@
 //! [`Integer`] is an array, for widths that the compiler knows: the fastest form for a few words. [`Words`] is a slice of as many
 //! words as the number needs, out of one [`Space`].
 
+#[cfg(test)]
+mod all_tiny_numbers;
 mod limbs;
 mod space;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tiny;
 mod words;
 
 pub(super) use space::Space;
 pub(super) use words::{Whole, Words};
 
 use core::cmp::Ordering;
-use limbs::{add_with_carry, multiply, multiply_significant_words, sign_word, subtract, write_shifted};
+use limbs::{add, multiply, multiply_significant_words, sign_word, subtract, write_shifted};
 
 /// A whole number of `N` words.
 ///
 /// Every result is taken modulo 2^(64·words). It is exact if it fits, which [`kernel`](super::kernel) shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Integer<const N: usize>([u64; N]);
+pub(super) struct Integer<const N: usize>(pub(super) [u64; N]);
 
 impl<const N: usize> Integer<N> {
     #[inline(always)]
@@ -36,10 +40,7 @@ impl<const N: usize> Integer<N> {
     #[inline(always)]
     pub(super) fn plus(&self, other: &Self) -> Self {
         let mut sum = self.0;
-        let mut carry = false;
-        for (word, &added) in sum.iter_mut().zip(&other.0) {
-            (*word, carry) = add_with_carry(*word, added, carry);
-        }
+        add(&mut sum, &other.0);
         Self(sum)
     }
 

@@ -1,4 +1,4 @@
-use super::limbs::{add_with_carry, multiply_significant_words, sign_word};
+use super::limbs::{multiply_significant_words, write_sum};
 use super::words::{Whole, Words};
 use core::mem;
 
@@ -87,26 +87,11 @@ impl<'a> Space<'a> {
         self.plus(doubled, a)
     }
 
-    /// Returns a + b, or, with all ones for `mask`, a − b: a plus the complement of b, plus one.
+    /// Returns a + b, or, with all ones for `mask`, a − b.
     #[inline(always)]
     fn sum(&mut self, a: &[u64], b: &[u64], mask: u64) -> Words<'a> {
-        let ((long, long_mask), (short, short_mask)) = if a.len() >= b.len() {
-            ((a, 0), (b, mask))
-        } else {
-            ((b, mask), (a, 0))
-        };
-        let words = self.take(long.len() + 1);
-        let mut carry = mask != 0;
-        for ((sum, x), y) in words.iter_mut().zip(long).zip(short) {
-            (*sum, carry) = add_with_carry(x ^ long_mask, y ^ short_mask, carry);
-        }
-        let sign_of_short = sign_word(short) ^ short_mask;
-        if let (Some([above @ .., top]), Some(rest)) = (words.get_mut(short.len()..), long.get(short.len()..)) {
-            for (sum, x) in above.iter_mut().zip(rest) {
-                (*sum, carry) = add_with_carry(x ^ long_mask, sign_of_short, carry);
-            }
-            *top = add_with_carry(sign_word(long) ^ long_mask, sign_of_short, carry).0;
-        }
+        let words = self.take(a.len().max(b.len()) + 1);
+        write_sum(a, b, mask, words);
         Words::new(words)
     }
 

@@ -14,7 +14,7 @@ pub(in crate::kernels::exact) trait Whole: Copy {
 
 /// A whole number as its words, without those above that only repeat the sign: zero has none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::kernels::exact) struct Words<'a>(pub(super) &'a [u64]);
+pub(in crate::kernels::exact) struct Words<'a>(pub(in crate::kernels::exact) &'a [u64]);
 
 impl Whole for Words<'_> {
     const ZERO: Self = Self(&[]);
