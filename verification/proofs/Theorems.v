@@ -27,7 +27,7 @@ From Coq Require Import Reals ZArith Lra Lia.
 From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent
   Magnitudes.
-From Selvedge Require Orders Boxes Apart Certificates Nearest Witnesses Words Integers.
+From Selvedge Require Orders Boxes Apart Certificates Nearest Witnesses Words Integers Samples Verdicts.
 From Selvedge Require Machine Nearness Corners Advance Advancing Checker Chains Narrowing Gap Gaps Kept Least Normals
   Beyond
   Separated DirectionsBeyond AdvanceBeyond AdvancingBeyond.
@@ -591,6 +591,29 @@ Proof. exact (Replayed.the_runs_of_the_code_are_replayed w). Qed.
 (* 17. Certificates.v has the lemmas about exact numbers that they and truncation rest on: a direction held or turning
        over a part of the step, the volume there, shares of ways. *)
 
+(* 17. The exact verdict (`Verdicts.v`, after contact/remainder.rs, moment.rs and mod.rs). A time t is s = t / (1 - t); the
+       control values are the coefficients of a polynomial in s that has the volume's sign. *)
+Theorem the_volume_in_s k0 k1 k2 k3 t : 0 <= t < 1 ->
+  IZR k0 * (1 - t) ^ 3 + IZR k1 * (1 - t) ^ 2 * t + IZR k2 * (1 - t) * t ^ 2 + IZR k3 * t ^ 3 =
+    (1 - t) ^ 3 * Verdicts.at_ [k0; k1; k2; k3]%list (t / (1 - t)).
+Proof. intro time. rewrite Verdicts.at_cubic. field. lra. Qed.
+(* The sign of a polynomial at a root of a quadratic or of a linear polynomial, and the order of two roots, are right. *)
+Theorem signs_at_roots_are_right q p : Verdicts.is_root q -> (2 <= List.length p)%nat ->
+  Integers.says (Verdicts.at_ p (Verdicts.root_value q)) (Verdicts.sign_at_root Verdicts.whole q p).
+Proof. exact (Verdicts.sign_at_root_is q p). Qed.
+Theorem roots_compare_as_numbers q o : Verdicts.is_root q -> Verdicts.is_root o ->
+  Integers.says (Verdicts.root_value q - Verdicts.root_value o) (Verdicts.compare Verdicts.whole q o).
+Proof. exact (Verdicts.compare_is q o). Qed.
+(* Computed in words, the times inside the step that the code tests are those at which the volume is zero, if it is not
+   zero throughout; and the signs of linear and quadratic polynomials that it computes at each of them are right. *)
+Theorem the_times_that_are_tested_are_the_roots w0 w1 w2 w3 k0 k1 k2 k3 : Integers.holds w0 k0 -> Integers.holds w1 k1 ->
+  Integers.holds w2 k2 -> Integers.holds w3 k3 -> ~ List.Forall (fun k => k = 0%Z) [k0; k1; k2; k3]%list ->
+  (forall m, List.In m (Verdicts.times_of Verdicts.in_words w0 w1 w2 w3) ->
+    exists s, Verdicts.is_time_in_words m s /\ Verdicts.at_ [k0; k1; k2; k3]%list s = 0) /\
+  (forall s, 0 < s -> Verdicts.at_ [k0; k1; k2; k3]%list s = 0 ->
+    exists m, List.In m (Verdicts.times_of Verdicts.in_words w0 w1 w2 w3) /\ Verdicts.is_time_in_words m s).
+Proof. exact (Verdicts.times_in_words w0 w1 w2 w3 k0 k1 k2 k3). Qed.
+
 Print Assumptions formats_are_reasonable.
 Print Assumptions an_operation_is_nearly_exact.
 Print Assumptions one_sign_excludes_contact_of_a_vertex_and_a_face.
@@ -653,3 +676,12 @@ Print Assumptions Certificates.held_direction.
 Print Assumptions Certificates.turning_direction.
 Print Assumptions Certificates.one_sign_on_a_part.
 Print Assumptions Certificates.truncated_ways_keep_the_gap.
+Print Assumptions the_volume_in_s.
+Print Assumptions signs_at_roots_are_right.
+Print Assumptions roots_compare_as_numbers.
+Print Assumptions the_times_that_are_tested_are_the_roots.
+Print Assumptions Samples.tiny_numbers_are_the_same.
+Print Assumptions Samples.numbers_of_a_fixed_width_are_the_same.
+Print Assumptions Samples.numbers_in_a_space_are_the_same.
+Print Assumptions Samples.shifted_numbers_are_the_same.
+Print Assumptions Samples.signs_of_kept_pairs_are_the_same.

@@ -1088,3 +1088,219 @@ Proof.
         cbn [map whole sign_ Z.compare].
       destruct (k0 ?= 0)%Z; cbn; discriminate.
 Qed.
+
+(* Numbers of any ring that stands for whole numbers, such as words, give the same signs, times and roots. *)
+Section Transfer.
+Context {T : Type} (r : ring T) (stands : T -> Z -> Prop).
+Hypothesis zero_stands : stands (zero r) 0%Z.
+Hypothesis plus_stands : forall a b x y, stands a x -> stands b y -> stands (plus_ r a b) (x + y)%Z.
+Hypothesis minus_stands : forall a b x y, stands a x -> stands b y -> stands (minus_ r a b) (x - y)%Z.
+Hypothesis times_stands : forall a b x y, stands a x -> stands b y -> stands (times_ r a b) (x * y)%Z.
+Hypothesis minor_stands : forall a b c d x y z w, stands a x -> stands b y -> stands c z -> stands d w ->
+  stands (minor_ r a b c d) (x * w - y * z)%Z.
+Hypothesis sign_stands : forall a x, stands a x -> sign_ r a = Z.compare x 0.
+Notation all_stand := (Forall2 stands).
+Lemma quotient_stands a b l v p first x y xs n q : stands a x -> stands b y -> all_stand l xs -> stands v n ->
+  stands p q ->
+  stands (quotient_steps r a b l v p first) (quotient_steps whole x y xs n q first).
+Proof.
+  intros ha hb hl. revert v n p q first. induction hl as [|k h l' xs' hk _ IH]; intros v n p q first hv hp; [exact hv|].
+  cbn [quotient_steps whole minor_ times_]. destruct first; (apply IH; [apply minor_stands|]); auto.
+Qed.
+Lemma reversed_stand l xs : all_stand l xs -> all_stand (rev l) (rev xs).
+Proof. induction 1; [constructor|]. cbn [rev]. apply Forall2_app; [assumption|]. constructor;
+  [assumption|constructor]. Qed.
+Lemma value_stands a b l x y xs : stands a x -> stands b y -> all_stand l xs ->
+  stands (value_at_quotient r a b l) (value_at_quotient whole x y xs).
+Proof.
+  intros ha hb hl. apply reversed_stand in hl. unfold value_at_quotient. inversion hl as [|? ? ? ? hv hr];
+    [exact zero_stands|].
+  now apply quotient_stands.
+Qed.
+Lemma steps_stand a b c l l0 l1 p first x y z xs n0 n1 q : stands a x -> stands b y -> stands c z -> all_stand l xs ->
+  stands l0 n0 -> stands l1 n1 -> stands p q ->
+  let '(u0, u1) := remainder_steps r a b c l l0 l1 p first in let '(w0, w1) := remainder_steps whole x y z xs n0 n1 q
+    first in
+  stands u0 w0 /\ stands u1 w1.
+Proof.
+  intros ha hb hc hl. revert l0 l1 p first n0 n1 q. induction hl as [|k h l' xs' hk _ IH];
+    intros l0 l1 p first n0 n1 q h0 h1 hp; [split; assumption|].
+  cbn [remainder_steps]. apply IH; [apply minor_stands|apply minor_stands|]; auto; destruct first; auto;
+    now apply times_stands.
+Qed.
+Definition root_stands (q : @root T) (o : @root Z) := stands (constant q) (constant o) /\
+  stands (linear q) (linear o) /\
+  stands (square q) (square o) /\ at_side q = at_side o.
+Lemma zeros_stand l xs : all_stand l xs -> forallb (is_zero r) l = forallb (is_zero whole) xs.
+Proof.
+  induction 1 as [|k h l xs hk _ IH]; [reflexivity|]. cbn [forallb]. rewrite IH. unfold is_zero.
+    now rewrite (sign_stands k h hk).
+Qed.
+Theorem sign_at_root_stands q o l xs : root_stands q o -> all_stand l xs ->
+  sign_at_root r q l = sign_at_root whole o xs.
+Proof.
+  intros (ha & hb & hc & same) hl. unfold sign_at_root. rewrite (zeros_stand l xs hl). destruct (forallb _ xs);
+    [reflexivity|].
+  unfold is_zero. rewrite (sign_stands _ _ hc). cbn [whole sign_].
+  destruct (square o ?= 0)%Z; [exact (sign_stands _ _ (value_stands _ _ _ _ _ _ ha hb hl))| |];
+    unfold terms, remainder; pose proof (reversed_stand l xs hl) as hr;
+    (assert (R : let '(u0, u1) := remainder r (constant q) (linear q) (square q) l in
+       let '(w0, w1) := remainder whole (constant o) (linear o) (square o) xs in stands u0 w0 /\ stands u1 w1);
+     [unfold remainder; inversion hr as [|k1 h1 t1 s1 e1 [|k0 h0 t0 s0 e0 er]]; [split; exact zero_stands|split;
+       [exact zero_stands|exact e1]|
+        now apply steps_stand]|]);
+    unfold remainder in R; destruct (match rev l with [] => _ | _ => _ end) as [u0 u1];
+      destruct (match rev xs with [] => _ | _ => _ end) as [w0 w1];
+    destruct R as [R0 R1]; cbn [whole times_ minus_ plus_];
+    rewrite (sign_stands _ _ R1), (sign_stands _ _ (plus_stands _ _ _ _ (minus_stands _ _ _ _ (times_stands _ _ _ _ R0
+      hc) (times_stands _ _ _ _ R1 hb)) (times_stands _ _ _ _ R0 hc))),
+      (sign_stands _ _ (plus_stands _ _ _ _ (times_stands _ _ _ _ R0 (minus_stands _ _ _ _ (times_stands _ _ _ _ R0 hc)
+        (times_stands _ _ _ _ R1 hb)))
+        (times_stands _ _ _ _ (times_stands _ _ _ _ R1 R1) ha))), same; reflexivity.
+Qed.
+Notation roots_stand := (Forall2 root_stands).
+Lemma first_sign_stands l xs : all_stand l xs -> first_of_signs r l = first_of_signs whole xs.
+Proof. induction 1 as [|k h l xs hk _ IH]; [reflexivity|]. cbn [first_of_signs]. now rewrite (sign_stands k h hk), IH.
+  Qed.
+Lemma end_stands l xs : all_stand l xs -> sign_before_end r l = sign_before_end whole xs.
+Proof. intro h. apply first_sign_stands, reversed_stand, h. Qed.
+Lemma nth_stands n l xs : all_stand l xs -> stands (nth_ r n l) (nth_ whole n xs).
+Proof.
+  intro h. unfold nth_. revert n. induction h as [|k h l xs hk _ IH]; intros [|n]; cbn [nth]; try exact zero_stands;
+    [exact hk|apply IH].
+Qed.
+Lemma negated_stands a x : stands a x -> stands (negated_ r a) (negated_ whole x).
+Proof. intro h. apply minus_stands; [exact zero_stands|exact h]. Qed.
+Lemma doubled_stands a x : stands a x -> stands (doubled_ r a) (doubled_ whole x).
+Proof. intro h. now apply plus_stands. Qed.
+Lemma tripled_stands a x : stands a x -> stands (tripled_ r a) (tripled_ whole x).
+Proof. intro h. apply plus_stands; [now apply doubled_stands|exact h]. Qed.
+Lemma discriminant_stands a b c x y z : stands a x -> stands b y -> stands c z ->
+  discriminant_sign r a b c = discriminant_sign whole x y z.
+Proof.
+  intros ha hb hc. apply sign_stands. apply minus_stands; [now apply times_stands|]. do 2 apply doubled_stands.
+    now apply times_stands.
+Qed.
+Lemma positive_stands l xs : all_stand l xs -> roots_stand (positive r l) (positive whole xs).
+Proof.
+  intro h. unfold positive. cbv zeta.
+  assert (Q : all_stand [nth_ r 0 l; nth_ r 1 l; nth_ r 2 l] [nth_ whole 0 xs; nth_ whole 1 xs; nth_ whole 2 xs]) by
+    (repeat constructor; now apply nth_stands).
+  rewrite (end_stands _ _ Q). set (A := [nth_ r 0 l; nth_ r 1 l; nth_ r 2 l]) in *. set (B := [nth_ whole 0 xs;
+    nth_ whole 1 xs; nth_ whole 2 xs]) in *.
+  assert (N : all_stand (match sign_before_end whole B with Lt => map (negated_ r) A | _ => A end)
+    (match sign_before_end whole B with Lt => map (negated_ whole) B | _ => B end)).
+  { destruct (sign_before_end whole B); try exact Q. clear -Q zero_stands minus_stands. induction Q; [constructor|].
+    cbn [map]. constructor; [now apply negated_stands|assumption]. }
+  set (C := match sign_before_end whole B with Lt => map (negated_ r) A | _ => A end) in *.
+  set (D := match sign_before_end whole B with Lt => map (negated_ whole) B | _ => B end) in *. clearbody C D.
+  pose proof (nth_stands 0 _ _ N) as a. pose proof (nth_stands 1 _ _ N) as b. pose proof (nth_stands 2 _ _ N) as c.
+  rewrite (sign_stands _ _ a), (sign_stands _ _ b), (sign_stands _ _ c), (discriminant_stands _ _ _ _ _ _ a b c).
+    cbn [whole sign_].
+  assert (R : forall side, root_stands (Root (nth_ r 0 C) (nth_ r 1 C) (nth_ r 2 C) side) (Root (nth_ whole 0 D) (nth_
+    whole 1 D) (nth_ whole 2 D) side)).
+  { intro side. repeat split; assumption. }
+  destruct (nth_ whole 0 D ?= 0)%Z, (nth_ whole 1 D ?= 0)%Z, (nth_ whole 2 D ?= 0)%Z, (discriminant_sign whole (nth_
+    whole 0 D) (nth_ whole 1 D) (nth_ whole 2 D)); repeat constructor; apply R.
+Qed.
+Lemma compare_stands q q' o o' : root_stands q q' -> root_stands o o' -> compare r q o = compare whole q' o'.
+Proof.
+  intros hq (ha & hb & hc & same). unfold compare. cbv zeta. unfold is_zero. rewrite (sign_stands _ _ hc), same.
+    cbn [whole sign_].
+  rewrite (sign_at_root_stands q q' _ [constant o'; linear o'; square o'] hq) by (repeat constructor; assumption).
+  rewrite (sign_at_root_stands q q' _ [linear o'; doubled_ whole (square o')] hq) by (repeat constructor;
+    try assumption; now apply doubled_stands).
+  reflexivity.
+Qed.
+Definition option_stands (a : option (@root T)) (b : option (@root Z)) := match a, b with
+  | Some q, Some o => root_stands q o | None, None => True | _, _ => False end.
+Definition crossing_stands (x : @crossing T) (y : @crossing Z) := all_stand (cubic x) (cubic y) /\
+  option_stands (after x) (after y) /\
+  option_stands (before x) (before y) /\ sign_before x = sign_before y.
+Lemma compare_crossing_stands x y q o : crossing_stands x y -> root_stands q o ->
+  compare_crossing r x q = compare_crossing whole y o.
+Proof.
+  intros (hc & ha & hb & hs) hq. unfold compare_crossing. rewrite (sign_at_root_stands q o _ _ hq hc), hs.
+  unfold option_stands in *. destruct (after x), (after y); try contradiction; destruct (before x), (before y);
+    try contradiction;
+    repeat match goal with h : root_stands ?a ?b |- context [compare r q ?a] => rewrite (compare_stands q o a b hq h)
+      end; reflexivity.
+Qed.
+Theorem sign_at_crossing_stands x y l xs : crossing_stands x y -> all_stand l xs ->
+  sign_at_crossing r x l = sign_at_crossing whole y xs.
+Proof.
+  intros hx hl. unfold sign_at_crossing. rewrite (end_stands l xs hl). generalize (sign_before_end whole xs).
+  induction (positive_stands l xs hl) as [|q o qs os h _ IH]; intro sign; [reflexivity|]. cbn [turned].
+  rewrite (compare_crossing_stands x y q o hx h). destruct (compare_crossing whole y o); auto.
+Qed.
+Definition moment_stands (m : @moment T) (n : @moment Z) := match m, n with
+  | AtRoot q, AtRoot o => root_stands q o | AtCrossing x, AtCrossing y => crossing_stands x y | _, _ => False end.
+Theorem sign_at_stands m n l xs : moment_stands m n -> all_stand l xs -> sign_at r m l = sign_at whole n xs.
+Proof. destruct m, n; try contradiction; [apply sign_at_root_stands|apply sign_at_crossing_stands]. Qed.
+Lemma times_from_stands volume volume' rest rest' roots roots' x y : all_stand volume volume' ->
+  all_stand rest rest' -> roots_stand roots roots' ->
+  crossing_stands x y -> Forall2 moment_stands (times_from r volume rest roots x) (times_from whole volume' rest'
+    roots' y).
+Proof.
+  intros hv hr hq. revert x y. induction hq as [|q o qs os h _ IH]; intros x y hx; cbn [times_from];
+    destruct hx as (hc & ha & hb & hs).
+  - rewrite (end_stands _ _ hv), hs. destruct (equal_signs _ _); [|constructor]. constructor; [|constructor].
+    split; [exact hc|]. split; [exact ha|]. split; [exact hb|exact hs].
+  - rewrite (sign_at_root_stands q o _ _ h hr), hs. apply Forall2_app.
+    + assert (C : crossing_stands (Crossing (cubic x) (after x) (Some q) (sign_before y)) (Crossing (cubic y) (after y)
+      (Some o) (sign_before y)))
+        by (split; [exact hc|split; [exact ha|split; [exact h|reflexivity]]]).
+      destruct (sign_at_root whole o rest'); [constructor; [exact h|constructor]|
+        destruct (equal_signs _ _); [constructor; [exact C|constructor]|constructor]..].
+    + apply IH. split; [exact hv|]. split; [exact h|]. split; [exact I|reflexivity].
+Qed.
+Theorem times_of_stand a b c d x y z w : stands a x -> stands b y -> stands c z -> stands d w ->
+  Forall2 moment_stands (times_of r a b c d) (times_of whole x y z w).
+Proof.
+  intros ha hb hc hd. assert (V : all_stand [a; b; c; d] [x; y; z; w]) by (repeat constructor; assumption).
+    unfold times_of. cbv zeta.
+  assert (S : map (sign_ r) [a; b; c; d] = map (sign_ whole) [x; y; z; w]).
+  { cbn [map]. rewrite (sign_stands _ _ ha), (sign_stands _ _ hb), (sign_stands _ _ hc), (sign_stands _ _ hd).
+    reflexivity. }
+  rewrite S. assert (B : crossing_stands (between_ends r [a; b; c; d]) (between_ends whole [x; y; z; w])).
+  { split; [exact V|]. split; [exact I|]. split; [exact I|]. exact (first_sign_stands _ _ V). }
+  destruct (changes_of_sign Eq _) as [|[|n]]; [constructor|constructor; [exact B|constructor]|].
+  apply times_from_stands; [exact V| | |exact B].
+  - repeat constructor; [now apply tripled_stands|now apply doubled_stands|exact hc].
+  - apply positive_stands. repeat constructor; [exact hb|now apply doubled_stands|now apply tripled_stands].
+Qed.
+End Transfer.
+(* In words: the times that are tested are the roots, and the signs there are right. *)
+Definition in_words := Ring (list Z) [] (plus 64) (minus 64) (times 64) (minor 64) (words_sign 64).
+Definition is_time_in_words m s := 0 < s /\ forall l p, Forall2 holds l p -> (2 <= length p <= 3)%nat ->
+  says (at_ p s) (sign_at in_words m l).
+Theorem times_in_words w0 w1 w2 w3 k0 k1 k2 k3 : holds w0 k0 -> holds w1 k1 -> holds w2 k2 -> holds w3 k3 ->
+  ~ Forall (fun k => k = 0%Z) [k0; k1; k2; k3] ->
+  (forall m, In m (times_of in_words w0 w1 w2 w3) -> exists s, is_time_in_words m s /\ at_ [k0; k1; k2; k3] s = 0) /\
+  (forall s, 0 < s -> at_ [k0; k1; k2; k3] s = 0 -> exists m, In m (times_of in_words w0 w1 w2 w3) /\
+    is_time_in_words m s).
+Proof.
+  intros h0 h1 h2 h3 some. destruct (times_are_the_roots k0 k1 k2 k3 some) as [sound complete].
+  assert (r64 : (1 <= 64)%Z) by lia. assert (Z_ : holds [] 0%Z) by now apply zero_is.
+  pose proof (fun a b x y => plus_is 64 r64 a b x y) as P. pose proof (fun a b x y => minus_is 64 r64 a b x y) as M.
+  pose proof (fun a b x y => times_is 64 r64 a b x y) as X. pose proof (fun a b c d x y z w => minor_is 64 r64 a b c d
+    x y z w) as N.
+  assert (S : forall a x, holds a x -> words_sign 64 a = Z.compare x 0).
+  { intros a x (u & v & <-). now apply words_sign_is. }
+  pose proof (times_of_stand in_words holds Z_ P M X N S _ _ _ _ _ _ _ _ h0 h1 h2 h3) as F.
+  assert (T : forall m n s, moment_stands holds m n -> is_time n s -> is_time_in_words m s).
+  { intros m n s h [s0 signs_]. split; [exact s0|]. intros l p hl two.
+    rewrite (sign_at_stands in_words holds Z_ P M X N S m n l p h hl). now apply signs_. }
+  clear P M X N S. split.
+  - intros m i. assert (exists n, In n (times_of whole k0 k1 k2 k3) /\ moment_stands holds m n) as (n & j & h).
+    { clear -F i. induction F as [|m' n ms ns h _ IH]; [contradiction|]. destruct i as [->|i]; [exists n; split;
+      [now left|exact h]|].
+      destruct (IH i) as (o & j & g). exists o. split; [now right|exact g]. }
+    destruct (sound n j) as (s & t & z). exists s. split; [now apply (T m n)|exact z].
+  - intros s s0 z. destruct (complete s s0 z) as (n & j & t).
+    assert (exists m, In m (times_of in_words w0 w1 w2 w3) /\ moment_stands holds m n) as (m & i & h).
+    { clear -F j. induction F as [|m n' ms ns h _ IH]; [contradiction|]. destruct j as [->|j]; [exists m; split;
+      [now left|exact h]|].
+      destruct (IH j) as (o & i & g). exists o. split; [now right|exact g]. }
+    exists m. split; [exact i|now apply (T m n)].
+Qed.

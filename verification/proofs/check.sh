@@ -30,7 +30,7 @@ fi
 files=(Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Magnitudes Orders Boxes Apart Certificates
     Machine Nearness Corners Least Beyond Normals Separated Directions Held DirectionsBeyond Hull Volume Clipping VolumeSteps
     Lengths Bars VolumeBeyond Advance Advancing AdvanceBeyond AdvancingBeyond Checker Gap Gaps Nearest Witnesses Chains Kept
-    Replay Programs Runs Replayed Narrowed Narrowing Words Integers Sampled Samples Verdicts Theorems)
+    Replay Programs Runs Replayed Narrowed Narrowing Words Integers Sampled Samples Verdicts Contact Theorems)
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cp -r ./*.v extracted "$folder"
