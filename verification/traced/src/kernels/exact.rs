@@ -1,9 +1,12 @@
 //! Writes what core's whole numbers return, for numbers at which carries, borrows and signs fail most easily.
 //!
-//! Loops over words have no symbols. So `verification/proofs/Words.v` and `Integers.v` have them as functions of lists, prove these
-//! right for all numbers, and `Samples.v` computes the same results as core for these. The source files are core's own.
+//! Loops over words have no symbols. So `verification/proofs/Words.v` and `Integers.v` have them as functions of lists and prove
+//! these right for all numbers, and `Samples.v` computes the same results as core for these. The source files are core's own.
 
-#![allow(clippy::duplicate_mod, reason = "functions on words are private to the module of whole numbers")]
+#![allow(
+    clippy::duplicate_mod,
+    reason = "functions on words are private to the module of whole numbers"
+)]
 
 #[allow(dead_code, unreachable_pub, reason = "core uses the rest")]
 #[path = "../../../../core/src/kernels/exact/integer/mod.rs"]
