@@ -208,3 +208,66 @@ fn a_dropped_sheet_never_has_more_energy_than_it_started_with() {
     }
     assert!(most <= 1.01 * start.total(), "{most} of {start:?}");
 }
+
+/// A sheet of 100 g/m² swings from two corners. What goes on straight in a long step stretches a stiff sheet, in N/m, by little
+/// length and much energy, none of which may remain.
+#[test]
+#[ignore = "not kept yet: a sheet of 10 kN/m gains 3 % of its motion at 4 ms, and 67 % at 16 ms"]
+fn a_swinging_sheet_of_any_stiffness_gains_no_energy() {
+    // Each solve of a game leaves a fiftieth. The sheet moves on half of its way in 16 ms, and on an eighth in 4 ms.
+    for (milliseconds, share) in [(1.0, 1e-3), (4.0, 1e-2), (16.0, 5e-2)] {
+        for stiffness in [1e2, 1e4, 1e6] {
+            // A step of 16 ms turns a sheet of 1 MN/m further than Newton's method gets in its steps.
+            if (milliseconds, stiffness) == (16.0, 1e6) {
+                continue;
+            }
+            let risen = risen_over_motion(swinging(milliseconds * 1e-3, stiffness), 0.5);
+            assert!(risen <= share, "{risen} with {stiffness} N/m at {milliseconds} ms");
+        }
+    }
+}
+
+fn swinging(time_step: f64, stiffness: f64) -> Scene {
+    let cloth = Cloth::sheet(DVec3::ZERO, [DVec3::X * 0.4, DVec3::Y * 0.3], [12, 9], 0.1).unwrap();
+    let corners = ["top-left", "top-right"].map(|name| cloth.part(name).unwrap()).concat();
+    let mut scene = Scene::new(cloth, time_step);
+    scene.add(Gravity::default());
+    scene.add(Stretch::isotropic(stiffness));
+    scene.add(Shear::new(0.1 * stiffness));
+    scene.add(Bend::isotropic(1e-5));
+    scene.add(resting(corners));
+    scene
+}
+
+/// A blow stretches soft, heavy cloth beyond its limit. The way back is slow, or it would become motion.
+#[test]
+#[ignore = "not kept yet: it gains 27 % of its motion"]
+fn soft_cloth_that_a_strain_limit_stops_in_a_fall_gains_no_energy() {
+    let ends = [-0.5, 0.5].map(|x| DVec3::new(x, 0.0, -1.0));
+    let sides = [1.2 * DVec3::X, DVec3::new(0.0, 1.2, -0.6)];
+    let cloth = Cloth::sheet(DVec3::new(-0.6, -0.6, 0.0), sides, [15, 13], 1.0).unwrap();
+    let mut scene = Scene::new(cloth, 1e-3);
+    scene.bodies.push(Body::capsule("bar", ends, 0.08, 8).unwrap());
+    scene.add(Gravity::default());
+    scene.add(Stretch::isotropic(50.0));
+    scene.add(Shear::new(1.0));
+    scene.add(StrainLimit { limit: 1.05 });
+    scene.add(BodyContact(Thickness::new(0.03)));
+    scene.add(SelfCollision(Thickness::new(0.03)));
+    let risen = risen_over_motion(scene, 0.6);
+    assert!(risen <= 2e-2, "{risen}");
+}
+
+/// Returns the largest energy that a scene gains within a time, over its largest kinetic energy.
+fn risen_over_motion(scene: Scene, seconds: f64) -> f64 {
+    let mut simulation = Simulation::new(scene, 1).unwrap();
+    let (mut least, mut risen, mut moving) = (f64::INFINITY, 0.0_f64, 0.0_f64);
+    while simulation.time() < seconds {
+        simulation.step().unwrap();
+        let energy = simulation.energy();
+        least = least.min(energy.total());
+        risen = risen.max(energy.total() - least);
+        moving = moving.max(energy.kinetic);
+    }
+    risen / moving
+}
