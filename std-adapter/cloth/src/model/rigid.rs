@@ -175,6 +175,16 @@ impl RigidMotion {
     }
 }
 
+/// Returns the sum of the diagonal.
+pub(crate) const fn trace(matrix: DMat3) -> f64 {
+    matrix.x_axis.x + matrix.y_axis.y + matrix.z_axis.z
+}
+
+/// Returns a·bᵀ.
+pub(crate) fn outer(a: DVec3, b: DVec3) -> DMat3 {
+    DMat3::from_cols(a * b.x, a * b.y, a * b.z)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,8 +1,9 @@
 //! Conservation of momentum: inner forces neither move nor turn a piece of cloth.
 //!
 //! The solve ends with a small error, and forces act at other positions than those between which angular momentum is counted. So
-//! after a solve each piece gets the velocity of a rigid body on top, with which its momentum is what forces from outside leave
-//! it ([`Piece::keep_momentum`]). It moves the whole piece, so that no strain changes but in the second order of the turn.
+//! after a solve each piece moves like a rigid body on top, so that its momentum is what forces from outside leave it
+//! ([`Piece::keep_momentum`]). The piece turns as the solve has left it, not as it was before, so that no strain changes: stiff
+//! cloth would throw it back.
 //!
 //! **Held pieces.** A pinned vertex takes up any force but no moment about itself. Pins on a line take up every moment except the
 //! one about that line. Then the piece turns about it. Other pins take up all moments. A piece that something presses is left as
@@ -15,19 +16,24 @@
 //!
 //! **A piece** is what edges and [joints](crate::solve::Term::joints) connect, pinned vertices included.
 
+use crate::model::rigid::{outer, trace};
 use crate::model::step::TimeStep;
 use crate::solve::ContactRow;
 use crate::solve::Prediction;
 use crate::solve::prediction::MotionHistory;
 use crate::solve::rigid::RigidBodies;
-use crate::solve::rigid_body::{moments_of_bodies, sums_of_bodies};
+use crate::solve::rigid_body::{Balance, Correction, Sums, moments_of_bodies, sums_of_bodies};
 use selvedge::Components;
-use selvedge_core::glam::{DMat3, DVec3};
+use selvedge_core::glam::{DMat3, DQuat, DVec3};
 
 /// Pins are on a line if none is farther from it than this share of their extent, which exceeds rounding to single precision.
 const STRAIGHT: f64 = 1e-6;
 /// The number added to the inertia, as a share of its trace: a straight rope has no inertia and no moment about its own line.
 const LEAST_INERTIA: f64 = 1e-12;
+/// The largest number of turns of a correction; each leaves the square of the last one.
+const MOST_TURNS: u32 = 4;
+/// A turn that needs no other one, in radians: its square is rounding.
+const SMALLEST_TURN: f64 = 1e-8;
 
 /// The pieces of all cloths.
 #[derive(Debug, Default)]
@@ -88,25 +94,6 @@ pub(super) struct Motion<'a> {
     pub(super) velocities: &'a [DVec3],
     pub(super) history: &'a MotionHistory,
     pub(super) prediction: &'a Prediction,
-}
-
-/// The part of a motion that a correction changes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Correction {
-    /// Positions and velocities.
-    Motion,
-    /// Velocities alone: positions are certified.
-    Velocity,
-}
-
-impl Correction {
-    /// The share of a correction of velocities that also moves positions.
-    const fn share(self) -> f64 {
-        match self {
-            Self::Motion => 1.0,
-            Self::Velocity => 0.0,
-        }
-    }
 }
 
 impl Pieces {
@@ -193,6 +180,9 @@ impl Piece {
     /// order, and L′ = (4L − L₋)/3 + ⅔h·τ after one of second order: the same formulas as for v′, with the moment τ of forces
     /// from outside. A pinned point is at its place at the end of the step, where its force has no moment about it.
     ///
+    /// The correction displaces a vertex by s + (exp(φ) − 1)(x′ − c). Its velocity changes by that over r, and its angular
+    /// momentum by m/r·(b − c) × (φ × (x′ − c)) in the first order of the turn φ.
+    ///
     /// Bodies that are pressed belong to a piece without pins.
     fn keep_momentum(
         &self,
@@ -203,81 +193,140 @@ impl Piece {
         (bodies, are_pressed): (&mut RigidBodies, &[bool]),
     ) {
         let Some(hinge) = self.hinge(x) else { return };
-        let Motion { forced, history, .. } = motion;
-        let Prediction { masses, base, rate, .. } = motion.prediction;
-        let (h, start) = (step.h, step.start);
-        let free = || self.free.iter().map(|&vertex| vertex as usize);
-        let mass = |vertex: usize| step.inverse_masses[vertex].recip();
-        // What still air adds to the weight of a vertex.
-        let slowing = |vertex: usize| masses[vertex] * rate[vertex] * rate[vertex] * step.inverse_masses[vertex];
-        let moved = correction.share();
-        let base_of = |x: DVec3, velocity: DVec3, vertex: usize| x - velocity * (moved * rate[vertex]);
-        let is_second_order = free().all(|vertex| rate[vertex] < h);
-        let balances = bodies.balances(h, moved, are_pressed);
-        let mut shift = DVec3::ZERO;
-        let centre = match hinge {
-            Hinge::CentreOfMass => {
-                let (mut total, mut of_rates, mut centre, lost) = sums_of_bodies(&balances, h);
-                shift -= lost;
-                for vertex in free() {
-                    let own_base = base_of(x[vertex], velocities[vertex], vertex);
-                    let (mass, rate) = (mass(vertex), rate[vertex]);
-                    let predicted = (motion.prediction.goal[vertex] - base[vertex]) / rate;
-                    let weight = slowing(vertex) * mass / rate;
-                    shift -= (velocities[vertex] - predicted) * weight;
-                    of_rates += weight;
-                    centre += own_base * mass;
-                    total += mass;
-                }
-                shift /= of_rates;
-                centre / total
-            }
-            Hinge::Point(point) | Hinge::Axis(point, _) => point,
+        let step = Step {
+            step,
+            motion,
+            correction,
         };
-        // The second and third are Σ m·q·qᵀ, from which the inertia follows.
-        let [mut moment, mut squares, mut products] = moments_of_bodies(&balances, centre, shift);
-        for vertex in free() {
-            let own_base = base_of(x[vertex], velocities[vertex], vertex);
-            let (mass, arm) = (mass(vertex), own_base - centre);
+        let rounds = match correction {
+            Correction::Motion => MOST_TURNS,
+            Correction::Velocity => 1,
+        };
+        for _ in 0..rounds {
+            let turned = self.correct(hinge, &step, (&mut *x, &mut *velocities), (bodies, are_pressed));
+            if !(turned > SMALLEST_TURN) {
+                break;
+            }
+        }
+    }
+
+    /// Makes one correction, which is exact but for the square of its turn. Returns that turn, in radians.
+    fn correct(
+        &self,
+        hinge: Hinge,
+        step: &Step<'_>,
+        (x, velocities): (&mut [DVec3], &mut [DVec3]),
+        (bodies, are_pressed): (&mut RigidBodies, &[bool]),
+    ) -> f64 {
+        let Motion { forced, history, .. } = step.motion;
+        let (h, start, before) = (step.step.h, step.step.start, step.motion.velocities);
+        let rate = &step.motion.prediction.rate;
+        let is_second_order = self.free().all(|vertex| rate[vertex] < h);
+        let balances = bodies.balances(h, step.correction, are_pressed);
+        let [shift, centre] = match hinge {
+            Hinge::CentreOfMass => self.shift(step, &balances, [x, velocities]),
+            Hinge::Point(point) | Hinge::Axis(point, _) => [DVec3::ZERO, point],
+        };
+        let (mut moment, mut arms) = moments_of_bodies(&balances, centre, shift, step.seconds(h));
+        for vertex in self.free() {
+            let (mass, seconds) = (step.mass(vertex), step.seconds(rate[vertex]));
             let end = x[vertex] - centre;
+            let arm = match step.correction {
+                Correction::Motion => end - velocities[vertex] * rate[vertex],
+                Correction::Velocity => end,
+            };
             let angular = |at: DVec3, velocity: DVec3| (at - centre).cross(velocity * mass);
             let kept = if is_second_order {
-                let kept = angular(start[vertex], motion.velocities[vertex]) * 4.0
-                    - angular(history.positions[vertex], history.velocities[vertex]);
-                let forces = (forced[vertex] - motion.velocities[vertex]) * mass;
+                let kept =
+                    angular(start[vertex], before[vertex]) * 4.0 - angular(history.positions[vertex], history.velocities[vertex]);
+                let forces = (forced[vertex] - before[vertex]) * mass;
                 kept / 3.0 + end.cross(forces) * (2.0 / 3.0)
             } else {
                 angular(start[vertex], forced[vertex])
             };
-            moment += kept / slowing(vertex);
-            moment -= arm.cross((velocities[vertex] + shift) * mass);
-            let weighted = arm * mass;
-            squares += weighted * arm;
-            products += weighted * DVec3::new(arm.y, arm.z, arm.x);
+            moment += kept / step.slowing(vertex);
+            moment -= arm.cross((velocities[vertex] + shift / seconds) * mass);
+            arms += outer(end * (mass / seconds), arm);
         }
-        let turn = turn(hinge, moment, squares, products);
+        let turn = turn(hinge, moment, arms);
         if !(turn.is_finite() && shift.is_finite()) {
-            return;
+            return 0.0;
         }
-        for vertex in free() {
-            let own_base = base_of(x[vertex], velocities[vertex], vertex);
-            let change = shift + turn.cross(own_base - centre);
-            velocities[vertex] += change;
-            x[vertex] += change * (moved * rate[vertex]);
+        let moved = |end: DVec3| match step.correction {
+            Correction::Motion => shift + (DQuat::from_scaled_axis(turn) * (end - centre) - (end - centre)),
+            Correction::Velocity => shift + turn.cross(end - centre),
+        };
+        for vertex in self.free() {
+            let moved = moved(x[vertex]);
+            velocities[vertex] += moved / step.seconds(rate[vertex]);
+            if step.correction == Correction::Motion {
+                x[vertex] += moved;
+            }
         }
-        bodies.correct((h, moved), (are_pressed, &balances), [shift, turn, centre], x);
+        bodies.correct(h, step.correction, are_pressed, turn, &moved, x);
+        turn.length()
+    }
+
+    fn free(&self) -> impl Iterator<Item = usize> {
+        self.free.iter().map(|&vertex| vertex as usize)
+    }
+
+    /// Returns the displacement that gives the piece and these bodies the momentum that forces leave them, and the point about
+    /// which a turn changes no momentum.
+    fn shift(&self, step: &Step<'_>, bodies: &[Balance], [x, velocities]: [&[DVec3]; 2]) -> [DVec3; 2] {
+        let Prediction { goal, base, rate, .. } = step.motion.prediction;
+        let h = step.step.h;
+        let Sums {
+            mut total,
+            mut centre,
+            mut yields,
+            mut added,
+        } = sums_of_bodies(bodies, h, step.seconds(h));
+        for vertex in self.free() {
+            let (mass, rate) = (step.mass(vertex), rate[vertex]);
+            let predicted = (goal[vertex] - base[vertex]) / rate;
+            let weight = step.slowing(vertex) * mass / rate;
+            added += (velocities[vertex] - predicted) * weight;
+            yields += weight / step.seconds(rate);
+            centre += x[vertex] * (mass / step.seconds(rate));
+            total += mass / step.seconds(rate);
+        }
+        [-added / yields, centre / total]
     }
 }
 
-/// The rotation ω that gives a moment, from Σ m·q², one for each axis, and Σ m·(xy, yz, zx) of the arms q.
-fn turn(hinge: Hinge, moment: DVec3, squares: DVec3, products: DVec3) -> DVec3 {
-    let trace = squares.element_sum();
-    let diagonal = DVec3::splat(trace * (1.0 + LEAST_INERTIA)) - squares;
-    let inertia = DMat3::from_cols(
-        DVec3::new(diagonal.x, -products.x, -products.z),
-        DVec3::new(-products.x, diagonal.y, -products.y),
-        DVec3::new(-products.z, -products.y, diagonal.z),
-    );
+/// A step, and the correction that it gets.
+struct Step<'a> {
+    step: &'a TimeStep<'a>,
+    motion: &'a Motion<'a>,
+    correction: Correction,
+}
+
+impl Step<'_> {
+    fn mass(&self, vertex: usize) -> f64 {
+        self.step.inverse_masses[vertex].recip()
+    }
+
+    /// Returns the factor by which still air adds to the weight of a vertex.
+    fn slowing(&self, vertex: usize) -> f64 {
+        let Prediction { masses, rate, .. } = self.motion.prediction;
+        masses[vertex] * rate[vertex] * rate[vertex] * self.step.inverse_masses[vertex]
+    }
+
+    /// Returns the seconds over which a velocity changes by the displacement of a correction, for a vertex of this rate.
+    fn seconds(&self, rate: f64) -> f64 {
+        match self.correction {
+            Correction::Motion => rate,
+            Correction::Velocity => 1.0,
+        }
+    }
+}
+
+/// The turn φ that gives a moment, from Σ m·q·aᵀ of the arms q of displacements φ × q and the arms a of momenta:
+/// a × (φ × q) = φ(a·q) − q(a·φ).
+fn turn(hinge: Hinge, moment: DVec3, arms: DMat3) -> DVec3 {
+    let trace = trace(arms);
+    let inertia = DMat3::from_diagonal(DVec3::splat(trace * (1.0 + LEAST_INERTIA))) - arms;
     match hinge {
         Hinge::Axis(_, axis) => axis * (axis.dot(moment) / axis.dot(inertia * axis)),
         Hinge::CentreOfMass | Hinge::Point(_) => inertia.inverse() * moment,

@@ -6,8 +6,8 @@
 //! **Touches.** A contact pushes the body at an arm from its centre of mass. The arm leads to the *cloth*, a thickness off the
 //! body's surface: friction there and on the cloth is one force at one point, and makes no angular momentum.
 
-use super::rigid_body::{Balance, RigidBody};
-use crate::model::rigid::{Freedom, RigidMotion, rotation_by, vector_of};
+use super::rigid_body::{Balance, Correction, RigidBody};
+use crate::model::rigid::{Freedom, RigidMotion, rotation_by, trace, vector_of};
 use crate::model::step::Carrier;
 use selvedge_core::glam::{DMat3, DVec3, Vec3A};
 
@@ -285,30 +285,36 @@ impl RigidBodies {
         are_pressed
     }
 
-    /// Returns the momenta of the bodies that are pressed, over a step of `h` seconds. A [correction](Self::correct) of their
-    /// velocities moves them by this share of it.
-    pub(crate) fn balances(&self, h: f64, share: f64, are_pressed: &[bool]) -> Vec<Balance> {
+    /// Returns the momenta of the bodies that are pressed, over a step of `h` seconds, for a [correction](Self::correct).
+    pub(crate) fn balances(&self, h: f64, correction: Correction, are_pressed: &[bool]) -> Vec<Balance> {
         let pressed = self.all.iter().zip(are_pressed).filter(|(_, is_pressed)| **is_pressed);
-        pressed.map(|(body, _)| body.balance(h, share)).collect()
+        pressed.map(|(body, _)| body.balance(h, correction)).collect()
     }
 
-    /// Adds a velocity and an angular velocity about a point to the bodies that are pressed, and a share of them to the step of
-    /// `h` seconds.
+    /// Corrects the bodies that are pressed in a step of `h` seconds: `moved` is the displacement, or velocity, of a place, and
+    /// `turn` its rotation, which changes the velocity alone.
     pub(crate) fn correct(
         &mut self,
-        (h, share): (f64, f64),
-        (are_pressed, balances): (&[bool], &[Balance]),
-        [velocity, spin, about]: [DVec3; 3],
+        h: f64,
+        correction: Correction,
+        are_pressed: &[bool],
+        turn: DVec3,
+        moved: &dyn Fn(DVec3) -> DVec3,
         x: &mut [DVec3],
     ) {
         let pressed = self.all.iter_mut().zip(are_pressed).filter(|(_, is_pressed)| **is_pressed);
-        for ((body, _), balance) in pressed.zip(balances) {
-            let change = velocity + spin.cross(balance.base - about);
-            body.correction[0] += change * (1.0 - share);
-            body.correction[1] += spin;
-            if share > 0.0 {
-                body.motion.displacement += change * (share * h);
-                body.motion.put(x);
+        for (body, _) in pressed {
+            let moved = moved(body.motion.end_centre());
+            match correction {
+                Correction::Motion => {
+                    body.correction[1] += turn / h;
+                    body.motion.displacement += moved;
+                    body.motion.put(x);
+                }
+                Correction::Velocity => {
+                    body.correction[0] += moved;
+                    body.correction[1] += turn;
+                }
             }
         }
     }
@@ -323,13 +329,17 @@ impl RigidBodies {
         let mut sums = [0.0; 2];
         let moves = moves[self.first_slot..].as_chunks::<2>().0;
         for ((body, moves), guess) in self.all.iter().zip(moves).zip(guess) {
-            let square =
-                |displacement: DVec3, turn: DVec3| body.weight * displacement.length_squared() + turn.dot(body.of_turn * turn);
             let [displacement, turn] = moves.map(|own| own.as_dvec3());
-            sums[0] += square(displacement, turn);
-            sums[1] += square(body.motion.displacement - guess.displacement, body.motion.turn - guess.turn);
+            sums[0] += body.norm_squared(displacement, turn);
+            sums[1] += body.norm_squared(body.motion.displacement - guess.displacement, body.motion.turn - guess.turn);
         }
         sums
+    }
+
+    /// Returns the square, in the norm of the inertia, of the step from the base.
+    pub(super) fn squared_step(&self) -> f64 {
+        let moved = |body: &RigidBody| body.norm_squared(body.motion.displacement - body.base, body.motion.turn);
+        self.all.iter().map(moved).sum()
     }
 
     /// Returns the square of the longest way of a centre of mass from its base.
@@ -345,7 +355,7 @@ impl RigidBodies {
     pub(super) fn pulls(&self) -> f64 {
         let pull = |body: &RigidBody| {
             let [force, torque] = body.gradient();
-            let trace = body.inertia.x_axis.x + body.inertia.y_axis.y + body.inertia.z_axis.z;
+            let trace = trace(body.inertia);
             force.length() + torque.length() / (0.5 * trace / body.motion.mass).sqrt()
         };
         self.all.iter().map(pull).fold(0.0, |sum, own| sum + own)

@@ -9,7 +9,7 @@
 //! [vertices](super::prediction), with L in the place of v.
 
 use crate::model::length::shortened;
-use crate::model::rigid::{Freedom, RigidMotion, RigidState, rotation_by, turned, vector_of};
+use crate::model::rigid::{Freedom, RigidMotion, RigidState, outer, rotation_by, trace, turned, vector_of};
 use crate::world::Free;
 use selvedge_core::glam::{DMat3, DVec3};
 use std::ops::Range;
@@ -236,18 +236,27 @@ impl RigidBody {
         }
     }
 
-    /// Returns what a step of first order of `h` seconds has made of the body's momentum. A correction of its velocity moves it
-    /// by this share of the step.
-    pub(super) fn balance(&self, h: f64, share: f64) -> Balance {
+    /// Returns what a step of first order of `h` seconds has made of the body's momentum.
+    pub(super) fn balance(&self, h: f64, correction: Correction) -> Balance {
         let RigidState { velocity, momentum, .. } = self.end(h, true);
+        let end = self.motion.end_centre();
         Balance {
             mass: self.motion.mass,
             start: self.motion.centre,
-            base: self.motion.end_centre() - velocity * (share * h),
+            base: match correction {
+                Correction::Motion => end - velocity * h,
+                Correction::Velocity => end,
+            },
+            end,
             velocities: [self.forced, velocity],
             momenta: [self.started, momentum],
             inertia: self.inertia_now(),
         }
+    }
+
+    /// Returns the square of a displacement and a turn, in the norm of the inertia.
+    pub(super) fn norm_squared(&self, displacement: DVec3, turn: DVec3) -> f64 {
+        self.weight * displacement.length_squared() + turn.dot(self.of_turn * turn)
     }
 
     /// Returns what the body yields to a push of 1 N in a direction at an arm, in m/N.
@@ -265,51 +274,76 @@ impl RigidBody {
     }
 }
 
+/// The part of a motion that a correction of momentum changes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Correction {
+    /// Positions and velocities.
+    Motion,
+    /// Velocities alone: positions are certified.
+    Velocity,
+}
+
 /// The momentum of a body before a step, with what gravity adds to it, and after it.
 pub(crate) struct Balance {
     mass: f64,
     /// The centre of mass at the start.
     start: DVec3,
     /// The centre of mass at the end, without the part of the way that the velocity after the step makes and a correction moves.
-    pub(crate) base: DVec3,
+    base: DVec3,
+    end: DVec3,
     velocities: [DVec3; 2],
     /// The angular momenta about the centre of mass.
     momenta: [DVec3; 2],
     /// The inertia about it, at the end.
-    pub(crate) inertia: DMat3,
+    inertia: DMat3,
 }
 
-/// Returns the mass of bodies, that over `h`, Σ m·c, and the momentum over `h` that a step has added besides gravity.
-pub(crate) fn sums_of_bodies(bodies: &[Balance], h: f64) -> (f64, f64, DVec3, DVec3) {
-    let (mut mass, mut centre, mut added) = (0.0, DVec3::ZERO, DVec3::ZERO);
+/// The sums of bodies for a correction. Velocities change by its displacements over so many seconds.
+pub(crate) struct Sums {
+    /// The masses over these seconds.
+    pub(crate) total: f64,
+    /// The centres of mass, each times that.
+    pub(crate) centre: DVec3,
+    /// The momentum that a displacement adds over the step, in N/m.
+    pub(crate) yields: f64,
+    /// The momentum that the step has added besides gravity, over its length.
+    pub(crate) added: DVec3,
+}
+
+/// Returns the sums of bodies after a step of `h` seconds.
+pub(crate) fn sums_of_bodies(bodies: &[Balance], h: f64, seconds: f64) -> Sums {
+    let mut sums = Sums {
+        total: 0.0,
+        centre: DVec3::ZERO,
+        yields: 0.0,
+        added: DVec3::ZERO,
+    };
     for body in bodies {
         let [before, after] = body.velocities;
-        mass += body.mass;
-        centre += body.base * body.mass;
-        added += (after - before) * (body.mass / h);
+        let weight = body.mass / seconds;
+        sums.total += weight;
+        sums.centre += body.end * weight;
+        sums.yields += weight / h;
+        sums.added += (after - before) * (body.mass / h);
     }
-    (mass, mass / h, centre, added)
+    sums
 }
 
-/// Returns the moment about `centre` that bodies lack once all velocities have `shift` more, and the second moments of their
-/// masses about it: Σ m·q², one for each axis, and Σ m·(xy, yz, zx).
-pub(crate) fn moments_of_bodies(bodies: &[Balance], centre: DVec3, shift: DVec3) -> [DVec3; 3] {
-    let [mut moment, mut squares, mut products] = [DVec3::ZERO; 3];
+/// Returns the moment about `centre` that bodies lack once all are displaced by `shift`, and Σ m/s·q·aᵀ of the arms q at the end
+/// and a at the base, with what gives the bodies' inertia.
+pub(crate) fn moments_of_bodies(bodies: &[Balance], centre: DVec3, shift: DVec3, seconds: f64) -> (DVec3, DMat3) {
+    let (mut moment, mut arms) = (DVec3::ZERO, DMat3::ZERO);
     for body in bodies {
         let arm = body.base - centre;
         let [before, after] = body.velocities;
         let [kept, found] = body.momenta;
         moment += (body.start - centre).cross(before * body.mass) + kept;
-        moment -= arm.cross((after + shift) * body.mass) + found;
-        let own = body.inertia;
-        let diagonal = DVec3::new(own.x_axis.x, own.y_axis.y, own.z_axis.z);
-        squares += DVec3::splat(0.5 * diagonal.element_sum()) - diagonal;
-        products -= DVec3::new(own.x_axis.y, own.y_axis.z, own.z_axis.x);
-        let weighted = arm * body.mass;
-        squares += weighted * arm;
-        products += weighted * DVec3::new(arm.y, arm.z, arm.x);
+        moment -= arm.cross((after + shift / seconds) * body.mass) + found;
+        // The inertia is the trace of the arms without them.
+        let of_body = DMat3::from_diagonal(DVec3::splat(0.5 * trace(body.inertia))) - body.inertia;
+        arms += (outer((body.end - centre) * body.mass, arm) + of_body) * seconds.recip();
     }
-    [moment, squares, products]
+    (moment, arms)
 }
 
 /// Returns the matrix of v × x.

@@ -4,7 +4,7 @@
 //! triangles. An open one, which has no inside, is a thin shell of even mass per area.
 
 use crate::input::{AIR_DENSITY, Field, MASS, ValueError};
-use crate::model::rigid::{Freedom, RigidState};
+use crate::model::rigid::{Freedom, RigidState, outer};
 use crate::model::triangle_edges::is_closed;
 use selvedge::Mesh;
 use selvedge_core::glam::{DMat3, DVec3};
@@ -50,13 +50,11 @@ impl Sums {
         self.size += size;
         self.first += sum * (size / count);
         // ∫x·xᵀ of a simplex with n corners is (Σ v·vᵀ + s·sᵀ)·size/(n(n + 1)), with the sum s of its corners.
-        let own = corners.iter().fold(outer(sum), |all, &corner| all + outer(corner));
+        let own = corners
+            .iter()
+            .fold(outer(sum, sum), |all, &corner| all + outer(corner, corner));
         self.second += own * (size / (count * (count + 1.0)));
     }
-}
-
-fn outer(vector: DVec3) -> DMat3 {
-    DMat3::from_cols(vector * vector.x, vector * vector.y, vector * vector.z)
 }
 
 impl RigidMass {
@@ -93,7 +91,7 @@ impl RigidMass {
             BodyMass::Density(density) => density * size.abs(),
         };
         let centre = first / size;
-        let second = (second * size.recip() - outer(centre)) * all;
+        let second = (second * size.recip() - outer(centre, centre)) * all;
         let trace = second.x_axis.x + second.y_axis.y + second.z_axis.z;
         let inertia = DMat3::from_diagonal(DVec3::splat(trace)) - second;
         let is_of_size = all > 0.0 && centre.is_finite() && inertia.determinant() > 0.0 && inertia.is_finite();
@@ -124,7 +122,7 @@ impl RigidMass {
         // The inertia of a point at the arm q is m·(q²·1 − q·qᵀ).
         let of_point = |place: DVec3, mass: f64| {
             let arm = place - centre;
-            (DMat3::from_diagonal(DVec3::splat(arm.length_squared())) - outer(arm)) * mass
+            (DMat3::from_diagonal(DVec3::splat(arm.length_squared())) - outer(arm, arm)) * mass
         };
         let own = self.inertia + of_point(self.centre, self.mass);
         let inertia = points.iter().fold(own, |sum, &(place, mass)| sum + of_point(place, mass));
