@@ -23,6 +23,9 @@ const SHORTEST: f64 = 1.0 / 64.0;
 /// The longest part of a step that may end with overstretched edges, in shortest parts: a quarter of a step.
 const LONGEST_OVERSTRETCHED: f64 = 0.25 / SHORTEST;
 
+/// What rounding may leave of a step after some parts, as a share of the last one.
+const ROUNDING: f64 = 1e-9;
+
 /// A step that ends with an edge longer than this, over its limit, is counted.
 const OVERSTRETCHED: f64 = 1.05;
 
@@ -166,7 +169,9 @@ impl Simulation {
         while left > 0.0 {
             let blocker = match self.part(left.min(longest), shortest) {
                 Ok(h) => {
-                    left = if h < left { left - h } else { 0.0 };
+                    // A part as short as rounding would have an infinite speed.
+                    let next = left - h;
+                    left = if next > ROUNDING * h { next } else { 0.0 };
                     // The next parts are likely to need to be as short; they are tried with twice that at most.
                     longest = 2.0 * h;
                     continue;

@@ -10,7 +10,7 @@
 //! axes, and 4κ·Σ Ωᵢⱼ·gᵢⱼgᵢⱼᵀ with the derivatives gᵢⱼ of the entries of S in its own axes. Ω is one for two positive
 //! eigenvalues, σ₁/(σ₁ − σ₂) for a positive and a negative one, and zero otherwise.
 
-use super::constants::{LIMIT_CHANGE, STIFFER_THAN_LIMITS};
+use super::constants::{LIMIT_CHANGE, RECOVERY, STIFFER_THAN_LIMITS};
 use super::matrix::{Matrix, PAIRS, outer};
 use super::term::{Prediction, Renewed, Term};
 use crate::model::edge_lengths::Lengths;
@@ -54,6 +54,8 @@ type Symmetric = [f64; 3];
 #[derive(Debug)]
 struct Limit {
     limit: f64,
+    /// The square of the largest stretch of each triangle in this step.
+    squared: Vec<f64>,
     longest: Lengths,
     /// κ of each triangle, in J.
     stiffness: Vec<f64>,
@@ -117,6 +119,7 @@ impl Membranes {
         let count = self.triangles.len();
         self.limit = Some(Limit {
             limit,
+            squared: vec![limit * limit; count],
             longest: Lengths::new(&cloth.mesh, limit),
             stiffness: vec![0.0; count],
             multipliers: vec![[0.0; 3]; count],
@@ -188,10 +191,25 @@ fn stretch(stiffness: f32, image: Vec3A) -> Mat3A {
 }
 
 impl Limit {
+    /// Finds the squares of the largest stretches of triangles in a step. What a solve may leave comes back at once. A blow may
+    /// leave more, which comes back at a [rate](RECOVERY): in one step it would become speed.
+    fn find_squares(&mut self, triangles: &[Triangle], step: &TimeStep<'_>) {
+        let limit = self.limit * self.limit;
+        let left = 2.0 * self.limit * LIMIT_CHANGE;
+        let stays = 1.0 - (RECOVERY * step.h).min(1.0);
+        for (squared, triangle) in self.squared.iter_mut().zip(triangles) {
+            let [u, v] = triangle.images(step.start);
+            let [of_u, of_v, both] = [u.length_squared(), v.length_squared(), u.dot(v)];
+            let half = 0.5 * (of_u - of_v);
+            let largest = 0.5 * (of_u + of_v) + (half * half + both * both).sqrt();
+            *squared = limit + larger(largest - limit - left, 0.0) * stays;
+        }
+    }
+
     /// Finds the positive part of S, and returns its energy.
     #[inline(always)]
     fn act(&mut self, triangle: usize, [u, v]: [DVec3; 2]) -> f64 {
-        let (stiffness, squared) = (self.stiffness[triangle], self.limit * self.limit);
+        let (stiffness, squared) = (self.stiffness[triangle], self.squared[triangle]);
         let multipliers = self.multipliers[triangle];
         let s = [
             multipliers[0] + stiffness * (u.length_squared() - squared),
@@ -268,9 +286,10 @@ fn pull([u, v]: [DVec3; 2], p: Symmetric) -> [DVec3; 2] {
 }
 
 impl Term for Membranes {
-    fn begin(&mut self, _: &TimeStep<'_>, prediction: &Prediction, _: &[DVec3]) {
+    fn begin(&mut self, step: &TimeStep<'_>, prediction: &Prediction, _: &[DVec3]) {
         let Some(limit) = &mut self.limit else { return };
         limit.multipliers.clone_from(&limit.accepted);
+        limit.find_squares(&self.triangles, step);
         for (stiffness, triangle) in limit.stiffness.iter_mut().zip(&self.triangles) {
             // As stiff as the cloth, or as its masses where they are more.
             let [a, b] = [all(triangle.membrane.a), all(triangle.membrane.b)];

@@ -11,6 +11,11 @@
 //! is longer at the first guess, by the square of its turn. That stretch has so much energy that the energy alone would let the
 //! swing go on for ever: law of the hanging chain.
 //!
+//! **Stiff cloth.** The energy that has been mended says when forces are right. In stiff cloth the first guess has so much that
+//! what remains of it would still be energy beside the motion. So then Newton's method goes on until what remains is
+//! [little beside the motion](super::tolerance::Tolerance::bound_by). Contacts keep their multipliers in that: where there is no
+//! room, each renewal adds to them.
+//!
 //! **Not finished** after the most Newton steps is not a failure. Multipliers go on in the next step, and the certificate guards
 //! the state. A cloth that buckles goes down from a saddle of the energy, which takes many steps, and none of them is wrong.
 
@@ -107,7 +112,13 @@ impl Solve {
                 let is_right = left <= tolerance.rest().max(little) && left_to_move <= tolerance.rest_of(moved).max(little);
                 if is_right && error <= 1.0 {
                     outcome.is_finished = true;
-                    break;
+                    if tolerance.is_bounded() {
+                        break;
+                    }
+                    tolerance.bound_by(moved);
+                    if left <= tolerance.rest() {
+                        break;
+                    }
                 }
                 if newton == MOST_NEWTON_STEPS {
                     break;
@@ -123,7 +134,9 @@ impl Solve {
                 self.find_descent(prediction, x, &mut work);
                 share = self.advance(prediction, x, &mut energy, &mut work);
             }
-            if share > ENOUGH || std::mem::replace(&mut was_short, true) {
+            if tolerance.is_bounded() {
+                self.renew_terms(x, &mut energy, &mut work.gradient);
+            } else if share > ENOUGH || std::mem::replace(&mut was_short, true) {
                 was_short = false;
                 error = self.renew(step.h, prediction, x, &mut energy, &mut work.gradient);
             } else {
@@ -132,6 +145,19 @@ impl Solve {
         }
         self.work = work;
         result.map(|()| outcome)
+    }
+
+    /// Returns the energy of inertia and all terms at `x`, after a solve.
+    pub(crate) fn energy(&mut self, prediction: &Prediction, x: &[DVec3]) -> f64 {
+        gradient(&mut self.terms, &self.bodies, prediction, x, &mut self.work.next_gradient)
+    }
+
+    /// Returns the energy of motion at `x`, in J; but for [QUIET](super::constants::QUIET) motion, which counts as that.
+    pub(crate) fn motion(&self, prediction: &Prediction, x: &[DVec3]) -> f64 {
+        let Prediction { masses, base, .. } = prediction;
+        let each = masses.iter().zip(x.iter().zip(base));
+        let moved = each.map(|(mass, (x, base))| mass * x.distance_squared(*base)).sum::<f64>() + self.bodies.squared_step();
+        0.5 * Tolerance::new(self.accuracy, prediction, self.bodies.mass()).visible(moved)
     }
 
     /// Lets the moves be the preconditioned force at `x`.
@@ -251,8 +277,8 @@ impl Solve {
         if high > NEARLY_WHOLE { 1.0 } else { high.max(LEAST_SHARE) }
     }
 
-    /// Renews all multipliers. Returns the largest change over the one that does not matter.
-    fn renew(&mut self, h: f64, prediction: &Prediction, x: &[DVec3], energy: &mut f64, gradient: &mut [DVec3]) -> f64 {
+    /// Renews the multipliers of terms. Returns the largest change over the one that does not matter.
+    fn renew_terms(&mut self, x: &[DVec3], energy: &mut f64, gradient: &mut [DVec3]) -> f64 {
         let mut error = 0.0_f64;
         let (of_cloth, _) = gradient.split_at_mut(self.bodies.first_slot);
         for entry in &mut self.terms {
@@ -260,6 +286,12 @@ impl Solve {
             *energy += renewed.energy;
             error = error.max(renewed.error);
         }
+        error
+    }
+
+    /// Renews all multipliers. Returns the largest change over the one that does not matter.
+    fn renew(&mut self, h: f64, prediction: &Prediction, x: &[DVec3], energy: &mut f64, gradient: &mut [DVec3]) -> f64 {
+        let mut error = self.renew_terms(x, energy, gradient);
         if self.rows.is_empty() {
             return error;
         }

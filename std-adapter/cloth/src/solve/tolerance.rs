@@ -1,6 +1,6 @@
 //! The error that a solve may leave, and how the solve has ended.
 
-use super::constants::{Accuracy, QUIET, STILL};
+use super::constants::{Accuracy, BESIDE_MOTION, QUIET, STILL};
 use super::term::Prediction;
 
 /// The tolerances of a solve.
@@ -14,6 +14,8 @@ pub(super) struct Tolerance {
     quiet: f64,
     /// Twice the energy that the solve has mended so far, in J.
     pub(super) mended: f64,
+    /// Twice the energy that may remain beside the motion, in J; infinite until [`bound_by`](Self::bound_by) knows the motion.
+    beside_motion: f64,
 }
 
 impl Tolerance {
@@ -26,12 +28,28 @@ impl Tolerance {
             still: mass * STILL * STILL,
             quiet: mass * QUIET * QUIET,
             mended: 0.0,
+            beside_motion: f64::INFINITY,
         }
     }
 
     /// Returns twice the energy that may remain.
     pub(super) fn rest(&self) -> f64 {
-        self.rest_of(self.mended)
+        self.rest_of(self.mended).min(self.beside_motion)
+    }
+
+    /// Bounds what may remain by the motion since the first guess, whose square in the norm of the masses is `moved`.
+    pub(super) fn bound_by(&mut self, moved: f64) {
+        self.beside_motion = self.still.max(BESIDE_MOTION * self.squared * self.visible(moved));
+    }
+
+    /// Returns the square of a motion in the norm of the masses, or that of motion that is hardly visible if it is less.
+    pub(super) const fn visible(&self, moved: f64) -> f64 {
+        moved.max(self.quiet)
+    }
+
+    /// Returns whether the motion bounds what may remain.
+    pub(super) const fn is_bounded(&self) -> bool {
+        self.beside_motion < f64::INFINITY
     }
 
     /// Returns how much of twice an energy may remain.

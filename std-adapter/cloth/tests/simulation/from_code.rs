@@ -196,7 +196,8 @@ fn what_turns_half_round_in_a_step_meets_the_cloth_on_its_way() {
     }
     let highest = simulation.positions()[..(CELLS as usize + 1).pow(2)].iter();
     let highest = highest.map(|p| p.z).fold(f64::MIN, f64::max);
-    assert!(highest > 0.045 || simulation.blocked_steps() > 0, "it was passed: {highest}");
+    // It starts 40 mm high.
+    assert!(highest > 0.041 || simulation.blocked_steps() > 0, "it was passed: {highest}");
 }
 
 #[test]

@@ -114,15 +114,17 @@ fn a_ball_of_an_engine_comes_to_rest_in_a_held_sheet_which_bears_its_weight() {
         engine.run(&mut simulation, pace, 4.0);
         // A very light ball rolls to and fro in the sheet for long.
         let count = (1.0 / pace.seconds()).round() as u32;
-        let (mut force, before) = (DVec3::ZERO, engine.at.translation);
+        let (mut force, before, velocity) = (DVec3::ZERO, engine.at.translation, engine.velocity);
         for _ in 0..count {
             engine.run(&mut simulation, pace, pace.seconds());
             force += simulation.proxy_load(0).unwrap().force / f64::from(count);
         }
         let moved = engine.at.translation.distance(before);
-        println!("{pace:?}, {mass} kg: {force} of {}, moved by {moved:e}", mass * G);
-        let (of_force, of_place) = if mass < 0.01 { (1e-2, 5e-2) } else { (1e-3, 1e-3) };
-        assert!((force - mass * G * DVec3::Z).length() < of_force * mass * G, "{force}");
+        // Its weight, and what moves it, in a second.
+        let exact = mass * (G * DVec3::Z + engine.velocity - velocity);
+        println!("{pace:?}, {mass} kg: {force} of {exact}, moved by {moved:e}");
+        let (of_force, of_place) = if mass < 0.01 { (4e-3, 5e-2) } else { (1e-3, 1e-3) };
+        assert!((force - exact).length() < of_force * mass * G, "{force}");
         assert!(moved < of_place, "{moved}");
     }
 }
@@ -150,7 +152,7 @@ fn a_body_that_an_engine_holds_does_not_sink_under_a_sheet_and_feels_its_weight(
             }
             println!("{pace:?}, {share}: {force} of {}, {deepest:e} m deep", -all * G);
             assert!((force + all * G).abs() < 0.02 * all * G, "{force}");
-            assert!(deepest > -1e-3, "{deepest}");
+            assert!(deepest > -THICKNESS, "{deepest}");
         }
     }
 }
