@@ -348,4 +348,15 @@ fn the_scene_of_the_tutorial_runs_and_is_certified() {
     let document = place.json(&["simulate", "scene.toml", "--json"]);
     assert_eq!(document["intersections_at_end"], 0);
     assert!(document["contacts_resolved"].as_u64().unwrap() > 0);
+    // Its frames take several steps each, and the report is about frames.
+    let report = place.read("selvedge-out/scene.html");
+    for text in [
+        "frames a second",
+        ">most in a frame<",
+        ">all frames<",
+        "whole frame, by the wall clock",
+    ] {
+        assert!(report.contains(text), "`{text}` is not in the report");
+    }
+    assert!(!report.contains("steps a second") && !report.contains(">most in a step<"));
 }

@@ -176,7 +176,7 @@ fn tiles(recording: &Recording) -> Markup {
     if let Some(seconds) = recording.wall_seconds {
         let steps = recording.steps as f64;
         tiles.push((time(seconds), "computed in".to_owned()));
-        tiles.push((three_figures(steps / seconds), "steps a second".to_owned()));
+        tiles.push((three_figures(steps / seconds), format!("{}s a second", recording.about.unit)));
     }
     let step_of = |steps: &Series| format!("slowest {}, the {}", recording.about.unit, ordinal(steps.largest_step));
     tiles.extend(recording.step_times().map(|steps| (time(steps.largest), step_of(steps))));

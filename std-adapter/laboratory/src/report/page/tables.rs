@@ -16,25 +16,24 @@ pub(super) fn pairs(recording: &Recording) -> Markup {
         let [a_step, most, all] = counts(recording, series);
         (&*series.name, [a_step, share(of_stage_before), most, all])
     });
-    table(
-        [
-            "stage",
-            "pairs a step",
-            "of the previous stage",
-            "most in a step",
-            "all steps",
-        ],
-        rows,
-    )
+    let [each, most, all] = &columns(recording);
+    table(["stage", &format!("pairs {each}"), "of the previous stage", most, all], rows)
 }
 
 pub(super) fn events(recording: &Recording) -> Markup {
     let rows = recording.series_of(|kind| kind == SeriesKind::Events);
     let rows = rows.map(|series| (&*series.name, counts(recording, series)));
-    table(["event", "a step", "most in a step", "all steps"], rows)
+    let [each, most, all] = &columns(recording);
+    table(["event", each, most, all], rows)
 }
 
-/// Returns values per step, the largest in a step, and for all steps.
+/// Returns the headings of [`counts`], such as `a step`, `most in a step` and `all steps`.
+fn columns(recording: &Recording) -> [String; 3] {
+    let unit = recording.about.unit;
+    [format!("a {unit}"), format!("most in a {unit}"), format!("all {unit}s")]
+}
+
+/// Returns values per recorded step, the largest in one, and for all.
 fn counts(recording: &Recording, series: &Series) -> [String; 3] {
     let a_step = series.total / recording.steps as f64;
     [
@@ -69,14 +68,16 @@ pub(super) fn times(recording: &Recording) -> Markup {
             @for series in rows { (row(&label(&series.name), series.total, series.largest)) }
         } } }
     };
+    let [each, most, all] = &columns(recording);
+    let whole_unit = format!("whole {}, by the wall clock", recording.about.unit);
     html! {
         div.scroll { table {
-            (head(&["", "a step", "share", "most in a step", "all steps"]))
+            (head(&["", each, "share", most, all]))
             (group("effects", SeriesKind::Effect))
             (group("shared stages", SeriesKind::Stage))
             @if let Some(wall) = wall { tbody {
                 @if wall > sum { (row("everything else", wall - sum, NONE)) }
-                (row("whole step, by the wall clock", wall, steps.map_or(NONE, |steps| steps.largest)))
+                (row(&whole_unit, wall, steps.map_or(NONE, |steps| steps.largest)))
             } }
         } }
     }

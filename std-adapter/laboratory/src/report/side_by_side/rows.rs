@@ -51,13 +51,17 @@ pub(super) fn figures(both: [&Recording; 2]) -> Vec<ComparedNumber> {
     let speed = |recording: &Recording| recording.wall_seconds.map(|seconds| recording.steps as f64 / seconds);
     let each = |recording: &Recording| recording.step_times().map(|steps| steps.total / recording.steps as f64);
     let slowest = |recording: &Recording| recording.step_times().map(|steps| steps.largest);
+    let (unit, units) = match both.map(|one| one.about.unit) {
+        [first, second] if first == second => (first, format!("{first}s")),
+        _ => ("step or frame", "steps or frames".to_owned()),
+    };
     let mut rows = vec![
         ComparedNumber::new("triangles, with bodies", both.map(|one| Some(size(one))), whole),
         ComparedNumber::new("time step", both.map(|one| Some(one.about.time_step)), time),
-        ComparedNumber::new("steps", both.map(|one| Some(one.steps as f64)), whole),
-        ComparedNumber::new("steps a second", both.map(speed), three_figures),
-        ComparedNumber::new("a step", both.map(each), time),
-        ComparedNumber::new("slowest step", both.map(slowest), time),
+        ComparedNumber::new(units.clone(), both.map(|one| Some(one.steps as f64)), whole),
+        ComparedNumber::new(format!("{units} a second"), both.map(speed), three_figures),
+        ComparedNumber::new(format!("a {unit}"), both.map(each), time),
+        ComparedNumber::new(format!("slowest {unit}"), both.map(slowest), time),
     ];
     for name in names_of(both.map(|one| {
         one.measures
@@ -102,7 +106,7 @@ pub(super) fn figures(both: [&Recording; 2]) -> Vec<ComparedNumber> {
             let a_step = |one: &Recording| total(one).map(|total| total / one.steps as f64);
             rows.push(match kind {
                 SeriesKind::Events => ComparedNumber::new(name, both.map(total), whole),
-                _ => ComparedNumber::new(format!("{}, a step", label(name)), both.map(a_step), time),
+                _ => ComparedNumber::new(format!("{}, a {unit}", label(name)), both.map(a_step), time),
             });
         }
     }
