@@ -26,7 +26,13 @@ impl Scene {
     /// # Errors
     /// Those of [`read`](Self::read).
     pub fn read_in(path: &Path, context: &SceneContext) -> Result<Self, SceneError> {
-        let bytes = std::fs::read(path).map_err(|error| SceneError::whole(path, format!("cannot be read: {error}")))?;
+        let bytes = std::fs::read(path).map_err(|error| {
+            let message = match path.is_dir() {
+                true => "this is a folder; name a scene file in it".to_owned(),
+                false => format!("cannot be read: {error}"),
+            };
+            SceneError::whole(path, message)
+        })?;
         let text = String::from_utf8(bytes)
             .map_err(|_| SceneError::whole(path, "is not UTF-8 text; a scene is a TOML file".to_owned()))?;
         Self::parse_in(&text, path, context)
@@ -156,9 +162,16 @@ fn read_cloths(root: &Table<'_>) -> Result<(Vec<Cloth>, Vec<String>), SceneError
                 cloth.name
             ));
         }
-        let findings = Findings::of(&cloth.mesh.positions, &cloth.topology);
+        let mut findings = Findings::of(&cloth.mesh.positions, &cloth.topology);
+        let size = std::mem::take(&mut findings.size).max_element();
         if !(findings.coincident_vertices.is_empty() && findings.duplicate_triangles == 0) {
             remarks.push(format!("The file of the cloth '{}' has {findings}.", cloth.name));
+        }
+        if size > Findings::LARGE && table.has("file") {
+            remarks.push(format!(
+                "The cloth '{}' is {size:.0} m long. If its file is not in metres, `unit` says in what it is.",
+                cloth.name
+            ));
         }
         check_name("cloths", cloths.iter().map(|other| &other.name), &cloth.name).map_err(|error| table.placed(&error))?;
         cloths.push(cloth);

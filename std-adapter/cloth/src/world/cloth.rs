@@ -100,7 +100,7 @@ impl Cloth {
         FIRST.check_vector(sides[0])?;
         SECOND.check_vector(sides[1])?;
         cells.into_iter().try_for_each(|count| CELLS.check(count))?;
-        if sides[0].cross(sides[1]).length() < 0.1 * sides[0].length() * sides[1].length() || sides[0] == DVec3::ZERO {
+        if sides[0].cross(sides[1]).length() < 0.1 * sides[0].length() * sides[1].length() || sides.contains(&DVec3::ZERO) {
             return Err(ValueError::new(
                 "sides",
                 "the two sides of the sheet must not be parallel or zero",
@@ -300,6 +300,12 @@ impl Cloth {
         &self.topology
     }
 
+    /// Returns the mass in kg.
+    #[must_use]
+    pub fn mass(&self) -> f64 {
+        self.masses().iter().sum()
+    }
+
     /// Returns the mass of each vertex, in kg: a third of the mass of its triangles and half of that of its loose edges.
     pub(crate) fn masses(&self) -> Vec<f64> {
         let positions = &self.mesh.positions;
@@ -438,7 +444,7 @@ pub(super) fn check_triangles(mesh: &Mesh) -> Result<(), ValueError> {
         let height = 2.0 * area / lengths.into_iter().fold(0.0, f64::max);
         let message = if area < SMALLEST_AREA {
             format!(
-                "has an area below {} square millimetres; are the units metres?",
+                "has an area below {:.4} square millimetres; are the units metres?",
                 1e6 * SMALLEST_AREA
             )
         } else if height < SMALLEST_HEIGHT {

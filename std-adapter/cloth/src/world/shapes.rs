@@ -107,7 +107,11 @@ pub(crate) fn capsule([from, to]: [DVec3; 2], radius: f64, around: u32) -> Mesh 
 pub(super) fn check(mesh: &Mesh) -> Result<(), ValueError> {
     let is_near = |p: &DVec3| p.abs().cmple(DVec3::splat(LARGEST_COORDINATE)).all();
     if let Some(far) = mesh.positions.iter().find(|p| !is_near(p)) {
-        let message = format!("the mesh has a vertex at {far}, beyond {LARGEST_COORDINATE} metres");
+        // Not with three hundred digits.
+        let [x, y, z] = far
+            .to_array()
+            .map(|x| if x.abs() < 1e7 { format!("{x}") } else { format!("{x:.3e}") });
+        let message = format!("the mesh has a vertex at [{x}, {y}, {z}], beyond {LARGEST_COORDINATE} metres");
         return Err(ValueError::new("mesh", message));
     }
     let count = mesh.positions.len();

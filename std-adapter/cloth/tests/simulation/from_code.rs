@@ -452,6 +452,7 @@ fn thirty_wrong_ways_to_use_it_from_code_get_thirty_errors_that_say_what_would_b
         |s| s.cloths[0].velocity = up * 1e4 => "cloth: `velocity` is 10000 m/s…";
         |s| s.bodies.push(ball()) => "there are two bodies named 'ball'…";
         |s| s.bodies[0].mesh.positions[0].x = f64::INFINITY => "ball: the mesh has a vertex at [inf…";
+        |s| s.bodies[0].mesh.positions[0].x = 1e300 => "ball: the mesh has a vertex at [1.000e300, …";
         |s| s.bodies[0].mesh.triangles[0][1] = 9999 => "ball: a triangle of the mesh names the vertex 9999…";
         |s| s.bodies[0].motion = turning(vec![at(1.0, 0.0), at(1.0, 1.0)]) => "ball: keyframes must be in order…";
         |s| s.bodies[0].motion = turning(vec![at(-1.0, 0.0)]) => "ball: `time` is -1 s…";
@@ -497,8 +498,12 @@ fn shapes_that_cannot_be_are_refused_where_they_are_made() {
     flat.triangles[0] = [0, 1, 1];
     let mut beyond = flat.clone();
     beyond.triangles[0] = [0, 1, 5000];
+    let mut small = sheet(0.0).mesh().clone();
+    small.positions.iter_mut().for_each(|place| *place *= 1e-6);
     assert_errors! {
+        Cloth::from_mesh(small, x, 0.1) => "triangle 0 of the cloth has an area below 0.0001 square millimetres…";
         Cloth::sheet(x, [x, 2.0 * x], [2, 2], 0.1) => "the two sides of the sheet must not be parallel…";
+        Cloth::sheet(x, [x, 0.0 * x], [2, 2], 0.1) => "the two sides of the sheet must not be parallel or zero";
         Cloth::sheet(x, [x, y], [0, 2], 0.1) => "`cells` is 0, but must be from 1 to 2000";
         Cloth::tube([x, x], 0.1, [9, 9], 0.1) => "`from` and `to` are the same point";
         Cloth::tube([x, y], 0.1, [2, 9], 0.1) => "`cells` is 2, but must be from 3…";

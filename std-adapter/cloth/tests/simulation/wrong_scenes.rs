@@ -45,6 +45,8 @@ fn a_scene_that_is_not_toml_is_refused_with_its_place() {
 fn a_file_that_cannot_be_read_is_named() {
     let error = Scene::read(Path::new("no/such/scene.toml")).unwrap_err();
     assert!(error.to_string().starts_with("no/such/scene.toml: cannot be read: "));
+    let error = Scene::read(Path::new(".")).unwrap_err();
+    assert_eq!(error.to_string(), ".: this is a folder; name a scene file in it");
 }
 
 #[test]

@@ -4,7 +4,7 @@ use super::Failure;
 use super::options::Threads;
 use super::output::{self, OutputFiles};
 use super::progress::Progress;
-use selvedge_cloth::{CheckpointError, Scene, SceneError, SetupError, Simulation};
+use selvedge_cloth::{CheckpointError, Cloth, Scene, SceneError, SetupError, Simulation};
 use selvedge_files::mesh;
 use selvedge_laboratory::report::{Recording, SimulationRecorder, Subject, costs_of_added_effects};
 use selvedge_laboratory::report::{coloured_ply, crossing_triangles, start_sentences, tangled_start_json};
@@ -46,7 +46,7 @@ pub(crate) struct Simulate {
     #[arg(long)]
     resume: bool,
     /// Write a still picture (PNG) of the last frame to this file, in the output folder unless it names another
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = picture)]
     picture: Option<PathBuf>,
     /// Show the frame nearest to this time instead
     #[arg(long, value_name = "SECONDS", requires = "picture", value_parser = time)]
@@ -78,6 +78,36 @@ fn time(text: &str) -> Result<f64, String> {
         .ok()
         .filter(|seconds: &f64| seconds.is_finite() && *seconds >= 0.0);
     seconds.ok_or_else(|| "a time in seconds, zero or more, is needed".to_owned())
+}
+
+/// Parses the name of a picture, which is a PNG file.
+fn picture(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match path.extension() {
+        Some(extension) if !extension.eq_ignore_ascii_case("png") => {
+            Err("pictures are PNG files; end the name in .png".to_owned())
+        }
+        _ => Ok(path),
+    }
+}
+
+/// A free body this many times as heavy as all cloth may gain energy from it.
+const HEAVY: f64 = 1000.0;
+
+/// Returns a sentence for each free body that is so heavy that its motion on the cloth may be wrong.
+fn heavy_bodies(simulation: &Simulation, cloth_mass: f64) -> Vec<String> {
+    let names = simulation.body_names().iter().enumerate();
+    names
+        .filter_map(|(body, name)| {
+            let times = simulation.body_motion(body)?.mass / cloth_mass;
+            (times > HEAVY).then(|| {
+                format!(
+                    "The free body '{name}' is {times:.0} times as heavy as all cloth. From {HEAVY} times on, cloth may throw a body off: \
+                     `lost` is then negative."
+                )
+            })
+        })
+        .collect()
 }
 
 /// Returns the two parts of a checkpoint file: the simulation's state, and the recording.
@@ -197,9 +227,15 @@ impl Simulate {
         let path = path.display();
         let (steps, steps_per_frame) = (scene.steps(), scene.steps_per_frame());
         let subject = Subject::new(&scene);
-        let remarks = scene.remarks.clone();
-        OutputFiles::check_folder(&self.output)?;
+        let mut remarks = scene.remarks.clone();
+        let cloth_mass = scene.cloths.iter().map(Cloth::mass).sum();
+        self.check_outputs()?;
+        let note = |remark: &String| output::say(format_args!("note: {remark}"));
+        remarks.iter().for_each(note);
         let mut simulation = self.set_up(scene).map_err(|error| format!("{path}: {error}"))?;
+        let heavy = heavy_bodies(&simulation, cloth_mass);
+        heavy.iter().for_each(note);
+        remarks.extend(heavy);
         let mut recorder = SimulationRecorder::new(subject, &simulation)?;
         let earlier = begin(&mut simulation, &mut recorder)?;
 
@@ -320,10 +356,22 @@ impl Simulate {
         })
     }
 
+    /// Creates the folders of the output files, and refuses files that cannot be written, before long work.
+    fn check_outputs(&self) -> Result<(), Failure> {
+        OutputFiles::check_folder(&self.output)?;
+        let picture = self.picture.as_ref().map(|picture| self.output.join(picture));
+        if let Some(folder) = picture.as_ref().and_then(|picture| picture.parent()) {
+            OutputFiles::check_folder(folder)?;
+        }
+        let mut files = picture.into_iter().chain([self.file("html")]);
+        files.try_for_each(|file| OutputFiles::check(&file))
+    }
+
     /// Returns the output file with this extension, named after the scene's.
     fn file(&self, extension: &str) -> PathBuf {
-        let stem = self.scene.file_stem().unwrap_or_default();
-        self.output.join(Path::new(stem).with_extension(extension))
+        let stem = self.scene.file_stem().unwrap_or_default().to_string_lossy();
+        // Not `with_extension`, which would give the reports of `shirt.a.toml` and `shirt.b.toml` one name.
+        self.output.join(format!("{stem}.{extension}"))
     }
 
     fn write_frame(&self, simulation: &Simulation, frame: u64) -> Result<(), Failure> {

@@ -29,10 +29,11 @@ pub struct Findings {
 
 /// The largest height of a thin triangle over its longest side.
 pub const THIN: f64 = 1e-6;
-/// The size from which on a mesh looks as if it were not in metres.
-const LARGE: f64 = 50.0;
 
 impl Findings {
+    /// The size from which on a mesh looks as if it were not in metres.
+    pub const LARGE: f64 = 50.0;
+
     /// Examines a mesh, in a time that grows with its size alone.
     #[must_use]
     pub fn of(positions: &[DVec3], topology: &Topology) -> Self {
@@ -105,7 +106,7 @@ impl Findings {
     /// Returns whether the mesh is so large that its unit is more likely millimetres or centimetres than metres.
     #[must_use]
     pub fn is_large(&self) -> bool {
-        self.size.max_element() > LARGE
+        self.size.max_element() > Self::LARGE
     }
 }
 
@@ -122,7 +123,13 @@ impl fmt::Display for Findings {
         }
         if self.is_large() {
             let largest = self.size.max_element();
-            write!(f, "{comma}{largest:.0} long: is its unit millimetres or centimetres?")?;
+            // Not with three hundred digits.
+            let largest = if largest < 1e7 {
+                format!("{largest:.0}")
+            } else {
+                format!("{largest:.1e}")
+            };
+            write!(f, "{comma}{largest} long: is its unit millimetres or centimetres?")?;
         }
         Ok(())
     }
@@ -200,5 +207,7 @@ mod tests {
             "2 vertices in the same place as others (weld merges them), 1 duplicate triangle, 1 triangle without area, 2 very thin triangles, \
              1 unused vertex, 4 edges between triangles that face opposite ways, 90 long: is its unit millimetres or centimetres?"
         );
+        let huge = findings("v 0 0 0\nv 1e300 0 0\nv 0 1e300 0\nf 1 2 3\n");
+        assert_eq!(huge.to_string(), "1.0e300 long: is its unit millimetres or centimetres?");
     }
 }
