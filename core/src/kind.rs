@@ -5,6 +5,7 @@ use core::str::FromStr;
 
 /// A kind of primitive pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum PairKind {
     /// A vertex and a triangle, one point and three, written `vertex-face`.
     VertexFace,

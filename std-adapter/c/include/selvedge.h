@@ -183,7 +183,7 @@ enum selvedge_status
    */
   SELVEDGE_STATUS_BAD_VALUE = 31,
   /**
-   * The bytes are not a checkpoint, are damaged, or belong to another scene.
+   * The bytes are not a checkpoint, are damaged, or belong to another scene or version.
    */
   SELVEDGE_STATUS_BAD_CHECKPOINT = 32,
   /**

@@ -73,7 +73,7 @@ pub enum Status {
     NotDriven = 30,
     /// A position or a velocity is not finite or out of its range.
     BadValue = 31,
-    /// The bytes are not a checkpoint, are damaged, or belong to another scene.
+    /// The bytes are not a checkpoint, are damaged, or belong to another scene or version.
     BadCheckpoint = 32,
     /// There is no checkpoint after this step. One exists every SELVEDGE_CHECKPOINT_STEPS steps.
     NoCheckpoint = 33,

@@ -1,9 +1,10 @@
 //! Counts and times of contact, and reasons why a step failed.
 
 use selvedge::PairKind;
+use serde::{Deserialize, Serialize};
 
 /// Counts of one step's contacts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ContactCounts {
     /// The number of pairs whose moving boxes come within the distance that an effect requests.
     pub candidates: u64,
@@ -58,7 +59,7 @@ pub(crate) struct Blocker {
 }
 
 /// The processor time of the parts of contact that effects share, in seconds.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ContactSeconds {
     /// The time to find candidate pairs.
     pub candidates: f64,

@@ -1,14 +1,14 @@
 //! Checkpoints: out of a simulation, and back into one.
 
-use super::checkpoint::{Checkpoint, CheckpointError, ListLengths};
+use super::checkpoint::{Checkpoint, CheckpointError};
 use super::simulation::Simulation;
 use crate::model::step::Memory;
-use crate::world::{Driven, Free, Kinematic};
+use crate::world::{Driven, Free, KEPT, Kinematic};
 
 impl Simulation {
     /// Returns all that the rest of the simulation depends on, and what has been measured so far, every
     /// [`CHECKPOINT_STEPS`](crate::CHECKPOINT_STEPS) steps; `None` in between. Motions that the caller has set for the next step,
-    /// and the wind, are not in it.
+    /// and the wind, are not in it. Other versions of this crate may not read it.
     #[must_use]
     pub fn checkpoint(&self) -> Option<Vec<u8>> {
         if !self.is_fresh {
@@ -18,10 +18,10 @@ impl Simulation {
             state: self.state.clone(),
             seconds: self.seconds(),
             placements: self.driven().map(|driven| driven.placement).collect(),
-            free_bodies: self.free_bodies().map(|(_, free)| free.numbers()).collect(),
+            free_bodies: self.free_bodies().flat_map(|(_, free)| free.numbers()).collect(),
             torn: self.torn_cloths(),
             memories: self.memory_numbers(),
-            kept: self.made.solve.write_kept(&self.work.substep.history),
+            kept: self.made.solve.kept(&self.work.substep.history),
             ..Checkpoint::default()
         };
         if let Some(contact) = &self.made.contact {
@@ -36,30 +36,31 @@ impl Simulation {
     /// continue as well.
     ///
     /// # Errors
-    /// Returns an error if the bytes are no checkpoint, damaged, or of another scene; then nothing has changed.
+    /// Returns an error if the bytes are no checkpoint, damaged, or of another scene or version; then nothing has changed.
     pub fn resume(&mut self, checkpoint: &[u8]) -> Result<(), CheckpointError> {
-        let triangles = self.triangles_of_cloths();
-        let (torn, reader) = Checkpoint::begin(checkpoint, self.fingerprint, triangles.as_deref())?;
-        let mut torn = match torn {
+        let damaged = CheckpointError::Damaged;
+        let mut checkpoint = Checkpoint::read(checkpoint, self.fingerprint)?;
+        let mut torn = match checkpoint.torn.take() {
             Some((cloths, edges)) => Some((self.torn_as(cloths)?, edges)),
-            None => None,
+            None if self.tearing.is_none() => None,
+            None => return Err(damaged),
         };
-        let [vertices, memories] = match &torn {
-            Some((retorn, _)) => [
-                retorn.made.rest.len(),
-                retorn.made.memories().flat_map(Memory::numbers).count(),
-            ],
-            None => [self.state.positions.len(), self.memory_numbers().len()],
-        };
-        let lengths = ListLengths {
-            vertices,
-            yielding: self.made.contact.as_ref().map_or(0, |c| c.exempt().yielding.len()),
-            seconds: self.seconds().len(),
-            placements: self.driven().count(),
-            free_bodies: self.free_bodies().count(),
-            memories,
-        };
-        let checkpoint = Checkpoint::read(reader, lengths)?;
+        let made = torn.as_ref().map_or(&self.made, |(retorn, _)| &retorn.made);
+        let vertices = made.rest.len();
+        let yielding = made.contact.as_ref().map_or(0, |contact| contact.exempt().yielding.len());
+        let lengths = [
+            (checkpoint.state.positions.len(), vertices),
+            (checkpoint.state.velocities.len(), vertices),
+            (checkpoint.yielding.len(), yielding),
+            (checkpoint.seconds.len(), self.seconds().len()),
+            (checkpoint.placements.len(), self.driven().count()),
+            (checkpoint.free_bodies.len(), self.free_bodies().count() * KEPT),
+            (checkpoint.memories.len(), made.memories().flat_map(Memory::numbers).count()),
+        ];
+        let fits = lengths.iter().all(|(found, own)| found == own);
+        if !(fits && made.solve.can_keep(&checkpoint.kept, [vertices, made.cloth_vertices])) {
+            return Err(damaged);
+        }
         let contact = match &mut torn {
             Some((retorn, _)) => &mut retorn.made.contact,
             None => &mut self.made.contact,
@@ -67,14 +68,8 @@ impl Simulation {
         if let Some(contact) = contact
             && !contact.set_parting(checkpoint.parting.as_deref(), &checkpoint.state.positions)
         {
-            return Err(CheckpointError::Damaged);
+            return Err(damaged);
         }
-        let made = torn.as_ref().map_or(&self.made, |(retorn, _)| &retorn.made);
-        let counts = [vertices, made.cloth_vertices];
-        let kept = made
-            .solve
-            .read_kept(&checkpoint.kept, counts)
-            .ok_or(CheckpointError::Damaged)?;
         if let Some((retorn, edges)) = torn {
             self.adopt_torn(retorn, edges);
         }
@@ -92,10 +87,10 @@ impl Simulation {
             driven.placement = placement;
         }
         let free = self.made.motions.iter_mut().filter_map(Kinematic::free_mut);
-        free.zip(&checkpoint.free_bodies)
+        free.zip(checkpoint.free_bodies.as_chunks().0)
             .for_each(|(free, numbers)| free.recall(numbers));
         self.recall(&checkpoint.memories);
-        self.made.solve.keep(kept, &mut self.work.substep.history);
+        self.made.solve.keep(checkpoint.kept, &mut self.work.substep.history);
         self.state = checkpoint.state;
         self.loads.forget();
         self.added_forces.0.clear();

@@ -2,12 +2,13 @@
 
 use crate::contact::ContactSolver;
 use selvedge_core::glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 /// The largest speed, in m/s: more than twice the speed of sound. Faster vertices are slowed down to it.
 pub const FASTEST: f64 = 1000.0;
 
 /// The state that the rest of a simulation depends on, besides the scene and the bodies that are let pass.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct State {
     pub(crate) step: u64,
     /// The number of steps in which bodies or pins had to wait, or to be let pass.

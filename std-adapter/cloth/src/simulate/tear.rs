@@ -192,12 +192,6 @@ impl Simulation {
         Some((tearing.scene.cloths.iter().map(of).collect(), tearing.torn.clone()))
     }
 
-    /// The number of triangles of each cloth; `None` if nothing tears.
-    pub(super) fn triangles_of_cloths(&self) -> Option<Vec<usize>> {
-        let cloths = self.tearing.as_ref()?.scene.cloths.iter();
-        Some(cloths.map(|cloth| cloth.mesh.triangles.len()).collect())
-    }
-
     /// Makes the data of a checkpoint's cloths.
     ///
     /// # Errors
@@ -206,6 +200,9 @@ impl Simulation {
         let numbering = self.numbering();
         let tearing = self.tearing.as_mut().ok_or(CheckpointError::Damaged)?;
         let whole = tearing.scene.cloths.clone();
+        if torn.len() != whole.len() {
+            return Err(CheckpointError::Damaged);
+        }
         let mut cloths = whole.clone();
         let mut from = Vec::new();
         for ((cloth, torn), first) in cloths.iter_mut().zip(torn).zip(numbering.first_of_cloths) {

@@ -19,9 +19,10 @@ use super::rigid::RigidBodies;
 use crate::contact::PairKey;
 use crate::model::length::{larger, length, shortened, turned_into_plane};
 use selvedge_core::glam::{DVec3, Mat3A, Vec3A};
+use serde::{Deserialize, Serialize};
 
 /// The name of a contact from step to step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub(crate) enum RowKey {
     /// A vertex and a smooth body, by its number.
     Smooth(u32, u32),
@@ -29,7 +30,7 @@ pub(crate) enum RowKey {
 }
 
 /// What a contact that pushed leaves for the next step.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Remembered {
     push: f64,
     grip: DVec3,
@@ -40,19 +41,11 @@ pub(crate) struct Remembered {
 }
 
 impl Remembered {
-    pub(super) fn numbers(&self) -> [f64; 7] {
-        let [x, y, z] = self.grip.to_array();
-        [self.push, x, y, z, self.distance, self.asked, self.share]
-    }
-
-    pub(super) const fn from_numbers([push, x, y, z, distance, asked, share]: [f64; 7]) -> Self {
-        Self {
-            push,
-            grip: DVec3::new(x, y, z),
-            distance,
-            asked,
-            share,
-        }
+    pub(super) fn is_finite(&self) -> bool {
+        self.grip.is_finite()
+            && [self.push, self.distance, self.asked, self.share]
+                .iter()
+                .all(|x| x.is_finite())
     }
 }
 

@@ -52,7 +52,8 @@ pub(crate) mod walls;
 pub use constants::Accuracy;
 #[cfg(doc)]
 use constants::RECOVERY;
-pub(crate) use contact_row::{ContactRow, RowKey};
+pub(crate) use contact_row::{ContactRow, Remembered, RowKey};
+pub(crate) use kept::Kept;
 pub(crate) use loads::SpringGroup;
 pub use matrix::Matrix;
 pub(crate) use newton::NotFinite;
@@ -64,7 +65,6 @@ use crate::effects::plan::Entry;
 use crate::model::step::TimeStep;
 use carried_loads::CarriedLoads;
 use constants::{GIVE, STIFFER_THAN_BODIES, STIFFER_THAN_CLOTH};
-use contact_row::Remembered;
 use preconditioner::Preconditioner;
 use rigid::RigidBodies;
 use rustc_hash::FxHashMap;

@@ -23,12 +23,13 @@ use super::Prediction;
 use super::contact_row::ContactRow;
 use crate::model::step::TimeStep;
 use selvedge_core::glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 /// Two steps are equally long if their lengths differ by no more than this share, which is rounding.
 const EQUAL: f64 = 1e-9;
 
 /// The motion before the present step.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct MotionHistory {
     /// The positions and velocities one step before; empty before the second step.
     pub(crate) positions: Vec<DVec3>,

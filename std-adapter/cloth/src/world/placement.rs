@@ -3,6 +3,7 @@
 use crate::input::{Field, LARGEST_COORDINATE, LENGTH, ValueError};
 use libm::{atan2, cos, sin};
 use selvedge_core::glam::{DQuat, DVec3};
+use serde::{Deserialize, Serialize};
 
 pub(super) const TRANSLATION: Field = Field::vector("translation", LENGTH, LARGEST_COORDINATE);
 
@@ -15,7 +16,7 @@ pub(super) const TRANSLATION: Field = Field::vector("translation", LENGTH, LARGE
 /// let placement = Placement { rotation: DQuat::from_rotation_z(std::f64::consts::PI), translation: DVec3::X };
 /// assert!(placement.apply(DVec3::X).length() < 1e-15);
 /// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Placement {
     /// A unit quaternion. A simulation normalises it, and refuses only zero.
     pub rotation: DQuat,

@@ -214,8 +214,9 @@ fn a_checkpoint_of_torn_cloth_that_is_damaged_changes_nothing() {
     let scene = || pulled(Tearing::perforated(column(5), 60.0));
     let simulation = run(scene(), CHECKPOINT_STEPS);
     let checkpoint = simulation.checkpoint().unwrap();
-    // The first triangle's first vertex follows the magic number, the fingerprint, the number of copies and the copies.
-    let corner = 16 + 8 + 8 + 4 * simulation.copied_vertices(0).len();
+    // The first triangle's first vertex follows the magic number, the version, the fingerprint, a byte that there are tears, the
+    // number of cloths, the number of copies, the copies, and the number of triangles. Numbers below 128 take a byte each.
+    let corner = 15 + 1 + 8 + 1 + 1 + 1 + simulation.copied_vertices(0).len() + 1;
     let mut damaged = checkpoint.clone();
     damaged[corner] ^= 1;
     let mut fresh = Simulation::new(scene(), 1).unwrap();

@@ -26,8 +26,10 @@ pub(crate) use choice::Tear;
 pub(crate) use loads::Tearable;
 pub(crate) use opening::open;
 
+use serde::{Deserialize, Serialize};
+
 /// An edge that has torn.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TornEdge {
     /// The cloth's index in the scene.
     pub cloth: usize,

@@ -6,7 +6,8 @@
 use super::thinned::Thinned;
 use super::{About, Measure, MeasureKind, RecordedFrame, RecordedPart, Recording, Series, SeriesKind};
 use selvedge_core::glam::DVec3;
-use selvedge_files::bytes::{Reader, put_block};
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// The largest number of values of a series, which is more than a chart has pixels.
 const MOST_VALUES: usize = 2048;
@@ -36,6 +37,30 @@ pub struct Recorder {
     readings: Vec<f64>,
     /// The sums whose means become the values of each series.
     sums: Vec<Vec<f64>>,
+}
+
+/// A recording so far, as bytes have it.
+#[derive(Serialize, Deserialize)]
+struct Saved<'a> {
+    seconds: f64,
+    vertices: usize,
+    /// The numbers of steps, of the first step, and of steps per value.
+    steps: [u64; 3],
+    frames: Cow<'a, Thinned<[f32; 3]>>,
+    measured: Cow<'a, Thinned<f64>>,
+    /// The name of each measure, its largest value and the step.
+    measures: Vec<(String, f64, u64)>,
+    series: Vec<SavedSeries>,
+    remarks: Vec<String>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct SavedSeries {
+    name: String,
+    /// The last reading, the total, and the smallest and the largest value.
+    numbers: [f64; 4],
+    largest_step: u64,
+    sums: Vec<f64>,
 }
 
 impl Recorder {
@@ -201,40 +226,28 @@ impl Recorder {
     /// wall-clock time so far.
     pub fn save(&self, seconds: f64) -> Vec<u8> {
         let recording = &self.recording;
-        let mut bytes = Vec::new();
-        bytes.extend((recording.vertex_count() as u64).to_le_bytes());
-        bytes.extend((recording.series.len() as u64).to_le_bytes());
-        bytes.extend(seconds.to_le_bytes());
-        let numbers = [
-            recording.steps,
-            recording.first_step,
-            recording.steps_per_value,
-            recording.measures.len() as u64,
-        ];
-        bytes.extend(numbers.into_iter().flat_map(u64::to_le_bytes));
-        self.frames.save(&mut bytes, |position, bytes| {
-            bytes.extend(position.iter().flat_map(|x| x.to_le_bytes()));
-        });
-        self.measured
-            .save(&mut bytes, |value, bytes| bytes.extend(value.to_le_bytes()));
-        for measure in &recording.measures {
-            put_block(&mut bytes, measure.name.as_bytes());
-            bytes.extend(measure.largest.to_le_bytes());
-            bytes.extend(measure.largest_step.to_le_bytes());
-        }
-        for (index, series) in recording.series.iter().enumerate() {
-            put_block(&mut bytes, series.name.as_bytes());
-            let numbers = [self.readings[index], series.total, series.smallest, series.largest];
-            bytes.extend(numbers.into_iter().flat_map(f64::to_le_bytes));
-            bytes.extend(series.largest_step.to_le_bytes());
-            bytes.extend((self.sums[index].len() as u64).to_le_bytes());
-            bytes.extend(self.sums[index].iter().flat_map(|sum| sum.to_le_bytes()));
-        }
-        bytes.extend((recording.remarks.len() as u64).to_le_bytes());
-        for remark in &recording.remarks {
-            put_block(&mut bytes, remark.as_bytes());
-        }
-        bytes
+        let measures = recording.measures.iter();
+        let series = recording.series.iter();
+        let saved = Saved {
+            seconds,
+            vertices: recording.vertex_count(),
+            steps: [recording.steps, recording.first_step, recording.steps_per_value],
+            frames: Cow::Borrowed(&self.frames),
+            measured: Cow::Borrowed(&self.measured),
+            measures: measures
+                .map(|own| (own.name.clone(), own.largest, own.largest_step))
+                .collect(),
+            series: { series.zip(&self.readings).zip(&self.sums) }
+                .map(|((own, &reading), sums)| SavedSeries {
+                    name: own.name.clone(),
+                    numbers: [reading, own.total, own.smallest, own.largest],
+                    largest_step: own.largest_step,
+                    sums: sums.clone(),
+                })
+                .collect(),
+            remarks: recording.remarks.clone(),
+        };
+        postcard::to_allocvec(&saved).expect("all lengths are known, and a list of bytes has room")
     }
 
     /// Continues a recording that another recorder of the same parts and series has [saved](Self::save), and returns its seconds.
@@ -242,50 +255,34 @@ impl Recorder {
     /// other parts or series.
     pub fn restore(&mut self, bytes: &[u8]) -> Option<f64> {
         let mut restored = self.clone();
-        let seconds = restored.read(&mut Reader(bytes))?;
+        let (saved, rest) = postcard::take_from_bytes(bytes).ok()?;
+        let seconds = restored.go_on(saved).filter(|_| rest.is_empty())?;
         *self = restored;
         Some(seconds)
     }
 
-    fn read(&mut self, reader: &mut Reader<'_>) -> Option<f64> {
+    fn go_on(&mut self, saved: Saved<'_>) -> Option<f64> {
         let vertices = self.recording.vertex_count();
-        let same = |found: u64, own: usize| (found == own as u64).then_some(());
-        same(reader.u64()?, vertices)?;
-        same(reader.u64()?, self.recording.series.len())?;
-        let seconds = reader.f64()?;
         let recording = &mut self.recording;
-        recording.steps = reader.u64()?;
-        recording.first_step = reader.u64()?;
-        recording.steps_per_value = reader.u64()?;
-        same(reader.u64()?, recording.measures.len())?;
-        self.frames.restore(reader, vertices, |reader| {
-            let position = [reader.f32()?, reader.f32()?, reader.f32()?];
-            is_finite(position).then_some(position)
-        })?;
-        let measures = recording.measures.len();
-        self.measured.restore(reader, measures, |reader| reader.f64())?;
-        for measure in &mut recording.measures {
-            (reader.block()? == measure.name.as_bytes()).then_some(())?;
-            measure.largest = reader.f64()?;
-            measure.largest_step = reader.u64()?;
+        let lengths = [saved.vertices, saved.measures.len(), saved.series.len()];
+        (lengths == [vertices, recording.measures.len(), recording.series.len()]).then_some(())?;
+        [recording.steps, recording.first_step, recording.steps_per_value] = saved.steps;
+        self.frames
+            .restore(saved.frames.into_owned(), vertices, |&position| is_finite(position))?;
+        self.measured
+            .restore(saved.measured.into_owned(), recording.measures.len(), |_| true)?;
+        for (measure, (name, largest, step)) in recording.measures.iter_mut().zip(saved.measures) {
+            (name == measure.name).then_some(())?;
+            (measure.largest, measure.largest_step) = (largest, step);
         }
-        for (index, series) in recording.series.iter_mut().enumerate() {
-            (reader.block()? == series.name.as_bytes()).then_some(())?;
-            self.readings[index] = reader.f64()?;
-            series.total = reader.f64()?;
-            series.smallest = reader.f64()?;
-            series.largest = reader.f64()?;
-            series.largest_step = reader.u64()?;
-            let count = reader.count(size_of::<f64>())?;
-            self.sums[index] = (0..count).map(|_| reader.f64()).collect::<Option<_>>()?;
+        for (index, (series, saved)) in recording.series.iter_mut().zip(saved.series).enumerate() {
+            (saved.name == series.name && saved.sums.len() <= MOST_VALUES).then_some(())?;
+            [self.readings[index], series.total, series.smallest, series.largest] = saved.numbers;
+            series.largest_step = saved.largest_step;
+            self.sums[index] = saved.sums;
         }
-        recording.remarks.clear();
-        for _ in 0..reader.count(1)? {
-            let remark = String::from_utf8(reader.block()?.to_vec()).ok()?;
-            recording.remarks.push(remark);
-        }
-        let values = self.sums.iter().all(|sums| sums.len() <= MOST_VALUES);
-        (values && recording.steps_per_value > 0 && reader.0.is_empty()).then_some(seconds)
+        recording.remarks = saved.remarks;
+        (recording.steps_per_value > 0).then_some(saved.seconds)
     }
 
     /// Adds a sentence for readers.

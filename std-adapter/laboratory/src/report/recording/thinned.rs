@@ -1,15 +1,16 @@
 //! Thins out entries that are offered after steps: evenly spread over a run of unknown length, in bounded memory.
 
-use selvedge_files::bytes::Reader;
+use serde::{Deserialize, Serialize};
 
 pub(super) type AfterStep<N> = (u64, Vec<N>);
 
 /// When the limit is reached, every other entry is dropped, and from then on every other one is skipped. The first is always
 /// kept, and the last is remembered in addition.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Thinned<N> {
     kept: Vec<AfterStep<N>>,
     /// The limit, at least two.
+    #[serde(skip)]
     most: usize,
     /// The number of offered entries of which one is kept.
     stride: u64,
@@ -83,37 +84,12 @@ impl<N> Thinned<N> {
         self.kept
     }
 
-    pub(super) fn save(&self, bytes: &mut Vec<u8>, put: impl Fn(&N, &mut Vec<u8>)) {
-        bytes.extend([self.stride, self.offered].into_iter().flat_map(u64::to_le_bytes));
-        for list in [&self.kept[..], self.skipped.as_slice()] {
-            bytes.extend((list.len() as u64).to_le_bytes());
-            for (step, values) in list {
-                bytes.extend(step.to_le_bytes());
-                values.iter().for_each(|value| put(value, bytes));
-            }
-        }
-    }
-
-    /// Reads saved entries, with `count` values after each step. Returns `None` if they are damaged.
-    pub(super) fn restore(
-        &mut self,
-        reader: &mut Reader<'_>,
-        count: usize,
-        get: impl Fn(&mut Reader<'_>) -> Option<N>,
-    ) -> Option<()> {
-        self.stride = reader.u64()?;
-        self.offered = reader.u64()?;
-        let mut list = || {
-            let items = reader.count(size_of::<u64>())?;
-            let mut item = |_| {
-                let step = reader.u64()?;
-                let values = (0..count).map(|_| get(reader)).collect::<Option<_>>()?;
-                Some((step, values))
-            };
-            (0..items).map(&mut item).collect::<Option<Vec<_>>>()
-        };
-        self.kept = list()?;
-        self.skipped = list()?.pop();
-        (self.stride > 0).then_some(())
+    /// Continues with saved entries. Returns `None` if they are damaged: each has `count` values that are `valid`.
+    pub(super) fn restore(&mut self, saved: Self, count: usize, valid: impl Fn(&N) -> bool) -> Option<()> {
+        let mut entries = saved.kept.iter().chain(&saved.skipped);
+        let are_valid = entries.all(|(_, values)| values.len() == count && values.iter().all(&valid));
+        let most = self.most;
+        *self = Self { most, ..saved };
+        (are_valid && self.stride > 0).then_some(())
     }
 }
