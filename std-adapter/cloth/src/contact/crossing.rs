@@ -7,6 +7,7 @@
 use super::candidate::Candidate;
 use selvedge::core::glam::DVec3;
 use selvedge::{CollisionDetector, Intersection, PairKind, StepError, Topology};
+use std::fmt;
 use std::sync::Arc;
 
 /// An edge and a face that have a point, but no vertex, in common.
@@ -23,6 +24,22 @@ pub struct Crossing {
     pub point: DVec3,
     /// The body that one of them belongs to; `None` if both are cloth.
     pub body: Option<usize>,
+}
+
+/// Names both by their vertices, as in `the edge 3, 4 and the face 0, 1, 2`.
+impl fmt::Display for Crossing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} and {}", in_words(&self.edge), in_words(&self.face))
+    }
+}
+
+/// Names a vertex, an edge or a face by its vertices, of which the last may be there twice.
+fn in_words(vertices: &[u32]) -> String {
+    let mut vertices = vertices.to_vec();
+    vertices.dedup();
+    let kind = ["vertex", "edge", "face"][vertices.len() - 1];
+    let numbers: Vec<_> = vertices.iter().map(u32::to_string).collect();
+    format!("the {kind} {}", numbers.join(", "))
 }
 
 /// The name of a pair in the lists of candidates.
@@ -118,8 +135,10 @@ pub(super) fn share_to_plane([a, b]: [DVec3; 2], [c, d, e]: [DVec3; 3]) -> f64 {
     if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.5 }
 }
 
-fn meeting_point(edge: [DVec3; 2], face: [DVec3; 3]) -> DVec3 {
-    edge[0].lerp(edge[1], share_to_plane(edge, face))
+/// Returns the point of the edge in the face; of two edges, (c, d, d), that in the plane through (c, d) that both cross upright.
+fn meeting_point([a, b]: [DVec3; 2], [c, d, e]: [DVec3; 3]) -> DVec3 {
+    let third = if d == e { c + (b - a).cross(d - c) } else { e };
+    a.lerp(b, share_to_plane([a, b], [c, d, third]))
 }
 
 #[cfg(test)]
@@ -175,6 +194,11 @@ mod tests {
             let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::new(x, y, 0.0)];
             crossings(&corners, vec![[0, 1, 2], [1, 0, 3]], true)
         };
+        // Lines in the same plane meet where x + y = 1 and 4x = 9y.
+        let place = fold(0.9, 0.4)[0].point;
+        assert!(place.distance(DVec3::new(9.0, 4.0, 0.0) / 13.0) < 1e-15, "{place}");
+        assert_eq!(fold(0.9, 0.4)[0].to_string(), "the edge 1, 2 and the edge 0, 3");
+        assert_eq!(fold(0.2, 0.2)[0].to_string(), "the vertex 3 and the face 0, 1, 2");
         let named = |found: Vec<Crossing>| -> Vec<_> { found.iter().map(|own| (own.edge, own.face)).collect() };
         assert_eq!(named(fold(0.2, 0.2)), [([3, 3], [0, 1, 2])]);
         assert_eq!(named(fold(0.8, 0.8)), [([1, 2], [0, 3, 3])]);

@@ -170,18 +170,9 @@ impl fmt::Display for Tangled {
         for (count, name) in named {
             write!(f, ", {count} with the body '{name}'")?;
         }
-        if let Some(Crossing {
-            edge: [a, b],
-            face: [c, d, e],
-            point,
-            ..
-        }) = self.crossings_in_files().next()
-        {
-            let DVec3 { x, y, z } = point;
-            write!(
-                f,
-                "; first the edge {a}, {b} and the face {c}, {d}, {e}, at ({x:.4}, {y:.4}, {z:.4}) m"
-            )?;
+        if let Some(first) = self.crossings_in_files().next() {
+            let DVec3 { x, y, z } = first.point;
+            write!(f, "; first {first}, at ({x:.4}, {y:.4}, {z:.4}) m")?;
         }
         self.write_pinned(f)?;
         let doubled = if self.untangled.is_none() {

@@ -33,7 +33,7 @@ pub enum TeleportError {
         what: String,
     },
     /// Something is in the way there.
-    #[error("there is no room: {crossings} edges would meet faces; the first is the edge {}, {} and the face {}, {}, {}", first.edge[0], first.edge[1], first.face[0], first.face[1], first.face[2])]
+    #[error("there is no room: {crossings} edges would meet faces; the first is {first}")]
     NoRoom {
         /// The number of pairs of an edge and a face that would meet.
         crossings: usize,

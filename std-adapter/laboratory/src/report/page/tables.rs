@@ -60,12 +60,17 @@ pub(super) fn times(recording: &Recording) -> Markup {
             td { (time(seconds)) }
         } }
     };
+    // Contact, friction and pins act in the solve alone.
+    let own = |seconds: f64| if seconds > 0.0 { seconds } else { NONE };
+    let without = recording
+        .series_of(|kind| kind == SeriesKind::Effect)
+        .any(|series| !(series.total > 0.0));
     let group = |title: &str, wanted: SeriesKind| {
         let mut rows: Vec<&Series> = recording.series_of(|kind| kind == wanted).collect();
         rows.sort_by(|a, b| b.total.total_cmp(&a.total));
         html! { @if !rows.is_empty() { tbody {
             tr.group { th colspan="5" scope="rowgroup" { (title) } }
-            @for series in rows { (row(&label(&series.name), series.total, series.largest)) }
+            @for series in rows { (row(&label(&series.name), own(series.total), own(series.largest))) }
         } } }
     };
     let [each, most, all] = &columns(recording);
@@ -80,6 +85,7 @@ pub(super) fn times(recording: &Recording) -> Markup {
                 (row(&whole_unit, wall, steps.map_or(NONE, |steps| steps.largest)))
             } }
         } }
+        @if without { p.note { "An effect without a time of its own acts in a shared stage, such as the solve." } }
     }
 }
 

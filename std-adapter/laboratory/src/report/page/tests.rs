@@ -1,4 +1,5 @@
 use super::*;
+use crate::report::number::ABSENT;
 use crate::report::{About, Knob, MeasureKind, RecordedPart, Recorder};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -134,6 +135,22 @@ fn names_and_the_scene_are_shown_as_they_are() {
     for series in &recording.series {
         assert!(names.contains(&series.name), "{}", series.name);
     }
+}
+
+#[test]
+fn an_effect_that_acts_in_the_solve_alone_has_no_time() {
+    let effects = ["gravity", "friction"].map(|name| (name, SeriesKind::Effect));
+    let mut recording = recording(&two_frames(), &effects);
+    (recording.series[1].total, recording.series[1].largest) = (0.0, 0.0);
+    let page = parsed(&html(&recording));
+    let rows = all(&page, "section tbody tr");
+    let row = |name: &str| {
+        let mut texts = rows.iter().map(|row| row.text().collect::<String>());
+        texts.find(|text| text.starts_with(name)).unwrap()
+    };
+    assert_eq!(row("friction"), format!("friction{}", ABSENT.repeat(4)));
+    assert!(!row("gravity").contains(ABSENT), "{}", row("gravity"));
+    assert!(text(&page, "p.note").starts_with("An effect without a time"));
 }
 
 #[test]
