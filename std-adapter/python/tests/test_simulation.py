@@ -56,7 +56,14 @@ def test_a_step_that_is_too_long_for_the_limit_warns():
         {
             "time_step": "16 ms",
             "duration": "1 s",
-            "cloth": {"shape": "sheet", "cells": [20, 20], "density": 0.15, "sides": {"first": [1, 0, 0], "second": [0, 1, 0]}},
+            # Thrown at 20 m/s, it moves by seven edges in a step.
+            "cloth": {
+                "shape": "sheet",
+                "cells": [20, 20],
+                "density": 0.15,
+                "sides": {"first": [1, 0, 0], "second": [0, 1, 0]},
+                "velocity": [0, 0, 20],
+            },
             "effects": {
                 "gravity": {},
                 "stretch": {"stiffness": 100},
