@@ -4,6 +4,8 @@ import { drawStack } from "./plots.js";
 
 const find = (id) => document.getElementById(id);
 const SERIES = 12;
+// An effect without a time of its own acts in the solve.
+const STAGES = { solve: "solve, with contact and friction" };
 
 export class Costs {
   #change;
@@ -35,7 +37,7 @@ export class Costs {
   begin(state) {
     const names = [...Object.keys(state.effectSeconds)];
     for (const name of names) if (!this.#rows.has(name)) this.#addRow(name, true);
-    for (const name of Object.keys(state.contactSeconds)) if (!this.#rows.has(name)) this.#addRow(name, false);
+    for (const name of Object.keys(state.stageSeconds)) if (!this.#rows.has(name)) this.#addRow(name, false);
     this.#before = state;
     this.#history = [];
     this.#sums = { times: {}, steps: 0, drawn: performance.now() };
@@ -53,7 +55,7 @@ export class Costs {
     }
     const swatch = Object.assign(document.createElement("span"), { className: "swatch" });
     swatch.style.background = this.#colour(name, this.#rows.size);
-    label.append(swatch, isEffect ? name.replaceAll("_", " ") : `contact: ${name}`);
+    label.append(swatch, isEffect ? name.replaceAll("_", " ") : STAGES[name] ?? `contact: ${name}`);
     head.append(label);
     const number = row.insertCell();
     number.textContent = "–";
@@ -83,8 +85,8 @@ export class Costs {
 
   /** Adds the times of some steps. The numbers change four times a second, so that they can be read. */
   add(state) {
-    const now = { ...state.effectSeconds, ...state.contactSeconds };
-    const then = { ...this.#before.effectSeconds, ...this.#before.contactSeconds };
+    const now = { ...state.effectSeconds, ...state.stageSeconds };
+    const then = { ...this.#before.effectSeconds, ...this.#before.stageSeconds };
     this.#before = state;
     for (const [name, seconds] of Object.entries(now)) {
       this.#sums.times[name] = (this.#sums.times[name] ?? 0) + 1e6 * (seconds - (then[name] ?? 0));
@@ -102,7 +104,7 @@ export class Costs {
     for (const [name, { number, bar, row }] of this.#rows) {
       const isOff = !(name in times);
       row.classList.toggle("off", isOff);
-      number.textContent = isOff ? "0 (off)" : times[name].toFixed(1);
+      number.textContent = isOff ? "0 (off)" : times[name] > 0 ? times[name].toFixed(1) : "–";
       bar.style.setProperty("--share", isOff ? 0 : times[name] / largest);
     }
     drawStack(find("history"), this.#history, [...this.#rows.keys()], (name) => this.#colour(name), "µs");

@@ -74,9 +74,9 @@ function pull(seconds) {
 }
 
 function state() {
-  const { effectSeconds, contactSeconds, time, stepsDone, isCertified, blockedSteps, contactCounts } = simulation;
+  const { effectSeconds, solveSeconds, contactSeconds, time, stepsDone, isCertified, blockedSteps, contactCounts } = simulation;
   return {
-    positions: new Float32Array(simulation.positions), effectSeconds, contactSeconds: contactSeconds ?? {}, time, stepsDone, isCertified,
+    positions: new Float32Array(simulation.positions), effectSeconds, stageSeconds: { solve: solveSeconds, ...contactSeconds }, time, stepsDone, isCertified,
     certified, blockedSteps, hasContact: contactCounts !== undefined,
   };
 }

@@ -209,6 +209,13 @@ impl Simulation {
         })
     }
 
+    /// The processing time of the solve so far, in seconds, without that of the effects' own energies: contact, friction, pins and
+    /// the linear problems.
+    #[wasm_bindgen(getter, js_name = solveSeconds)]
+    pub fn solve_seconds(&self) -> f64 {
+        self.cloth.solve_seconds()
+    }
+
     /// The processing time of contact so far, without its pushes; undefined without a contact effect.
     #[wasm_bindgen(getter, js_name = contactSeconds, unchecked_return_type = "Record<string, number> | undefined")]
     pub fn contact_seconds(&self) -> JsValue {

@@ -310,7 +310,7 @@ test("a simulation is driven, measured, and resumed with the same bits; its cloc
   assert.equal(from, cloth.clothVertexCount);
   assert.equal(cloth.isCertified, true);
   assert.deepEqual(Object.keys(cloth.effectSeconds), effectNames(text));
-  assert.ok(cloth.effectSeconds.stretch > 0 && Object.values(cloth.contactSeconds).some((seconds) => seconds > 0));
+  assert.ok(cloth.effectSeconds.stretch > 0 && cloth.solveSeconds > 0 && Object.values(cloth.contactSeconds).some((seconds) => seconds > 0));
   assert.equal(cloth.positions.length, cloth.normals().length);
   const other = new Simulation(text);
   other.resume(cloth.checkpoint());
