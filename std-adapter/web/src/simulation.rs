@@ -209,8 +209,8 @@ impl Simulation {
         })
     }
 
-    /// The processing time of the solve so far, in seconds, without that of the effects' own energies: contact, friction, pins and
-    /// the linear problems.
+    /// The processing time of the solve so far, in seconds: contact, friction, pins and the linear problems, without the
+    /// energies of effects.
     #[wasm_bindgen(getter, js_name = solveSeconds)]
     pub fn solve_seconds(&self) -> f64 {
         self.cloth.solve_seconds()

@@ -64,7 +64,7 @@ pub(super) fn times(recording: &Recording) -> Markup {
     let own = |seconds: f64| if seconds > 0.0 { seconds } else { NONE };
     let without = recording
         .series_of(|kind| kind == SeriesKind::Effect)
-        .any(|series| !(series.total > 0.0));
+        .any(|series| own(series.total).is_nan());
     let group = |title: &str, wanted: SeriesKind| {
         let mut rows: Vec<&Series> = recording.series_of(|kind| kind == wanted).collect();
         rows.sort_by(|a, b| b.total.total_cmp(&a.total));
