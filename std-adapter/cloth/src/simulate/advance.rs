@@ -23,8 +23,8 @@ const SHORTEST: f64 = 1.0 / 64.0;
 /// The longest part of a step that may end with overstretched edges, in shortest parts: a quarter of a step.
 const LONGEST_OVERSTRETCHED: f64 = 0.25 / SHORTEST;
 
-/// What rounding may leave of a step after some parts, as a share of the last one.
-const ROUNDING: f64 = 1e-9;
+/// The shortest rest of a step that is another part, over the last part. A shorter one is rounding, which is about 1e-15.
+const SHORTEST_REST: f64 = 1e-9;
 
 /// A step that ends with an edge longer than this, over its limit, is counted.
 const OVERSTRETCHED: f64 = 1.05;
@@ -33,6 +33,12 @@ const OVERSTRETCHED: f64 = 1.05;
 enum BodyClock {
     Went,
     Waited,
+}
+
+/// Returns what is left of a step after a part of `h` seconds. A rest as short as rounding is none: its speed would be infinite.
+fn rest_of(left: f64, h: f64) -> f64 {
+    let rest = left - h;
+    if rest > SHORTEST_REST * h { rest } else { 0.0 }
 }
 
 impl Simulation {
@@ -169,9 +175,7 @@ impl Simulation {
         while left > 0.0 {
             let blocker = match self.part(left.min(longest), shortest) {
                 Ok(h) => {
-                    // A part as short as rounding would have an infinite speed.
-                    let next = left - h;
-                    left = if next > ROUNDING * h { next } else { 0.0 };
+                    left = rest_of(left, h);
                     // The next parts are likely to need to be as short; they are tried with twice that at most.
                     longest = 2.0 * h;
                     continue;
@@ -306,5 +310,19 @@ impl Simulation {
             body: blocker.body.map(|body| self.body_names[body].clone()),
             speed: None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_thirds_leave_by_rounding_is_none() {
+        let step = 0.1;
+        let third = step / 3.0;
+        let left = rest_of(rest_of(step, third), third);
+        assert_eq!((rest_of(left, third), rest_of(left + 1e-17, left)), (0.0, 0.0));
+        assert_eq!(rest_of(step, 0.75 * step), step - 0.75 * step);
     }
 }

@@ -193,7 +193,7 @@ impl Piece {
         (bodies, are_pressed): (&mut RigidBodies, &[bool]),
     ) {
         let Some(hinge) = self.hinge(x) else { return };
-        let step = Step {
+        let after = After {
             step,
             motion,
             correction,
@@ -203,7 +203,7 @@ impl Piece {
             Correction::Velocity => 1,
         };
         for _ in 0..rounds {
-            let turned = self.correct(hinge, &step, (&mut *x, &mut *velocities), (bodies, are_pressed));
+            let turned = self.correct(hinge, &after, (&mut *x, &mut *velocities), (bodies, are_pressed));
             if !(turned > SMALLEST_TURN) {
                 break;
             }
@@ -214,24 +214,24 @@ impl Piece {
     fn correct(
         &self,
         hinge: Hinge,
-        step: &Step<'_>,
+        after: &After<'_>,
         (x, velocities): (&mut [DVec3], &mut [DVec3]),
         (bodies, are_pressed): (&mut RigidBodies, &[bool]),
     ) -> f64 {
-        let Motion { forced, history, .. } = step.motion;
-        let (h, start, before) = (step.step.h, step.step.start, step.motion.velocities);
-        let rate = &step.motion.prediction.rate;
+        let Motion { forced, history, .. } = after.motion;
+        let (h, start, before) = (after.step.h, after.step.start, after.motion.velocities);
+        let rate = &after.motion.prediction.rate;
         let is_second_order = self.free().all(|vertex| rate[vertex] < h);
-        let balances = bodies.balances(h, step.correction, are_pressed);
+        let balances = bodies.balances(h, after.correction, are_pressed);
         let [shift, centre] = match hinge {
-            Hinge::CentreOfMass => self.shift(step, &balances, [x, velocities]),
+            Hinge::CentreOfMass => self.shift(after, &balances, [x, velocities]),
             Hinge::Point(point) | Hinge::Axis(point, _) => [DVec3::ZERO, point],
         };
-        let (mut moment, mut arms) = moments_of_bodies(&balances, centre, shift, step.seconds(h));
+        let (mut moment, mut arms) = moments_of_bodies(&balances, centre, shift, after.seconds(h));
         for vertex in self.free() {
-            let (mass, seconds) = (step.mass(vertex), step.seconds(rate[vertex]));
+            let (mass, seconds) = (after.mass(vertex), after.seconds(rate[vertex]));
             let end = x[vertex] - centre;
-            let arm = match step.correction {
+            let arm = match after.correction {
                 Correction::Motion => end - velocities[vertex] * rate[vertex],
                 Correction::Velocity => end,
             };
@@ -244,7 +244,7 @@ impl Piece {
             } else {
                 angular(start[vertex], forced[vertex])
             };
-            moment += kept / step.slowing(vertex);
+            moment += kept / after.slowing(vertex);
             moment -= arm.cross((velocities[vertex] + shift / seconds) * mass);
             arms += outer(end * (mass / seconds), arm);
         }
@@ -252,18 +252,18 @@ impl Piece {
         if !(turn.is_finite() && shift.is_finite()) {
             return 0.0;
         }
-        let moved = |end: DVec3| match step.correction {
+        let moved = |end: DVec3| match after.correction {
             Correction::Motion => shift + (DQuat::from_scaled_axis(turn) * (end - centre) - (end - centre)),
             Correction::Velocity => shift + turn.cross(end - centre),
         };
         for vertex in self.free() {
             let moved = moved(x[vertex]);
-            velocities[vertex] += moved / step.seconds(rate[vertex]);
-            if step.correction == Correction::Motion {
+            velocities[vertex] += moved / after.seconds(rate[vertex]);
+            if after.correction == Correction::Motion {
                 x[vertex] += moved;
             }
         }
-        bodies.correct(h, step.correction, are_pressed, turn, &moved, x);
+        bodies.correct(h, after.correction, are_pressed, turn, &moved, x);
         turn.length()
     }
 
@@ -273,36 +273,36 @@ impl Piece {
 
     /// Returns the displacement that gives the piece and these bodies the momentum that forces leave them, and the point about
     /// which a turn changes no momentum.
-    fn shift(&self, step: &Step<'_>, bodies: &[Balance], [x, velocities]: [&[DVec3]; 2]) -> [DVec3; 2] {
-        let Prediction { goal, base, rate, .. } = step.motion.prediction;
-        let h = step.step.h;
+    fn shift(&self, after: &After<'_>, bodies: &[Balance], [x, velocities]: [&[DVec3]; 2]) -> [DVec3; 2] {
+        let Prediction { goal, base, rate, .. } = after.motion.prediction;
+        let h = after.step.h;
         let Sums {
             mut total,
             mut centre,
             mut yields,
             mut added,
-        } = sums_of_bodies(bodies, h, step.seconds(h));
+        } = sums_of_bodies(bodies, h, after.seconds(h));
         for vertex in self.free() {
-            let (mass, rate) = (step.mass(vertex), rate[vertex]);
+            let (mass, rate) = (after.mass(vertex), rate[vertex]);
             let predicted = (goal[vertex] - base[vertex]) / rate;
-            let weight = step.slowing(vertex) * mass / rate;
+            let weight = after.slowing(vertex) * mass / rate;
             added += (velocities[vertex] - predicted) * weight;
-            yields += weight / step.seconds(rate);
-            centre += x[vertex] * (mass / step.seconds(rate));
-            total += mass / step.seconds(rate);
+            yields += weight / after.seconds(rate);
+            centre += x[vertex] * (mass / after.seconds(rate));
+            total += mass / after.seconds(rate);
         }
         [-added / yields, centre / total]
     }
 }
 
-/// A step, and the correction that it gets.
-struct Step<'a> {
+/// A step that has been solved, and the correction that it gets.
+struct After<'a> {
     step: &'a TimeStep<'a>,
     motion: &'a Motion<'a>,
     correction: Correction,
 }
 
-impl Step<'_> {
+impl After<'_> {
     fn mass(&self, vertex: usize) -> f64 {
         self.step.inverse_masses[vertex].recip()
     }
@@ -443,6 +443,21 @@ mod tests {
                 }
             }
             prop_assert!((0..pins).all(|k| velocities[k] == DVec3::ZERO));
+        }
+
+        #[test]
+        fn a_correction_turns_and_moves_a_piece_and_stretches_nothing(
+            vectors in [vectors(6), vectors(6), vectors(6)],
+            masses in prop::collection::vec(0.1..10.0_f64, 6),
+            pins in 0..4_usize,
+        ) {
+            let left = left(pins, vectors, &masses);
+            let velocities = left.corrected();
+            let ends: Vec<_> = { velocities.iter() }.zip(&left.start).map(|(v, start)| *start + *v * H).collect();
+            for (i, j) in (pins..6).flat_map(|i| (pins..i).map(move |j| (i, j))) {
+                let [found, expected] = [&ends, &left.x].map(|x| x[i].distance(x[j]));
+                prop_assert!((found - expected).abs() < 1e-12, "{found} instead of {expected}");
+            }
         }
 
         #[test]

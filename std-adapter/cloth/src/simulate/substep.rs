@@ -286,15 +286,16 @@ fn certify(
             velocities[vertex] += (x[vertex] - wanted[vertex]) / step.h;
         }
     }
-    let over = |positions: &[DVec3]| solve.longest_over_limit(positions).unwrap_or(0.0);
-    let is_overlong = over(x) > OVER_LIMIT.max(over(wanted)) && over(step.start) <= OVER_LIMIT;
-    let is_refused = overstretched == Overstretched::Refused && is_moved.contains(&true);
-    let mut gains_much = || {
-        let gained = solve.energy(prediction, x) - solve.energy(prediction, wanted);
-        gained > MOST_GAIN * solve.motion(prediction, wanted)
-    };
-    if is_refused && (is_overlong || is_solved && gains_much()) {
-        return Err(refusal(step));
+    if overstretched == Overstretched::Refused && is_moved.contains(&true) {
+        let over = |positions: &[DVec3]| solve.longest_over_limit(positions).unwrap_or(0.0);
+        let is_overlong = over(x) > OVER_LIMIT.max(over(wanted)) && over(step.start) <= OVER_LIMIT;
+        let mut gains_much = || {
+            let gained = solve.energy(prediction, x) - solve.energy(prediction, wanted);
+            gained > MOST_GAIN * solve.motion(prediction, wanted)
+        };
+        if is_overlong || is_solved && gains_much() {
+            return Err(refusal(step));
+        }
     }
     contact.counts.pushed += solve.rows.iter().filter(|row| row.push > 0.0).count() as u64;
     Ok(())

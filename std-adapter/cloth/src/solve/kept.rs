@@ -1,12 +1,12 @@
-//! What a solve keeps from step to step: the forces of contacts by their keys, the multipliers of terms, and the motion before
-//! the present step. A checkpoint has them, so that a resumed simulation goes on with the same bits.
+//! The data that one step leaves to the solve of the next: the forces of contacts by their keys, the multipliers of terms, and
+//! the motion before the step. Checkpoints store them, so that a resumed simulation goes on with the same bits.
 
 use super::Solve;
 use super::contact_row::{Remembered, RowKey};
 use super::prediction::MotionHistory;
 use serde::{Deserialize, Serialize};
 
-/// What a solve keeps.
+/// The data that one step leaves to the solve of the next.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Kept {
     /// In the order of the keys.

@@ -11,10 +11,10 @@
 //! is longer at the first guess, by the square of its turn. That stretch has so much energy that the energy alone would let the
 //! swing go on for ever: law of the hanging chain.
 //!
-//! **Stiff cloth.** The energy that has been mended says when forces are right. In stiff cloth the first guess has so much that
-//! what remains of it would still be energy beside the motion. So then Newton's method goes on until what remains is
-//! [little beside the motion](super::tolerance::Tolerance::bound_by). Contacts keep their multipliers in that: where there is no
-//! room, each renewal adds to them.
+//! **Stiff cloth** has much energy at the first guess. Forces are right when a small share of it remains, but that share may
+//! still exceed the energy of the motion. Then Newton's method goes on until
+//! [little remains beside the motion](super::tolerance::Tolerance::bound_by). Contacts keep their multipliers meanwhile: where
+//! there is no room, each renewal adds to them.
 //!
 //! **Not finished** after the most Newton steps is not a failure. Multipliers go on in the next step, and the certificate guards
 //! the state. A cloth that buckles goes down from a saddle of the energy, which takes many steps, and none of them is wrong.

@@ -264,7 +264,7 @@ fn soft_cloth_that_a_strain_limit_stops_in_a_fall_gains_no_energy() {
 /// A stiff sheet that is thrown on a bar while some of its vertices are held.
 struct Thrown {
     milliseconds: f64,
-    /// Of the sides, in m.
+    /// The length of each side, in m.
     width: f64,
     /// In kg/m².
     density: f64,
